@@ -44,3 +44,13 @@ def axis_shown(label: str) -> Shown:
     what, comma, unit = label.rpartition(", ")
     shown = shown_in(unit)
     return Shown(f"{what}{comma}{shown.unit}", shown.factor)
+
+
+def titled(name: str, unit: str) -> str:
+    """A name with its unit, as of an axis; the unit is left out where it is 1 or empty."""
+    return name if unit in ("", "1") else f"{name}, {unit}"
+
+
+def number_in(value: float, unit: str, form: str = ".5g") -> str:
+    """A number with its unit, which is left out where it is 1 or empty."""
+    return f"{value:{form}}" if unit in ("", "1") else f"{value:{form}} {unit}"

@@ -13,9 +13,10 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
 from ali3.chart_style import BLUE, COLOURS, RED, STYLE
-from hosts.common.display_units import shown_in
+from ali3.charts import MANY_POINTS
+from hosts.common.display_units import number_in, shown_in, titled
 from hosts.compare.comparison import Comparison
-from hosts.compare.words import unit_shown
+from hosts.experiment.thinning import thinned
 from hosts.measures.signal import Signal
 
 _STYLE: dict[Any, Any] = {**STYLE, "font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "lines.linewidth": 1.3}
@@ -41,13 +42,13 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
         first = None
         for k, name in enumerate(names):
             s = before.signals[name]
-            every = max(1, len(s.measured.time) // _POINTS)
+            kept = thinned(s.measured.time, s.measured.values, _POINTS)
             unit, factor = shown_in(s.measured.unit, name)
-            t, y = s.measured.time[::every], factor * s.measured.values[::every]
+            t, y = s.measured.time[kept], factor * s.measured.values[kept]
             over = figure.add_subplot(grid[k, 0], sharex=first)
             first = first or over
             rest = figure.add_subplot(grid[k, 1], sharex=first)
-            over.plot(t, y, ".", color=_MEASURED, markersize=2.5, label="measured")
+            over.plot(t, y, ".", color=_MEASURED, markersize=2.5, label="measured", rasterized=len(t) > MANY_POINTS)
             runs = [(s, BLUE, "simulated" if after is None else "simulated before")]
             if after is not None and name in after.signals:
                 runs.append((after.signals[name], RED, "fitted"))
@@ -56,8 +57,8 @@ def comparison_figure(before: Comparison, after: Comparison | None, title: str, 
                 over.plot(t, x, color=colour, label=label)
                 rest.plot(t, x - y, color=colour, linewidth=0.9)
             last = runs[-1][0]
-            over.set_title(f"{name}, {unit}" if unit != "1" else name)
-            rms = f"rms {factor * last.deviations.rms:.3g} {unit_shown(unit)}".rstrip()
+            over.set_title(titled(name, unit))
+            rms = f"rms {number_in(factor * last.deviations.rms, unit, '.3g')}"
             rated = f"; rating {last.rating.overall:.2f}" if math.isfinite(last.rating.overall) else ""
             rest.set_title(f"simulated − measured: {rms}{rated}")
             rest.axhline(0.0, color="#444444", linewidth=0.8)
@@ -76,8 +77,7 @@ def _inputs(figure: Figure, grid: Any, row: int, inputs: Mapping[str, Signal], f
     axes = figure.add_subplot(grid[row, :1], sharex=first)
     for k, (name, s) in enumerate(inputs.items()):
         shown, factor = shown_in(s.unit, name)
-        unit = "" if shown == "1" else f", {shown}"
-        axes.plot(s.time, factor * s.values, color=COLOURS[k % len(COLOURS)], label=f"{name}{unit}")
+        axes.plot(s.time, factor * s.values, color=COLOURS[k % len(COLOURS)], label=titled(name, shown))
     axes.set_title("inputs, as measured")
     axes.set_xlabel("time, s")
     axes.margins(x=0)

@@ -1,1 +1,1 @@
-"""What runs of FMUs have in common: processes that make them, and what of them survives a kill."""
+"""What runs of FMUs have in common: their processes, what of them survives a kill, and the page of a report."""

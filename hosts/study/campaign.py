@@ -20,14 +20,22 @@ from ali3.errors import FileError
 from ali3.locks import locked
 from ali3.reading import is_file, is_folder
 from hosts.common.errors import HostError
-from hosts.study.folder import begin_study, check_no_link, fmu_of_folder, free_space
-from hosts.study.isolated import RunProcesses
+from hosts.measures.limits import limits_record
+from hosts.study.folder import (
+    begin_study,
+    check_no_link,
+    check_same,
+    fmu_of_folder,
+    free_space,
+    keep_limits,
+    read_record,
+)
 from hosts.study.missing import ChunkSize, missing_runs
+from hosts.study.one_run import RunProcesses
 from hosts.study.outcome_store import OutcomeStore
 from hosts.study.parts import forget_rows, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.progress import StudyProgress, duration
-from hosts.study.record import read_record
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.trial import Trial, bytes_of, try_out, with_columns
 from hosts.study.work import FAILED, Outcome, Run
@@ -67,8 +75,6 @@ def run_study(
     if all(job.manoeuvre is not None for job in plan.work.jobs):
         plan = _with_limits(plan, study)  # measures of tests are known after a run only
     if before is not None:
-        from hosts.study.earlier_start import check_same
-
         # columns of tests are known from the runs that there are
         plan = with_columns(plan, {n: u for n, u in before["measures"].items() if n not in plan.work.columns})
         check_same(folder, before, plan.record)
@@ -81,8 +87,6 @@ def run_study(
             for line in set_damaged_aside(folder, before):
                 print(f"note: {line}", file=sys.stderr)
         if before is not None and not dry and not again and runs_done(folder, before).all():
-            from hosts.study.earlier_start import keep_limits
-
             keep_limits(folder, before, plan.record["limits"], content)
             print(f"{plan.runs} of {plan.runs} runs are there: {folder}")
             return Ended(folder, True, 0)
@@ -133,11 +137,7 @@ def _car(name: str, file: Path) -> str:
 
 
 def _with_limits(plan: Plan, study: StudyFile) -> Plan:
-    limits: dict[str, Any] = {}
-    if study.limits:
-        from hosts.measures.limits import limits_record
-
-        limits = limits_record(study.limits, plan.record["measures"], plan.file)
+    limits = limits_record(study.limits, plan.record["measures"], plan.file) if study.limits else {}
     return replace(plan, record={**plan.record, "limits": limits})
 
 
@@ -182,8 +182,6 @@ def _run(
         record = json.loads(json.dumps(plan.record))
         begin_study(folder, record, content, plan.fmu)
     else:
-        from hosts.study.earlier_start import check_same, keep_limits
-
         check_same(folder, record, plan.record)
         record = keep_limits(folder, record, plan.record["limits"], content)
     with OutcomeStore(folder, record, plan) as store:

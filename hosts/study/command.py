@@ -76,7 +76,7 @@ def _study(options: argparse.Namespace, prog: str) -> int:
 
 
 def _keeps_limits(folder: Path) -> bool:
-    from hosts.study.record import read_record
+    from hosts.study.folder import read_record
 
     if (read_record(folder) or {}).get("limits"):
         from hosts.study.limits import tell_limits
@@ -132,7 +132,7 @@ def _report(folder: Path) -> int:
 
 
 def _of_folder(folder: Path, prog: str) -> str:
-    from hosts.study.record import read_record
+    from hosts.study.folder import read_record
 
     record = read_record(folder)
     if record is None:

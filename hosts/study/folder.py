@@ -1,4 +1,4 @@
-"""The folder of the results of one study."""
+"""The folder of the results of one study, and what it holds of the study: the types of ``study.json``."""
 
 from __future__ import annotations
 
@@ -9,13 +9,110 @@ import shutil
 from collections.abc import Mapping
 from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ali3.archives import LARGEST_ARCHIVE
+from ali3.columns import some_of
 from ali3.files import make_folder, whole_file, write_text
+from ali3.json_reading import read_json
 from ali3.reading import no_file, read_bytes
+from ali3.typed_sentences import Sentences
+from ali3.words import VALUE, one_line
 from hosts.common.errors import HostError
-from hosts.study.record import RECORD
+from hosts.measures.limit_entry import Number
+from hosts.study.study_file import SamplingEntry, Setting, SignalsEntry
+
+RECORD = "study.json"
+_HASH = r"^[0-9a-f]{64}$"
+_FILE_NAME = r"^[^/\\:\x00-\x1f]*[^/\\:\x00-\x1f.][^/\\:\x00-\x1f]*$"
+_FORMS = {_HASH: "a SHA-256 hash, 64 hexadecimal digits", _FILE_NAME: "the name of a file in this folder"}
+
+Hash: TypeAlias = Annotated[str, Field(pattern=_HASH)]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class _Parameter(_Part):
+    kind: Literal["Real", "Integer", "Enumeration", "Boolean", "String"] = Field(
+        title="Real, Integer, Enumeration, Boolean or String"
+    )
+    unit: str | None = Field(title="text")
+    low: Number | None = Field(default=None, title="a number")
+    high: Number | None = Field(default=None, title="a number")
+    log: bool = Field(default=False, title="true or false")
+    values: list[Setting] = Field(default=[], title="a list of values")
+
+
+class _Manoeuvre(BaseModel):
+    model_config = ConfigDict(extra="allow", frozen=True, strict=True)  # with what the study file says of it
+
+    name: str = Field(title="text")
+    step: Number | None = Field(gt=0.0, title="a positive number, s")
+    sha256: Hash
+
+
+class _Limit(_Part):
+    min: Number | None = Field(title="a number")
+    max: Number | None = Field(title="a number")
+    unit: str = Field(title="text")
+
+
+class StudyRecord(_Part):
+    """What was run, by which program."""
+
+    name: str = Field(title="text")
+    guid: str = Field(title="text")
+    model: str = Field(title="text")
+    fmu: str = Field(pattern=_FILE_NAME)
+    fmu_sha256: Hash
+    car: str | None = Field(default=None, title="text")
+    seed: int = Field(ge=0, lt=2**63, title="a whole number from 0")
+    sampling: SamplingEntry = Field(title="a table")
+    parameters: dict[str, _Parameter] = Field(title="a table for each parameter")
+    manoeuvres: list[_Manoeuvre] = Field(min_length=1, title="a list of at least one table")
+    start: dict[str, Setting] = Field(title="values by names")
+    measures: dict[str, str] = Field(title="units by names of measures")
+    measured: dict[str, str] = Field(title="text by names of measures")
+    signals: SignalsEntry | None = Field(title="a table with names and interval")
+    aliases: Hash | None
+    points: int = Field(ge=1, lt=2**40, title="a positive whole number")
+    runs: int = Field(ge=1, lt=2**40, title="a positive whole number")
+    points_sha256: Hash
+    units: dict[str, str] = Field(title="text by names of columns")
+    versions: dict[str, str] = Field(title="text by names of packages")
+    program: Hash
+    file: str = Field(title="the path of the study file")
+    limits: dict[str, _Limit] = Field(default={}, title="a table for each limit")
+
+    @model_validator(mode="after")
+    def _fits(self) -> StudyRecord:
+        each = len(self.manoeuvres)
+        if self.runs != self.points * each:
+            raise ValueError(f"it has {self.runs} runs where {self.points} points of {each} manoeuvres must be")
+        names = [*self.parameters, *self.measures]
+        if len(set(names)) < len(names):
+            raise ValueError("a parameter and a measure have the same name")
+        return self
+
+
+def read_record(folder: Path) -> dict[str, Any] | None:
+    """What is known of the study in a folder; None where there is none. Raises `HostError`: the file is damaged."""
+    file = folder / RECORD
+    if not file.exists():
+        return None
+    record = read_json(file, HostError, finite=False)
+    if not isinstance(record, dict):
+        raise HostError(f"{file} is damaged: it is no JSON object.")
+    try:
+        StudyRecord.model_validate(record)
+    except ValidationError as error:
+        raise HostError(f"{file} is damaged: {Sentences(StudyRecord, record, forms=_FORMS).of(error)[0]}") from None
+    return record
+
 
 RUNS, SIGNALS, ANALYSIS, REPEAT = _WRITTEN = ("runs", "signals", "analysis", "repeat")
 
@@ -69,3 +166,65 @@ def sync(file: Path) -> None:
     """Bring a file to the disk, so that a rename after it never shows an empty one after a power cut."""
     with file.open("rb+") as stream:
         os.fsync(stream.fileno())
+
+
+_FREE = ("versions", "file", "units", "measures", "limits", "created", "reuse")
+"""Keys of the record that may differ when a study goes on, or follow from others."""
+_WORDS = {
+    "guid": "the GUID of the FMU",
+    "fmu_sha256": "the content of the FMU",
+    "program": "the program that makes the runs",
+    "points_sha256": "the points that are drawn",
+    "measured": "the measures",
+}
+_MOST = 3
+
+
+def check_same(folder: Path, before: Mapping[str, Any], now: Mapping[str, Any]) -> None:
+    """Refuse to go on with another study than the one that began. Raises `HostError` with what differs."""
+    same = {key: json.loads(json.dumps(value)) for key, value in now.items()}
+    keys = [key for key in dict.fromkeys((*_WORDS, *before, *same)) if key not in _FREE]
+    differ = [key for key in keys if before.get(key) != same.get(key)]
+    if not differ:
+        return
+    # what follows from another difference does not explain it
+    if "guid" in differ:
+        differ = [key for key in differ if key != "fmu_sha256"]
+    if len(differ) > 1:
+        differ = [key for key in differ if key not in ("points_sha256", "points", "runs")]
+    words = some_of((_difference(key, before.get(key), same.get(key)) for key in differ), _MOST, "; ")
+    raise HostError(
+        f"{folder} holds another study, whose rows stay as they are: {words}. Put it back as it was, or give another "
+        "--out."
+    )
+
+
+def _difference(key: str, before: Any, now: Any) -> str:
+    if isinstance(before, dict) and isinstance(now, dict):
+        inner = next(k for k in dict.fromkeys((*before, *now)) if before.get(k) != now.get(k))
+        if key in _WORDS:
+            return f"{_WORDS[key]} '{inner}' changed"
+        return _difference(f"{key}.'{inner}'" if "." in inner else f"{key}.{inner}", before.get(inner), now.get(inner))
+    if isinstance(before, list) and isinstance(now, list) and len(before) == len(now):
+        number = next(k for k in range(len(now)) if before[k] != now[k])
+        return _difference(f"{key}[{number + 1}]", before[number], now[number])
+    if key.rpartition(".")[2] in ("sha256", "fmu_sha256", "points_sha256", "program", "aliases"):
+        return f"{_WORDS.get(key, key)} changed"
+    was, is_now = (
+        "not given" if v is None else one_line(json.dumps(v, ensure_ascii=False), VALUE) for v in (before, now)
+    )
+    return f"{_WORDS.get(key, key)} was {was} and is {is_now}"
+
+
+def keep_limits(folder: Path, before: dict[str, Any], limits: Mapping[str, Any], content: bytes) -> dict[str, Any]:
+    """The record of an earlier start with the limits of now, on which runs do not depend.
+
+    `content`: of the study file.
+    """
+    if before.get("limits", {}) == limits:
+        return before
+    after = {**before, "limits": dict(limits)}
+    with whole_file(folder / "study.toml") as made:
+        made.write_bytes(content)
+    write_record(folder, after)
+    return after

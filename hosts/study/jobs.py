@@ -2,24 +2,96 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
 from ali3.near_names import did_you_mean
+from ali3.reading import is_folder
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.perform import perform, settings_of_test
+from hosts.catalogue.record import TestRecord
+from hosts.catalogue.registry import standard_test
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.manoeuvre_file import SUFFIXES
+from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.driving.pilots.pilot import ACTS
 from hosts.driving.run_checks import check_columns, communication_step, steps_of
 from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.study.catalogue_tests import checked_test
-from hosts.study.job import Job
-from hosts.study.named_manoeuvre import named_manoeuvre
+from hosts.fmu.aliases.alias import Aliases
+from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
+
+
+@dataclass(frozen=True)
+class Job:
+    """What is done at each point."""
+
+    label: str
+    manoeuvre: Manoeuvre | None
+    """With all start values but the parameters."""
+    test: str = ""
+    """Of the catalogue, where there is no manoeuvre."""
+    settings: dict[str, float] = field(default_factory=dict)
+    measures: tuple[str, ...] = ()
+    """Of the test; empty: all."""
+    start: dict[str, Value] = field(default_factory=dict)
+    step: float = float("nan")
+    """Communication step, s; NaN for a test that takes that of the FMU."""
+    every: int = 0
+    """Steps between kept values of signals; 0: none are kept."""
+    samples: int = 0
+    """Kept values."""
+
+
+def named_manoeuvre(name: str, file: Path) -> Manoeuvre:
+    """A manoeuvre of the package by its name, else a file beside the study; `HostError` where there is neither."""
+    known = manoeuvre_names()
+    if name in known:
+        return load_manoeuvre(name)
+    if Path(name).suffix not in SUFFIXES and not is_folder(file.parent / name):
+        hint = did_you_mean(name, known, f"known are {', '.join(known)}, or a TOML or CSV file")
+        raise HostError(f"{file}: there is no manoeuvre '{name}'{hint}")
+    return load_manoeuvre(str(file.parent / name))
+
+
+def checked_test(name: str, given: Mapping[str, float], fmu: SimulatedFmu, where: str) -> tuple[str, dict[str, float]]:
+    """Name and settings of a test, if it can be done with an FMU.
+
+    `given`: settings that are not by default; `where`: how messages call where it is asked for. Raises `HostError`:
+    there is no such test or setting, or the FMU lacks what it needs.
+    """
+    try:
+        test = standard_test(name)
+        settings = settings_of_test(test, given)
+    except HostError as error:
+        raise HostError(f"{where}: {error}") from None
+    there = {*fmu.variables, *fmu.constants()}
+    for need in test.needs:
+        names = {name.strip() for name in need.split("|")}
+        if not names & there:
+            raise HostError(f"{where}: the test {test.name} needs {' or '.join(sorted(names))}, which the FMU has not.")
+    return test.name, settings
+
+
+def performed(
+    job: Job,
+    path: Path,
+    name: str,
+    names: Aliases,
+    values: Mapping[str, Value],
+    progress: Callable[[float], None] = lambda done: None,
+) -> TestRecord:
+    """What the test of a job has yielded. `name`: of the FMU in messages; `progress`: see `StandardTest.perform`."""
+    step = None if math.isnan(job.step) else job.step
+    car = TestedCar(name, path, names, {**job.start, **values}, step)
+    return perform(standard_test(job.test), car, job.settings, progress)
 
 
 def jobs_of(study: StudyFile, file: Path, fmu: SimulatedFmu, parameters: Sequence[str]) -> list[Job]:

@@ -1,10 +1,10 @@
-"""One run of a study, from an instance of the FMU to its row."""
+"""Runs of a study: from an instance of the FMU to a row, in processes of this machine."""
 
 from __future__ import annotations
 
 import time as clock
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,16 +12,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.isolated import Lost
+from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.common.road import tell_starts
 from hosts.driving.co_simulation import run
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.result import Result
+from hosts.experiment.pool import Pool
 from hosts.fmu.fmu_source import FmuSource, LoadedFmu
+from hosts.fmu.own_process import PATIENCE, files_of
 from hosts.measures.measure import Measure
-from hosts.study.catalogue_tests import performed
-from hosts.study.job import Job
+from hosts.study.jobs import Job, performed
 from hosts.study.work import DONE, FAILED, INCOMPLETE, Outcome, Run, Work, seed_of
 
 if TYPE_CHECKING:
@@ -142,3 +146,48 @@ def _take(outcome: Outcome, measures: Sequence[tuple[str, Measure]]) -> None:
     if missing:
         more = [f"and {len(missing) - _MOST_NOTES} more"] if len(missing) > _MOST_NOTES else []
         outcome.status, outcome.reason = INCOMPLETE, "; ".join(missing[:_MOST_NOTES] + more)
+
+
+class RunProcesses(Closing):
+    """Processes with a `Bench` each; that a run crashed or took too long is its outcome. `jobs`: how many."""
+
+    def __init__(self, work: Work, path: Path, jobs: int = 1) -> None:
+        self._limit = work.time_limit
+        started = [job.manoeuvre.start for job in work.jobs if job.manoeuvre is not None]
+        reads = [path, *(file for start in started for file in files_of(start))]
+        limit = PATIENCE if work.time_limit is None else work.time_limit
+        self._started = started or [{}]
+        self._pool: Pool[Run, Outcome] = Pool(Bench(work, path.absolute()), Outcome, jobs, reads, limit)
+
+    def close(self) -> None:
+        """End the processes."""
+        self._pool.close()
+
+    def run(self, run: Run) -> Outcome:
+        """Make a run, each time in the same process."""
+        self._tell(run)
+        return self._outcome(self._pool.run(run))
+
+    def _tell(self, run: Run) -> None:
+        tell_starts({**start, **run.values} for start in self._started)
+
+    def outcomes(self, runs: Iterable[Run]) -> Generator[tuple[Run, Outcome]]:
+        """Make runs; give each with its outcome as soon as it is there."""
+        sent: dict[int, Run] = {}
+
+        def remembered() -> Iterator[Run]:
+            for number, each in enumerate(runs):
+                sent[number] = each
+                self._tell(each)
+                yield each
+
+        for number, result in self._pool.results(remembered()):
+            yield sent.pop(number), self._outcome(result)
+
+    def _outcome(self, result: Outcome | Lost) -> Outcome:
+        if not isinstance(result, Lost):
+            return result
+        if result.late:
+            which = "" if self._limit is None else " (time_limit)"
+            return Outcome(FAILED, f"The run {result.how}{which}.", wall=self._limit or 0.0)
+        return Outcome(FAILED, f"The process of the run {result.how}.")

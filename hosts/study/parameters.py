@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -118,8 +117,3 @@ def in_unit(given: Value, unit: str | None, variable: Variable, where: str) -> V
         others = " or ".join([variable.unit, *variable.displays])
         raise HostError(f"{where}: the unit is '{unit}'; the FMU knows '{variable.name}' in {others}.")
     return variable.check(variable.from_display(float(given), unit, where), f"{where}, {given:g} {unit}")
-
-
-def columns_of(parameters: Sequence[Parameter], u: NDArray[np.float64]) -> Mapping[str, list[Value]]:
-    """Values by name at places u of shape (n, parameters)."""
-    return {p.name: p.at(u[:, k]) for k, p in enumerate(parameters)}

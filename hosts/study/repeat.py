@@ -17,11 +17,11 @@ from hosts.common.numbers import Value
 from hosts.common.set_words import set_words
 from hosts.driving.write_manoeuvre import write_manoeuvre
 from hosts.study.folder import REPEAT, check_no_link
-from hosts.study.planned_runs import runs_of_folder
+from hosts.study.plan import runs_of_folder
 from hosts.study.store import study_record
 
 if TYPE_CHECKING:
-    from hosts.study.job import Job
+    from hosts.study.jobs import Job
 
 
 @dataclass(frozen=True)

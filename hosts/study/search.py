@@ -271,9 +271,6 @@ def _are_apart(x: float, best: float) -> bool:
 
 def _slope(one: Run, best: Run, other: Run) -> float:
     """The derivative at the middle one of three runs; the outer ones may be it too."""
-    below, above = best.x - one.x, other.x - best.x
-    if not below and not above:
-        return math.nan
-    first = (best.y - one.y) / below if below else (other.y - best.y) / above
-    second = (other.y - best.y) / above if above else first
-    return (first * above + second * below) / (above + below)
+    runs = list({run.x: run for run in (one, best, other)}.values())
+    x, y = [run.x for run in runs], [run.y for run in runs]
+    return float(np.gradient(y, x)[runs.index(best)]) if len(runs) > 1 else math.nan

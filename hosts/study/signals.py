@@ -15,7 +15,7 @@ from numcodecs import CRC32
 
 from ali3.errors import FileError, reason
 from hosts.study.folder import SIGNALS
-from hosts.study.job import Job
+from hosts.study.jobs import Job
 from hosts.study.parts import attributes
 from hosts.study.work import Outcome, Run
 

@@ -10,9 +10,8 @@ import pyarrow as pa
 import xarray as xr
 
 from hosts.common.errors import HostError
-from hosts.study.folder import SIGNALS
+from hosts.study.folder import RECORD, SIGNALS, read_record
 from hosts.study.parts import attributes, part_files, read_part, table_schema
-from hosts.study.record import RECORD, read_record
 
 if TYPE_CHECKING:
     import pandas as pd

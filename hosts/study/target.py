@@ -17,7 +17,7 @@ from ali3.charts import drawing
 from ali3.decimal_number import parse_number
 from ali3.files import make_folder, write_text
 from ali3.write_parameter_set import write_parameter_set
-from hosts.common.display_units import Shown, shown_in
+from hosts.common.display_units import Shown, number_in, shown_in, titled
 from hosts.common.errors import HostError
 from hosts.common.numbers import or_null
 from hosts.common.units import conversion
@@ -27,9 +27,8 @@ from hosts.fmu.variables import Variable, Variables
 from hosts.measures.limits import column_of
 from hosts.study.campaign import fmu_of_study, out_folder
 from hosts.study.folder import check_no_link
-from hosts.study.isolated import RunProcesses
-from hosts.study.job import Job
-from hosts.study.parameters import Parameter
+from hosts.study.jobs import Job
+from hosts.study.one_run import RunProcesses
 from hosts.study.plan import Plan, make_plan
 from hosts.study.search import TOLERANCE, Found, Run, seek
 from hosts.study.study_file import ParameterEntry, SamplingEntry, StudyFile, read_study_file
@@ -112,42 +111,36 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
 
 
 def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
-    entry = study.parameters.get(target.by)
-    unit, log = (entry.unit, entry.log) if entry is not None else (None, False)
+    """The study with this parameter alone, whose range is that of the option, else of the file, else of the FMU."""
+    entry = study.parameters.get(target.by, ParameterEntry())
     variables = Variables(described(fmu))
-    ends: tuple[float, float] | None = target.range
-    named = target.by in variables.names or study.aliases is None  # else it may be a name of the aliases
-    kind = variables.settable(target.by, "--by").kind if named else "Real"
-    if kind != "Real":
-        words = {"Integer": "a whole number", "String": "a text", "Boolean": "true or false"}
-        what = words.get(kind, f"of the kind {kind}")
-        raise HostError(f"--by {target.by}: it is {what}; only real numbers can be sought.")
+    is_named = target.by in variables.names or study.aliases is None  # else it may be a name of the aliases
+    known = variables.settable(target.by, "--by") if is_named else None
+    if known is not None and known.kind != "Real":
+        what = {"Integer": "a whole number", "String": "a text", "Boolean": "true or false"}
+        words = what.get(known.kind, f"of the kind {known.kind}")
+        raise HostError(f"--by {target.by}: it is {words}; only real numbers can be sought.")
+    ends, unit, log = target.range, None, entry.log
     if ends is not None:
-        unit, log = None, log and ends[0] > 0.0
-        for end in ends if named else ():
-            variables[target.by].check(end, "--between")
-    elif entry is not None and entry.range is not None:
-        ends = (entry.range[0], entry.range[1])
-    else:
-        known = variables[target.by] if target.by in variables.names else None
-        if known is not None and math.isfinite(known.high - known.low):
-            ends = (known.low, known.high)
-    if ends is None and target.by in study.parameters and target.by in variables.names:
-        raise HostError(f"{file}: parameters.'{target.by}' has no range; give one by --between LOW:HIGH.")
-    if ends is None and target.by in variables.names:
-        raise HostError(f"--by {target.by}: neither the study file nor the FMU gives a range; add --between LOW:HIGH.")
+        log = log and ends[0] > 0.0
+        if known is not None:
+            for end in ends:
+                known.check(end, "--between")
+    elif entry.range is not None:
+        ends, unit = (entry.range[0], entry.range[1]), entry.unit
+    elif known is not None and math.isfinite(known.high - known.low):
+        ends = (known.low, known.high)
     if ends is not None and not ends[0] < ends[1]:
         raise HostError(f"--by {target.by}: its range is {ends[0]:g} alone; add --between LOW:HIGH.")
-    varied = ParameterEntry(range=list(ends or (0.0, 1.0)), count=2, log=log, unit=unit)
     changes = {
-        "parameters": {target.by: varied},
+        "parameters": {target.by: ParameterEntry(range=list(ends or (0.0, 1.0)), count=2, log=log, unit=unit)},
         "sampling": SamplingEntry(),
         "start": {name: value for name, value in study.start.items() if name != target.by},
         "signals": None,
         "limits": {},
     }
     plan = make_plan(study.model_copy(update=changes), file, fmu)
-    if ends is None:
+    if ends is None:  # after the plan, which knows whether there is such a parameter
         raise HostError(f"--by {target.by}: neither the study file nor the FMU gives a range; add --between LOW:HIGH.")
     return plan
 
@@ -164,7 +157,7 @@ class _Search:
 
     def __init__(self, plan: Plan, target: Target) -> None:
         self.plan, self.target = plan, target
-        self.parameter = _parameter(plan)
+        (self.parameter,) = plan.points.parameters
         self.job, self.column = self._job()
         is_test = self.job.manoeuvre is None
         self.work = replace(plan.work, jobs=(self.job,), columns=() if is_test else plan.work.columns)
@@ -232,10 +225,10 @@ class _Search:
         return y, reason
 
     def x_words(self, x: float) -> str:
-        return _number(x, self.parameter.unit)
+        return number_in(x, self.parameter.unit)
 
     def y_words(self, y: float) -> str:
-        return _number(self.shown.factor * y, self.shown.unit)
+        return number_in(self.shown.factor * y, self.shown.unit)
 
     def words(self, found: Found) -> list[str]:
         """What was found, in sentences."""
@@ -250,7 +243,7 @@ class _Search:
             lines += self._not_met(found, found.best)
         if found.best is not None and math.isfinite(found.slope):
             slope, one, other = self.shown.factor * found.slope, *map(self.x_words, found.between)
-            change = _number(0.01 * found.best.x * slope, self.shown.unit)
+            change = number_in(0.01 * found.best.x * slope, self.shown.unit)
             lines.append(f"Sensitivity: 1 % more of {by} changes it by {change} (from runs at {one} and {other}).")
         if found.met and found.rises and found.falls:
             lines.append(f"It is not monotone over {by} in these runs: another value may give the same.")
@@ -299,15 +292,6 @@ class _Search:
     def _variable(self) -> Variable | None:
         variables = Variables(described(self.plan.fmu))
         return variables[self.target.by] if self.target.by in variables.names else None
-
-
-def _parameter(plan: Plan) -> Parameter:
-    entry = plan.record["parameters"][plan.work.parameters[0]]
-    return Parameter(plan.work.parameters[0], entry["kind"], entry["unit"], entry["low"], entry["high"], entry["log"])
-
-
-def _number(value: float, unit: str) -> str:
-    return f"{value:.5g}" + ("" if unit in ("", "1") else f" {unit}")
 
 
 def _record(search: _Search, found: Found, lines: list[str], file: Path) -> Path:
@@ -365,8 +349,8 @@ def _figure(search: _Search, found: Found) -> Figure:
             axes.plot(run.x, 0.02, "|", color=RED, transform=axes.get_xaxis_transform(), label=label, markersize=10)
         if search.parameter.log:
             axes.set_xscale("log")
-        axes.set_xlabel(", ".join(t for t in (search.target.by, search.parameter.unit) if t not in ("", "1")))
-        axes.set_ylabel(", ".join(t for t in (search.column, unit) if t not in ("", "1")))
+        axes.set_xlabel(titled(search.target.by, search.parameter.unit))
+        axes.set_ylabel(titled(search.column, unit))
         axes.set_title(f"{search.column} by {search.target.by}, {len(found.runs)} runs")
         axes.legend()
     return figure

@@ -9,8 +9,8 @@ from typing import Any
 
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
-from hosts.study.isolated import RunProcesses
-from hosts.study.job import Job
+from hosts.study.jobs import Job
+from hosts.study.one_run import RunProcesses
 from hosts.study.plan import Plan
 from hosts.study.work import FAILED, INCOMPLETE, Outcome, Work
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
 from hosts.fmu.aliases.alias import Aliases
-from hosts.study.job import Job
+from hosts.study.jobs import Job
 
 if TYPE_CHECKING:
     from hosts.study.measures.study_measure import StudyMeasure

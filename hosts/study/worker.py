@@ -16,7 +16,7 @@ from ali3.reading import read_bytes
 from hosts.common.errors import HostError
 from hosts.common.program import program_digest
 from hosts.fmu.fmu import described
-from hosts.study.isolated import RunProcesses
+from hosts.study.one_run import RunProcesses
 from hosts.study.work import Outcome, Run, Work
 
 

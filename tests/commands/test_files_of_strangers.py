@@ -37,10 +37,10 @@ from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.show import show_recording
 from hosts.simulator.devices.mapping_files import MappingFiles
+from hosts.study.folder import read_record
 from hosts.study.measures.user_function import read_user_function
-from hosts.study.record import read_record
+from hosts.study.points import table_points
 from hosts.study.study_file import read_study_file
-from hosts.study.table_points import table_points
 from hosts.view.recorded import read_table as read_result
 from hosts.view.view_sources import _record as read_result_record
 from mbs.flexible.bulk_data import grid_points

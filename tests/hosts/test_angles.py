@@ -18,7 +18,7 @@ from hosts.driving.co_simulation import run as drive
 from hosts.driving.manoeuvre_table import read_table
 from hosts.fmu.fmu import Fmu
 from hosts.run.command import main as run_main
-from hosts.study.measures.parse import parse_measure
+from hosts.study.measures.study_measure import parse_measure
 from tests.in_process import run
 
 TURNS = 3.0

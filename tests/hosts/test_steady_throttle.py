@@ -22,7 +22,7 @@ from hosts.fmu.fmu import StepRefusedError
 from hosts.run.command import main
 from hosts.run.run_summary import summary
 from hosts.simulator.headless import OfManoeuvre
-from hosts.study.job import Job
+from hosts.study.jobs import Job
 from hosts.study.plan import job_digest
 
 H = 0.01

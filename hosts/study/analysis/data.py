@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
 from ali3.units import known_unit
-from hosts.common.display_units import shown_in
+from hosts.common.display_units import shown_in, titled
 from hosts.study.limits import limit_ends
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ class Parameter:
     @property
     def title(self) -> str:
         """Name and unit for an axis."""
-        return with_unit(self.name, self.unit)
+        return titled(self.name, self.unit)
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ class Response:
     @property
     def title(self) -> str:
         """Label and unit for an axis."""
-        return with_unit(self.label, self.unit)
+        return titled(self.label, self.unit)
 
 
 @dataclass(frozen=True)
@@ -103,14 +103,13 @@ class StudyData:
         """Runs of the whole study."""
         return int(self.about["runs"])
 
+    def failed_of(self, response: Response) -> NDArray[np.int64]:
+        """Failed runs of the manoeuvre of a measure, by their places in the frame."""
+        return np.flatnonzero(self.failed & (self.frame["manoeuvre"].astype(str) == response.manoeuvre).to_numpy())
+
     def points(self, response: Response) -> NDArray[np.int64]:
         """Number in the plan of the point of each of its rows."""
         return np.asarray(self.frame["point"].to_numpy(dtype=np.int64)[response.rows])
-
-
-def with_unit(name: str, unit: str) -> str:
-    """A name for an axis."""
-    return name if unit in ("", "1") else f"{name}, {unit}"
 
 
 def study_data(frame: pd.DataFrame) -> StudyData:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ali3.charts import drawing
 from ali3.html_elements import element, table
+from hosts.common.display_units import number_in
 from hosts.common.numbers import is_round_off
 from hosts.experiment.report import FAINT, NOTE, Plots, Section, commands_cell, paragraph
 from hosts.study.analysis.data import Parameter, Response, StudyData
@@ -41,7 +42,7 @@ def measure_section(
     `number`: of the response, for the names of its plots; `numbers`: to which the effects are added, a row a parameter.
     """
     if not response.varies:
-        value = f"{response.values.min():.6g} {response.unit if response.unit != '1' else ''}".strip()
+        value = number_in(float(response.values.min()), response.unit, ".6g")
         words = f"It is {value} in all runs, but for rounding: nothing that was varied changes it."
         if len(response.values) == 1:
             words = f"One run yields it: {value}."

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ali3.chart_style import RED
 from hosts.study.analysis.data import Parameter, Response, StudyData
-from hosts.study.analysis.panels import WIDTH, drawn
+from hosts.study.analysis.effect_plots import WIDTH, drawn
 
 MOST_LINES = 300
 _TICKS = 5
@@ -28,7 +28,7 @@ def plot_parallel(data: StudyData, response: Response) -> Figure:
     # Extreme runs lie on top of those of the middle.
     shown = shown[np.argsort(np.abs(response.values[shown] - np.median(response.values)), kind="stable")]
     values = response.values[shown]
-    failed = np.flatnonzero(data.failed & (data.frame["manoeuvre"].astype(str) == response.manoeuvre).to_numpy())
+    failed = data.failed_of(response)
     failed = failed[drawn(len(failed), MOST_LINES // 5)]
 
     places, ticks = [], []

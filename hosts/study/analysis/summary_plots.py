@@ -15,8 +15,8 @@ from scipy.stats import spearmanr
 
 from ali3.chart_style import BLACK, BLUE, ORANGE, RED
 from hosts.study.analysis.data import Response, StudyData
+from hosts.study.analysis.effect_plots import WIDTH
 from hosts.study.analysis.indices import Indices
-from hosts.study.analysis.panels import WIDTH
 from hosts.study.analysis.tables import no_distribution
 
 PERCENTILES = (5.0, 50.0, 95.0)

@@ -1,13 +1,17 @@
-"""What every measure of a study can do."""
+"""What every measure of a study can do: an expression, or a function in a file."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Protocol
 
 from hosts.common.numbers import Value
 from hosts.driving.result import Result
 from hosts.measures.measure import Measure
+from hosts.study.measures.expression import Expression
+from hosts.study.measures.user_function import read_user_function
 
 
 class StudyMeasure(Protocol):
@@ -41,3 +45,19 @@ class StudyMeasure(Protocol):
 
         `parameters`: what was set before the start.
         """
+
+
+_FUNCTION = re.compile(r"(.+\.py):\s*([^:\s]*)")
+
+
+def parse_measure(text: str, name: str = "", folder: Path = Path()) -> StudyMeasure:
+    """Read a measure of a study.
+
+    `text`: such as ``max(abs(chassis.ay), after=2.0)``, or ``file.py:function``; `name`: of its column; by default the
+    text, or the name of the function; `folder`: from which the file is looked for. Raises `HostError`: it cannot be
+    read, or the file or function is not there.
+    """
+    function = _FUNCTION.fullmatch(text.strip())
+    if function is None:
+        return Expression.read(text, name)
+    return read_user_function(folder / function[1], function[2], name)

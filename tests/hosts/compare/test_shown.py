@@ -88,6 +88,18 @@ def test_the_picture_has_no_rating_that_is_none(comparison: Comparison) -> None:
     plt.close(figure)
 
 
+def test_a_spike_of_a_long_log_is_drawn() -> None:
+    time = np.linspace(0.0, 200.0, 20001)
+    values = np.sin(time)
+    values[7777] = 9.0
+    result = Result(["x"], {"x": "m"}, time, np.sin(time)[:, None], 200.0, 2.0, 0, [])
+    found = compare({"x": Signal("x", "x", "m", time, values)}, {"x": Curve(result, "x")}, 0.1)
+    figure = comparison_figure(found, None, "a drive", {})
+    drawn = figure.axes[0].get_lines()[0].get_ydata()
+    assert (len(drawn) < 5000, max(drawn)) == (True, 9.0)
+    plt.close(figure)
+
+
 def test_a_number_without_a_unit_has_none() -> None:
     assert with_unit(1.2, "1") == "1.2"
     assert with_unit(1.2, "kg") == "1.2 kg"

@@ -9,7 +9,7 @@ from scipy.stats import qmc
 
 from hosts.study.analysis.indices import Indices, estimated_indices, grid_indices, saltelli_indices
 from hosts.study.analysis.main_effects import classes, main_effect
-from hosts.study.drawn_points import Saltelli
+from hosts.study.drawn_points import saltelli as unit_points
 
 pytest.importorskip("SALib")
 NAMES = ("a", "b", "c")
@@ -27,8 +27,7 @@ def ishigami(x: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def saltelli(blocks: int, seed: int = 3) -> NDArray[np.float64]:
-    points = Saltelli(3, blocks, seed)
-    return (2.0 * points.block(0, points.count) - 1.0) * np.pi
+    return (2.0 * unit_points(3, seed)(0, 5 * blocks) - 1.0) * np.pi
 
 
 def test_ishigami() -> None:

@@ -14,8 +14,8 @@ import pytest
 from hosts.common.errors import HostError
 from hosts.study.analysis.report import write_report
 from hosts.study.campaign import run_study
+from hosts.study.folder import read_record
 from hosts.study.parts import part_files, read_part
-from hosts.study.record import read_record
 from hosts.study.store import open_signals, read_study
 
 SIGNALS = '\n[signals]\nnames = ["bob.y"]\ninterval = 0.01\n'

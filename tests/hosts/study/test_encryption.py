@@ -14,8 +14,7 @@ from distributed import LocalCluster, Security
 
 from hosts.common.errors import HostError
 from hosts.study.campaign import run_study
-from hosts.study.cluster import connected
-from hosts.study.scheduler import _check_encryption
+from hosts.study.cluster import _check_encryption, connected
 from hosts.study.store import read_study
 
 

@@ -15,7 +15,7 @@ import pytest
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliases.alias import Aliases
 from hosts.study.campaign import run_study
-from hosts.study.job import Job
+from hosts.study.jobs import Job
 from hosts.study.one_run import Bench
 from hosts.study.store import read_study
 from hosts.study.work import Work

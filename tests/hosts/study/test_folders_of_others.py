@@ -13,10 +13,9 @@ import pytest
 from hosts.common.errors import HostError
 from hosts.study.analysis.report import write_report
 from hosts.study.command import main
-from hosts.study.folder import begin_study
+from hosts.study.folder import begin_study, read_record
 from hosts.study.parts import PartWriter
 from hosts.study.plan import make_plan
-from hosts.study.record import read_record
 from hosts.study.repeat import repeater
 from hosts.study.store import read_study
 from hosts.study.study_file import read_study_file

@@ -13,7 +13,7 @@ import pytest
 
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
-from hosts.study.measures.parse import parse_measure
+from hosts.study.measures.study_measure import parse_measure
 
 END, N = 2.0, 2001
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,13 +11,12 @@ import pytest
 from SALib.sample import sobol
 from scipy.stats import qmc
 
-from hosts.study.drawn_points import LatinHypercube, Saltelli, SobolSequence
-from hosts.study.sampling import Grid, Sampler
+from hosts.study.drawn_points import Places, latin_hypercube, saltelli, sobol_sequence
+from hosts.study.points import grid
 
 
-def in_blocks(sampler: Sampler, size: int) -> np.ndarray:
-    blocks = [sampler.block(k, min(size, sampler.count - k)) for k in range(0, sampler.count, size)]
-    return np.vstack(blocks)
+def in_blocks(places: Places, count: int, size: int) -> np.ndarray:
+    return np.vstack([places(k, min(size, count - k)) for k in range(0, count, size)])
 
 
 def test_points_for_sobol_indices_are_those_of_salib(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -25,39 +25,39 @@ def test_points_for_sobol_indices_are_those_of_salib(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(sobol, "qmc", ours)
     problem = {"num_vars": 3, "names": ["a", "b", "c"], "bounds": [[0.0, 1.0]] * 3}
     theirs = sobol.sample(problem, 16, calc_second_order=False, seed=5)
-    assert np.array_equal(in_blocks(Saltelli(3, 16, 5), 7), theirs)
+    assert np.array_equal(in_blocks(saltelli(3, 5), 80, 7), theirs)
 
 
 @pytest.mark.parametrize(
-    "make",
+    ("make", "count"),
     [
-        lambda: LatinHypercube(3, 50, 2),
-        lambda: SobolSequence(3, 50, 2),
-        lambda: Saltelli(2, 9, 2),
-        lambda: Grid((3, 4, 2)),
+        (lambda: latin_hypercube(3, 50, 2), 50),
+        (lambda: sobol_sequence(3, 2), 50),
+        (lambda: saltelli(2, 2), 36),
+        (lambda: grid((3, 4, 2)), 24),
     ],
 )
-def test_blocks_are_pieces_of_the_whole(make) -> None:
-    whole = make().block(0, make().count)
-    assert np.array_equal(in_blocks(make(), 4), whole)
-    sampler = make()
-    sampler.block(10, 5)
-    assert np.array_equal(sampler.block(3, 6), whole[3:9])  # back, as after a study was stopped
+def test_blocks_are_pieces_of_the_whole(make: Callable[[], Places], count: int) -> None:
+    whole = make()(0, count)
+    assert len(whole) == count
+    assert np.array_equal(in_blocks(make(), count, 4), whole)
+    places = make()
+    places(10, 5)
+    assert np.array_equal(places(3, 6), whole[3:9])  # back, as after a study was stopped
 
 
 def test_a_latin_hypercube_has_one_point_in_each_slice() -> None:
-    points = LatinHypercube(4, 30, 1).block(0, 30)
+    points = latin_hypercube(4, 30, 1)(0, 30)
     assert np.array_equal(np.sort(np.floor(30 * points), axis=0), np.tile(np.arange(30.0)[:, None], 4))
 
 
 def test_sobol_points_are_balanced_at_a_power_of_two() -> None:
-    points = SobolSequence(2, 64, 1).block(0, 64)
+    points = sobol_sequence(2, 1)(0, 64)
     counts = np.histogram2d(points[:, 0], points[:, 1], bins=8, range=[[0, 1], [0, 1]])[0]
     assert (counts == 1).all()
-    assert not np.array_equal(points, SobolSequence(2, 64, 2).block(0, 64))
+    assert not np.array_equal(points, sobol_sequence(2, 2)(0, 64))
 
 
 def test_a_grid_has_all_combinations_once_the_last_fastest() -> None:
-    grid = Grid((2, 3))
-    places = np.floor(grid.block(0, 6) * [2, 3]).astype(int)
+    places = np.floor(grid((2, 3))(0, 6) * [2, 3]).astype(int)
     assert [tuple(place) for place in places] == list(itertools.product(range(2), range(3)))

@@ -11,8 +11,8 @@ import pytest
 from hosts.common.road import road_value
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.study.campaign import run_study
-from hosts.study.isolated import RunProcesses
-from hosts.study.job import Job
+from hosts.study.jobs import Job
+from hosts.study.one_run import RunProcesses
 from hosts.study.work import Run, Work
 
 
