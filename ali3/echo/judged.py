@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
@@ -212,11 +213,12 @@ def _undone(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple
 
 
 def _sharing(values: Sequence[Value]) -> list[list[Value]]:
-    """Values in groups, each with those that share a key with its first."""
+    """Values in groups, each with those that share a key with its first; of many of one quantity, all."""
+    many = {q for q, times in Counter(v.quantity for v in values).items() if times > LONGEST}
     groups: list[list[Value]] = []
     for v in values:
         for group in groups:
-            if set(group[0].keys) & set(v.keys):
+            if set(group[0].keys) & set(v.keys) or (v.quantity in many and v.quantity is group[0].quantity):
                 group.append(v)
                 break
         else:

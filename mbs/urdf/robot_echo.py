@@ -3,24 +3,38 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ali3.echo import Echo, Mistake, Value, quantities_of
-from mbs.urdf.source import Element
+from mbs.urdf.source import INERTIA, Element
 
 SMALLEST = 1e-4  # m
 GRAVITY = 9.81  # m/s2
 DEG = math.pi / 180.0
 
 NO_LIMIT = 1e4  # rad, m: nobody counts so many turns
+LEAST_SHARE = 0.02
+"""Of the mass: lighter links are often frames with a number for a mass."""
+THIN = 0.01
+"""Smallest second moment of mass over the largest that is looked at: a plate has a thickness."""
+SOLID = 1000.0  # kg/m3
+FEW = 3
+"""Links up to which a mistake may be in one alone."""
+SAME = 0.01
+"""Of the size: so near are most links of one side to the image of the other where the robot is drawn symmetric."""
 LENGTHS = {"mm": 1e-3, "cm": 1e-2, "inches": 0.0254}
 MOMENTS = {"kg mm2": 1e-6, "g mm2": 1e-9, "g cm2": 1e-7, "kg cm2": 1e-4, "lb in2": 2.9264e-4}
+MASSES = {"grams": 1e-3, "tonnes": 1e3, "pounds": 0.45359237}
+SIDE = re.compile(r"(left|Left|LEFT)|(?<![A-Za-z])([FHBRfhbr]?)([Ll])(?=(?:[FHBfhb]|leg|arm|LEG|ARM)?(?![A-Za-z]))")
+OTHER = {"left": "right", "Left": "Right", "LEFT": "RIGHT", "L": "R", "l": "r"}
 QUANTITIES = quantities_of("robot")
+Pose: TypeAlias = NDArray[np.float64]
 
 
 class Given(NamedTuple):
@@ -34,27 +48,36 @@ class Given(NamedTuple):
     centres: float = 1.0
     """Of origins of inertias, where other lengths are right."""
     efforts: float = 1.0
-    heaviest: float = 1.0
-    """Of the mass of the heaviest link."""
-    small: float | None = None
-    """Radius of gyration, m, in place of moments of 1 kg m2, which stand for those that nobody knew."""
+    speeds: float = 1.0
+    solid: bool = False
+    """Moments of a ball of `SOLID` in place of 1, 0.1, ... kg m2 about all axes, which stand for those nobody knew."""
+    only: str = ""
+    """The link whose numbers alone are meant; empty: all."""
+
+    def of(self, name: str) -> Given:
+        """What is done to the numbers of a link."""
+        return self if self.only in ("", name) else Given()
 
 
-UNDONE = (
+UNDONE = (  # words, beginnings of keys, what undoes it
     ("degrees in place of radians in the limits", ("limit",), Given(limits=DEG)),
     ("degrees in place of radians in rpy", ("rpy",), Given(angles=DEG)),
+    ("degrees per second in place of rad/s in velocities", ("velocity",), Given(speeds=DEG)),
+    ("1/min in place of rad/s in velocities", ("velocity",), Given(speeds=math.pi / 30.0)),
     ("N mm in place of N m in efforts", ("effort",), Given(efforts=1e-3)),
     ("kN m in place of N m in efforts", ("effort",), Given(efforts=1e3)),
-    ("grams in place of kilograms in masses", ("mass",), Given(masses=1e-3)),
-    ("grams in place of kilograms in one mass", ("mass",), Given(heaviest=1e-3)),
-    ("tonnes in place of kilograms in masses", ("mass",), Given(masses=1e3)),
+    *((f"{unit} in place of kilograms in masses", ("mass",), Given(masses=size)) for unit, size in MASSES.items()),
     *((f"{unit} in place of m in all lengths", ("xyz",), Given(lengths=size)) for unit, size in LENGTHS.items()),
-    *((f"{unit} in place of m in centres of mass", ("xyz",), Given(centres=size)) for unit, size in LENGTHS.items()),
-    ("moments of 1 kg m2 in place of those of the parts", ("inertia",), Given(small=0.03)),
+    *((f"{unit} in place of m in centres of mass", ("centre",), Given(centres=size)) for unit, size in LENGTHS.items()),
+    ("moments of 1, 0.1, ... kg m2 in place of those of the parts", ("inertia",), Given(solid=True)),
     *((f"inertias in {unit} in place of kg m2", ("inertia",), Given(inertias=of)) for unit, of in MOMENTS.items()),
     ("grams in masses and g mm2 in inertias", ("mass", "inertia"), Given(masses=1e-3, inertias=1e-9)),
     ("mm in lengths and kg mm2 in inertias", ("xyz", "inertia"), Given(lengths=1e-3, inertias=1e-6)),
 )
+ALONE = ("mass", "inertia", "centre")
+"""What may be wrong in a few links alone."""
+EVERYWHERE = (Given(masses=MASSES["pounds"]),)
+"""What is nearer to 1 than parts are alike, so that it shows in all of them together only."""
 
 
 def robot_echo(what: str, root: Element, poses: Mapping[str, NDArray[np.float64]], at: Mapping[str, float]) -> Echo:
@@ -63,77 +86,169 @@ def robot_echo(what: str, root: Element, poses: Mapping[str, NDArray[np.float64]
     `what`: the file; `root`: its elements; `poses`: of the frames of links, shape (4, 4), m; `at`: values of joints.
     """
     values = partial(_values, root, poses, at)
-    mistakes = [Mistake(words, frozenset(keys), partial(values, given)) for words, keys, given in UNDONE]
     found = values(Given())
-    return Echo(what, found, [_named(m, found) for m in mistakes])
+    keys = {key for v in found if not v.inside() for key in v.keys}
+    mistakes = []
+    for words, names, given in UNDONE:
+        own = {key for key in keys if key.split(" of ")[0] in names and (given not in EVERYWHERE or "'" not in key)}
+        single = {match[1] for key in own if (match := re.search("'(.*)'", key))}
+        if names[0] not in ALONE or not 0 < len(single) <= min(FEW, len(poses) // 2):
+            mistakes.append(Mistake(words, frozenset(own), partial(values, given)))
+            continue
+        for name in sorted(single):
+            alone = frozenset(key for key in own if f"'{name}'" in key)
+            mistakes.append(Mistake(f"{words} of '{name}'", alone, partial(values, given._replace(only=name))))
+    return Echo(what, found, mistakes)
 
 
-def _named(mistake: Mistake, found: list[Value]) -> Mistake:
-    """The mistake with the keys of the values outside that end in one of its words."""
-    keys = {key for v in found if not v.inside() for key in v.keys if key.split(" of ")[0] in mistake.keys}
-    return Mistake(mistake.words, frozenset(keys), mistake.undo)
+class Part(NamedTuple):
+    """What a link weighs."""
+
+    mass: float
+    centre: NDArray[np.float64]
+    """In the frame of the link, m."""
+    inertia: NDArray[np.float64]
+    """Shape (3, 3), kg m2."""
+    line: int
+
+    @property
+    def moment(self) -> float:
+        """The largest principal one, kg m2."""
+        return float(np.linalg.eigvalsh(self.inertia)[-1])
+
+    @property
+    def density(self) -> float:
+        """That of the ellipsoid with this mass and inertia, kg/m3; 0 without inertia."""
+        seconds = 0.5 * np.trace(self.inertia) - np.linalg.eigvalsh(self.inertia)
+        if not max(seconds) > 0.0:
+            return 0.0
+        axes = np.sqrt(5.0 * np.maximum(seconds, THIN * max(seconds)) / self.mass)
+        return float(self.mass / (4.0 / 3.0 * math.pi * np.prod(axes)))
 
 
-def _values(
-    root: Element, poses: Mapping[str, NDArray[np.float64]], at: Mapping[str, float], given: Given
-) -> list[Value]:
-    links = {link.attributes.get("name", ""): link for link in root.all("link")}
+def _values(root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], given: Given) -> list[Value]:
     frames = np.array([pose[:3, 3] for pose in poses.values()]) * given.lengths
-    parts = {name: _part(link, given) for name, link in links.items()}
-    heavy = {name: part for name, part in parts.items() if part[0] > 0.0}
-    total, far = sum(mass for mass, *_ in heavy.values()), [float(np.linalg.norm(c)) for _, c, *_ in heavy.values()]
-    radii = {name: math.sqrt(max(inertia, 0.0) / mass) for name, (mass, _, inertia, _) in heavy.items()}
+    links = {link.attributes.get("name", ""): link for link in root.all("link")}
+    parts = {name: part for name, link in links.items() if (part := _part(link, given.of(name))).mass > 0.0}
+    total, far = sum(p.mass for p in parts.values()), [float(np.linalg.norm(p.centre)) for p in parts.values()]
     scale = max(_spread(frames), float(np.median(far or [0.0])))
-    size = max(scale, 2.0 * max(far, default=0.0), 2.0 * max(radii.values(), default=0.0))
-    if not total > 0.0 or size <= SMALLEST:
-        return list(_joints(root, at, given))  # nothing in it has a size
-    masses, lengths = {"mass of links": total}, {"xyz of origins": scale, "inertia of links": max(radii.values())}
-    found = [Value(QUANTITIES["mass"], total, masses), Value(QUANTITIES["size"], size, lengths)]
-    found.append(Value(QUANTITIES["dense"], total / size**3, masses | lengths))
-    for (name, (mass, centre, inertia, line)), away in zip(heavy.items(), far, strict=True):
-        if scale <= SMALLEST:
-            break
-        of = f"link '{name}',"
-        if len(heavy) > 1:
-            keys: dict[str, Any] = {f"xyz of '{name}' in line {line}": centre.tolist()}
-            found.append(Value(QUANTITIES["centre"], away / scale, keys, of))
-        if inertia > 0.0:
-            keys = {f"inertia of '{name}' in line {line}": inertia, f"mass of '{name}'": mass}
-            found.append(Value(QUANTITIES["gyration"], radii[name] / max(scale, away), keys, of))
-    if len(heavy) > 1:
-        name = max(heavy, key=lambda n: heavy[n][0])
-        most = heavy[name][0] * given.heaviest
-        found.append(Value(QUANTITIES["heaviest"], most / (total - heavy[name][0]), {f"mass of '{name}'": most}))
+    size = max(scale, 2.0 * max(far, default=0.0))
+    if not total > 0.0:
+        return list(_joints(root, at, given))
+    masses: dict[str, Any] = {"mass of links": total}
+    found = [Value(QUANTITIES["mass"], total, masses)]
+    if size > SMALLEST:
+        lengths = {"xyz of origins": scale, "centre of links": max(far)}
+        found.append(Value(QUANTITIES["size"], size, lengths))
+        found.append(Value(QUANTITIES["dense"], total / size**3, masses | lengths))
+    if len(parts) > 1:
+        name = max(parts, key=lambda n: parts[n].mass)
+        most = parts[name].mass
+        found.append(Value(QUANTITIES["heaviest"], most / (total - most), {f"mass of '{name}'": most}))
+    own = {name: p for name, p in parts.items() if p.mass >= LEAST_SHARE * total and p.density > 0.0}
+    found += _densities(own, masses) + _reaches(root, own, given) + _pairs(own, poses, scale, given)
     efforts = {
-        f"effort of '{joint.attributes.get('name', '')}' in line {limit.line}": limit.numbers("effort")[0]
+        (joint.attributes.get("name", ""), limit.line): given.efforts * limit.numbers("effort")[0]
         for joint in root.all("joint")
         if (limit := joint.first("limit")) is not None and joint.attributes.get("type") == "revolute"
-        if "effort" in limit.attributes
+        if _known(limit.numbers("effort")[0])
     }
-    if efforts and scale > SMALLEST and max(efforts.values()) > 0.0:
-        key = max(efforts, key=efforts.__getitem__)
-        held = given.efforts * efforts[key] / (GRAVITY * total * scale)
-        found.append(Value(QUANTITIES["effort"], held, {key: efforts[key]}))
+    if efforts and scale > SMALLEST and all(v.inside() for v in found[:3]) and max(efforts.values()) > 0.0:
+        name, line = max(efforts, key=efforts.__getitem__)
+        most = efforts[name, line]
+        keys = {f"effort of '{name}' in line {line}": most}
+        found.append(Value(QUANTITIES["effort"], most / (GRAVITY * total * scale), keys))
     return [*found, *_joints(root, at, given)]
 
 
-def _part(link: Element, given: Given) -> tuple[float, NDArray[np.float64], float, int]:
-    """Mass, kg, centre in the link's frame, m, largest moment of inertia, kg m2, and the line."""
+def _known(limit: float) -> bool:
+    """Whether a limit is a number that somebody knew: 100, 1000, ... stand for none."""
+    return limit < 100.0 or abs(math.log10(limit) % 1.0) > SMALLEST
+
+
+def _densities(parts: Mapping[str, Part], masses: Mapping[str, Any]) -> list[Value]:
+    found = []
+    for name, p in parts.items():
+        keys = {f"inertia of '{name}' in line {p.line}": p.moment, f"mass of '{name}'": p.mass}
+        found.append(Value(QUANTITIES["density"], p.density, keys, f"link '{name}',"))
+    if len(found) > 1:
+        keys = {"inertia of links": max(p.moment for p in parts.values()), **masses}
+        found.append(Value(QUANTITIES["densities"], float(np.median([v.value for v in found])), keys))
+    return found
+
+
+def _reaches(root: Element, parts: Mapping[str, Part], given: Given) -> list[Value]:
+    """Centres of mass and the places of joints, over what is beside them."""
+    ends: dict[str, list[float]] = {}
+    offsets = {}
+    for joint in root.all("joint"):
+        parent, origin = joint.first("parent"), joint.first("origin")
+        if parent is not None and origin is not None:
+            far = given.lengths * float(np.linalg.norm(origin.numbers("xyz")))
+            ends.setdefault(parent.attributes.get("link", ""), []).append(far)
+            offsets[f"xyz of '{joint.attributes.get('name', '')}' in line {origin.line}"] = far
+    found = []
+    for name, p in parts.items():
+        reach = max(ends.get(name, []), default=0.0) + math.sqrt(p.moment / p.mass)
+        keys: dict[str, Any] = {f"centre of '{name}' in line {p.line}": p.centre.tolist()}
+        found.append(Value(QUANTITIES["centre"], float(np.linalg.norm(p.centre)) / reach, keys, f"link '{name}',"))
+    if len(offsets) > FEW and (others := sum(offsets.values()) - max(offsets.values())) > SMALLEST:
+        key = max(offsets, key=offsets.__getitem__)
+        found.append(Value(QUANTITIES["longest"], offsets[key] / others, {key: offsets[key]}))
+    return found
+
+
+def _pairs(parts: Mapping[str, Part], poses: Mapping[str, Pose], scale: float, given: Given) -> list[Value]:
+    """Links of a left and a right side, one over the other, and how far their centres are from each other's image."""
+    pairs = [(a, b) for a in parts if (b := other_side(a)) != a and b in parts]
+    found = []
+    for a, b in pairs:
+        left, right = parts[a], parts[b]
+        of = f"links '{a}' and '{b}',"
+        keys = {f"mass of '{n}' in line {parts[n].line}": parts[n].mass for n in (a, b)}
+        found.append(Value(QUANTITIES["sides"], _ratio(left.mass, right.mass), keys, of))
+        keys = {f"inertia of '{n}' in line {parts[n].line}": parts[n].moment for n in (a, b)}
+        found.append(Value(QUANTITIES["moments"], _ratio(left.moment, right.moment), keys, of))
+    if len(pairs) < FEW or scale <= SMALLEST:
+        return found
+    centres = {n: given.lengths * poses[n][:3, 3] + poses[n][:3, :3] @ parts[n].centre for pair in pairs for n in pair}
+    sums = np.array([centres[a] + centres[b] for a, b in pairs])
+    gaps = np.array([centres[a] - centres[b] for a, b in pairs])
+    off = np.stack([np.where(np.eye(3)[k] > 0.0, sums - np.median(sums, axis=0), gaps) for k in range(3)])
+    far = np.linalg.norm(off, axis=2) / scale
+    plane = far[int(np.argmin(np.median(far, axis=1)))]
+    if np.quantile(plane, 0.4) < SAME:  # drawn as each other's image
+        for (a, b), value in zip(pairs, plane, strict=True):
+            keys = {f"place of '{n}' in line {parts[n].line}": centres[n].tolist() for n in (a, b)}
+            found.append(Value(QUANTITIES["image"], float(value), keys, f"links '{a}' and '{b}',"))
+    return found
+
+
+def other_side(name: str) -> str:
+    """The name with right in place of left."""
+    return SIDE.sub(lambda m: f"{m[2] or ''}{OTHER[m[1] or m[3]]}", name, count=1)
+
+
+def _ratio(a: float, b: float) -> float:
+    """The larger over the smaller."""
+    return max(a, b) / min(a, b)
+
+
+def _part(link: Element, given: Given) -> Part:
     inertial = link.first("inertial")
     if inertial is None:
-        return 0.0, np.zeros(3), 0.0, link.line
+        return Part(0.0, np.zeros(3), np.zeros((3, 3)), link.line)
     mass, origin, inertia = (inertial.first(tag) for tag in ("mass", "origin", "inertia"))
     centre = np.zeros(3) if origin is None else given.lengths * given.centres * np.array(origin.numbers("xyz"))
-    moments = [0.0] if inertia is None else [inertia.numbers(name)[0] for name in ("ixx", "iyy", "izz")]
     heavy = 0.0 if mass is None else given.masses * mass.numbers("value")[0]
-    if given.small is not None:
-        moments = [heavy * given.small**2 if v == 1.0 else v for v in moments]
-    return (
-        heavy,
-        centre,
-        given.inertias * max(moments),
-        inertial.line,
-    )
+    upper = np.zeros((3, 3))
+    if inertia is not None:
+        upper[np.triu_indices(3)] = [given.inertias * inertia.numbers(name)[0] for name in INERTIA]
+    tensor = upper + np.triu(upper, 1).T
+    least = tensor[0, 0]
+    if given.solid and least > 0.0 and abs(math.log10(least) % 1.0) < 1e-9 and np.all(tensor == least * np.eye(3)):
+        tensor = 0.4 * heavy * (heavy / (4.0 / 3.0 * math.pi * SOLID)) ** (2.0 / 3.0) * np.eye(3)
+    return Part(heavy, centre, tensor, inertial.line)
 
 
 def _joints(root: Element, at: Mapping[str, float], given: Given) -> Iterator[Value]:
@@ -146,6 +261,10 @@ def _joints(root: Element, at: Mapping[str, float], given: Given) -> Iterator[Va
             yield Value(QUANTITIES["angle"], max(map(abs, rpy)), key, of)
         if limit is None or kind not in ("revolute", "prismatic"):
             continue
+        speed = limit.numbers("velocity")[0]
+        if kind == "revolute" and speed > 0.0 and _known(speed):
+            key = {f"velocity of '{name}' in line {limit.line}": [speed]}
+            yield Value(QUANTITIES["speed"], given.speeds * speed, key, of)
         scale = given.limits if kind == "revolute" else given.lengths
         low, high = (scale * limit.numbers(end)[0] for end in ("lower", "upper"))
         if low == high == 0.0 or high - low > NO_LIMIT:

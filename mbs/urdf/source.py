@@ -11,18 +11,18 @@ from ali3.decimal_number import parse_number
 from ali3.words import brief
 from mbs.common.errors import ModelError
 
-_INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _ONCE = {
     "link": ("inertial",),
     "inertial": ("origin", "mass", "inertia"),
     "joint": ("origin", "parent", "child", "axis", "limit", "dynamics", "mimic"),
 }
-_NEEDED = {"mass": ("value",), "inertia": _INERTIA, "limit": (), "origin": (), "axis": ("xyz",), "mimic": ("joint",)}
+_NEEDED = {"mass": ("value",), "inertia": INERTIA, "limit": (), "origin": (), "axis": ("xyz",), "mimic": ("joint",)}
 _NUMBERS = {
     "origin": {"xyz": 3, "rpy": 3},
     "axis": {"xyz": 3},
     "mass": {"value": 1},
-    "inertia": dict.fromkeys(_INERTIA, 1),
+    "inertia": dict.fromkeys(INERTIA, 1),
     "limit": dict.fromkeys(("lower", "upper", "effort", "velocity"), 1),
     "dynamics": {"damping": 1, "friction": 1},
     "mimic": {"multiplier": 1, "offset": 1},

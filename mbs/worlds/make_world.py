@@ -22,6 +22,7 @@ from mbs.worlds.road_of_world import points_of, write_world_road
 from mbs.worlds.terrain import Terrain
 from mbs.worlds.thin_world import STEP, off_by, thinner
 from mbs.worlds.world_echo import world_echo
+from mbs.worlds.world_file import is_world
 from mbs.worlds.world_record import record_of, world_record
 from mbs.worlds.world_types import WorldDescription
 
@@ -52,6 +53,12 @@ def read_world(file: Path) -> WorldDescription:
     return world
 
 
+def described(file: Path) -> WorldDescription | None:
+    """The checked description where a file is one of a world, and none where it is a road."""
+    is_one = file.suffix.lower() == ".toml" and is_world(read_toml(file, RoadFileError))
+    return read_world(file) if is_one else None
+
+
 def make_world(
     file: Path, name: str, road: Path, tell: Callable[[str, float], None], thin: bool = False
 ) -> dict[str, Any]:
@@ -61,8 +68,7 @@ def make_world(
     `thin`: fewer and rounder numbers, for a page; the record says under ``thin`` how far they are off. Raises
     `RoadFileError` with what is wrong.
     """
-    if file.suffix.lower() == ".toml" and read_toml(file, RoadFileError).get("kind") == "world":
-        world = read_world(file)
+    if (world := described(file)) is not None:
         if thin:
             world = world.model_copy(update={"spacing": thinner(world.spacing)})
         _check_size(world, file)

@@ -20,7 +20,7 @@ from mbs.roads.road_header import RoadFileError
 
 ROOT = Path(__file__).parents[2]
 CODE = (
-    *("mbs/roads", "mbs/worlds", "mbs/kernel/header"),
+    *("mbs/roads", "mbs/worlds", "mbs/kernel/header", "ali3/echo"),
     *("ali3/scene/road_types.py", "ali3/scene/base64_numbers.py", "ali3/iso_3888.py", "ali3/cones.py"),
 )
 """What worlds are made by."""
@@ -40,7 +40,7 @@ def key_of(files: Iterable[Path]) -> str:
 
 
 def _sources(place: Path) -> list[Path]:
-    return sorted(place.glob("*.py")) if place.is_dir() else [place]
+    return sorted(p for p in place.iterdir() if p.suffix in (".py", ".csv")) if place.is_dir() else [place]
 
 
 def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list[Path], bool]:

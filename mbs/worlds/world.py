@@ -17,11 +17,11 @@ from ali3.errors import UserError
 from ali3.files import write_text
 from ali3.json_reading import read_json
 from ali3.near_names import did_you_mean
-from ali3.reading import is_file, read_toml
+from ali3.reading import is_file
 from ali3.told_warnings import told_warnings
-from mbs.roads import RoadFile, RoadFileError
+from mbs.roads import RoadFile
 from mbs.roads.kinds import CRG, MESHES
-from mbs.worlds.make_world import make_world, read_world
+from mbs.worlds.make_world import described, make_world
 from mbs.worlds.map_picture import draw_map
 from mbs.worlds.shipped import ROADS, WORLDS, shipped_worlds
 from mbs.worlds.stored import add_file, key_of, world_files
@@ -64,8 +64,8 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False, table
 
 def _echoes(file: Path, road: Path) -> Sequence[Echo]:
     """What was understood of the description of a world, and of the road that was made of it."""
-    described = file.suffix.lower() == ".toml" and read_toml(file, RoadFileError).get("kind") == "world"
-    return [*(echo_of(read_world(file)) if described else []), *echo_of(RoadFile(road))]
+    found = described(file)
+    return [*(echo_of(found) if found is not None else []), *echo_of(RoadFile(road))]
 
 
 def _file(given: str) -> Path:

@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from ali3.reading import is_file, read_toml
 from mbs.roads.road_header import RoadFileError
+
+
+def is_world(table: Mapping[str, Any]) -> bool:
+    """Whether a table describes a world and not a road."""
+    return table.get("kind") == "world"
 
 
 def named_files(file: Path) -> tuple[str, list[Path]]:
     """The name of a world, and the files that its description names, as far as they are there."""
     table = read_toml(file, RoadFileError)
     found = []
-    if table.get("kind") == "world":
+    if is_world(table):
         ground = table.get("ground")
         courses = table.get("courses")
         found = [ground.get("heights")] if isinstance(ground, dict) else []
         found += [c.get("points") for c in courses if isinstance(c, dict)] if isinstance(courses, list) else []
     else:
         found = [table.get("heights"), table.get("frictions")]
-    name = table.get("name") if table.get("kind") == "world" else None
+    name = table.get("name") if is_world(table) else None
     paths = [file.parent / item for item in found if isinstance(item, str)]
     return name if isinstance(name, str) else file.stem, [path for path in paths if is_file(path)]

@@ -136,6 +136,43 @@ THINGS = {
 }  # fmt: skip
 
 
+STRAIGHT = {"name": "lane", "points": [[0.0, 0.0], [45.0, 0.0]], "width": 6.0}
+HOUSE = {"at": [20.0, 0.0, 0.0], "size": [5.0, 5.0, 5.0]}
+ODD_THINGS = {
+    "beside all roads": ({"obstacles": [KERB | {"at": [20.0, 8.0, 0.0]}]}, "obstacles.0 distance beside the nearest"),
+    "in a road": ({"buildings": [HOUSE]}, "buildings.0 distance from the edge of the nearest road or area is -3 m"),
+    "in an area": ({"buildings": [HOUSE | {"at": [20.0, 7.0, 0.0]}],
+                    "areas": [{"name": "pad", "at": [20.0, 7.0], "size": [8.0, 4.0]}]}, "or area is -2 m"),
+    "a house in mm": ({"buildings": [HOUSE | {"at": [20.0, 9.0, 0.0], "size": [5e3, 5.0, 5.0]}]}, "side of the build"),
+    "a width in ft": ({"courses": [STRAIGHT | {"width": 39.4}]}, "width of the course is 39.4 m"),
+    "a shoulder in mm": ({"courses": [STRAIGHT | {"shoulder": 1500.0}]}, "width of the strip beside the road"),
+    "an area in the air": ({"areas": [{"name": "a", "at": [20.0, 0.0], "radius": 5.0, "height": 100.0}]},
+                           "grade from the ground to the area is 6.667"),
+    "an area in mm": ({"areas": [{"name": "a", "at": [20.0, 0.0], "radius": 5e3}]}, "areas.0.size distance outside"),
+    "a circle in mm": ({"lines": [{"centre": [20.0, 0.0], "radius": 5e3}]}, "lines.0.radius distance outside"),
+    "a slalom in mm": ({"cones": [{"start": [0.0, 0.0, 0.0], "slalom": 9, "distance": 18e3}]},
+                       "cones.0.distance distance outside of the world is"),
+    "a barrier in km": ({"barriers": [{"course": "lane", "begin": 0.0, "end": 450.0}]}, "that of its course is 10"),
+    "a barrier that ends first": ({"barriers": [{"course": "lane", "begin": 30.0, "end": 3.0}]}, "its course is -0.6"),
+    "ice like asphalt": ({"frictions": {"ice": 0.9}}, "ice friction over that of the textbook is 9"),
+    "trees nowhere": ({"trees": {"count": 9, "distance": 12e3}}, "distance of trees from roads"),
+    "twice": ({"obstacles": [KERB, KERB]}, "obstacles things that stand twice is 1"),
+    "waves between points": ({"spacing": [1.0, 0.1], "obstacles": [
+        {"kind": "washboard", "at": [10.0, 0.0, 0.0], "length": 9.0, "width": 4.0, "wavelength": 0.7, "height": 0.02}]},
+        "points over the shortest slope or wave is 0.7"),
+    "a spacing in cm": ({"spacing": [5.0, 10.0], "obstacles": [KERB | {"at": [21.0, 0.0, 0.0]}]},
+                        "cm in place of m in spacing"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", ODD_THINGS)
+def test_what_stands_as_nothing_does_is_told(case: str) -> None:
+    more, words = ODD_THINGS[case]
+    plain = {"kind": "world", "name": "w", "bounds": [-5.0, -10.0, 50.0, 10.0], "courses": [STRAIGHT]}
+    (sentence,) = world_echo("w.toml", WorldDescription.model_validate(plain | more)).warnings()
+    assert words in sentence
+
+
 @pytest.mark.parametrize("case", THINGS)
 def test_what_is_in_no_world_is_named(case: str) -> None:
     more, words = THINGS[case]

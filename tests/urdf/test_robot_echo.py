@@ -61,9 +61,55 @@ ODD = {
         replaced(r'lower="[^"]*" upper="[^"]*"', 'lower="1" upper="2"'),
         "start beyond the limits",
     ),
+    "moments of one in kg cm2": (scaled(INERTIA, 1e4, count=6), "kg cm2 in place of kg m2 of 'link_1'"),
+    "mass of one in g": (scaled(MASS, 1e3, count=1), "grams in place of kilograms in masses of 'link_1'"),
+    "a centre in cm": (
+        replaced(r'(<inertial>\s*<origin) xyz="[^"]*"', r'\1 xyz="7 -3 0"'),
+        "cm in place of m in centres of mass of 'link_1'",
+    ),
+    "a joint in mm": (
+        scaled(r'<joint[^>]*>(?:(?!</joint>).)*?<origin xyz="([^"]*)"', 1e3, count=2),
+        "over all others together",
+    ),
+    "velocities in degrees per second": (
+        scaled(r'velocity="([^"]*)"', 57.29578),
+        "degrees per second in place of rad/s in velocities",
+    ),
     "no effort": (replaced(r' effort="[^"]*"', ""), "has no effort, or 0"),
     "an effort of 0": (replaced(r'effort="[^"]*"', 'effort="0"'), "has no effort, or 0"),
 }
+
+
+LEG = """
+<link name="{side}_leg"><inertial><origin xyz="0.01 {y} -0.2"/><mass value="{mass}"/>
+<inertia ixx="{ixx}" ixy="0" ixz="0" iyy="{ixx}" iyz="0" izz="0.002"/></inertial></link>
+<joint name="{side}_hip" type="continuous"><origin xyz="0.1 {at} 0"/><parent link="base"/><child link="{side}_leg"/>
+<axis xyz="0 1 0"/></joint>"""
+SIDES = {
+    "nothing": ({}, []),
+    "a mass": ({"mass": 3.0}, ["mass of one side over that of the other is 1.5"]),
+    "a moment": ({"ixx": 0.036}, ["largest moment of inertia of one side over that of the other is 1.8"]),
+    "a place": ({"at": 0.3}, ["centre of mass from the image of that of the other side"]),
+    "no sign": ({"at": -0.1, "y": -0.01}, ["centre of mass from the image of that of the other side"]),
+}
+
+
+@pytest.mark.parametrize("case", SIDES)
+def test_a_side_is_the_image_of_the_other(case: str, tmp_path: Path) -> None:
+    change, words = SIDES[case]
+    text = '<robot name="r"><link name="base"/>'
+    for k, side in enumerate(("FL", "FR", "left_mid", "right_mid", "RL", "RR")):
+        sign = -1.0 if k % 2 else 1.0
+        own = {"mass": 2.0, "ixx": 0.02, "at": 0.1 * sign, "y": 0.01 * sign} | (change if k == 0 else {})
+        text += LEG.format(side=side, **own)
+    file = tmp_path / "legs.urdf"
+    file.write_text(f"{text}</robot>", encoding="utf-8")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", UrdfWarning)
+        read_urdf(file)
+    lines = [str(w.message) for w in caught]
+    assert len(lines) == len(words)
+    assert all(word in line and "'FL_leg' and 'FR_leg'" in line for word, line in zip(words, lines, strict=True))
 
 
 @pytest.mark.parametrize("name", ROBOTS)

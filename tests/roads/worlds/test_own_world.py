@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 import mbs
 from mbs.roads.road_header import RoadFileError
 from mbs.scenes import prototype_car
+from mbs.worlds import stored
 from mbs.worlds.command import main
 from mbs.worlds.course_file import read_course
 from mbs.worlds.make_world import read_world
@@ -351,3 +353,16 @@ def test_a_thin_world_is_off_by_what_it_says(folder, own_cache, tmp_path, capsys
     assert 0.01 < np.quantile(off, 0.99) < 1.5 * nearly_all < 5.0
     assert off.max() < 1.2 * most
     assert made["thin"].stat().st_size < 0.5 * made["whole"].stat().st_size
+
+
+def test_another_range_of_what_is_told_makes_another_world(tmp_path, monkeypatch):
+    for place in stored.CODE:
+        source, copy = stored.ROOT / place, tmp_path / place
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        (shutil.copytree if source.is_dir() else shutil.copyfile)(source, copy)
+    before = stored.key_of([])
+    monkeypatch.setattr(stored, "ROOT", tmp_path)
+    assert stored.key_of([]) == before
+    with (tmp_path / "ali3/echo/quantities.csv").open("a", encoding="utf-8") as table:
+        table.write("\n")
+    assert stored.key_of([]) != before
