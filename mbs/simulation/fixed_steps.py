@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from mbs.common.progress import progress_for
 from mbs.kernel.header.enumerations import Status
+from mbs.kernel.header.limits import WRONG_ERROR
 from mbs.kernel.header.steps import BranchKind
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
@@ -149,7 +150,7 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
             text = f"The error of the run is not known: in a refined run with steps of {refined.tried:g} s {error}"
         return replace(known, check_cost=refined.cost, message=text)
     branch = run[0].branch_change if refined.left_alone else ""
-    if known.error is None or known.error <= accuracy.WARNED_ERROR:
+    if known.error is None or known.error <= WRONG_ERROR:
         return replace(known, branch=branch)
     said = [refined.text(known)]
     if accuracy.balance_says(report, method, driven):
