@@ -20,7 +20,6 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
-SURE_BALANCE = 0.2  # above, no refined run is needed to know
 ENERGY_KEPT = 1e-3  # of that of the motion: what a free System may gain or lose, and `drift` of what is plainly smooth
 # Of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved.
 MOST_COST = 48.0
@@ -151,11 +150,6 @@ def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
         report.energy_error if known else None,
         halvings / max(steps, 1),
     )
-
-
-def balance_decides(report: Report, method: str, driven: bool) -> bool:
-    """Whether it says so without any doubt."""
-    return balance_says(report, method, driven) and report.energy_balance > SURE_BALANCE
 
 
 def balance_says(report: Report, method: str, driven: bool) -> bool:
