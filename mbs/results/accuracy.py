@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mbs.kernel.header.enumerations import GuideType
-from mbs.kernel.header.limits import HALVINGS_SUSPECT
+from mbs.kernel.header.limits import HALVINGS_SUSPECT, WRONG_ERROR
 from mbs.results.comparison import COORDINATES, INSTANTS, Compared
 from mbs.results.run_report import Report
 from mbs.results.smooth_laws import is_open_tree
@@ -19,6 +19,7 @@ from mbs.settings.input_signals import unit_text
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
+WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
 ENERGY_KEPT = 1e-3  # of that of the motion: what a free System may gain or lose, and `drift` of what is plainly smooth
 # Of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved.

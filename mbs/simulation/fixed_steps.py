@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from mbs.common.progress import progress_for
 from mbs.kernel.header.enumerations import Status
-from mbs.kernel.header.limits import WRONG_ERROR
 from mbs.kernel.header.steps import BranchKind
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
@@ -149,7 +148,7 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
             text = f"The error of the run is not known: in a refined run with steps of {refined.tried:g} s {error}"
         return replace(known, check_cost=refined.cost, message=text)
     branch = run[0].branch_change if refined.left_alone else ""
-    off = refined.text(known) if (known.error or 0.0) > WRONG_ERROR else ""
+    off = refined.text(known) if (known.error or 0.0) > accuracy.WARNED_ERROR else ""
     if not (off or balance):
         return replace(known, branch=branch)
     tried = refined.tried_steps(known) if known.error is not None else []

@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header.limits import EVENT_ORDER, WRONG_ERROR
+from mbs.kernel.header.limits import EVENT_ORDER
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
-from mbs.results.accuracy import FAR, MOST_COST, Accuracy
+from mbs.results.accuracy import FAR, MOST_COST, WARNED_ERROR, Accuracy
 from mbs.results.comparison import (
     COORDINATES,
     Compared,
@@ -183,7 +183,7 @@ class RefinedRuns:
                 known = self.known = extrapolated(
                     known, [self._table(r) for r in runs], self.compared, self.before, self.length
                 )
-            if parts == 4 * self.parts and (known.error or 0.0) > WRONG_ERROR:
+            if parts == 4 * self.parts and (known.error or 0.0) > WARNED_ERROR:
                 break
         if parts == 8 * self.parts and (last.error or 0.0) > (known.error or 0.0):
             known = replace(known, units=last.units, sensors=last.sensors)
@@ -308,7 +308,7 @@ def unsure(known: Accuracy, apart: Mapping[str, float]) -> bool:
     """Whether a run that is off by `apart` may change the verdict of the error that it gave, both over the range, per
     unit.
     """
-    above = {unit: error - WRONG_ERROR for unit, error in known.units.items()}
+    above = {unit: error - WARNED_ERROR for unit, error in known.units.items()}
     surely_wrong = any(more >= apart[unit] for unit, more in above.items())
     return not surely_wrong and any(-more < apart[unit] for unit, more in above.items())
 
