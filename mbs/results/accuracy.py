@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mbs.kernel.header.enumerations import GuideType
-from mbs.kernel.header.limits import BALANCE_WRONG, HALVINGS_SUSPECT, WRONG_ERROR
+from mbs.kernel.header.limits import HALVINGS_SUSPECT, WRONG_ERROR
 from mbs.results.comparison import COORDINATES, INSTANTS, Compared
 from mbs.results.run_report import Report
 from mbs.results.smooth_laws import is_open_tree
@@ -20,17 +20,15 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
 WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
-WRONG_BALANCE, SUSPECT_HALVINGS = BALANCE_WRONG, HALVINGS_SUSPECT  # the kernel's own, for the FMU
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
-SURE_BALANCE = 0.2  # above, no refined run is needed to know
 ENERGY_KEPT = 1e-3  # of that of the motion: what a free System may gain or lose, and `drift` of what is plainly smooth
 # Of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved.
 MOST_COST = 48.0
 GOAL_ERROR = 0.005  # what a step that is tried as a remedy aims at
 MET = 2.0 * GOAL_ERROR  # what it must meet to be named
+STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 COARSER, FINER = "coarser", "finer"
-STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
 
 
 class AccuracyWarning(UserWarning):
@@ -91,7 +89,7 @@ def doubt(report: Report, steps: int, halvings: int, method: str, rest: float | 
     Where steps were halved inside, a coarser run makes the same parts. An open balance, and a loop that left
     its mode, are signs of coarse steps already. `rest`: what decides in place of predictions, at most 1 if smooth.
     """
-    if halvings > SUSPECT_HALVINGS * steps or report.balance_wrong or report.branch_changes > 0:
+    if halvings > HALVINGS_SUSPECT * steps or report.balance_wrong or report.branch_changes > 0:
         return FINER
     whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
     miss = summed_miss(report) / METHOD_TABLE[method].smooth_miss if rest is None else rest
@@ -153,11 +151,6 @@ def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
         report.energy_error if known else None,
         halvings / max(steps, 1),
     )
-
-
-def balance_decides(report: Report, method: str, driven: bool) -> bool:
-    """Whether it says so without any doubt."""
-    return balance_says(report, method, driven) and report.energy_balance > SURE_BALANCE
 
 
 def balance_says(report: Report, method: str, driven: bool) -> bool:

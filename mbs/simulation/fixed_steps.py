@@ -124,8 +124,7 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
     if report is None or known is None or run[0].settings is None:
         return known
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
-    if accuracy.balance_decides(report, method, driven) and not always:
-        return replace(known, message=f"{accuracy.balance_text(report)} {accuracy.remedy(system, method, [])}")
+    balance = accuracy.balance_text(report) if accuracy.balance_says(report, method, driven) else ""
     doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, refined.unresolved))
     if len(run[0].t) < 2 or not (always or refined.divisor or doubt):
         return known
@@ -140,7 +139,7 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
         needed = refined.cost + sum(cost for cost in ahead if cost < 8.5 * refined.parts)
         known = refined.known or known
         text = accuracy.open_text(known, refined.tried, refined.most, needed)
-        return replace(known, check_cost=refined.cost, message=text)
+        return replace(known, check_cost=refined.cost, message=f"{balance} {text}".strip())
     except SimulationError as error:
         text = (
             f"A refined run with steps of {refined.tried:g} s was refused, so the result is not to be trusted: {error}"
@@ -149,11 +148,9 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
             text = f"The error of the run is not known: in a refined run with steps of {refined.tried:g} s {error}"
         return replace(known, check_cost=refined.cost, message=text)
     branch = run[0].branch_change if refined.left_alone else ""
-    if known.error is None or known.error <= accuracy.WARNED_ERROR:
+    off = refined.text(known) if (known.error or 0.0) > accuracy.WARNED_ERROR else ""
+    if not (off or balance):
         return replace(known, branch=branch)
-    said = [refined.text(known)]
-    if accuracy.balance_says(report, method, driven):
-        said.append(accuracy.balance_text(report))
-    tried = refined.tried_steps(known)
-    message = " ".join([*said, accuracy.remedy(system, method, tried)])
+    tried = refined.tried_steps(known) if known.error is not None else []
+    message = " ".join(filter(None, [off, balance, accuracy.remedy(system, method, tried)]))
     return replace(known, check_cost=refined.cost, branch=branch, message=message)

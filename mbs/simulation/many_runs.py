@@ -154,10 +154,8 @@ class _Run:
     def _checked(self, run: Trajectory) -> Warned:
         """By the refined runs of `simulate`, which begin with the same run alone; a plainly smooth run has none."""
         told = list(self.told_at_start)
-        report, method, driven = self.simulation.report, METHOD, len(self.system.arrays["gterm_row"]) > 0
-        end = self.t0 + self.steps * self.h
-        doubt = accuracy.doubt(report, report.steps, report.halvings, method)
-        if doubt or accuracy.balance_decides(report, method, driven):
+        report, end = self.simulation.report, self.t0 + self.steps * self.h
+        if accuracy.doubt(report, report.steps, report.halvings, METHOD):
             run.accuracy = fixed_step_run(
                 self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None,
                 warned=told,

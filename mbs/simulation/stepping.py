@@ -13,7 +13,7 @@ from mbs.common.checks import flag, instance_of, is_finite, number, positive, sh
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.binding.instance import Instance
-from mbs.kernel.header.limits import LONGEST_SETTLING
+from mbs.kernel.header.limits import BALANCE_WRONG, LONGEST_SETTLING
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
@@ -483,7 +483,7 @@ class Simulation(SteppedSystem):
         if not self._rim_told and (told := self.road_text):
             self._rim_told = True
             warnings.warn(told, RoadWarning, stacklevel=3)
-        if self._warned or self.instance.energy_balance() <= accuracy.WRONG_BALANCE:
+        if self._warned or self.instance.energy_balance() <= BALANCE_WRONG:
             return
         driven = len(self.system.arrays["gterm_row"]) > 0
         if accuracy.balance_says(self.report, self.settings.method, driven):

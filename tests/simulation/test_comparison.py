@@ -116,6 +116,8 @@ def test_forces_are_compared_at_their_samples_and_what_is_not_known_nowhere() ->
     found.add(fine, {name: values[:5] for name, values in coarse.items()}, [0, 3])
     assert found.gaps == pytest.approx({"x": 0.1, "load": 3.0})
     assert found.sizes() == pytest.approx({"x": 5.0, "load": 15.0})
+    found.widen({"x": 0.5, "load": 2.0})
+    assert found.gaps == pytest.approx({"x": 0.5, "load": 3.0})
 
 
 def test_a_pendulum_that_turns_over_is_told_by_the_angle_of_its_body() -> None:
