@@ -158,6 +158,19 @@ def test_a_jump_of_a_function_counts_from_its_time_on(way: str) -> None:
             assert run["x"][-1] - 1.0 == pytest.approx(12.5 * (SPAN - begin) ** 2, rel=1e-5)
 
 
+def test_a_function_is_asked_ahead_once_for_all_runs_to_a_tolerance() -> None:
+    asked = []
+
+    def push(t: float) -> float:
+        asked.append(t)
+        return 50.0 * (t > 0.305)
+
+    run = mbs.simulate(sledge(800.0), SPAN, inputs={"push": push}, tolerance=1e-3, progress=False)
+    assert run.control is not None
+    assert run.control.runs > 2
+    assert asked.count(SPAN / 16_000.0) == 1
+
+
 def test_a_function_that_fails_is_looked_at_until_then() -> None:
     """The step that asks it there says so, as if nobody had asked ahead; noise is no breaks without end."""
 
