@@ -63,6 +63,10 @@ class Compared:
         }
         return JudgedFields(UNITS[self.unit], sum(bit for bit, is_set in bits.items() if is_set))
 
+    def change(self, one: Array, other: Array) -> Array:
+        """From one value to the other at samples, (n,); of angles by the smaller arc."""
+        return np.asarray((other - one + np.pi) % (2.0 * np.pi) - np.pi if self.wrapped else other - one)
+
     def gap(self, one: Array, other: Array) -> float:
         """Largest difference at samples, (n,); of angles the smaller arc."""
         found = Comparison({"": self}, 1.0)

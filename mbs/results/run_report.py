@@ -60,7 +60,7 @@ class Report:
         How much deeper than a wheel holds a rim was pressed into a road, m, 0: never; when, s, and where, m.
     divisions : int
         Steps that were made in halves, as parts of them may have been again, because a force of a contact or a stop
-        changed abruptly in them; and parts of steps that ended where a table of inputs jumps.
+        changed abruptly in them; and parts of steps that ended where an input jumps or peaks.
     branch_changes : int
         Changes of the assembly mode of closed loops.
     branch_time : float

@@ -1,5 +1,6 @@
 """Where steps end early: at jumps and peaks of tables and functions of inputs within them."""
 
+import math
 from collections.abc import Callable, Iterable
 
 import numpy as np
@@ -12,6 +13,8 @@ Table = tuple[Array, Array]
 LEAST = 0.05  # of the range of the table: a smaller departure is noise of a record
 FINE = 0.01  # of the range: by how much parts of a step that departs by more may depart
 AT_END = 1e-6  # steps: what is so near to the end of one, or to another break, is at it
+ROUND_OFF = 1e-6  # of the largest value: a smaller range is that of a constant; in single precision it is 2e-7
+HUGE = 1e300  # differences of smaller values are finite
 ASKED = 16  # times a step: a pulse of a function of a tenth of a step is met
 
 
@@ -21,7 +24,7 @@ def input_breaks(tables: Iterable[Table], t0: float, t_end: float, h: float) -> 
     """
     found = [t_end]
     for t, x in tables:
-        phase, size = (t - t0) / h, float(np.ptp(x))
+        phase, size = (t - t0) / h, _range(x)
         step = np.floor(phase)
         ends = t0 + h * (step + np.array([[AT_END], [1.0 - AT_END]]))
         begin, end = np.interp(ends, t, x)
@@ -41,8 +44,9 @@ def sampled(function: Callable[[float], float], t0: float, t_end: float, h: floa
     """A function of time as a table, `ASKED` times a step of `h`, s, and in halves between these until it goes
     straight.
 
-    Halves of less than `AT_END` have a jump between them. The table ends where the function fails, as the step then
-    will that asks there; a function that changes between all samples, as noise does, is halved once.
+    Halves of less than `AT_END`, or of two neighbouring numbers, have a jump between them. The table ends where the
+    function fails, as the step then will that asks there; a function that changes between all samples, as noise does,
+    is halved once.
     """
 
     def ask(times: Array) -> Array:
@@ -57,17 +61,17 @@ def sampled(function: Callable[[float], float], t0: float, t_end: float, h: floa
     n = ASKED * max(1, int(np.ceil((t_end - t0) / h - AT_END)))
     t = t0 + (t_end - t0) * np.arange(n + 1) / n
     x = ask(t)
-    good = max(1, int(np.argmin(np.r_[np.isfinite(x), False])))
+    good = max(1, int(np.argmin(np.r_[np.abs(x) < HUGE, False])))
     t, x = t[:good], x[:good]
-    off = np.abs(x[1:-1] - 0.5 * (x[:-2] + x[2:])) > LEAST * float(np.ptp(x)) if len(x) > 2 else np.zeros(0, bool)
+    off = np.abs(x[1:-1] - 0.5 * (x[:-2] + x[2:])) > LEAST * _range(x)
     uneven = np.flatnonzero(np.r_[off, False] | np.r_[False, off])
     a, b = (np.stack([t[uneven + i], x[uneven + i]]) for i in (0, 1))
     parts = [np.stack([t, x])]
-    while 0 < a.shape[1] <= n and b[0, 0] - a[0, 0] > 0.5 * AT_END * h:
+    while 0 < a.shape[1] <= n and b[0, 0] - a[0, 0] > _apart(t_end, h):
         middle = 0.5 * (a + b)
         straight, middle[1] = middle[1].copy(), ask(middle[0])
-        parts.append(middle[:, np.isfinite(middle[1])])
-        off = np.abs(middle[1] - straight) > FINE * float(np.ptp(np.concatenate(parts, axis=1)[1]))
+        parts.append(middle[:, np.abs(middle[1]) < HUGE])
+        off = np.abs(middle[1] - straight) > FINE * _range(np.concatenate(parts, axis=1)[1])
         a, b = np.concatenate([a[:, off], middle[:, off]], axis=1), np.concatenate([middle[:, off], b[:, off]], axis=1)
     t, x = np.concatenate(parts, axis=1)
     order = np.argsort(t, kind="stable")
@@ -77,8 +81,19 @@ def sampled(function: Callable[[float], float], t0: float, t_end: float, h: floa
 def jumps(table: Table, h: float) -> list[tuple[float, float]]:
     """The last time before and the first one behind each jump of a sampled function, s."""
     t, x = table
-    there = np.flatnonzero((np.diff(t) <= 0.5 * AT_END * h) & (np.abs(np.diff(x)) > LEAST * float(np.ptp(x))))
+    there = np.flatnonzero((np.diff(t) <= _apart(t[-1], h)) & (np.abs(np.diff(x)) > LEAST * _range(x)))
     return [(float(t[k]), float(t[k + 1])) for k in there]
+
+
+def _apart(t: float, h: float) -> float:
+    """Distance of two times up to `t` below which one value follows the other in a jump, s."""
+    return max(0.5 * AT_END * h, 2.0 * float(np.spacing(abs(t))))
+
+
+def _range(x: Array) -> float:
+    """Of a signal; infinite where it is constant but for round-off, from which nothing departs."""
+    size = float(np.ptp(x))
+    return size if size > ROUND_OFF * float(np.abs(x).max()) else math.inf
 
 
 def _parted(t: Array, x: Array, least: float) -> Array:

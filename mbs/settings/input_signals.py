@@ -70,9 +70,15 @@ class InputSignals:
                 tables.append(_table(signal))
         return input_breaks(tables, t0, t_end, h)
 
-    def jumps(self) -> list[float]:
-        """When functions jump, as `breaks` has found, s."""
-        return [before for found in self._jumps.values() for before, _ in found]
+    def points(self) -> list[float]:
+        """Times of the tables, and when functions jump, as `breaks` has found, s."""
+        tables = [t for s in self._signals.values() if isinstance(s, tuple) for t in _table(s)[0].tolist()]
+        return tables + [before for found in self._jumps.values() for before, _ in found]
+
+    @property
+    def has_functions(self) -> bool:
+        """Whether one is a function of time."""
+        return any(callable(signal) for signal in self._signals.values())
 
     def check(self, index: int, t: float, value: float) -> None:
         """A `ValueError` where an input is not finite, not whole as it must be or beyond its limits at time `t`, s."""
@@ -111,7 +117,7 @@ class InputSignals:
                 self._check(i, ends, _interpolate(ends, times, values, tolerance, after_jump=False))
                 for after in (False, True):
                     self._check(i, inside, _interpolate(inside, times, values, tolerance, after))
-        if not any(callable(signal) for signal in self._signals.values()):
+        if not self.has_functions:
             instance.set_input_tables({i: _table(signal) for i, signal in self._signals.items()}, tolerance)
             return
         ask = [(i, self._asker(i, signal, tolerance)) for i, signal in self._signals.items()]

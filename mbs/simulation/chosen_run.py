@@ -20,7 +20,7 @@ from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
 from mbs.settings.control import ALLOWED, Control, Tolerance, checked_tolerance
-from mbs.settings.input_signals import Signal
+from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.settings import Settings
 from mbs.simulation.arguments import check_end, check_record, count_steps
 from mbs.simulation.branch_warning import BranchWarning
@@ -85,7 +85,8 @@ def to_tolerance(
         return _trajectory(first, times, values, None, 0.0, settings, first.state.q[None]), first
     grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, INSTANTS + 1) / INSTANTS)
     grid[-1] = t_end
-    task, coarse, made = Task(t0, t_end, grid, inputs), min(COARSE * tolerance.share, COARSEST), _Made()
+    task = Task(t0, t_end, grid, _signals(inputs, first))
+    coarse, made = min(COARSE * tolerance.share, COARSEST), _Made()
     if method != "auto":
         return _by(start, first, tolerance, times, task, replace(settings, method=method), coarse, bar, made, "")
     choice = choose(start, task, settings, min(tolerance.share, coarse / FINER), coarse)
@@ -205,6 +206,10 @@ def _apart(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> f
     return tolerance.share * max(gap / tolerance.sensors[name] for name, gap in gaps.items())
 
 
+def _signals(inputs: Mapping[str, Signal], of: SteppedSystem) -> InputSignals:
+    return InputSignals(inputs, prepared(of.system)[1]["inputs"])
+
+
 def _errors(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> dict[str, float]:
     """The guessed errors of the sensors that have a tolerance of their own."""
     fall, gaps = _fall(run, before), _gaps(run, before, tolerance)
@@ -247,7 +252,7 @@ def equal_steps(
     reason, wall, runs, error = "", 0.0, 0, math.nan
     if method == "auto" and t_end > t0:
         grid = t0 + (t_end - t0) * np.arange(1, INSTANTS + 1) / INSTANTS
-        task = Task(t0, t_end, grid, inputs)
+        task = Task(t0, t_end, grid, _signals(inputs, start(0.0, settings)))
         choice = choose(lambda: start(0.0, settings), task, settings, DEFAULT_TOLERANCE, COARSEST)
         method, reason, wall, runs = choice.method, choice.reason, choice.wall, choice.runs
     settings = replace(settings, method="ali3p" if method == "auto" else method)

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.kernel.header.limits import AGREED
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy, missed_share, summed_miss
 from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, is_open
@@ -22,7 +23,6 @@ from mbs.simulation.march import WATCHED
 from mbs.simulation.refined_run import RefinedRuns, TooDearError, Watch
 
 FEWEST = 6  # instants at which a much coarser run is compared
-AGREED = 0.1  # of what a coarser run may differ by
 COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
 TIMES = (8, 4, 2)  # the step of a coarser run over that of the run
 ALONE = 0.03  # of the range: by order one the error behind which twice the step differs so much

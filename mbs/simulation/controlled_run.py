@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mbs.kernel.binding import ControlFields, KernelError
-from mbs.settings.input_signals import InputSignals, Signal
+from mbs.settings.input_signals import InputSignals
 from mbs.settings.settings import Settings
 from mbs.simulation.prepared_system import length_of, prepared
 from mbs.simulation.stepped_system import SteppedSystem
@@ -35,22 +36,19 @@ class Task:
     """`t0`, `t_end`: s."""
     times: Array
     """Shape (n,): to record at, ascending, behind t0."""
-    inputs: Mapping[str, Signal]
+    signals: InputSignals
 
     @property
     def span(self) -> float:
         """Duration, s."""
         return self.t_end - self.t0
 
-    def stops(self, signals: InputSignals) -> list[float]:
-        """Ends of steps: the points of the tables, jumps and peaks of functions, and the end."""
-        tables = [np.asarray(s[0], float) for s in self.inputs.values() if isinstance(s, tuple)]
-        found: list[Iterable[float]] = [
-            *tables,
-            signals.breaks(self.t0, self.t_end, PARTED * self.span),
-            signals.jumps(),
-        ]
-        return [*sorted({float(t) for times in found for t in times if self.t0 < t < self.t_end}), self.t_end]
+    @cached_property
+    def stops(self) -> list[float]:
+        """Ends of steps: the points of the tables, jumps and peaks of functions, which are asked once, and the end."""
+        breaks = self.signals.breaks(self.t0, self.t_end, PARTED * self.span)
+        found = {float(t) for t in (*breaks, *self.signals.points()) if self.t0 < t < self.t_end}
+        return [*sorted(found), self.t_end]
 
 
 class StalledError(RuntimeError):
@@ -83,22 +81,20 @@ class ControlledRun:
         self.tolerance = tolerance
         nq = simulation.system.nq
         self.scale = np.array(meta.get("coordinate_lengths", [1.0] * nq), float)
-        functions = any(callable(s) for s in task.inputs.values())
         self.fields = ControlFields(
             tolerance=tolerance,
             length=self.length,
             span=task.span,
             rate=max(math.sqrt(meta.get("gravity", 0.0) / self.length), 1.0 / task.span),
-            longest=longest * (LONGEST_WITH_FUNCTIONS if functions else LONGEST) * task.span,
+            longest=longest * (LONGEST_WITH_FUNCTIONS if task.signals.has_functions else LONGEST) * task.span,
         )
         n = len(task.times)
         self.values = np.empty((n, len(meta["sensors"])))
         self.positions = np.empty((n, nq))
         self.done = 0
         self.wall = 0.0
-        self._signals = InputSignals(task.inputs, meta["inputs"])
-        self._stops = task.stops(self._signals)
-        self._columns = self._signals.columns()
+        self._stops = list(task.stops)
+        self._columns = task.signals.columns()
 
     @property
     def finished(self) -> bool:
@@ -124,7 +120,7 @@ class ControlledRun:
         """
         instance, task = self.simulation.instance, self.task
         tolerance = 1e-9 * task.span
-        self._signals.attach(instance, task.t0, task.t_end, tolerance)
+        task.signals.attach(instance, task.t0, task.t_end, tolerance)
         begin = time.perf_counter()
         first = self.fields.accepted
         try:

@@ -327,6 +327,6 @@ def extrapolated(
     """
     run, coarse, fine = tables
     more = 1.0 / (2.0**EVENT_ORDER - 1.0)
-    limit = {name: fine[name] + more * (fine[name] - coarse[name]) for name in compared}
+    limit = {name: fine[name] + more * what.change(coarse[name], fine[name]) for name, what in compared.items()}
     units, sensors, _ = differences(run, limit, compared, before, length)
     return replace(known, units=units, sensors=sensors)

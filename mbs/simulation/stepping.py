@@ -380,9 +380,9 @@ class Simulation(SteppedSystem):
         h : float, optional
             Step, s. With a tolerance: interval of the record, by default a 200th of the run.
         inputs : mapping of str to signal, optional
-            Per input a constant, a function of time, or a pair (times, values); see `simulate`. One that begins with
-            another value than the input has now jumps there: the first sample is of before the jump. `simulate` gives
-            first values to the start, as ``Simulation(system, inputs=...)`` does.
+            Per input a constant, a function of time alone, which is asked ahead, or a pair (times, values); see
+            `simulate`. One that begins with another value than the input has now jumps there: the first sample is of
+            before the jump. `simulate` gives first values to the start, as ``Simulation(system, inputs=...)`` does.
         every : int
             Record the state after every that many steps, or intervals of the record.
         progress : bool or callable, optional

@@ -11,7 +11,7 @@ import pytest
 import mbs
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
-from mbs.settings.input_breaks import input_breaks, sampled
+from mbs.settings.input_breaks import input_breaks, jumps, sampled
 from mbs.settings.input_signals import InputSignals
 from tests.simulation.drawn import drawn
 
@@ -158,6 +158,19 @@ def test_a_jump_of_a_function_counts_from_its_time_on(way: str) -> None:
             assert run["x"][-1] - 1.0 == pytest.approx(12.5 * (SPAN - begin) ** 2, rel=1e-5)
 
 
+def test_a_function_is_asked_ahead_once_for_all_runs_to_a_tolerance() -> None:
+    asked = []
+
+    def push(t: float) -> float:
+        asked.append(t)
+        return 50.0 * (t > 0.305)
+
+    run = mbs.simulate(sledge(800.0), SPAN, inputs={"push": push}, tolerance=1e-3, progress=False)
+    assert run.control is not None
+    assert run.control.runs > 2
+    assert asked.count(SPAN / 16_000.0) == 1
+
+
 def test_a_function_that_fails_is_looked_at_until_then() -> None:
     """The step that asks it there says so, as if nobody had asked ahead; noise is no breaks without end."""
 
@@ -176,6 +189,32 @@ def test_a_function_that_fails_is_looked_at_until_then() -> None:
     noise = np.random.default_rng(1)
     assert len(sampled(lambda t: noise.normal(), 0.0, SPAN, H)[0]) <= 2 * 16 * 50 + 1
     assert len(sampled(lambda t: 1.0 / 0.0, 0.0, SPAN, H)[0]) == 1
+
+
+@pytest.mark.parametrize("number", [np.float64, np.float32])
+def test_round_off_of_a_constant_parts_no_step(number: type) -> None:
+    def constant(t: float) -> float:
+        return float(np.sin(number(t)) ** 2 + np.cos(number(t)) ** 2)
+
+    for function in (constant, lambda t: 0.1 * (t + 1.0) / (t + 1.0)):
+        t, x = sampled(function, 0.0, SPAN, H)
+        assert np.ptp(x) > 0.0
+        assert len(t) == 16 * 50 + 1
+        assert len(input_breaks([(t, x)], 0.0, SPAN, H)) == 0
+    pulse = sampled(lambda t: 1.0 + 1e-5 * (0.305 <= t < 0.31), 0.0, SPAN, H)
+    assert set(input_breaks([pulse], 0.0, SPAN, H).round(6)) == {0.305, 0.31}
+
+
+def test_a_jump_late_in_a_long_run_lies_between_two_neighbouring_times() -> None:
+    """There is no number between them, however short the step."""
+    for start, h in ((1e4, 1e-6), (1e7, 1e-3)):
+        for share in np.linspace(0.1, 0.9, 9):
+            when = start + (7.0 + share) * h
+            table_of = sampled(lambda t, when=when: float(t > when), start, start + 20.0 * h, h)
+            ((before, behind),) = jumps(table_of, h)
+            assert before <= when < behind
+            assert behind - before <= 2.0 * np.spacing(start)
+    assert len(sampled(lambda t: 1e308 if t > 0.5 else -1e308, 0.0, SPAN, H)[0]) == 1
 
 
 def test_a_smooth_function_parts_no_step() -> None:

@@ -40,6 +40,15 @@ def test_the_limit_of_repeats_gives_the_error(order: float) -> None:
     assert found.units["N"] == pytest.approx(found.sensors["a"] / np.abs(FORCE).max(), rel=2e-3)
 
 
+def test_the_limit_of_an_angle_that_turns_over_lies_on_the_smaller_arc() -> None:
+    """Of two refined runs one is before the jump from pi to -pi at a sample, and the other is behind it."""
+    angle, turn = Compared("rad", place=True, wrapped=True), 2.0 * np.pi * T - 0.005
+    run, coarse, fine = ({"a": (turn + off + np.pi) % (2.0 * np.pi) - np.pi} for off in (0.16, 0.01, 0.0025))
+    found = extrapolated(by(rad=0.2), [run, coarse, fine], {"a": angle}, None, 1.0)
+    assert found.sensors["a"] == pytest.approx(0.16, rel=1e-9)
+    assert found.units["rad"] == pytest.approx(0.16 / (2.0 * np.pi), rel=1e-9)
+
+
 @pytest.mark.parametrize("told", [0.017, 0.045, 0.055, 0.09])
 def test_a_verdict_is_open_where_the_repeats_differ_by_more_than_it_is_clear(told: float) -> None:
     clear = abs(told - WARNED_ERROR)

@@ -19,6 +19,7 @@ from benchmarks.methods.honesty_scenes import CRANK_ANGLE, printed_model
 from benchmarks.references import motions as references
 from benchmarks.references.cases import CASES, exact_of, system_of
 from mbs.results.accuracy import AccuracyWarning
+from mbs.settings.input_signals import InputSignals
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 
 ALLOWED = 10.0
@@ -399,7 +400,7 @@ def test_steps_do_not_jump_where_branches_are_near(method: str, tolerance: float
 def test_a_place_where_branches_are_near_is_reached_in_few_steps() -> None:
     """Ten of them: 11 580 factorizations where the step creeps up to each, 6084 where it goes there at once."""
     settings = mbs.Settings(method="runge_kutta_8")
-    task = Task(0.0, 10.0, np.array([10.0]), {})
+    task = Task(0.0, 10.0, np.array([10.0]), InputSignals({}, []))
     simulation = mbs.Simulation(system_of("double_four_bar"), settings=settings)
     ControlledRun(simulation, task, settings, 1e-6).finish(lambda share: None)
     assert simulation.report.factorizations < 8000

@@ -12,7 +12,6 @@ static const double SPAN = 0.4; /* s after an abrupt step or a difference: a whe
 static const double LATER = 0.5; /* s after a difference in which what it is held against grows: a wheel lands */
 static const double BUDGET = 2.0, SHARE = 0.1; /* s from a start on, as a wheel spins; beside them s, and of what was
                                                 * driven: how much is made twice at most */
-static const double AGREED = 0.1; /* of what is wrong: a larger difference may still grow, as of a wheel that spins */
 static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre; a second costs no more than at 2 ms */
 static const int64_t MOST = 8; /* parts of a step */
 static const double SAFE = 0.6; /* of what is wrong: what an untried step would do with, by order one as at a kink */
@@ -184,7 +183,8 @@ static void compare(slave *s, const slave_late_step *step) {
     t->h = step->h;
   }
   t->left -= length;
-  if (apart > AGREED * ALI3_WRONG_ERROR && !spent(t, step)) t->left = fmax(t->left, SPAN);
+  if (apart > ALI3_AGREED * ALI3_WRONG_ERROR && !spent(t, step))
+    t->left = fmax(t->left, SPAN); /* it may still grow, as of a wheel that spins */
   t->spent += length;
 }
 

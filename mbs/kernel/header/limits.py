@@ -16,6 +16,8 @@ STILL = 1e-4
 """Of the largest value in a unit, or of the length: a smaller range is rest."""
 WRONG_ERROR = 0.05
 """Of the size of what is judged: above it a run is wrong."""
+AGREED = 0.1
+"""Of what would be wrong: two motions that differ by less agree."""
 EVENT_ORDER = 2
 """Order of errors behind abrupt events."""
 HALVINGS_SUSPECT = 0.1
