@@ -16,72 +16,126 @@ AT_END = 1e-6  # steps: what is so near to the end of one, or to another break, 
 ROUND_OFF = 1e-6  # of the largest value: a smaller range is that of a constant; in single precision it is 2e-7
 HUGE = 1e300  # differences of smaller values are finite
 ASKED = 16  # times a step: a pulse of a function of a tenth of a step is met
+BLOCK = 4096  # steps: of samples that are kept at a time
 
 
 def input_breaks(tables: Iterable[Table], t0: float, t_end: float, h: float) -> Array:
     """Times, s, at which steps of `h` from `t0` are parted: in each part tables go straight, but for `FINE` in one
     that departs from a straight line by more than `LEAST`.
     """
-    found = [t_end]
-    for t, x in tables:
-        phase, size = (t - t0) / h, _range(x)
-        step = np.floor(phase)
-        ends = t0 + h * (step + np.array([[AT_END], [1.0 - AT_END]]))
-        begin, end = np.interp(ends, t, x)
-        within = (np.abs(phase - np.round(phase)) > AT_END) & (t > t0) & (t < t_end)
-        departs = within & (np.abs(x - begin - (phase - step) * (end - begin)) > LEAST * size)
-        for number in np.unique(step[departs]):
-            first, behind = np.searchsorted(step, [number, number + 1.0])
-            inside = first + np.flatnonzero(within[first:behind])
-            k = inside[0]
-            points = np.r_[ends[0, k], t[inside], ends[1, k]], np.r_[begin[k], x[inside], end[k]]
-            found.extend(_parted(*points, FINE * size))
-    times = np.unique(found)[:-1]
+    return distinct([_breaks(t, x, _range(x), t0, t_end, h) for t, x in tables], t_end, h)
+
+
+def function_breaks(
+    function: Callable[[float], float], t0: float, t_end: float, h: float
+) -> tuple[Array, list[tuple[float, float]]]:
+    """The same of a function, and the last time before and the first one behind each of its jumps, s.
+
+    A step in which the function is smooth is not parted. What is sampled is kept for `BLOCK` steps at a time; of a
+    longer run the range is taken from one sample a step.
+    """
+    edges = np.append(np.arange(t0, t_end - 0.5 * h, BLOCK * h), t_end)
+    blocks = list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))
+    seen = np.zeros(0)
+    for begin, end in blocks if len(blocks) > 1 else []:
+        x = _ask(function, np.linspace(begin, end, BLOCK + 1))
+        x = x[np.abs(x) < HUGE]
+        seen = np.array([np.min(x, initial=np.inf), np.max(x, initial=-np.inf), *seen])
+        seen = np.array([seen.min(), seen.max()])
+        if len(x) <= BLOCK:
+            break
+    found, jumping = [], list[tuple[float, float]]()
+    for begin, end in blocks:
+        t, x = sampled(function, begin, end, h, seen)
+        size = _range(np.append(x, seen))
+        found.append(_breaks(t, x, size, begin, end, h, _rough))
+        jumping += _jumps(t, x, size, h)
+        if t[-1] < end:
+            break
+    return distinct(found, t_end, h), jumping
+
+
+def distinct(found: Iterable[Array], t_end: float, h: float) -> Array:
+    """Times before `t_end` in ascending order, one of those that are the same but for `AT_END`."""
+    times = np.unique(np.concatenate([*found, [t_end]]))[:-1]
     return times[np.diff(times, prepend=-np.inf) > AT_END * h]
 
 
-def sampled(function: Callable[[float], float], t0: float, t_end: float, h: float) -> Table:
+def sampled(
+    function: Callable[[float], float], t0: float, t_end: float, h: float, seen: Array | tuple[()] = ()
+) -> Table:
     """A function of time as a table, `ASKED` times a step of `h`, s, and in halves between these until it goes
-    straight.
+    straight; `seen`: values that it has elsewhere.
 
     Halves of less than `AT_END`, or of two neighbouring numbers, have a jump between them. The table ends where the
     function fails, as the step then will that asks there; a function that changes between all samples, as noise does,
     is halved once.
     """
-
-    def ask(times: Array) -> Array:
-        values = np.full(len(times), np.nan)
-        for k, time in enumerate(times.tolist()):
-            try:
-                values[k] = function(time)
-            except Exception:  # of a function of the user, whatever it raises
-                break
-        return values
-
     n = ASKED * max(1, int(np.ceil((t_end - t0) / h - AT_END)))
     t = t0 + (t_end - t0) * np.arange(n + 1) / n
-    x = ask(t)
+    x = _ask(function, t)
     good = max(1, int(np.argmin(np.r_[np.abs(x) < HUGE, False])))
     t, x = t[:good], x[:good]
-    off = np.abs(x[1:-1] - 0.5 * (x[:-2] + x[2:])) > LEAST * _range(x)
+    off = np.abs(x[1:-1] - 0.5 * (x[:-2] + x[2:])) > LEAST * _range(np.append(x, seen))
     uneven = np.flatnonzero(np.r_[off, False] | np.r_[False, off])
     a, b = (np.stack([t[uneven + i], x[uneven + i]]) for i in (0, 1))
     parts = [np.stack([t, x])]
     while 0 < a.shape[1] <= n and b[0, 0] - a[0, 0] > _apart(t_end, h):
         middle = 0.5 * (a + b)
-        straight, middle[1] = middle[1].copy(), ask(middle[0])
+        straight, middle[1] = middle[1].copy(), _ask(function, middle[0])
         parts.append(middle[:, np.abs(middle[1]) < HUGE])
-        off = np.abs(middle[1] - straight) > FINE * _range(np.concatenate(parts, axis=1)[1])
+        size = _range(np.append(np.concatenate(parts, axis=1)[1], seen))
+        off = np.abs(middle[1] - straight) > FINE * size
         a, b = np.concatenate([a[:, off], middle[:, off]], axis=1), np.concatenate([middle[:, off], b[:, off]], axis=1)
     t, x = np.concatenate(parts, axis=1)
     order = np.argsort(t, kind="stable")
     return t[order], x[order]
 
 
-def jumps(table: Table, h: float) -> list[tuple[float, float]]:
-    """The last time before and the first one behind each jump of a sampled function, s."""
-    t, x = table
-    there = np.flatnonzero((np.diff(t) <= _apart(t[-1], h)) & (np.abs(np.diff(x)) > LEAST * _range(x)))
+def _ask(function: Callable[[float], float], times: Array) -> Array:
+    """Values of a function; NaN from where it fails."""
+    values = np.full(len(times), np.nan)
+    for k, time in enumerate(times.tolist()):
+        try:
+            values[k] = function(time)
+        except Exception:  # of a function of the user, whatever it raises
+            break
+    return values
+
+
+def _breaks(
+    t: Array, x: Array, size: float, t0: float, t_end: float, h: float, parts: Callable[..., Array] | None = None
+) -> Array:
+    """Of one table, whose signal has the range `size`; `parts`: which of the steps that depart are parted."""
+    found = [np.zeros(0)]
+    phase = (t - t0) / h
+    step = np.floor(phase)
+    ends = t0 + h * (step + np.array([[AT_END], [1.0 - AT_END]]))
+    begin, end = np.interp(ends, t, x)
+    within = (np.abs(phase - np.round(phase)) > AT_END) & (t > t0) & (t < t_end)
+    departs = within & (np.abs(x - begin - (phase - step) * (end - begin)) > LEAST * size)
+    numbers = np.unique(step[departs])
+    for number in numbers if parts is None else numbers[parts(t, x, size, t0 + h * numbers, h)]:
+        first, behind = np.searchsorted(step, [number, number + 1.0])
+        inside = first + np.flatnonzero(within[first:behind])
+        k = inside[0]
+        points = np.r_[ends[0, k], t[inside], ends[1, k]], np.r_[begin[k], x[inside], end[k]]
+        found.append(_parted(*points, FINE * size))
+    return np.concatenate(found)
+
+
+def _rough(t: Array, x: Array, size: float, begins: Array, h: float) -> Array:
+    """In which steps a signal has a jump, a kink or a narrow peak: a cubic misses it by as much as the best one misses
+    a kink in the middle of a step that departs by `LEAST` from a straight line, which is an eighth of that.
+    """
+    at = np.linspace(AT_END, 1.0 - AT_END, ASKED + 1)
+    cubic, _ = np.linalg.qr(np.vander(2.0 * at - 1.0, 4))
+    values = np.interp(begins[:, None] + h * at, t, x)
+    return np.abs(values - values @ cubic @ cubic.T).max(axis=1, initial=0.0) > LEAST / 8.0 * size
+
+
+def _jumps(t: Array, x: Array, size: float, h: float) -> list[tuple[float, float]]:
+    there = np.flatnonzero((np.diff(t) <= _apart(t[-1], h)) & (np.abs(np.diff(x)) > LEAST * size))
     return [(float(t[k]), float(t[k + 1])) for k in there]
 
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.common.checks import is_number, numbers, shown
 from mbs.kernel.binding.instance import Instance
-from mbs.settings.input_breaks import Table, input_breaks, jumps, sampled
+from mbs.settings.input_breaks import Table, distinct, function_breaks, input_breaks
 
 Signal: TypeAlias = "float | Callable[[float], float] | tuple[ArrayLike, ArrayLike]"
 
@@ -61,14 +61,13 @@ class InputSignals:
 
     def breaks(self, t0: float, t_end: float, h: float) -> NDArray[np.float64]:
         """Times, s, at which steps of `h` from `t0` are parted; what is attached jumps where functions do."""
-        tables = []
+        tables = [_table(signal) for signal in self._signals.values() if isinstance(signal, tuple)]
+        found = [input_breaks(tables, t0, t_end, h)]
         for i, signal in self._signals.items():
             if callable(signal):
-                tables.append(sampled(signal, t0, t_end, h))
-                self._jumps[i] = jumps(tables[-1], h)
-            elif isinstance(signal, tuple):
-                tables.append(_table(signal))
-        return input_breaks(tables, t0, t_end, h)
+                times, self._jumps[i] = function_breaks(signal, t0, t_end, h)
+                found.append(times)
+        return distinct(found, t_end, h)
 
     def points(self) -> list[float]:
         """Times of the tables, and when functions jump, as `breaks` has found, s."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from collections.abc import Callable
 from typing import Any
 
@@ -11,7 +12,7 @@ import pytest
 import mbs
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
-from mbs.settings.input_breaks import input_breaks, jumps, sampled
+from mbs.settings.input_breaks import function_breaks, input_breaks, sampled
 from mbs.settings.input_signals import InputSignals
 from tests.simulation.drawn import drawn
 
@@ -210,18 +211,35 @@ def test_a_jump_late_in_a_long_run_lies_between_two_neighbouring_times() -> None
     for start, h in ((1e4, 1e-6), (1e7, 1e-3)):
         for share in np.linspace(0.1, 0.9, 9):
             when = start + (7.0 + share) * h
-            table_of = sampled(lambda t, when=when: float(t > when), start, start + 20.0 * h, h)
-            ((before, behind),) = jumps(table_of, h)
+            _, jumps = function_breaks(lambda t, when=when: float(t > when), start, start + 20.0 * h, h)
+            ((before, behind),) = jumps
             assert before <= when < behind
             assert behind - before <= 2.0 * np.spacing(start)
     assert len(sampled(lambda t: 1e308 if t > 0.5 else -1e308, 0.0, SPAN, H)[0]) == 1
 
 
 def test_a_smooth_function_parts_no_step() -> None:
-    for rate in (0.0, 3.0, 0.14 / H):
-        assert (
-            len(input_breaks([sampled(lambda t, w=rate: np.sin(2.0 * np.pi * w * t), 0.0, SPAN, H)], 0.0, SPAN, H)) == 0
-        )
+    for rate in (0.0, 3.0, 0.14 / H, 0.3 / H):
+        assert len(function_breaks(lambda t, w=rate: np.sin(2.0 * np.pi * w * t), 0.0, SPAN, H)[0]) == 0
+
+
+def test_a_pulse_in_a_long_run_is_met_with_little_memory() -> None:
+    """Samples are kept for a part of the run; a jump at the border of two parts is found once."""
+    asked, h = [0], 1e-3
+
+    def pulse(t: float) -> float:
+        asked[0] += 1
+        return float(9.0003 <= t < 9.0004) + float(t > 4096 * h) + 2.0 * float(t >= 8192 * h)
+
+    tracemalloc.start()
+    times, jumps = function_breaks(pulse, 0.0, 20.0, h)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert times == pytest.approx([9.0003, 9.0004], abs=1e-9)
+    assert [before for before, _ in jumps] == pytest.approx([4.096, 8.192, 9.0003, 9.0004], abs=1e-8)
+    assert asked[0] < 17.5 * 20_000
+    assert most < 32 * 16 * 20_000  # of all samples at once 13 numbers each are kept
+    assert len(function_breaks(lambda t: np.sin(t) + 1e-3 * pulse(t), 0.0, 20.0, h)[0]) == 0
 
 
 def test_lanes_and_limited_steps_have_the_parts_of_a_run_alone() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from ali3.command import main
@@ -35,7 +37,7 @@ def test_it_prints_what_a_car_is(name, capsys):
     assert printed.err == ""
     for path in load(name).values():
         assert f"\n{path} " in printed.out
-    assert "wheels +0." in printed.out or "wheels -0." in printed.out  # within a millimetre of the drawing
+    assert re.search(r"^wheels from the drawing +[+-]0\.\d mm +[+-]0\.\d mm$", printed.out, re.M)
 
 
 @pytest.mark.parametrize(
