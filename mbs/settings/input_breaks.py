@@ -104,7 +104,7 @@ def _ask(function: Callable[[float], float], times: Array) -> Array:
 
 
 def _breaks(
-    t: Array, x: Array, size: float, t0: float, t_end: float, h: float, parts: Callable[..., Array] | None = None
+    t: Array, x: Array, size: float, t0: float, t_end: float, h: float, parts: Callable[..., NDArray[np.bool_]] | None = None
 ) -> Array:
     """Of one table, whose signal has the range `size`; `parts`: which of the steps that depart are parted."""
     found = [np.zeros(0)]
@@ -124,14 +124,15 @@ def _breaks(
     return np.concatenate(found)
 
 
-def _rough(t: Array, x: Array, size: float, begins: Array, h: float) -> Array:
+def _rough(t: Array, x: Array, size: float, begins: Array, h: float) -> NDArray[np.bool_]:
     """In which steps a signal has a jump, a kink or a narrow peak: a cubic misses it by as much as the best one misses
     a kink in the middle of a step that departs by `LEAST` from a straight line, which is an eighth of that.
     """
     at = np.linspace(AT_END, 1.0 - AT_END, ASKED + 1)
     cubic, _ = np.linalg.qr(np.vander(2.0 * at - 1.0, 4))
     values = np.interp(begins[:, None] + h * at, t, x)
-    return np.abs(values - values @ cubic @ cubic.T).max(axis=1, initial=0.0) > LEAST / 8.0 * size
+    missed = np.abs(values - values @ cubic @ cubic.T).max(axis=1, initial=0.0)
+    return np.asarray(missed > LEAST / 8.0 * size, bool)
 
 
 def _jumps(t: Array, x: Array, size: float, h: float) -> list[tuple[float, float]]:
