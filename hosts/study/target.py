@@ -225,10 +225,10 @@ class _Search:
         return y, reason
 
     def x_words(self, x: float) -> str:
-        return number_in(x, self.parameter.unit)
+        return number_in(x, self.parameter.unit, ".5g")
 
     def y_words(self, y: float) -> str:
-        return number_in(self.shown.factor * y, self.shown.unit)
+        return number_in(self.shown.factor * y, self.shown.unit, ".5g")
 
     def words(self, found: Found) -> list[str]:
         """What was found, in sentences."""
@@ -243,7 +243,7 @@ class _Search:
             lines += self._not_met(found, found.best)
         if found.best is not None and math.isfinite(found.slope):
             slope, one, other = self.shown.factor * found.slope, *map(self.x_words, found.between)
-            change = number_in(0.01 * found.best.x * slope, self.shown.unit)
+            change = number_in(0.01 * found.best.x * slope, self.shown.unit, ".5g")
             lines.append(f"Sensitivity: 1 % more of {by} changes it by {change} (from runs at {one} and {other}).")
         if found.met and found.rises and found.falls:
             lines.append(f"It is not monotone over {by} in these runs: another value may give the same.")

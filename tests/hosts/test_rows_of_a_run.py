@@ -62,7 +62,9 @@ class Integrator:
         self._u, self._slope = self._u + step * self._slope, 0.0
 
 
-def driven(time: Sequence[float], u: Sequence[float], every: int, slopes: bool = True, last: bool = True, **more: Any) -> Result:
+def driven(
+    time: Sequence[float], u: Sequence[float], every: int, slopes: bool = True, last: bool = True, **more: Any
+) -> Result:
     manoeuvre = Manoeuvre("m", np.array(time), {"u": np.array(u)}, time[-1])
     return run(Integrator(slopes, **more), manoeuvre, H, every=every, last=last)  # type: ignore[arg-type]
 
