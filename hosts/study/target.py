@@ -130,6 +130,9 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
         ends, unit = (entry.range[0], entry.range[1]), entry.unit
     elif known is not None and math.isfinite(known.high - known.low):
         ends = (known.low, known.high)
+    no_range = f"--by {target.by}: neither the study file nor the FMU gives a range; add --between LOW:HIGH."
+    if ends is None and known is not None:
+        raise HostError(no_range)
     if ends is not None and not ends[0] < ends[1]:
         raise HostError(f"--by {target.by}: its range is {ends[0]:g} alone; add --between LOW:HIGH.")
     changes = {
@@ -140,8 +143,8 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
         "limits": {},
     }
     plan = make_plan(study.model_copy(update=changes), file, fmu)
-    if ends is None:  # after the plan, which knows whether there is such a parameter
-        raise HostError(f"--by {target.by}: neither the study file nor the FMU gives a range; add --between LOW:HIGH.")
+    if ends is None:  # a name of the aliases; the plan knows whether there is such a parameter
+        raise HostError(no_range)
     return plan
 
 
