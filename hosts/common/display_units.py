@@ -59,3 +59,9 @@ def titled(name: str, unit: str) -> str:
 def number_in(value: float, unit: str, form: str = ".4g") -> str:
     """A number with its unit."""
     return f"{value:{form}} {unit_shown(unit)}".rstrip()
+
+
+def shown_number(value: float, unit: str, name: str) -> str:
+    """A number in the unit in which the quantity of a name is shown."""
+    shown = shown_in(unit, name)
+    return number_in(shown.factor * value, shown.unit)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from ali3.columns import in_columns
-from hosts.common.display_units import number_in, unit_shown
+from hosts.common.display_units import number_in, shown_number, unit_shown
 from hosts.compare.fit_result import Fit, Found
 
 _WIDE = 0.5  # of the range, of half an interval that says little
@@ -62,7 +62,8 @@ def result_words(fit: Fit) -> list[str]:
 def _left_out_words(fit: Fit) -> list[str]:
     """What is left of seconds that were left out of the fit, in a sentence; none where the log is too short for it."""
     told = [
-        f"{name} {number_in(left, fit.units[name])} ({number_in(fit.misfit[name], fit.units[name])} in the fit)"
+        f"{name} {shown_number(left, fit.units[name], name)} "
+        f"({shown_number(fit.misfit[name], fit.units[name], name)} in the fit)"
         for name, left in fit.left_out.items()
         if math.isfinite(left)
     ]

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ali3.bars import bar
-from hosts.common.display_units import number_in
+from hosts.common.display_units import shown_number
 from hosts.common.numbers import Value
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve, SensedCurve
@@ -75,7 +75,7 @@ def fitted(
         best = replay.run(dict(found.parameters))
     if wanted.coarse:
         apart = replay.run(wanted.coarse | found.parameters)
-        told = [f"{n} by {number_in(rms(apart[n] - best[n]), s.unit)}" for n, s in outputs.items()]
+        told = [f"{n} by {shown_number(rms(apart[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
         task.notes.append(
             f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
             f"the fitted FMU differ on the root mean square: {', '.join(told)}."

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from hosts.common.display_units import number_in, titled
+from hosts.common.display_units import number_in, shown_number, titled
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve
 from hosts.compare.page import comparison_figure
@@ -104,5 +104,6 @@ def test_a_spike_of_a_long_log_is_drawn() -> None:
 def test_a_number_without_a_unit_has_none() -> None:
     assert number_in(1.2, "1") == "1.2"
     assert number_in(1.2, "kg") == "1.2 kg"
+    assert shown_number(0.5, "m/s", "speed") == "1.8 km/h"
     assert titled("gear", "1") == titled("gear", "") == "gear"
     assert titled("mass", "kg") == "mass, kg"
