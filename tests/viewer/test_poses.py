@@ -88,7 +88,8 @@ def test_a_pose_without_numbers_is_the_one_before_it():
 def test_an_angle_without_a_number_is_that_before_it():
     recording = moving_car.recording(T)
     name = recording.scene["frames"]["wheel"]["angle"]
-    recording.columns[name] = np.where((T > T[9]) & (T < T[13]), np.nan, recording.columns[name])
+    recording.columns[name] = recording.columns[name].copy()
+    recording.columns[name][10:13] = np.nan
     wheel = poses(recording).of("wheel")
     assert np.flatnonzero(~wheel.shown).tolist() == [10, 11, 12]
     assert (wheel.quaternion[10:13] == wheel.quaternion[9]).all()
