@@ -53,6 +53,11 @@ def one_line(sentence: str, most: int = SENTENCE) -> str:
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in sentence)
 
 
+def sentence_of(words: str) -> str:
+    """Words that are the end of a sentence as a whole one: with a capital and a full stop; nothing of nothing."""
+    return f"{words[0].upper()}{words[1:]}." if words else ""
+
+
 def place_words(path: Iterable[int | str]) -> str:
     """Keys and places from 0 in lists as a path, such as ``shapes[3].radius`` or ``frames['wheel FL'].axis``."""
     text = ""

@@ -77,7 +77,7 @@ class FramePoses:
     def _turned(self, frame: Mapping[str, Any]) -> Poses:
         parent = self.of(frame["parent"])
         angle = np.asarray(self._columns[frame["angle"]], dtype=float)
-        turn = about_axis(frame["axis"], angle)
+        turn = about_axis(frame["axis"], np.nan_to_num(angle))
         position = parent.points(frame.get("at") or (0.0, 0.0, 0.0))
         position[~(np.isfinite(angle) & parent.shown)] = np.nan
         return held(position, product(parent.quaternion, turn))

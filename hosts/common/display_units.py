@@ -46,11 +46,22 @@ def axis_shown(label: str) -> Shown:
     return Shown(f"{what}{comma}{shown.unit}", shown.factor)
 
 
+def unit_shown(unit: str) -> str:
+    """A unit beside a number or a name; empty where it is 1."""
+    return "" if unit == "1" else unit
+
+
 def titled(name: str, unit: str) -> str:
-    """A name with its unit, as of an axis; the unit is left out where it is 1 or empty."""
-    return name if unit in ("", "1") else f"{name}, {unit}"
+    """A name with its unit, as of an axis."""
+    return ", ".join(filter(None, (name, unit_shown(unit))))
 
 
-def number_in(value: float, unit: str, form: str = ".5g") -> str:
-    """A number with its unit, which is left out where it is 1 or empty."""
-    return f"{value:{form}}" if unit in ("", "1") else f"{value:{form}} {unit}"
+def number_in(value: float, unit: str, form: str = ".4g") -> str:
+    """A number with its unit."""
+    return f"{value:{form}} {unit_shown(unit)}".rstrip()
+
+
+def shown_number(value: float, unit: str, name: str) -> str:
+    """A number in the unit in which the quantity of a name is shown."""
+    shown = shown_in(unit, name)
+    return number_in(shown.factor * value, shown.unit)

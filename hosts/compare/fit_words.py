@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 
 from ali3.columns import in_columns
+from hosts.common.display_units import number_in, shown_number, unit_shown
 from hosts.compare.fit_result import Fit, Found
-from hosts.compare.words import unit_shown, with_unit
 
 _WIDE = 0.5  # of the range, of half an interval that says little
 _TOGETHER = 0.95
@@ -62,7 +62,8 @@ def result_words(fit: Fit) -> list[str]:
 def _left_out_words(fit: Fit) -> list[str]:
     """What is left of seconds that were left out of the fit, in a sentence; none where the log is too short for it."""
     told = [
-        f"{name} {with_unit(left, fit.units[name])} ({with_unit(fit.misfit[name], fit.units[name])} in the fit)"
+        f"{name} {shown_number(left, fit.units[name], name)} "
+        f"({shown_number(fit.misfit[name], fit.units[name], name)} in the fit)"
         for name, left in fit.left_out.items()
         if math.isfinite(left)
     ]
@@ -104,14 +105,14 @@ def _of(found: Found) -> list[str]:
     if found.bound:
         limit = u.low if found.bound == "lower" else u.high
         lines.append(
-            f"{u.name} lies at its {found.bound} bound, {with_unit(limit, u.unit)}: its interval says nothing; give it "
+            f"{u.name} lies at its {found.bound} bound, {number_in(limit, u.unit)}: its interval says nothing; give it "
             "a wider range if that makes sense, or look for what else differs."
         )
     elif not math.isfinite(found.half_width):
         lines.append(f"{u.name} cannot be identified: the compared signals do not determine it.")
     elif math.isfinite(u.high - u.low) and found.half_width > _WIDE * (u.high - u.low) and u.kind == "parameter":
         lines.append(
-            f"{u.name} cannot be identified: its interval of ± {with_unit(found.half_width, u.unit)} is as wide as "
+            f"{u.name} cannot be identified: its interval of ± {number_in(found.half_width, u.unit)} is as wide as "
             "its range."
         )
     return lines

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ali3.bars import bar
+from hosts.common.display_units import shown_number
 from hosts.common.numbers import Value
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve, SensedCurve
@@ -19,7 +20,6 @@ from hosts.compare.replay import Replay
 from hosts.compare.task import Task
 from hosts.compare.unknown import NUISANCES, Unknown, nuisances
 from hosts.compare.wanted import fit_step, wanted_parameters
-from hosts.compare.words import with_unit
 from hosts.driving.result import Result
 from hosts.fmu.fmu import StartRefusedError
 
@@ -75,7 +75,7 @@ def fitted(
         best = replay.run(dict(found.parameters))
     if wanted.coarse:
         apart = replay.run(wanted.coarse | found.parameters)
-        told = [f"{n} by {with_unit(rms(apart[n] - best[n]), s.unit)}" for n, s in outputs.items()]
+        told = [f"{n} by {shown_number(rms(apart[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
         task.notes.append(
             f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
             f"the fitted FMU differ on the root mean square: {', '.join(told)}."

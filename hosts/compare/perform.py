@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 
 from ali3.cores import available_cores
+from ali3.words import sentence_of
 from hosts.common.errors import FailedFmuError, HostError
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve
@@ -91,7 +92,7 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
     problems, noted = [], len(task.notes)
     if result.refusal:
         end = task.stretches[0].end
-        problems.append(f"Of {end:.4g} s only what lies before is compared, for {result.refusal}.")
+        problems.append(f"{sentence_of(result.refusal)} Of {end:.4g} s only what lies before is compared.")
     if wrong := result.not_finite():
         problems.append(wrong)
     finite = {n: s for n, s in task.outputs.items() if math.isfinite(float(result[n].sum()))}

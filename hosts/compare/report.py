@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 from ali3.charts import Drawing
 from ali3.files import write_text
 from ali3.html_elements import element, picture, table
-from hosts.common.display_units import shown_in
+from ali3.words import sentence_of
+from hosts.common.display_units import shown_in, unit_shown
 from hosts.compare.comparison import Comparison
 from hosts.compare.fit_result import Fit
 from hosts.compare.fit_words import FIT_COLUMNS, fit_rows, result_words
 from hosts.compare.windows import Bin
-from hosts.compare.words import common_sentence, signal_rows, unit_shown
+from hosts.compare.words import common_sentence, signal_rows
 from hosts.experiment.report import NOTE, PROBLEM, Section, page, paragraph
 
 if TYPE_CHECKING:
@@ -52,11 +53,10 @@ def write_report(
     sections = [Section("Deviations" if after is None else "Deviations before the fit", parts)]
     if after is not None and fit is not None:
         sections.append(Section("Deviations with the fitted parameters and sensors", [_table_of(after)]))
-        residuals, *others = result_words(fit)
         names = [f.unknown.name for f in fit.found]
         rows = [(n, *(f"{c:.2f}" for c in row)) for n, row in zip(names, fit.correlation.tolist(), strict=True)]
         parts = [table("", FIT_COLUMNS, fit_rows(fit), "numbers")]
-        parts += [paragraph(f"{line}.") for line in (f"R{residuals[1:]}", *others)]
+        parts += [paragraph(sentence_of(line)) for line in result_words(fit)]
         parts += [element("h3", "Correlation of the errors"), table("", ("", *names), rows, "numbers")]
         sections.append(Section("Fit", parts))
     if told:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ali3.columns import in_columns
-from hosts.common.display_units import shown_in
+from hosts.common.display_units import shown_in, unit_shown
 from hosts.compare.comparison import Comparison
 
 _APART = 0.1  # of a sample: delays that differ by less are one
@@ -76,13 +76,3 @@ def _apart(comparison: Comparison) -> str:
     name = max(beyond, key=lambda n: beyond[n])
     alone = 1e3 * comparison.signals[name].alignment.delay
     return f" {len(beyond)} of {len(comparison.signals)} signals have another delay, '{name}' farthest, {alone:.3g} ms."
-
-
-def unit_shown(unit: str) -> str:
-    """A unit in a table; empty where there is none."""
-    return "" if unit == "1" else unit
-
-
-def with_unit(value: float, unit: str) -> str:
-    """A number in a sentence."""
-    return f"{value:.4g} {unit_shown(unit)}".rstrip()

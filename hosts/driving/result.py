@@ -71,7 +71,7 @@ class Result:
         if self.ended or not self.failed_steps:
             return self.ended[:1].lower() + self.ended[1:].rstrip(".")
         said = f": {self.messages[-1].rstrip('.')}" if self.messages else ""
-        return f"the FMU refused the step at {self.time[-1]:.5g} s{said}"
+        return f"the FMU refused the step at {self.simulated:.5g} s{said}"
 
     def not_finite(self) -> str:
         """The first value that is no number, in a sentence; empty where all are."""

@@ -73,9 +73,8 @@ class Kept(Closing, Generic[R]):
     """
 
     def __init__(self, folder: Path, kind: Any, does: str, again: bool = False) -> None:
-        self._held = ExitStack()
         busy = f"Another program {does} in {folder}; wait for it, or give another --out."
-        with self._held as held:
+        with ExitStack() as held:
             held.enter_context(locked(folder, busy))
             self._journal: Journal[tuple[str, R]] = held.enter_context(Journal(folder / "done", tuple[str, kind]))
             there = self._journal.read()

@@ -82,7 +82,8 @@ def soak(options: argparse.Namespace, prog: str) -> int:
 
 
 def _files(task: Task) -> list[Path]:
-    return [*files_of(task.start), *(Path(ground.road) for ground in task.grounds)]
+    roads = (file for ground in task.grounds for file in files_of({"road.file": ground.road}))
+    return [*files_of(task.start), *roads]
 
 
 def _driven(tasks: Sequence[Task], outcomes: list[Outcome], left: Sequence[int], jobs: int) -> Generator[int]:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.isolated import Lost
+from ali3.words import sentence_of
 from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -133,9 +134,8 @@ def _of_result(result: Result, job: Job) -> Outcome:
     end = Outcome(simulated=result.simulated, messages=said(missed + result.messages))
     if what := result.not_finite():
         end.status, end.reason = FAILED, what
-    elif result.failed_steps:
-        words = f": {result.messages[-1]}" if result.messages else "."
-        end.status, end.reason = FAILED, f"The FMU refused the step at {result.simulated:g} s{words}"
+    elif result.refusal:
+        end.status, end.reason = FAILED, sentence_of(result.refusal)
     return end
 
 

@@ -130,6 +130,9 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
         ends, unit = (entry.range[0], entry.range[1]), entry.unit
     elif known is not None and math.isfinite(known.high - known.low):
         ends = (known.low, known.high)
+    no_range = f"--by {target.by}: neither the study file nor the FMU gives a range; add --between LOW:HIGH."
+    if ends is None and known is not None:
+        raise HostError(no_range)
     if ends is not None and not ends[0] < ends[1]:
         raise HostError(f"--by {target.by}: its range is {ends[0]:g} alone; add --between LOW:HIGH.")
     changes = {
@@ -140,8 +143,8 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
         "limits": {},
     }
     plan = make_plan(study.model_copy(update=changes), file, fmu)
-    if ends is None:  # after the plan, which knows whether there is such a parameter
-        raise HostError(f"--by {target.by}: neither the study file nor the FMU gives a range; add --between LOW:HIGH.")
+    if ends is None:  # a name of the aliases; the plan knows whether there is such a parameter
+        raise HostError(no_range)
     return plan
 
 
@@ -225,10 +228,10 @@ class _Search:
         return y, reason
 
     def x_words(self, x: float) -> str:
-        return number_in(x, self.parameter.unit)
+        return number_in(x, self.parameter.unit, ".5g")
 
     def y_words(self, y: float) -> str:
-        return number_in(self.shown.factor * y, self.shown.unit)
+        return number_in(self.shown.factor * y, self.shown.unit, ".5g")
 
     def words(self, found: Found) -> list[str]:
         """What was found, in sentences."""
@@ -243,7 +246,7 @@ class _Search:
             lines += self._not_met(found, found.best)
         if found.best is not None and math.isfinite(found.slope):
             slope, one, other = self.shown.factor * found.slope, *map(self.x_words, found.between)
-            change = number_in(0.01 * found.best.x * slope, self.shown.unit)
+            change = number_in(0.01 * found.best.x * slope, self.shown.unit, ".5g")
             lines.append(f"Sensitivity: 1 % more of {by} changes it by {change} (from runs at {one} and {other}).")
         if found.met and found.rises and found.falls:
             lines.append(f"It is not monotone over {by} in these runs: another value may give the same.")

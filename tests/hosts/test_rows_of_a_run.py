@@ -62,9 +62,11 @@ class Integrator:
         self._u, self._slope = self._u + step * self._slope, 0.0
 
 
-def driven(time: Sequence[float], u: Sequence[float], every: int, slopes: bool = True, **more: Any) -> Result:
+def driven(
+    time: Sequence[float], u: Sequence[float], every: int, slopes: bool = True, last: bool = True, **more: Any
+) -> Result:
     manoeuvre = Manoeuvre("m", np.array(time), {"u": np.array(u)}, time[-1])
-    return run(Integrator(slopes, **more), manoeuvre, H, every=every, last=True)  # type: ignore[arg-type]
+    return run(Integrator(slopes, **more), manoeuvre, H, every=every, last=last)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("slopes", [True, False])
@@ -78,6 +80,9 @@ def test_the_last_step_has_a_row(slopes: bool, refused: int) -> None:
     assert few.time.tolist() == [H * k for k in rows]
     assert few.values.tolist() == each.values[rows].tolist()
     assert few.failed_steps == (refused < 17)
+    rough = driven(every=5, last=False, **asked)
+    for run_of in (few, each, rough):
+        assert run_of.refusal == (f"the FMU refused the step at {H * refused:g} s" if refused < 17 else "")
     # What an input was at the end of the last good step, before that which was refused began.
     if refused == 13:
         assert few.jumps[3] == pytest.approx([1.0 + 2.0 / 17.0 * (13 if slopes else 12)])

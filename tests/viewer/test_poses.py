@@ -85,6 +85,16 @@ def test_a_pose_without_numbers_is_the_one_before_it():
     assert found.of("chassis").shown.all()
 
 
+def test_an_angle_without_a_number_is_that_before_it():
+    recording = moving_car.recording(T)
+    name = recording.scene["frames"]["wheel"]["angle"]
+    recording.columns[name] = recording.columns[name].copy()
+    recording.columns[name][10:13] = np.nan
+    wheel = poses(recording).of("wheel")
+    assert np.flatnonzero(~wheel.shown).tolist() == [10, 11, 12]
+    assert (wheel.quaternion[10:13] == wheel.quaternion[9]).all()
+
+
 def test_quaternions_of_matrices():
     rotations = Rotation.random(500, random_state=3)
     half_turns = Rotation.from_rotvec(np.pi * np.vstack([np.eye(3), [[0.6, 0.8, 0.0], [0.0, 0.6, -0.8]]]))

@@ -192,3 +192,10 @@ def test_a_program_that_fails_is_one_sentence(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(solids, "bundle", lambda: Path("viewer.js"))
     with pytest.raises(ViewerError, match=r"^A glTF file cannot be written: .* failed \(Error: out of memory\)\.$"):
         parts_of(scene(), POSES, len(T))
+
+
+def test_a_program_that_does_not_start_is_one_sentence(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(solids, "node", lambda: (str(tmp_path / "node"), ""))
+    monkeypatch.setattr(solids, "bundle", lambda: Path("viewer.js"))
+    with pytest.raises(ViewerError, match=r"^A glTF file cannot be written: .*node does not start: no such file"):
+        parts_of(scene(), POSES, len(T))

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.errors import reason
 from ali3.scene.base64_numbers import decoded
 from ali3.scene.errors import ViewerError
 from ali3.temporary import temporary_folder
@@ -131,7 +132,10 @@ def _answer(question: Mapping[str, Any], numbers: Vectors) -> dict[str, Any]:
     with temporary_folder() as folder:
         file = folder / "question"
         file.write_bytes(json.dumps(question).encode() + b"\n" + numbers.astype("<f8").tobytes())
-        done = subprocess.run([*command, str(file)], capture_output=True, check=False)
+        try:
+            done = subprocess.run([*command, str(file)], capture_output=True, check=False)
+        except OSError as error:
+            raise ViewerError(f"A glTF file cannot be written: {command[0]} does not start: {reason(error)}.") from None
     if done.returncode != 0:
         why = " ".join(done.stderr.decode(errors="replace").split())[-400:]
         raise ViewerError(f"A glTF file cannot be written: the program that makes the triangles failed ({why}).")

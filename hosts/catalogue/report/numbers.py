@@ -27,7 +27,7 @@ def shown(value: float) -> str:
     return f"{value:.4g}".replace("e+0", "e+").replace("e-0", "e-")
 
 
-def unit_shown(unit: str) -> str:
+def typeset(unit: str) -> str:
     """A unit of FMI as it is printed; empty where there is none."""
     if unit in ("1", ""):
         return ""
@@ -37,7 +37,7 @@ def unit_shown(unit: str) -> str:
 
 def with_unit(value: float, unit: str) -> str:
     """A number and its unit."""
-    text, tail = shown(value), unit_shown(unit)
+    text, tail = shown(value), typeset(unit)
     return f"{text} {tail}" if tail and text != NONE else text
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ali3.html_elements import Content, element, table
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
-from hosts.catalogue.report.numbers import NONE, difference, kept_shown, unit_shown, with_unit
+from hosts.catalogue.report.numbers import NONE, difference, kept_shown, typeset, with_unit
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described
@@ -142,7 +142,7 @@ def _row(name: str, found: Sequence[Measure | None]) -> list[Content]:
     """A measure of all cars, the first of which is what others are held against."""
     there = [m for m in found if m is not None]
     known = there[0]
-    tail = unit_shown(known.unit)
+    tail = typeset(known.unit)
     shared = known.note if len(there) > 1 and all(m.note == known.note for m in there) else ""
     what: list[Content] = [known.text or name, element("small", f" {name}{f', {tail}' if tail else ''}")]
     if shared:
@@ -155,7 +155,7 @@ def _row(name: str, found: Sequence[Measure | None]) -> list[Content]:
             cells.append(_value_cell(measure, found[0] if k else None, known, "" if shared else measure.note))
     limit = known.limit
     cells.append(
-        "" if limit is None else element("td", limit.words(unit_shown(known.unit)), element("small", limit.source))
+        "" if limit is None else element("td", limit.words(typeset(known.unit)), element("small", limit.source))
     )
     return cells
 
@@ -168,7 +168,7 @@ def _value_cell(measure: Measure, first: Measure | None, known: Measure, note: s
         if measure.is_kept is not None:
             parts += [" ", kept_shown(measure.is_kept)]
         if limit != known.limit:
-            parts.append(element("small", f"here {limit.words(unit_shown(measure.unit))}"))
+            parts.append(element("small", f"here {limit.words(typeset(measure.unit))}"))
     if first is not None:
         if first.unit == measure.unit:
             text = difference(measure.value, first.value)

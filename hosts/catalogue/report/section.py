@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ali3.html_elements import Content, element, table
 from hosts.catalogue.record import Standard, StandardTest, TestRecord
-from hosts.catalogue.report.numbers import NONE, kept_shown, unit_shown, with_unit
+from hosts.catalogue.report.numbers import NONE, kept_shown, typeset, with_unit
 from hosts.experiment.report import FAINT, NOTE, Section, paragraph
 from hosts.measures.measure import Measure
 
@@ -120,11 +120,11 @@ def _measures(label: str, test: str, measures: Sequence[Measure]) -> HtmlElement
             state = element(
                 "td",
                 kept_shown(m.is_kept),
-                element("small", f"{m.limit.words(unit_shown(m.unit))}; {m.limit.source}"),
+                element("small", f"{m.limit.words(typeset(m.unit))}; {m.limit.source}"),
             )
         value = NONE if m.value != m.value else f"{m.value:.7g}"
         rows.append(
-            [element("code", m.name), element("td", value, class_="value"), unit_shown(m.unit), state, m.text, m.note]
+            [element("code", m.name), element("td", value, class_="value"), typeset(m.unit), state, m.text, m.note]
         )
     head: list[Content] = ["measure", "value", "unit", "limit", "what", "note"]
     return element(

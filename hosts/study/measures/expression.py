@@ -14,6 +14,7 @@ import numpy as np
 import simpleeval
 
 from ali3.near_names import MOST, did_you_mean
+from ali3.words import sentence_of
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.result import Result
@@ -89,8 +90,8 @@ class Expression:
         """Its value; see `StudyMeasure.evaluate`."""
         value, note, unit = math.nan, "", ""
         try:
-            if result.failed_steps:
-                raise NotYieldedError(f"The FMU refused the step at {result.time[-1]:g} s.")
+            if result.refusal:
+                raise NotYieldedError(sentence_of(result.refusal))
             found = _evaluated(self.text, self._signals_of(result))
             value, unit = float(found.values), found.unit
             if not math.isfinite(value):

@@ -17,6 +17,7 @@ from typing import Any
 
 from ali3.processes import path_of_caller
 from ali3.reading import LARGEST_TEXT, read_text
+from ali3.words import sentence_of
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.result import Result
@@ -73,8 +74,8 @@ class UserFunction:
         columns = self.columns(result.units)
         values, note = dict.fromkeys(columns, math.nan), ""
         notes: dict[str, str] = {}
-        if result.failed_steps:
-            note = f"The FMU refused the step at {result.time[-1]:g} s."
+        if result.refusal:
+            note = sentence_of(result.refusal)
         else:
             try:
                 found = self._named(self._call(result, dict(parameters or {})), columns)

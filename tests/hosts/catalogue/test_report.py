@@ -18,7 +18,7 @@ from ali3.errors import FileError
 from hosts.catalogue.output import print_measures
 from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.report import write_report
-from hosts.catalogue.report.numbers import difference, shown, unit_shown
+from hosts.catalogue.report.numbers import difference, shown, typeset
 from hosts.catalogue.report.pictures import pictures_of
 from hosts.catalogue.report.section import command_of
 from hosts.catalogue.two_sides import mean_of_sides
@@ -235,7 +235,7 @@ def test_numbers_for_people():
         "-∞",
     ]
     units = ("m/s2", "1", "N.m", "m.s-1.75", "rad.s-2", "km/h")
-    assert [unit_shown(unit) for unit in units] == ["m/s²", "", "N·m", "m·s^-1.75", "rad·s⁻²", "km/h"]
+    assert [typeset(unit) for unit in units] == ["m/s²", "", "N·m", "m·s^-1.75", "rad·s⁻²", "km/h"]
     assert difference(0.9, 1.0) == "−0.1 (−10 %)"
     assert difference(1.0, 0.0) == "+1"
     assert difference(1.0, float("nan")) == ""

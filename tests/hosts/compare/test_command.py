@@ -89,6 +89,7 @@ class TestCommand:
         assert np.std(table.columns["bob.x.fitted"] - table.columns["bob.x.measured"]) == pytest.approx(0.01, rel=0.15)
         page = (tmp_path / "drive.html").read_text()
         assert "spring.stiffness" in page
+        assert "<p>Left of parts of the log that are left out in turn, to first order: bob.x " in page
         assert "data:image/svg+xml;base64" in page
         assert (tmp_path / "drive.ssv").is_file()
         # The parameter set gives the fitted run without a fit.

@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
+from hosts.common.display_units import number_in, shown_number, titled
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve
 from hosts.compare.page import comparison_figure
 from hosts.compare.report import bin_rows
 from hosts.compare.windows import bins
-from hosts.compare.words import common_sentence, common_words, table, with_unit
+from hosts.compare.words import common_sentence, common_words, table
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 
@@ -101,5 +102,8 @@ def test_a_spike_of_a_long_log_is_drawn() -> None:
 
 
 def test_a_number_without_a_unit_has_none() -> None:
-    assert with_unit(1.2, "1") == "1.2"
-    assert with_unit(1.2, "kg") == "1.2 kg"
+    assert number_in(1.2, "1") == "1.2"
+    assert number_in(1.2, "kg") == "1.2 kg"
+    assert shown_number(0.5, "m/s", "speed") == "1.8 km/h"
+    assert titled("gear", "1") == titled("gear", "") == "gear"
+    assert titled("mass", "kg") == "mass, kg"

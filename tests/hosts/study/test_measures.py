@@ -137,10 +137,11 @@ def test_what_a_run_does_not_yield_is_nan_with_a_reason(result: Result) -> None:
         assert math.isnan(found.value)
         return found.note
 
-    short = replace(result, time=result.time[:501], values=result.values[:501])
+    short = replace(result, time=result.time[:501], values=result.values[:501], simulated=0.5)
     assert "0.5 s, before the 1 s" in note("value(chassis.x, 1)", short)
     assert "no sample" in note("max(chassis.x, after=1)", short)
-    assert "refused the step at 0.5 s" in note("max(chassis.x)", replace(short, failed_steps=1))
+    refused = replace(short, failed_steps=1, messages=["FMU: it is odd."])
+    assert note("max(chassis.x)", refused) == "The FMU refused the step at 0.5 s: FMU: it is odd."
     holed = replace(result, values=result.values.copy())
     holed.values[300, 0] = math.nan
     assert note("max(chassis.ay)", holed) == "'chassis.ay' is nan at 0.3 s."

@@ -153,6 +153,19 @@ def test_what_is_no_real_number_is_not_sought(
     assert f"--by spring.stiffness: {words}" in capsys.readouterr().err
 
 
+def test_a_range_that_is_open_above_is_none(
+    seek: Callable[..., int], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = Variables.settable
+    monkeypatch.setattr(
+        Variables,
+        "settable",
+        lambda *given: replace(before(*given), low=5.0, high=math.inf) if "pull" in given else before(*given),
+    )
+    assert seek("--target", "lowest=-1.2", by="pull") == 2
+    assert "--by pull: neither the study file nor the FMU gives a range; add --between" in capsys.readouterr().err
+
+
 def test_a_turn_is_two_pi_radians() -> None:
     """Frequencies are measured in rad/s and shown in Hz."""
     assert conversion("Hz", "rad/s") == pytest.approx(2.0 * math.pi)

@@ -33,6 +33,7 @@ test("orientations go the shorter way at a constant rate, whatever the sign of t
   }
   const same = slerp(about(1), about(1), 0.3);
   near(Math.hypot(...same), 1);
+  assert.ok(slerp([0, 0, 0, 0], about(1), 0.3).every(Number.isNaN), "four zeros are no orientation");
 });
 
 test("a run is looked up at any time, quaternions as one", () => {

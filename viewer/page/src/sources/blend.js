@@ -32,7 +32,10 @@ function turned(a, b) {
  * @returns {number[]} unit quaternion
  */
 export function slerp(a, b, share) {
-  const [from, to] = [a, b].map(([w, x, y, z]) => new Quaternion(x, y, z, w).normalize());
+  const [from, to] = [a, b].map((parts) => {
+    const [w, x, y, z] = parts.map((part) => part / Math.hypot(...parts)); // three.js takes one of zeros for no turn
+    return new Quaternion(x, y, z, w);
+  });
   const { x, y, z, w } = from.slerp(to, share);
   return [w, x, y, z];
 }
