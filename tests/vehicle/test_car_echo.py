@@ -221,11 +221,11 @@ def test_a_car_that_lies_on_its_body_has_its_mass() -> None:
     """None of it is on the wheels."""
     whole = load("prototype")
     points = at("prototype", "chassis.ground_contact.points")
-    low = {f"chassis.ground_contact.points.{k}.2": -2.0 for k, p in enumerate(points) if not isinstance(p, str)}
+    low = {f"chassis.ground_contact.points.{k}.2": -0.6 for k, p in enumerate(points) if not isinstance(p, str)}
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", CarWarning)
         car = car_from(changed_content(whole._data, low, "x"), whole.folder, "x", warn=True)
-    assert any("ground clearance is -2 m" in str(w.message) for w in caught)
+    assert any("ground clearance is -0.6 m" in str(w.message) for w in caught)
     mass, own = (c.echo()[0].values[0] for c in (car, whole))
     assert mass.quantity.name == "mass"
     assert mass.value == own.value == pytest.approx(597.0, abs=0.1)
