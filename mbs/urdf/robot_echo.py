@@ -126,6 +126,7 @@ class Part(NamedTuple):
         return float(self.mass / (4.0 / 3.0 * math.pi * np.prod(axes)))
 
 
+@np.errstate(divide="ignore")  # of an inertia so small that its ellipsoid has no volume
 def _values(root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], given: Given) -> list[Value]:
     frames = np.array([pose[:3, 3] for pose in poses.values()]) * given.lengths
     links = {link.attributes.get("name", ""): link for link in root.all("link")}
@@ -143,8 +144,8 @@ def _values(root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], g
         found.append(Value(QUANTITIES["dense"], total / size**3, masses | lengths))
     if len(parts) > 1:
         name = max(parts, key=lambda n: parts[n].mass)
-        most = parts[name].mass
-        found.append(Value(QUANTITIES["heaviest"], most / (total - most), {f"mass of '{name}'": most}))
+        most, others = parts[name].mass, sum(p.mass for n, p in parts.items() if n != name)
+        found.append(Value(QUANTITIES["heaviest"], most / others, {f"mass of '{name}'": most}))
     own = {name: p for name, p in parts.items() if p.mass >= LEAST_SHARE * total and p.density > 0.0}
     found += _densities(own, masses) + _reaches(root, own, given) + _pairs(own, poses, scale, given)
     efforts = {

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import math
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
 from ali3.decimal_number import parse_number
 from ali3.words import brief
+from mbs.common.checks import LARGEST
 from mbs.common.errors import ModelError
 
 INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
@@ -109,6 +110,7 @@ def _numbers(element: Element, whose: str, what: str) -> None:
             values = [parse_number(part) for part in text.split()]
         except ValueError as error:
             raise ModelError(f"{where}: {name} is {brief(text)}: {error}.") from None
-        if len(values) != count or not all(map(math.isfinite, values)):
+        largest = sys.float_info.max if element.tag == "limit" else LARGEST  # some write no limit so
+        if len(values) != count or not all(abs(v) <= largest for v in values):
             numbers = "one number" if count == 1 else f"{count} numbers"
-            raise ModelError(f"{where}: {name} is {brief(text)}; it must be {numbers}.")
+            raise ModelError(f"{where}: {name} is {brief(text)}; it must be {numbers} of a size up to {largest:.2g}.")

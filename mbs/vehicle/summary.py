@@ -26,7 +26,7 @@ def summary(car: BuiltCar) -> str:
         (
             name,
             axle.suspension.kind,
-            f"{load[name]:.0f} N, {load[name] / total:.1%}",
+            f"{load[name]:.0f} N, {load[name] / (total or 1.0):.1%}",
             f"{abs(rest.spring_force[name]):.0f} N over {rest.spring_length[name]:.4f} m",
             f"{1e3 * rest.travel[name]:+.1f} mm",
             f"{axle.tyre.kind}, {axle.tyre.radius:g} m, pressed in by {1e3 * rest.deflection[name]:.1f} mm",

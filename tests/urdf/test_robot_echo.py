@@ -62,6 +62,7 @@ ODD = {
         "start beyond the limits",
     ),
     "moments of one in kg cm2": (scaled(INERTIA, 1e4, count=6), "kg cm2 in place of kg m2 of 'link_1'"),
+    "a base that nothing moves": (scaled(MASS, 1e18, count=1), "heaviest link over all others is"),
     "mass of one in g": (scaled(MASS, 1e3, count=1), "grams in place of kilograms in masses of 'link_1'"),
     "a centre in cm": (
         replaced(r'(<inertial>\s*<origin) xyz="[^"]*"', r'\1 xyz="7 -3 0"'),
@@ -133,6 +134,7 @@ WRONG = {
     "two numbers": (replaced(r'rpy="[^"]*"', 'rpy="0 0"'), "it must be 3 numbers"),
     "a comma": (replaced(MASS, 'mass value="1,5"'), "value is '1,5'"),
     "infinite": (replaced(MASS, 'mass value="1e999"'), "value is '1e999'"),
+    "beyond all robots": (replaced(r'xyz="[^"]*"', 'xyz="1e200 0 0"'), r"3 numbers of a size up to 1e\+30"),
     "no value": (replaced(MASS, "mass"), "has no value"),
     "a word": (replaced(r'effort="[^"]*"', 'effort="much"'), "effort is 'much'"),
 }

@@ -215,3 +215,18 @@ def test_the_table_is_one_screen_with_a_column_for_each_axle() -> None:
     shown = replace(echo, values=[far if v is hidden else v for v in echo.values]).text()
     (line,) = (line for line in shown.splitlines() if line.startswith(hidden.quantity.name))
     assert line.endswith("<- outside")
+
+
+def test_a_car_that_lies_on_its_body_has_its_mass() -> None:
+    """None of it is on the wheels."""
+    whole = load("prototype")
+    points = at("prototype", "chassis.ground_contact.points")
+    low = {f"chassis.ground_contact.points.{k}.2": -0.6 for k, p in enumerate(points) if not isinstance(p, str)}
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", CarWarning)
+        car = car_from(changed_content(whole._data, low, "x"), whole.folder, "x", warn=True)
+    assert any("ground clearance is -0.6 m" in str(w.message) for w in caught)
+    mass, own = (c.echo()[0].values[0] for c in (car, whole))
+    assert mass.quantity.name == "mass"
+    assert mass.value == own.value == pytest.approx(597.0, abs=0.1)
+    assert "0 N, 0.0%" in summary(car)

@@ -58,19 +58,19 @@ def tyre_echo(what: str, axle: Axle, kind: str) -> Echo:
 def car_values(car: CarContent, rest: Rest) -> list[Value]:
     """Values of all quantities of a car."""
     rates = {name: axle_rates(car, name, rest) for name in car.axles}
-    found = [*_of_dimensions(car, rest), *_of_masses(car)]
+    found = [*_of_dimensions(car), *_of_masses(car)]
     for name in car.axles:
         found += axle_values(car, name, rest, rates[name])
     linked = [r for r in rates.values() if r is not None]
     if len(linked) == len(rates) and car.linked:
         stiffness = [r.roll_stiffness for r in linked]
-        total, mass = sum(stiffness), 2.0 * sum(rest.load.values()) / GRAVITY
+        total = sum(stiffness)
         keys = {
             axle.spring.key(f): getattr(axle.spring, f) for axle in car.axles.values() for f in ("stiffness", "factor")
         }
         found.append(Value(CAR["roll"], total / DEG, keys))
         if total > 0.0:
-            lean = mass * GRAVITY * centre_of(car, payloads=True)[2] / total
+            lean = _mass(car) * GRAVITY * centre_of(car, payloads=True)[2] / total
             found.append(Value(CAR["gradient"], lean * DEG, keys | _centre_key(car)))
             found.append(Value(CAR["split"], stiffness[0] / total, keys))
     return [*found, *_of_driving(car, rest)]
@@ -80,10 +80,15 @@ def _centre_key(car: CarContent) -> dict[str, Any]:
     return {car.chassis.key("com"): list(car.chassis.com)}
 
 
-def _of_dimensions(car: CarContent, rest: Rest) -> Iterator[Value]:
+def _mass(car: CarContent) -> float:
+    """Of all parts, kg; what the wheels carry is less where the body lies on the ground."""
+    return sum(mass for mass, _ in weighed_points(car, payloads=True))
+
+
+def _of_dimensions(car: CarContent) -> Iterator[Value]:
     centres = {axle.wheel.key("centre"): list(axle.wheel.centre) for axle in car.axles.values()}
     tracks = [axle.track for axle in car.axles.values()]
-    yield Value(CAR["mass"], 2.0 * sum(rest.load.values()) / GRAVITY, {car.vehicle.key("mass"): car.vehicle.mass})
+    yield Value(CAR["mass"], _mass(car), {car.vehicle.key("mass"): car.vehicle.mass})
     yield Value(CAR["wheelbase"], car.wheelbase, centres)
     yield Value(CAR["tracks"], tracks[1] / tracks[0], centres)
     yield Value(CAR["slender"], 0.5 * sum(tracks) / car.wheelbase, centres)
@@ -130,12 +135,11 @@ def _of_masses(car: CarContent) -> Iterator[Value]:
         least = {chassis.key("products"): list(chassis.products)}
         yield Value(CAR["products"], min(products) / max(chassis.inertia), least)
     weighed = weighed_points(car, payloads=True)
-    total = sum(mass for mass, _ in weighed)
     inertia = chassis.inertia[2] + sum(m * ((px - x) ** 2 + (py - y) ** 2) for m, (px, py, _) in weighed)
     before, behind = car.wheelbase * (1.0 - share), car.wheelbase * share
     key = {chassis.key("inertia"): list(chassis.inertia)}
     if before > 0.0 and behind > 0.0:
-        yield Value(CAR["yaw"], inertia / total / (before * behind), key | {chassis.key("mass"): chassis.mass})
+        yield Value(CAR["yaw"], inertia / _mass(car) / (before * behind), key | {chassis.key("mass"): chassis.mass})
     size = car.vehicle.width, car.vehicle.length, car.vehicle.length
     sizes = {car.vehicle.key(f): getattr(car.vehicle, f) for f in ("width", "length")}
     for axis, moment, extent in zip("xyz", chassis.inertia, size, strict=True):
@@ -183,14 +187,13 @@ def _of_driving(car: CarContent, rest: Rest) -> Iterator[Value]:
             yield Value(CAR["first_speed"], speed, keys)
         if k == len(ratios) - 1:
             yield Value(CAR["last_speed"], speed, keys)
-    mass = 2.0 * sum(rest.load.values()) / GRAVITY
-    yield Value(CAR["power"], drive.max_power / mass, {drive.key("max_power"): drive.max_power})
+    yield Value(CAR["power"], drive.max_power / _mass(car), {drive.key("max_power"): drive.max_power})
     ratio = drive.max_power / (drive.max_torque * drive.limit_speed)
     yield Value(CAR["torque"], ratio, {drive.key(f): getattr(drive, f) for f in ("max_power", "max_torque")})
     air = car.aerodynamics
     if air.drag_area:
         yield Value(CAR["drag"], air.drag_area, {air.key("drag_area"): air.drag_area})
-    brakes, weight = car.brakes, 2.0 * sum(rest.load.values())
+    brakes, weight = car.brakes, _mass(car) * GRAVITY
     front, rear = brakes.balance / car.front.wheel.centre[2], (1.0 - brakes.balance) / car.rear.wheel.centre[2]
     yield Value(CAR["braking"], 2.0 * brakes.torque * (front + rear) / weight, {brakes.key("torque"): brakes.torque})
     yield Value(CAR["balance"], front / (front + rear), {brakes.key("balance"): brakes.balance})
