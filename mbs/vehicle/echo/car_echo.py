@@ -51,7 +51,8 @@ def tyre_echo(what: str, axle: Axle, kind: str) -> Echo:
     """Echo of the tyres of an axle, with the factors of the car's file."""
     made = axle.tyre.tyre("left")
     if isinstance(made, MagicTyre):
-        return magic_echo(what, made, kind, f"{axle.tyre.key('UNLOADED_RADIUS').split(' of ', 1)[1]}: ")
+        prefix = f"{axle.tyre.key('UNLOADED_RADIUS').split(' of ', 1)[1]}: "
+        return magic_echo(what, made, axle.tyre.file_numbers, kind, prefix)
     return tmeasy_echo(what, made, kind, f"{axle.tyre.path}.")
 
 
