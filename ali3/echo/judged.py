@@ -216,8 +216,8 @@ def _undone(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple
 
 
 def _sharing(values: Sequence[Value]) -> list[list[Value]]:
-    """Values in groups, each with those that share a key with its first; of many of one quantity, all."""
-    many = {q for q, times in Counter(v.quantity for v in values).items() if times > LONGEST}
+    """Values in groups, each with those that share a key with its first; of one quantity, all."""
+    many = {q for q, times in Counter(v.quantity for v in values).items() if times > 1}
     groups: list[list[Value]] = []
     for v in values:
         for group in groups:
