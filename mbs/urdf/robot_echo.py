@@ -99,10 +99,10 @@ def robot_echo(
     for words, names, given in UNDONE:
         own = {key for key in keys if key.split(" of ")[0] in names and (given not in EVERYWHERE or "'" not in key)}
         single = {match[1] for key in own if (match := re.search("'(.*)'", key))}
-        if names[0] not in ALONE or not 0 < len(single) <= min(FEW, len(poses) // 2):
+        few = names[0] in ALONE and 0 < len(single) <= min(FEW, len(poses) // 2)
+        if not few or len(single) > 1:
             mistakes.append(Mistake(words, frozenset(own), partial(values, given)))
-            continue
-        for name in sorted(single):
+        for name in sorted(single) if few else ():
             alone = frozenset(key for key in own if f"'{name}'" in key)
             mistakes.append(Mistake(f"{words} of '{name}'", alone, partial(values, given._replace(only=name))))
     return Echo(what, found, mistakes)
@@ -155,11 +155,8 @@ def _values(
         most = parts[name].mass
         found.append(Value(QUANTITIES["heaviest"], most / (total - most), {f"mass of '{name}'": most}))
     own = {name: p for name, p in parts.items() if p.mass >= LEAST_SHARE * total and p.density > 0.0}
-    found += (
-        _densities({name: p for name, p in own.items() if name in turning}, masses)
-        + _reaches(root, own, given)
-        + _pairs(own, poses, scale, given)
-    )
+    found += _densities({name: p for name, p in own.items() if name in turning}, masses)
+    found += _reaches(root, own, given) + _pairs(own, poses, scale, given)
     efforts = {
         (joint.attributes.get("name", ""), limit.line): given.efforts * limit.numbers("effort")[0]
         for joint in root.all("joint")
