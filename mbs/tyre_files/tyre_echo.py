@@ -124,7 +124,9 @@ def magic_echo(what: str, tyre: MagicTyre, numbers: Mapping[str, float], kind: s
         if not changed or all(key[0] == "L" and given[key] == 1.0 for key in changed):
             continue
         own = {key: v for key, v in changed.items() if key in tyre.coefficients}
-        ends = {f: (changed[a], changed[b]) for f, (a, b) in RANGES.items() if a in changed and b in changed}
+        ends: dict[str, Any] = {
+            f: (changed[a], changed[b]) for f, (a, b) in RANGES.items() if a in changed and b in changed
+        }
         undone = replace(tyre, coefficients={**tyre.coefficients, **own}, **ends)
         undo = partial(values, undone, numbers={**numbers, **changed})
         mistakes.append(Mistake(f"{words} {' and '.join(keys)}", frozenset(prefix + key for key in keys), undo))

@@ -242,7 +242,8 @@ def _groups(below: Mapping[str, Any]) -> dict[str, str]:
 
 def _bodies(robot: Robot, urdf: Any, groups: Mapping[str, str], ground: str | None, what: str) -> set[str]:
     """A body for all links that are fixed to each other; the groups without mass, which have none."""
-    links, massless, corrections = {link.name: link for link in urdf.links}, set(), []
+    links, massless = {link.name: link for link in urdf.links}, set()
+    corrections: list[str] = []
     for group in dict.fromkeys(groups.values()):
         own = [n for n, g in groups.items() if g == group]
         body = robot.model.ground

@@ -101,7 +101,7 @@ def robot_echo(
         single = {match[1] for key in own if (match := re.search("'(.*)'", key))}
         few = names[0] in ALONE and 0 < len(single) <= min(FEW, len(poses) // 2)
         if not few or len(single) > 1:
-            mistakes.append(Mistake(words, frozenset(own), partial(values, given)))
+            mistakes.append(Mistake(words, frozenset(own), partial(values, given), guessed=few))
         for name in sorted(single) if few else ():
             alone = frozenset(key for key in own if f"'{name}'" in key)
             mistakes.append(Mistake(f"{words} of '{name}'", alone, partial(values, given._replace(only=name))))
@@ -202,6 +202,7 @@ def _reaches(root: Element, parts: Mapping[str, Part], given: Given) -> list[Val
     for name, p in parts.items():
         reach = max(ends.get(name, []), default=0.0) + math.sqrt(p.moment / p.mass)
         keys: dict[str, Any] = {f"centre of '{name}' in line {p.line}": p.centre.tolist()}
+        keys[f"inertia of '{name}' in line {p.line}"] = p.moment
         found.append(Value(QUANTITIES["centre"], float(np.linalg.norm(p.centre)) / reach, keys, f"link '{name}',"))
     if len(offsets) > FEW and (others := sum(offsets.values()) - max(offsets.values())) > SMALLEST:
         key = max(offsets, key=offsets.__getitem__)
