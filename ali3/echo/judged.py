@@ -171,15 +171,18 @@ class Echo:
     def _mended(self, names: set[str], after: Sequence[Value], changed: frozenset[str]) -> frozenset[str]:
         """Which of some values it brings inside; none where one that follows from what it changes is outside.
 
-        Nor where one comes to lie less near than it was.
+        Nor where one comes to lie less near than it was, nor what a key that it does not change has in common with
+        one that stays outside.
         """
         before = {v.name for v in self.outside}
         wrong = {v.name for v in after if not v.inside(self.kind)}
         own = {v.name for v in self.values if changed & set(v.keys)}
         poor = {v.name for v in self.values if v.inside(self.kind) and not v.mended(self.kind)}
         wrong |= {v.name for v in after if v.name in own - poor and not v.mended(self.kind)}
-        there = {v.name for v in after}
-        return frozenset() if wrong & own or wrong - before else frozenset((names & there) - wrong)
+        mended = (names & {v.name for v in after}) - wrong
+        left = {key for v in self.outside if v.name not in mended for key in v.keys} - changed
+        mended -= {v.name for v in self.outside if left & set(v.keys)}
+        return frozenset() if wrong & own or wrong - before else frozenset(mended)
 
     def _sentence(self, group: Sequence[Value], cause: str) -> str:
         first, q = group[0], group[0].quantity
@@ -213,8 +216,8 @@ def _undone(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple
 
 
 def _sharing(values: Sequence[Value]) -> list[list[Value]]:
-    """Values in groups, each with those that share a key with its first; of many of one quantity, all."""
-    many = {q for q, times in Counter(v.quantity for v in values).items() if times > LONGEST}
+    """Values in groups, each with those that share a key with its first; of one quantity, all."""
+    many = {q for q, times in Counter(v.quantity for v in values).items() if times > 1}
     groups: list[list[Value]] = []
     for v in values:
         for group in groups:

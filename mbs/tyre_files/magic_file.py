@@ -92,6 +92,8 @@ class TyreFile(Understood):
     """Pa, within which the coefficients hold."""
     notes: tuple[str, ...]
     """What the file lacks or what is not used, a sentence each."""
+    numbers: Mapping[str, float]
+    """All of the file by their keys, SI units."""
 
     def tyre(
         self, mounted: str = SIDE_OF_FILE, signs: str = "iso", pressure: float | None = None, **more: float
@@ -195,7 +197,7 @@ def read_tyre(file: str | Path) -> TyreFile:
     most = most or math.inf
     if pressure and not least <= pressure <= most:
         notes.append(f"INFLPRES is {pressure:g} Pa; {_pressures(least, most)}.")
-    return TyreFile(text.name, values, side, pressure, nominal, (least, most), tuple(notes))
+    return TyreFile(text.name, values, side, pressure, nominal, (least, most), tuple(notes), numbers)
 
 
 def _pressures(least: float, most: float) -> str:

@@ -35,30 +35,57 @@ OWN = {  # the coefficients that a value follows from first
     "ky": ("PKY1", "PKY2", "LKY", "FNOMIN"),
     "muy": ("PDY1", "PDY2", "PCY1", "LMUY", "FNOMIN"),
     "peaky": ("PCY1", "PKY1", "PDY1", "PEY1"),
-    "zeroy": ("PHY1", "PVY1"),
+    "zeroy": ("PHY1", "PVY1", "PKY1", "LKY"),
     "lefty": ("PCY1", "PEY1"),
     "kx": ("PKX1", "PKX3", "LKX", "FNOMIN"),
     "mux": ("PDX1", "PDX2", "PCX1", "LMUX", "FNOMIN"),
     "peakx": ("PCX1", "PKX1", "PDX1", "PEX1"),
-    "zerox": ("PHX1", "PVX1"),
+    "zerox": ("PHX1", "PVX1", "PKX1", "LKX"),
     "leftx": ("PCX1", "PEX1"),
     "ratio": ("PDY1", "PCY1", "LMUY", "PDX1", "PCX1", "LMUX"),
     "trail": ("QDZ1", "LTR"),
 }
-SCALED = (  # coefficient, factor that undoes the mistake, words; of a factor before the coefficient it multiplies
-    ("LKY", 1.0 / DEG, "per degree in place of per radian in LKY"),
-    ("PKY1", 1.0 / DEG, "per degree in place of per radian in PKY1"),
-    ("PKX1", 100.0, "per percent in place of per slip in PKX1"),
-    ("PHY1", DEG, "degrees in place of radians in PHY1"),
-    ("PHX1", 0.01, "percent in place of a ratio in PHX1"),
-    ("PVY1", -1.0, "the sign of PVY1"),
-    ("PEY1", -1.0, "the sign of PEY1"),
-    ("PEX1", -1.0, "the sign of PEX1"),
-    ("PDY1", 0.01, "percent in place of a ratio in PDY1"),
-    ("PDX1", 0.01, "percent in place of a ratio in PDX1"),
-    ("LMUY", 0.01, "percent in place of a ratio in LMUY"),
-    ("LMUX", 0.01, "percent in place of a ratio in LMUX"),
-    ("QDZ1", -1.0, "the sign of QDZ1"),
+SCALED = (  # keys, factor that undoes the mistake, words; of a factor before the coefficient it multiplies
+    *(((key,), 1.0 / DEG, "per degree in place of per radian in") for key in ("LKY", "PKY1")),
+    (("PKX1",), 100.0, "per percent in place of per slip in"),
+    (("PHY1",), DEG, "degrees in place of radians in"),
+    *((keys, DEG, "degrees in place of radians in") for keys in (("ALPMIN", "ALPMAX"), ("CAMMIN", "CAMMAX"))),
+    *((keys, 0.01, "percent in place of a ratio in") for keys in (("KPUMIN", "KPUMAX"), ("PHX1",), ("ASPECT_RATIO",))),
+    *(((key,), -1.0, "the sign of") for key in ("PVY1", "PEY1", "PEX1", "PCY1", "PCX1", "PKY1", "QDZ1")),
+    *(((key,), 0.01, "percent in place of a ratio in") for key in ("PDY1", "PDX1", "LMUY", "LMUX", "LFZO")),
+    (("LONGVL",), 1.0 / 3.6, "km/h in place of m/s in"),
+    (("RIM_RADIUS",), 0.5, "the diameter in place of the radius in"),
+)
+RANGES = {
+    "slip_range": ("KPUMIN", "KPUMAX"),
+    "angle_range": ("ALPMIN", "ALPMAX"),
+    "camber_range": ("CAMMIN", "CAMMAX"),
+}
+FACTORS = [key for key, usual in MAGIC_COEFFICIENTS.items() if key[0] == "L" and usual == 1.0]
+LEANING = 5.0 * DEG
+"""Camber at which the friction is held against that upright."""
+RELATIONS: tuple[tuple[str, tuple[str, ...], str, Callable[..., float]], ...] = (  # quantity, keys, of, how it follows
+    (
+        "section",
+        ("RIM_RADIUS", "WIDTH", "ASPECT_RATIO", "UNLOADED_RADIUS"),
+        "",
+        lambda rim, width, aspect, free: (rim + width * aspect) / free,
+    ),
+    ("seat", ("RIM_WIDTH", "WIDTH"), "", lambda rim, width: rim / width),
+    ("least", ("FZMIN", "FNOMIN"), "", lambda least, nominal: least / nominal),
+    ("inflation", ("INFLPRES",), "", lambda pressure: 1e-3 * pressure),
+    ("inflation", ("NOMPRES",), "nominal", lambda pressure: 1e-3 * pressure),
+    ("inflated", ("INFLPRES", "NOMPRES"), "", lambda pressure, nominal: pressure / nominal),
+    ("measured", ("LONGVL",), "", lambda speed: speed),
+    *(
+        row
+        for axis, of in (("X", "longitudinal"), ("Y", "lateral"))
+        for row in (
+            ("shape", (f"PC{axis}1", f"LC{axis}"), of, lambda shape, factor: shape * factor),
+            ("curvature", (f"PE{axis}1", f"LE{axis}"), of, lambda bend, factor: bend * factor),
+            ("leaning", (f"PD{axis}3",), of, lambda falls: 1.0 - falls * LEANING**2),
+        )
+    ),
 )
 FORCES = ((9.80665, "kilograms"), (4.4482216, "pounds"))
 VERTICAL = {  # fields of a tyre that have no curve, with the keys of the file and that of [UNITS]
@@ -83,14 +110,26 @@ class _Curve:
     """Over the load, with shifts."""
 
 
-def magic_echo(what: str, tyre: MagicTyre, kind: str = "", prefix: str = "") -> Echo:
+def magic_echo(what: str, tyre: MagicTyre, numbers: Mapping[str, float], kind: str = "", prefix: str = "") -> Echo:
     """What was understood of a Magic Formula tyre.
 
-    `what`: the file; `kind`: of the vehicle, else the widest range; `prefix`: of its keys, for those of a car.
+    `what`: the file; `numbers`: of the file, SI units; `kind`: of the vehicle, else the widest range; `prefix`: of its
+    keys, for those of a car.
     """
-    given = {key: v for key, v in tyre.coefficients.items() if v and not (key.startswith("L") and v == 1.0)}
-    mistakes = [_undo(tyre, prefix, key, factor, words) for key, factor, words in SCALED if key in given]
-    values = partial(_magic_values, prefix=prefix)
+    tyre = replace(tyre, largest_load=numbers.get("FZMAX") or tyre.largest_load)
+    values = partial(_magic_values, prefix=prefix, numbers=numbers)
+    given, mistakes = {**numbers, **tyre.coefficients}, []
+    for keys, factor, words in SCALED:
+        changed = {key: factor * given[key] for key in keys if given.get(key)}
+        if not changed or all(key[0] == "L" and given[key] == 1.0 for key in changed):
+            continue
+        own = {key: v for key, v in changed.items() if key in tyre.coefficients}
+        ends: dict[str, Any] = {
+            f: (changed[a], changed[b]) for f, (a, b) in RANGES.items() if a in changed and b in changed
+        }
+        undone = replace(tyre, coefficients={**tyre.coefficients, **own}, **ends)
+        undo = partial(values, undone, numbers={**numbers, **changed})
+        mistakes.append(Mistake(f"{words} {' and '.join(keys)}", frozenset(prefix + key for key in keys), undo))
     return Echo(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
 
 
@@ -118,12 +157,6 @@ def cornering(tyre: MagicTyre | Tyre, load: float) -> float:
     return at_load(tyre.lateral.slope, load / tyre.nominal_load)
 
 
-def _undo(tyre: MagicTyre, prefix: str, key: str, factor: float, words: str) -> Mistake:
-    coefficients = {**tyre.coefficients, key: factor * tyre.coefficients[key]}
-    undone = replace(tyre, coefficients=coefficients)
-    return Mistake(words, frozenset({prefix + key}), partial(_magic_values, undone, prefix))
-
-
 def _vertical_names(tyre: AnyTyre, prefix: str) -> dict[str, str]:
     """Keys of the fields of `VERTICAL`."""
     return {f: prefix + (key if isinstance(tyre, MagicTyre) else f) for f, key in VERTICAL.items()}
@@ -139,6 +172,7 @@ def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[
         if hasattr(tyre, field)
     ]
     found.append((f"the diameter in place of the radius in {names['radius']}", {"radius": 0.5}))
+    found.append((f"the load of an axle in place of that of a wheel in {names['nominal_load']}", {"nominal_load": 0.5}))
     forces = [f for f in ("nominal_load", "stiffness", "damping", "largest_load") if hasattr(tyre, f)]
     found += [
         (f"numbers in newtons called {unit} in the unit of force", dict.fromkeys(forces, 1.0 / factor))
@@ -155,7 +189,7 @@ def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[
     ]
 
 
-def _magic_values(tyre: MagicTyre, prefix: str) -> list[Value]:
+def _magic_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -> list[Value]:
     nominal = tyre.nominal_load
     c = {**MAGIC_COEFFICIENTS, **tyre.coefficients}
     given = {**c, "FNOMIN": nominal}
@@ -168,7 +202,23 @@ def _magic_values(tyre: MagicTyre, prefix: str) -> list[Value]:
         if any(c[k] for k in own):
             told = {prefix + k: c[k] for k in own if c[k]}
             found.append(Value(QUANTITIES["relaxation"], slip / across / tyre.radius, told, of))
-    return [*found, *_vertical(tyre, prefix)]
+    return [*found, *_vertical(tyre, prefix), *_of_numbers(tyre, prefix, numbers)]
+
+
+def _of_numbers(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -> Iterator[Value]:
+    """Values of single numbers of the file, and of those that belong together."""
+    n = {**MAGIC_COEFFICIENTS, **numbers, **tyre.coefficients, "FNOMIN": tyre.nominal_load}
+    n |= {"UNLOADED_RADIUS": tyre.radius}
+    for name, keys, of, formula in RELATIONS:
+        given = [n.get(key, 0.0) for key in keys]
+        if all(given):
+            yield Value(QUANTITIES[name], formula(*given), {prefix + key: n[key] for key in keys}, of)
+    for key, value in tyre.coefficients.items():
+        if key in FACTORS and value:
+            yield Value(QUANTITIES["factor"], value, {prefix + key: value}, key)
+    for name, ends in RANGES.items():
+        told = {prefix + key: numbers[key] for key in ends if key in numbers}
+        yield Value(QUANTITIES[name], max(map(abs, getattr(tyre, name))) / (1.0 if ends[0] == "KPUMIN" else DEG), told)
 
 
 def _lateral(tyre: MagicTyre, part: float) -> _Curve:
@@ -266,4 +316,4 @@ def _vertical(tyre: AnyTyre, prefix: str) -> Iterator[Value]:
 @echo_of.register
 def _file_echo(file: TyreFile) -> list[Echo]:
     signs = "adapted_sae" if file.values["coefficients"]["PKY1"] > 0.0 else "iso"
-    return [magic_echo(file.name, file.tyre(signs=signs))]
+    return [magic_echo(file.name, file.tyre(signs=signs), file.numbers)]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable
 from typing import Any
 
@@ -56,8 +55,8 @@ def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
     return mass, com, inertia
 
 
-def possible_inertia(inertia: Array, what: str) -> Array:
-    """The inertia, shape (3, 3), or next to it one that a mass distribution has, with a warning.
+def possible_inertia(inertia: Array, what: str) -> tuple[Array, str]:
+    """The inertia, shape (3, 3), or next to it one that a mass distribution has, and by how much it was changed.
 
     `what`: file and link, for messages. Its second moments of mass, tr(I)/2 - I, are made positive.
 
@@ -65,14 +64,9 @@ def possible_inertia(inertia: Array, what: str) -> Array:
     ------
     ModelError
         The correction is larger than `SLIGHT`.
-
-    Warns
-    -----
-    UrdfWarning
-        By how much the principal values were changed.
     """
     try:
-        return inertia_matrix(inertia, 3, what)
+        return inertia_matrix(inertia, 3, what), ""
     except ModelError as error:
         symmetric = 0.5 * (inertia + inertia.T)
         given, axes = np.linalg.eigh(symmetric)
@@ -91,7 +85,5 @@ def possible_inertia(inertia: Array, what: str) -> Array:
                 f"{says} are {nearest}, {100.0 * change:.2g} % of the largest away. Correct the file, for example to "
                 f"those; up to {100.0 * SLIGHT:g} % are corrected here with a warning."
             ) from error
-        warnings.warn(
-            f"{says}, {nearest}, are taken: {100.0 * change:.2g} % of the largest away.", UrdfWarning, stacklevel=4
-        )
-        return np.asarray((axes * near) @ axes.T)
+        told = f"{says}, {nearest}, are taken: {100.0 * change:.2g} % of the largest away."
+        return np.asarray((axes * near) @ axes.T), told

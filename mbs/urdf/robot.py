@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import PPoly
 from scipy.spatial.transform import Rotation
 
+from ali3.columns import some_of
 from ali3.decimal_number import parse_number
 from ali3.echo import Echo, Understood, echo_of
 from ali3.extras import missing_module
@@ -38,6 +39,7 @@ Pose = NDArray[np.float64]
 _LARGEST = 100_000_000
 """Bytes of a file."""
 TURNING, FREE = ("revolute", "continuous"), 1e9  # N m: range of the torque of a joint without a limit
+_MOST = 4  # joints that a sentence names
 
 
 @dataclass
@@ -125,7 +127,7 @@ def read_urdf(
     robot = Robot(Model(urdf.name or file.stem))
     robot.model.floating = floating
     _place(robot, below, at)
-    robot.echo = robot_echo(file.name, source, robot.poses, at)
+    robot.echo = robot_echo(file.name, source, robot.poses, at, _turning(below, floating))
     robot.echo.warn(UrdfWarning)
     groups = _groups(below)
     massless = _bodies(robot, urdf, groups, None if floating else groups[next(iter(below))], file.name)
@@ -206,6 +208,15 @@ def _place(robot: Robot, below: Mapping[str, Any], at: Mapping[str, float]) -> N
         robot.poses[name] = robot.poses[joint.parent] @ pose_of(joint.origin) @ moved
 
 
+def _turning(below: Mapping[str, Any], floating: bool) -> frozenset[str]:
+    """Links that can turn; the inertia of others has no effect."""
+    found: set[str] = set()
+    for name, joint in below.items():
+        if floating or (joint is not None and (joint.type in TURNING or joint.parent in found)):
+            found.add(name)
+    return frozenset(found)
+
+
 def _free_root(urdf: Any, joints: dict[str, Any], below: dict[str, Any], floating: bool, what: str) -> None:
     """Takes a floating joint above the only link on a root without mass out of what is read; that link is the root."""
     free = next((joint for joint in joints.values() if joint.type == "floating"), None)
@@ -232,6 +243,7 @@ def _groups(below: Mapping[str, Any]) -> dict[str, str]:
 def _bodies(robot: Robot, urdf: Any, groups: Mapping[str, str], ground: str | None, what: str) -> set[str]:
     """A body for all links that are fixed to each other; the groups without mass, which have none."""
     links, massless = {link.name: link for link in urdf.links}, set()
+    corrections: list[str] = []
     for group in dict.fromkeys(groups.values()):
         own = [n for n, g in groups.items() if g == group]
         body = robot.model.ground
@@ -245,9 +257,14 @@ def _bodies(robot: Robot, urdf: Any, groups: Mapping[str, str], ground: str | No
             if mass == 0.0:
                 massless.add(group)
                 continue
-            inertia = possible_inertia(inertia, f"{what}: the inertia of the link '{group}', and what is fixed to it,")
+            of = f"{what}: the inertia of the link '{group}', and what is fixed to it,"
+            inertia, correction = possible_inertia(inertia, of)
+            corrections += filter(None, [correction])
             body = robot.model.body(group, mass=mass, com=com, inertia=inertia)
         robot.bodies |= dict.fromkeys(own, body)
+    if corrections:
+        more = f" So are those of {len(corrections) - 1} more." if len(corrections) > 1 else ""
+        warnings.warn(corrections[0] + more, UrdfWarning, stacklevel=3)
     return massless
 
 
@@ -351,10 +368,12 @@ def _tell_left_out(joints: Collection[Any], crossed: Iterable[CrossedHinges], wh
             left.append(f"damping of '{joint.name}', {damping:g} {'N s/m' if joint.type == 'prismatic' else 'N m s'}")
     free = [j.name for j in joints if j.type in ("revolute", "prismatic") and not (j.limit and j.limit.effort)]
     if free:
-        told = f"{what}: the limit of {', '.join(map(repr, free))} has no effort, or 0; {FREE:g} N m or N is taken."
+        told = (
+            f"{what}: the limit of {some_of(map(repr, free), _MOST)} has no effort, or 0; {FREE:g} N m or N is taken."
+        )
         warnings.warn(told, UrdfWarning, stacklevel=3)
     if left:
-        text = f"{what}: the model is without {'; '.join(left)}. Add elements of mbs.elements for them."
+        text = f"{what}: the model is without {some_of(left, _MOST, '; ')}. Add elements of mbs.elements for them."
         warnings.warn(text, UrdfWarning, stacklevel=3)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from functools import partial
 from typing import Any, NamedTuple, TypeAlias
 
@@ -80,22 +80,29 @@ EVERYWHERE = (Given(masses=MASSES["pounds"]),)
 """What is nearer to 1 than parts are alike, so that it shows in all of them together only."""
 
 
-def robot_echo(what: str, root: Element, poses: Mapping[str, NDArray[np.float64]], at: Mapping[str, float]) -> Echo:
+def robot_echo(
+    what: str,
+    root: Element,
+    poses: Mapping[str, NDArray[np.float64]],
+    at: Mapping[str, float],
+    turning: Container[str],
+) -> Echo:
     """What was understood of a robot.
 
-    `what`: the file; `root`: its elements; `poses`: of the frames of links, shape (4, 4), m; `at`: values of joints.
+    `what`: the file; `root`: its elements; `poses`: of the frames of links, shape (4, 4), m; `at`: values of joints;
+    `turning`: links whose inertia has an effect.
     """
-    values = partial(_values, root, poses, at)
+    values = partial(_values, root, poses, at, turning)
     found = values(Given())
     keys = {key for v in found if not v.inside() for key in v.keys}
     mistakes = []
     for words, names, given in UNDONE:
         own = {key for key in keys if key.split(" of ")[0] in names and (given not in EVERYWHERE or "'" not in key)}
         single = {match[1] for key in own if (match := re.search("'(.*)'", key))}
-        if names[0] not in ALONE or not 0 < len(single) <= min(FEW, len(poses) // 2):
-            mistakes.append(Mistake(words, frozenset(own), partial(values, given)))
-            continue
-        for name in sorted(single):
+        few = names[0] in ALONE and 0 < len(single) <= min(FEW, len(poses) // 2)
+        if not few or len(single) > 1:
+            mistakes.append(Mistake(words, frozenset(own), partial(values, given), guessed=few))
+        for name in sorted(single) if few else ():
             alone = frozenset(key for key in own if f"'{name}'" in key)
             mistakes.append(Mistake(f"{words} of '{name}'", alone, partial(values, given._replace(only=name))))
     return Echo(what, found, mistakes)
@@ -127,7 +134,9 @@ class Part(NamedTuple):
 
 
 @np.errstate(divide="ignore")  # of an inertia so small that its ellipsoid has no volume
-def _values(root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], given: Given) -> list[Value]:
+def _values(
+    root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], turning: Container[str], given: Given
+) -> list[Value]:
     frames = np.array([pose[:3, 3] for pose in poses.values()]) * given.lengths
     links = {link.attributes.get("name", ""): link for link in root.all("link")}
     parts = {name: part for name, link in links.items() if (part := _part(link, given.of(name))).mass > 0.0}
@@ -147,7 +156,8 @@ def _values(root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], g
         most, others = parts[name].mass, sum(p.mass for n, p in parts.items() if n != name)
         found.append(Value(QUANTITIES["heaviest"], most / others, {f"mass of '{name}'": most}))
     own = {name: p for name, p in parts.items() if p.mass >= LEAST_SHARE * total and p.density > 0.0}
-    found += _densities(own, masses) + _reaches(root, own, given) + _pairs(own, poses, scale, given)
+    found += _densities({name: p for name, p in own.items() if name in turning}, masses)
+    found += _reaches(root, own, given) + _pairs(own, poses, scale, given)
     efforts = {
         (joint.attributes.get("name", ""), limit.line): given.efforts * limit.numbers("effort")[0]
         for joint in root.all("joint")
@@ -172,7 +182,7 @@ def _densities(parts: Mapping[str, Part], masses: Mapping[str, Any]) -> list[Val
     for name, p in parts.items():
         keys = {f"inertia of '{name}' in line {p.line}": p.moment, f"mass of '{name}'": p.mass}
         found.append(Value(QUANTITIES["density"], p.density, keys, f"link '{name}',"))
-    if len(found) > 1:
+    if len(found) > 1 and all(v.inside() for v in found):  # else those outside are told
         keys = {"inertia of links": max(p.moment for p in parts.values()), **masses}
         found.append(Value(QUANTITIES["densities"], float(np.median([v.value for v in found])), keys))
     return found
@@ -183,15 +193,17 @@ def _reaches(root: Element, parts: Mapping[str, Part], given: Given) -> list[Val
     ends: dict[str, list[float]] = {}
     offsets = {}
     for joint in root.all("joint"):
-        parent, origin = joint.first("parent"), joint.first("origin")
-        if parent is not None and origin is not None:
+        origin, beside = joint.first("origin"), [joint.first(end) for end in ("parent", "child")]
+        if origin is not None:
             far = given.lengths * float(np.linalg.norm(origin.numbers("xyz")))
-            ends.setdefault(parent.attributes.get("link", ""), []).append(far)
+            for link in filter(None, beside):
+                ends.setdefault(link.attributes.get("link", ""), []).append(far)
             offsets[f"xyz of '{joint.attributes.get('name', '')}' in line {origin.line}"] = far
     found = []
     for name, p in parts.items():
         reach = max(ends.get(name, []), default=0.0) + math.sqrt(p.moment / p.mass)
         keys: dict[str, Any] = {f"centre of '{name}' in line {p.line}": p.centre.tolist()}
+        keys[f"inertia of '{name}' in line {p.line}"] = p.moment
         found.append(Value(QUANTITIES["centre"], float(np.linalg.norm(p.centre)) / reach, keys, f"link '{name}',"))
     if len(offsets) > FEW and (others := sum(offsets.values()) - max(offsets.values())) > SMALLEST:
         key = max(offsets, key=offsets.__getitem__)

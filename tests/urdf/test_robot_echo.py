@@ -57,6 +57,10 @@ ODD = {
         replaced(r'lower="[^"]*" upper="[^"]*"', 'lower="-170" upper="170"'),
         "radians in the limits",
     ),
+    "limits without a sign": (
+        replaced(r'lower="[^"]*" upper="[^"]*"', 'lower="2" upper="2"'),
+        "range of the joint is 0",
+    ),
     "a start beyond its limits": (
         replaced(r'lower="[^"]*" upper="[^"]*"', 'lower="1" upper="2"'),
         "start beyond the limits",
@@ -111,6 +115,53 @@ def test_a_side_is_the_image_of_the_other(case: str, tmp_path: Path) -> None:
     lines = [str(w.message) for w in caught]
     assert len(lines) == len(words)
     assert all(word in line and "'FL_leg' and 'FR_leg'" in line for word, line in zip(words, lines, strict=True))
+
+
+PENDULUM = """
+<robot name="r"><link name="world"/>{link_base}{link_bar}{link_bob}
+<joint name="rail" type="{rail}"><parent link="world"/><child link="base"/><axis xyz="1 0 0"/></joint>
+<joint name="hinge" type="continuous"><origin xyz="0 0 0.1"/><parent link="base"/><child link="bar"/>
+<axis xyz="0 1 0"/></joint>
+<joint name="elbow" type="continuous"><origin xyz="0 0 -1"/><parent link="bar"/><child link="bob"/>
+<axis xyz="0 1 0"/></joint></robot>"""
+OWN = """<link name="{name}"><inertial><origin xyz="0 0 {centre}"/><mass value="1"/>
+<inertia ixx="{i}" ixy="0" ixz="0" iyy="{i}" iyz="0" izz="{last}"/></inertial></link>"""
+
+
+@pytest.mark.parametrize(
+    ("rail", "floating", "inertias", "words"),
+    [
+        ("fixed", False, (1.0, 0.01, 0.001), []),  # nothing turns it
+        ("prismatic", False, (1.0, 0.01, 0.001), []),
+        ("fixed", True, (1.0, 0.01, 0.001), ["of 'base' or"]),
+        ("continuous", False, (1.0, 0.01, 0.001), ["of 'base' or"]),
+        ("fixed", False, (1.0, 1.0, 1.0), ["outside too: link 'bob'"]),  # one sentence for all
+    ],
+)
+def test_inertias_are_judged_where_they_have_an_effect(
+    rail: str, floating: bool, inertias: tuple[float, ...], words: list[str], tmp_path: Path
+) -> None:
+    links = {
+        f"link_{name}": OWN.format(name=name, centre=centre, i=inertia, last=inertia)
+        for name, centre, inertia in zip(("base", "bar", "bob"), (0.0, -0.5, -0.5), inertias, strict=True)
+    }
+    file = tmp_path / "pendulum.urdf"
+    file.write_text(PENDULUM.format(rail=rail, **links), encoding="utf-8")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", UrdfWarning)
+        read_urdf(file, floating=floating)
+    lines = [str(w.message) for w in caught if "usual is" in str(w.message)]
+    assert len(lines) == len(words)
+    assert all(word in line for word, line in zip(words, lines, strict=True)), lines
+
+
+def test_corrected_inertias_are_one_sentence(tmp_path: Path) -> None:
+    links = {f"link_{name}": OWN.format(name=name, centre=-0.1, i=0.01, last=0.0202) for name in ("base", "bar", "bob")}
+    file = tmp_path / "pendulum.urdf"
+    file.write_text(PENDULUM.format(rail="continuous", **links), encoding="utf-8")
+    with pytest.warns(UrdfWarning, match=r"% of the largest away\. So are those of 2 more\.") as caught:
+        read_urdf(file)
+    assert len(caught) == 1
 
 
 @pytest.mark.parametrize("name", ROBOTS)

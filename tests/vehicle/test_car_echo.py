@@ -12,10 +12,8 @@ from typing import Any
 import pytest
 
 from ali3.echo import Echo, Mistake, Quantity, Value
-from mbs.elements.magic_tyre import MagicTyre
 from mbs.model.mechanism import Mechanism
-from mbs.tyre_files import read_tyre
-from mbs.tyre_files.tyre_echo import magic_echo, tmeasy_echo
+from mbs.tyre_files.tyre_echo import tmeasy_echo
 from mbs.vehicle import built_car, car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.car_content import CarContent
@@ -25,7 +23,6 @@ from mbs.vehicle.command import main
 from mbs.vehicle.errors import CarWarning
 from mbs.vehicle.summary import summary
 
-TYRES = sorted((Path(__file__).parents[1] / "tyre_files" / "data").rglob("*.tir"))
 DEG = 57.29577951308232
 
 
@@ -113,15 +110,6 @@ def test_the_command_shows_and_writes_the_table(tmp_path: Path, capsys: pytest.C
     assert {"wheelbase", "2.579", "tyres"} <= set(shown.split())
 
 
-def tyre(file: Path) -> MagicTyre:
-    read = read_tyre(file)
-    return read.tyre(signs="adapted_sae" if read.values["coefficients"]["PKY1"] > 0.0 else "iso")
-
-
-def changed(t: MagicTyre, **factors: float) -> MagicTyre:
-    return replace(t, coefficients=t.coefficients | {k: f * t.coefficients[k] for k, f in factors.items()})
-
-
 def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -139,34 +127,6 @@ def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
         told[len(ports)] = [summary(car), car.summary(), [echo.to_json() for echo in car.echo()]]
         assert len(found) == 1, "its rest is found once for all of them"
     assert told[1] == told[0]
-
-
-@pytest.mark.parametrize("file", TYRES, ids=lambda file: file.stem)
-def test_tyres_of_others_lie_inside(file: Path) -> None:
-    assert magic_echo(file.name, tyre(file)).warnings() == []
-
-
-OF_TYRES: dict[str, tuple[Callable[[MagicTyre], MagicTyre], str]] = {
-    "stiffness per degree": (lambda t: changed(t, PKY1=1.0 / DEG), "per degree in place of per radian in PKY1"),
-    "slip stiffness per percent": (lambda t: changed(t, PKX1=0.01), "per percent in place of per slip in PKX1"),
-    "a third of PCY1": (lambda t: changed(t, PCY1=1.0 / 3.0), "lateral over longitudinal peak friction"),
-    "a shift of 0.1": (
-        lambda t: replace(t, coefficients=t.coefficients | {"PHY1": 0.1}),
-        "degrees in place of radians in PHY1",
-    ),
-    "a lift of 0.2": (lambda t: replace(t, coefficients=t.coefficients | {"PVY1": 0.2}), "lateral force at no slip"),
-    "load in kg": (lambda t: replace(t, nominal_load=t.nominal_load / 9.80665), "kilograms in place of newtons"),
-    "friction in percent": (lambda t: changed(t, PDY1=100.0), "percent in place of a ratio in PDY1"),
-    "friction of another": (lambda t: changed(t, PDX1=0.3), "longitudinal peak friction"),
-}
-
-
-@pytest.mark.parametrize("file", TYRES[:3], ids=lambda file: file.stem)
-@pytest.mark.parametrize("case", OF_TYRES)
-def test_a_mistake_of_a_tyre_file_is_told(case: str, file: Path) -> None:
-    change, words = OF_TYRES[case]
-    lines = magic_echo("t.tir", change(tyre(file))).warnings()
-    assert any(words in line for line in lines), lines
 
 
 @pytest.mark.parametrize(

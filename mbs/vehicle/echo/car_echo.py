@@ -11,7 +11,6 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ali3.echo import Echo, Mistake, Value
-from mbs.elements.magic_tyre import MagicTyre
 from mbs.tyre_files.tyre_echo import cornering, magic_echo, tmeasy_echo
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
@@ -21,6 +20,7 @@ from mbs.vehicle.checks.places import centres_of, drawn_points, parts_of, points
 from mbs.vehicle.drives.automatic import Automatic
 from mbs.vehicle.echo.axle_values import CAR, DEG, axle_rates, axle_values
 from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.tyres.magic_formula import MagicFormula
 
 Data: TypeAlias = "dict[str, Any]"
 Remake: TypeAlias = Callable[[Data], "tuple[CarContent, Rest] | None"]
@@ -49,10 +49,11 @@ def car_echo(what: str, car: CarContent, rest: Rest, data: Data, remake: Remake)
 
 def tyre_echo(what: str, axle: Axle, kind: str) -> Echo:
     """Echo of the tyres of an axle, with the factors of the car's file."""
-    made = axle.tyre.tyre("left")
-    if isinstance(made, MagicTyre):
-        return magic_echo(what, made, kind, f"{axle.tyre.key('UNLOADED_RADIUS').split(' of ', 1)[1]}: ")
-    return tmeasy_echo(what, made, kind, f"{axle.tyre.path}.")
+    tyre = axle.tyre
+    if isinstance(tyre, MagicFormula):
+        prefix = f"{tyre.key('UNLOADED_RADIUS').split(' of ', 1)[1]}: "
+        return magic_echo(what, tyre.tyre("left"), tyre.file_numbers, kind, prefix)
+    return tmeasy_echo(what, tyre.tyre("left"), kind, f"{tyre.path}.")
 
 
 def car_values(car: CarContent, rest: Rest) -> list[Value]:

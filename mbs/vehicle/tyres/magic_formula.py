@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from math import atan, sqrt
 from pathlib import Path
@@ -79,6 +79,12 @@ class MagicFormula(TyreSection, of=MagicTyre):
             **more,
         )
         return made if self.bore is None else replace(made, bore=self.bore.element(TyreBore))
+
+    @property
+    def file_numbers(self) -> Mapping[str, float]:
+        """All numbers of the tyre property file, SI units."""
+        assert self._read is not None, "the file is opened with the car"
+        return self._read.numbers
 
     def oddities(self) -> Iterator[str]:
         """What the file lacks or what of it is not used."""
