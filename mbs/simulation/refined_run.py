@@ -171,13 +171,14 @@ class RefinedRuns:
         """By a finer run, and where that one is coarse, or may itself be off by so much that the verdict changes, by
         those of half its step, down to a 16th of the step. With a `divisor` there is one.
 
-        Of the last two the one that says more counts: behind abrupt forces they are off to both sides.
+        Where that is so of the last one too, what it may be off by counts as well.
         Raises `SimulationError`: one does not end; `TooDearError`: one would cost more than is left.
         """
         parts = self.first
-        last = known = self.finer(parts)
+        known = self.finer(parts)
         while not self.divisor and parts < 8 * self.parts and (self.coarse or self._unsure(known, parts)):
-            parts, last, known = 2 * parts, known, self.finer(2 * parts)
+            parts *= 2
+            known = self.finer(parts)
             if parts > 2 * self.parts:
                 runs = (self.run, self._finer[parts // 2], self._finer[parts])
                 known = self.known = extrapolated(
@@ -185,8 +186,13 @@ class RefinedRuns:
                 )
             if parts == 4 * self.parts and (known.error or 0.0) > WARNED_ERROR:
                 break
-        if parts == 8 * self.parts and (last.error or 0.0) > (known.error or 0.0):
-            known = replace(known, units=last.units, sensors=last.sensors)
+        if parts == 8 * self.parts and self._unsure(known, parts):
+            units, sensors = self._differences(self._finer[parts // 2], self._finer[parts])
+            known = replace(
+                known,
+                units={unit: error + units.get(unit, 0.0) for unit, error in known.units.items()},
+                sensors={name: error + sensors.get(name, 0.0) for name, error in known.sensors.items()},
+            )
         return replace(known, check_cost=self.cost)
 
     def _unsure(self, known: Accuracy, parts: int) -> bool:
@@ -197,13 +203,13 @@ class RefinedRuns:
         pair = parts // 2 in self._finer
         if not pair and (known.error or 0.0) > FAR:
             return False
-        apart = self._apart(self._finer[parts // 2] if pair else self.run, self._finer[parts])
+        apart, _ = self._differences(self._finer[parts // 2] if pair else self.run, self._finer[parts])
         more = 1.0 if pair else 1.0 / (2.0**LEAST_ORDER - 1.0)
         return unsure(known, {unit: more * gap for unit, gap in apart.items()})
 
-    def _apart(self, one: Run, other: Run) -> dict[str, float]:
-        """What two runs differ by, over the range in the other, per unit."""
-        return differences(self._table(one), self._table(other), self.compared, self.before, self.length)[0]
+    def _differences(self, one: Run, other: Run) -> tuple[dict[str, float], dict[str, float]]:
+        """What two runs differ by, per unit over the range in the other, and per sensor."""
+        return differences(self._table(one), self._table(other), self.compared, self.before, self.length)[:2]
 
     def tried_steps(self, known: Accuracy) -> list[tuple[float, float]]:
         """Steps of the finer runs, s, and about by how much each is off, of the range, after one with a step that would
@@ -223,7 +229,7 @@ class RefinedRuns:
         """Of each finer run by the finest; of that one by the order with which the last two come nearer to it."""
         *others, finest = [1, *sorted(self._finer)]
         runs = {1: self.run, **self._finer}
-        apart = {n: max(self._apart(runs[n], runs[finest]).values(), default=0.0) for n in others}
+        apart = {n: max(self._differences(runs[n], runs[finest])[0].values(), default=0.0) for n in others}
         near, order = others[-1], float(METHOD_TABLE[self.method].order)
         if near > 1 and min(apart[1], apart[near]) > 0.0:
             order = min(order, max(math.log(apart[1] / apart[near]) / math.log(near), LEAST_ORDER))

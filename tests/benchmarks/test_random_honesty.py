@@ -122,7 +122,7 @@ def test_where_two_repeats_leave_a_verdict_on_forces_open_others_decide(seed, nu
     """The hatchback down 6.5 cm, 5.3 % off, which the run with a quarter of the step took for right; and up 11.2 cm.
 
     By the largest range in a unit. There it told 1.7 % of 5.8 %, that with half the step 9.9 %, an eighth 5.0 %: a
-    16th, of which the larger counts, would have told 4.8 %.
+    16th would have told 4.8 %.
     """
     run, error = told_and_true(seed, number, h)
     assert run.accuracy.compared_step == pytest.approx(h / 8.0)
