@@ -48,7 +48,7 @@ def function_breaks(
     for begin, end in blocks:
         t, x = sampled(function, begin, end, h, seen)
         size = _range(np.append(x, seen))
-        found.append(_breaks(t, x, size, begin, end, h, _rough))
+        found.append(_breaks(t, x, size, begin, end, h, rough=True))
         jumping += _jumps(t, x, size, h)
         if t[-1] < end:
             break
@@ -103,10 +103,8 @@ def _ask(function: Callable[[float], float], times: Array) -> Array:
     return values
 
 
-def _breaks(
-    t: Array, x: Array, size: float, t0: float, t_end: float, h: float, parts: Callable[..., NDArray[np.bool_]] | None = None
-) -> Array:
-    """Of one table, whose signal has the range `size`; `parts`: which of the steps that depart are parted."""
+def _breaks(t: Array, x: Array, size: float, t0: float, t_end: float, h: float, rough: bool = False) -> Array:
+    """Of one table, whose signal has the range `size`; `rough`: only steps in which it is not smooth are parted."""
     found = [np.zeros(0)]
     phase = (t - t0) / h
     step = np.floor(phase)
@@ -115,7 +113,7 @@ def _breaks(
     within = (np.abs(phase - np.round(phase)) > AT_END) & (t > t0) & (t < t_end)
     departs = within & (np.abs(x - begin - (phase - step) * (end - begin)) > LEAST * size)
     numbers = np.unique(step[departs])
-    for number in numbers if parts is None else numbers[parts(t, x, size, t0 + h * numbers, h)]:
+    for number in numbers[_rough(t, x, size, t0 + h * numbers, h)] if rough else numbers:
         first, behind = np.searchsorted(step, [number, number + 1.0])
         inside = first + np.flatnonzero(within[first:behind])
         k = inside[0]
