@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ali3.bars import bar
+from ali3.words import sentence_of
 from hosts.common.display_units import shown_number
 from hosts.common.numbers import Value
 from hosts.compare.comparison import Comparison, compare
@@ -66,8 +67,8 @@ def fitted(
                 result = replay.run(wanted.coarse | dict(values))
             except StartRefusedError as error:
                 return str(error)
-            if result.failed_steps:
-                return f"{result.failed_steps} steps fail with them."
+            if result.refusal:
+                return sentence_of(result.refusal)
             unknown = [n for n in outputs if not math.isfinite(float(result[n].sum()))]
             return f"{unknown[0]} is not finite with them." if unknown else result
 

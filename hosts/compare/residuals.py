@@ -13,6 +13,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from hosts.common.display_units import number_in
 from hosts.common.errors import HostError
 from hosts.compare.curve import Curve, SensedCurve
 from hosts.compare.deviations import rms
@@ -98,7 +99,10 @@ class Residuals:
         """Simulated signals; `RefusedError` where the FMU refuses the parameters."""
         curves = self._curves(p)
         if isinstance(curves, str):
-            at = [f"{u.name} = {x:.6g} {u.unit}" for u, x in zip(self.unknowns[: self.count], p, strict=False)]
+            at = [
+                f"{u.name} = {number_in(x, u.unit, '.6g')}"
+                for u, x in zip(self.unknowns[: self.count], p, strict=False)
+            ]
             raise RefusedError(f"The FMU refuses {', '.join(at)}. {curves}")
         return curves
 

@@ -53,7 +53,7 @@ def measure_section(
     lost, label = bool(data.failed.any()), response.label
 
     def plot(figure: Figure, name: str, words: str) -> HtmlElement:
-        return plots.add(drawing(figure, words), f"{number + 1:02d}_{label}_{name}")
+        return plots.add(drawing(figure, words), f"{number + 1:02d}_{name}_{label}")
 
     words = f"{'Values' if no_distribution(data, response) else 'Distribution'} of {label}"
     body = [plot(plot_overview(data, response, indices), "overview", words)]

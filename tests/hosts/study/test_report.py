@@ -66,6 +66,14 @@ def test_the_whole_report(frame: pd.DataFrame, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+def test_plots_of_a_measure_with_a_long_name_have_a_file_each(tmp_path: Path) -> None:
+    x = np.linspace(0.0, 1.0, 20)
+    report_of(frame_of({"mass": x}, {"peak_" * 20: x**2}, {"mass": "kg", "peak_" * 20: "m"}), tmp_path, commands)
+    text = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert len([*(tmp_path / "analysis").glob("*.svg")]) == text.count("data:image/svg+xml") == 5
+
+
+@pytest.mark.slow
 def test_nothing_is_written_through_a_link(frame: pd.DataFrame, tmp_path: Path) -> None:
     other = tmp_path / "other.html"
     other.write_text("mine")
