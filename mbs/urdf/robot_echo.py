@@ -20,7 +20,9 @@ DEG = math.pi / 180.0
 
 NO_LIMIT = 1e4  # rad, m: nobody counts so many turns
 LEAST_SHARE = 0.02
-"""Of the mass: lighter links are often frames with a number for a mass."""
+"""Of the mass: lighter links are often frames with a number for a mass,
+unless they have more than a `LARGE_SHARE` of the moments of inertia."""
+LARGE_SHARE = 0.1
 THIN = 0.01
 """Smallest second moment of mass over the largest that is looked at: a plate has a thickness."""
 SOLID = 1000.0  # kg/m3
@@ -153,10 +155,11 @@ def _values(
         found.append(Value(QUANTITIES["dense"], total / size**3, masses | lengths))
     if len(parts) > 1:
         name = max(parts, key=lambda n: parts[n].mass)
-        most, others = parts[name].mass, sum(p.mass for n, p in parts.items() if n != name)
-        found.append(Value(QUANTITIES["heaviest"], most / others, {f"mass of '{name}'": most}))
-    own = {name: p for name, p in parts.items() if p.mass >= LEAST_SHARE * total and p.density > 0.0}
-    found += _densities({name: p for name, p in own.items() if name in turning}, masses)
+        heaviest, others = parts[name].mass, sum(p.mass for n, p in parts.items() if n != name)
+        found.append(Value(QUANTITIES["heaviest"], heaviest / others, {f"mass of '{name}'": heaviest}))
+    least, most = LEAST_SHARE * total, LARGE_SHARE * sum(p.moment for p in parts.values())
+    own = {n: p for n, p in parts.items() if (p.mass >= least or p.moment >= most) and p.density > 0.0}
+    found += _densities({n: p for n, p in own.items() if n in turning}, masses)
     found += _reaches(root, own, given) + _pairs(own, poses, scale, given)
     efforts = {
         (joint.attributes.get("name", ""), limit.line): given.efforts * limit.numbers("effort")[0]
