@@ -26,6 +26,7 @@ ENERGY_KEPT = 1e-3  # of that of the motion: what a free System may gain or lose
 MOST_COST = 48.0
 GOAL_ERROR = 0.005  # what a step that is tried as a remedy aims at
 MET = 2.0 * GOAL_ERROR  # what it must meet to be named
+SMOOTH_MISS = 0.04  # `summed_miss` of what is plainly smooth
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 COARSER, FINER = "coarser", "finer"
@@ -83,18 +84,17 @@ class Accuracy:
         return "; ".join(said)
 
 
-def doubt(report: Report, steps: int, halvings: int, method: str, rest: float | None = None) -> str:
+def doubt(report: Report, steps: int, halvings: int) -> str:
     """How a run is to be checked: empty, not at all; `COARSER` by one of twice the step, `FINER` by one of half.
 
     Where steps were halved inside, a coarser run makes the same parts. An open balance, and a loop that left
-    its mode, are signs of coarse steps already. `rest`: what decides in place of predictions, at most 1 if smooth.
+    its mode, are signs of coarse steps already.
     """
     if halvings > HALVINGS_SUSPECT * steps or report.balance_wrong or report.branch_changes > 0:
         return FINER
     whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
-    miss = summed_miss(report) / METHOD_TABLE[method].smooth_miss if rest is None else rest
     kept = max(drift(report), abs(report.energy_change)) <= ENERGY_KEPT
-    return "" if miss <= 1.0 and kept and whole else COARSER
+    return "" if summed_miss(report) <= SMOOTH_MISS and kept and whole else COARSER
 
 
 def summed_miss(report: Report) -> float:

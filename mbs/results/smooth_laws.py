@@ -24,8 +24,8 @@ SMOOTH = {
     ElementType.SPIN_ANGLE,
 }
 """Elements whose forces are smooth; a spring-damper is where it has no stops."""
-UNRESOLVED, LOOPS, OPEN = 0.5, 1.0, 2.0
-"""Missed shares: h w is twice as much, so that a period has six steps, three, one and a half."""
+UNRESOLVED, SMOOTH_UNRESOLVED = 0.5, 1.0
+"""Missed shares: h w is twice as much, so that a period has six steps, and three."""
 STOPS = (4, 6)  # of the numbers of a spring-damper: the stiffnesses of its stops
 
 
@@ -35,11 +35,10 @@ def unresolved_share(
     """The missed share above which steps do not resolve what changes the velocities.
 
     `span`: first and last time of the run, s; `inputs`: that follow time. Of a method of order above two where nothing
-    abrupt can happen three steps in a period are enough, and fewer where no closed loop can come near a dead centre.
+    abrupt can happen three steps in a period are enough.
     """
-    if METHOD_TABLE[method].order <= 2 or not nothing_abrupt(system, span, inputs):
-        return UNRESOLVED
-    return OPEN if is_open_tree(system) else LOOPS
+    smooth = METHOD_TABLE[method].order > 2 and nothing_abrupt(system, span, inputs)
+    return SMOOTH_UNRESOLVED if smooth else UNRESOLVED
 
 
 def nothing_abrupt(system: System, span: tuple[float, float], inputs: Mapping[str, Signal] | None = None) -> bool:

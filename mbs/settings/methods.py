@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from mbs.kernel.header.steps import METHOD_ORDERS, MethodNumber
@@ -20,9 +19,6 @@ class Method:
     """With which errors of fixed steps fall."""
     project: bool | None = None
     """Value of the setting `project` that the name stands for; None: that of the settings."""
-    smooth_miss: float = math.inf
-    """Summed predictor differences of velocity over the largest one, up to which a run is plainly smooth and is not
-    checked by another; infinite where they say nothing."""
     balance_decides: bool = False
     """Whether the energy that constraint forces give says by itself that a run is wrong; the quadrature of
     runge_kutta_8 errs where it is stiff."""
@@ -50,44 +46,37 @@ METHOD_TABLE = {
     "ali3p": Method(
         number=MethodNumber.ALI3P,
         title="ALi3-P",
-        smooth_miss=0.04,
         balance_decides=True,
     ),
     "ali3p_no_projection": Method(
         number=MethodNumber.ALI3P,
         title="ALi3 without projections",
         project=False,
-        smooth_miss=0.04,
     ),
     "ali3p_generalised_alpha": Method(
         number=MethodNumber.GENERALISED_ALPHA,
         title="ALi3-P, generalised-α",
-        smooth_miss=0.04,
         balance_decides=True,
     ),
     "energy_momentum": Method(
         number=MethodNumber.ENERGY_MOMENTUM,
         title="energy-momentum",
-        smooth_miss=0.04,
     ),
     "energy_momentum_4": Method(
         number=MethodNumber.ENERGY_MOMENTUM_4,
         title="energy-momentum, order 4",
         order=4,
-        smooth_miss=8.0,
         conservative_only=True,
     ),
     "runge_kutta_8": Method(
         number=MethodNumber.RUNGE_KUTTA_8,
         title="Runge-Kutta, order 8",
         order=8,
-        smooth_miss=1.0,
     ),
     "semi_recursive": Method(
         number=MethodNumber.SEMI_RECURSIVE,
         title="semi-recursive, order 8",
         order=8,
-        smooth_miss=1.0,
         tree_only=True,
         cost=0.2,  # measured: relative coordinates save the factorization of the natural ones
     ),
@@ -95,7 +84,6 @@ METHOD_TABLE = {
         number=MethodNumber.SEMI_RECURSIVE_4,
         title="semi-recursive, order 4",
         order=4,
-        smooth_miss=1.0,
         tree_only=True,
         cost=0.2,
     ),
@@ -103,7 +91,6 @@ METHOD_TABLE = {
         number=MethodNumber.RADAU_5,
         title="Radau IIA, order 5",
         order=5,
-        smooth_miss=1.0,
         positions_only=True,
         cost=5.5,  # measured: three stages in one tangent are three times as wide
     ),

@@ -11,41 +11,19 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.limits import AGREED
 from mbs.results import accuracy
-from mbs.results.accuracy import Accuracy, missed_share, summed_miss
+from mbs.results.accuracy import Accuracy, missed_share
 from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, is_open
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
-from mbs.results.smooth_laws import OPEN
 from mbs.results.trajectory import Trajectory
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
 from mbs.simulation.march import WATCHED
 from mbs.simulation.refined_run import RefinedRuns, TooDearError, Watch
 
-FEWEST = 6  # instants at which a much coarser run is compared
 COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
-TIMES = (8, 4, 2)  # the step of a coarser run over that of the run
+LONG = 8  # the first step with one iteration over that of the run; else, and then, twice the step
 ALONE = 0.03  # of the range: by order one the error behind which twice the step differs so much
-SMOOTH_REST = {"semi_recursive_4": 5e-4, "semi_recursive": 3e-5, "runge_kutta_8": 3e-5, "radau_5": 3e-5}
-"""Of an open tree where nothing abrupt can happen: `rest_missed` up to which a run is plainly smooth."""
-
-
-def rest_of(run: Report, method: str, unresolved: float) -> float | None:
-    """`rest_missed` over `SMOOTH_REST`; None where it tells of no error, but in an open tree where nothing abrupt can
-    happen, as `unresolved_share` says.
-    """
-    known = unresolved >= OPEN and method in SMOOTH_REST
-    return rest_missed(run, method) / SMOOTH_REST[method] if known else None
-
-
-def rest_missed(report: Report, method: str) -> float:
-    """Changes of velocity that a method of order p does not see, over the largest velocity, as for a vibration.
-
-    Of ``v + h a`` a vibration of w misses ``(h w)^2 / 2``, of the order p the first term that it leaves out,
-    ``(h w)^(p+1) / (p+1)!``; `missed_share` is ``h w / 2``.
-    """
-    order = METHOD_TABLE[method].order
-    return summed_miss(report) * 2.0 * (2.0 * missed_share(report, method)) ** (order - 1) / math.factorial(order + 1)
 
 
 def one_iteration(settings: Settings, compared: Mapping[str, Compared], states: bool) -> bool:
@@ -61,24 +39,9 @@ def one_iteration(settings: Settings, compared: Mapping[str, Compared], states: 
 def coarser_steps(
     settings: Settings, compared: Mapping[str, Compared], states: bool, unresolved: float, run: Report
 ) -> list[int]:
-    """By what the step is multiplied in turn, as far as it resolves the motion.
-
-    In an open tree where nothing abrupt can happen no run is made that misses too much by the term that its order
-    leaves out. `unresolved`: the missed share from which on steps do not resolve.
-    """
-    method, order = settings.method, METHOD_TABLE[settings.method].order
-    most = 8 if one_iteration(settings, compared, states) else 4 if order > 2 else 2
-    rest = 0.0 if rest_of(run, method, unresolved) is None else rest_missed(run, method)
-    return [
-        times
-        for times in TIMES
-        if times <= most and times * missed_share(run, method) <= unresolved and rest * times**order <= largest(times)
-    ]
-
-
-def largest(times: int) -> float:
-    """By what a run with so many times the step may differ, of the range, where the run is right."""
-    return ALONE * (times - 1)
+    """By what the step is multiplied in turn, as far as it resolves the motion: up to a missed share `unresolved`."""
+    asked = [LONG, 2] if one_iteration(settings, compared, states) else [2]
+    return [times for times in asked if times * missed_share(run, settings.method) <= unresolved]
 
 
 def difference_from(known: Accuracy, method: str, h: float) -> float:
@@ -99,22 +62,17 @@ class CoarserRuns:
 
     def verdict(self) -> Accuracy | None:
         """By the first of them that shows that the run is right; None where none does."""
-        refined, settings, last = self.refined, self.refined.run[0].settings, 0.0
+        refined, settings = self.refined, self.refined.run[0].settings
         report = refined.run[0].report
         assert settings is not None
         assert report is not None
         compared, states = refined.compared, len(refined.system.arrays["y0"]) > 0
         iterations = int(one_iteration(settings, compared, states))
-        chosen = coarser_steps(settings, compared, states, refined.unresolved, report)
-        for times in chosen:
-            screened = self.run(times, iterations, largest(times) if times == chosen[-1] else math.inf)
-            if screened is None:
-                continue
-            apart = difference_from(screened, settings.method, refined.h)
-            # half of what the longer steps before did: an order of one is seen
-            if apart <= largest(times) and (apart <= max(ALONE, 0.5 * last) or refined.nothing_abrupt):
+        for times in coarser_steps(settings, compared, states, refined.unresolved, report):
+            most = ALONE * (times - 1) if refined.nothing_abrupt else ALONE
+            screened = self.run(times, iterations, most)
+            if screened is not None and difference_from(screened, settings.method, refined.h) <= most:
                 return screened
-            last = apart
         return None
 
     def run(self, times: int, iterations: int, most: float) -> Accuracy | None:
@@ -127,14 +85,13 @@ class CoarserRuns:
         h, intervals = made * self.refined.h, len(self.refined.run[0].t) - 1
         coordinates, loads = bool(self.refined.run[1]), has_loads(self.refined.compared) and intervals <= WHOLE
         long_enough = self.refined.run[0].t[-1] - self.refined.run[0].t[0] >= h - 0.5 * self.refined.h
-        enough = times == 2 or intervals // thin >= FEWEST
-        if (thin > 1 and (coordinates or loads)) or not (long_enough and enough):
+        if (thin > 1 and (coordinates or loads)) or not long_enough:
             return None
         run = self.refined.run if thin == 1 else (self.refined.run[0].thinned(thin), [])
         smooth, watch = math.inf, None
         if not (coordinates or iterations):  # with one iteration a run is too short to be worth it
             smooth = self._smooth_from / thin
-            watch = self.watch(run[0], most, largest(times), smooth)
+            watch = self.watch(run[0], most, smooth)
         try:
             other = self.refined.again(h, steps, 1.0 / made, iterations, watch)
         except (SimulationError, TooDearError, TooFarError):
@@ -155,7 +112,7 @@ class CoarserRuns:
         assert report is not None
         for samples, at in self.refined.path:
             rest = replace(report, **{name: getattr(report, name) - at[name] for name in COUNTED})
-            if not accuracy.doubt(rest, rest.steps, rest.halvings, self.refined.method):
+            if not accuracy.doubt(rest, rest.steps, rest.halvings):
                 return samples
         return math.inf
 
@@ -166,11 +123,11 @@ class CoarserRuns:
         t = np.append(other.t, run.t[len(other.t) :])
         return Trajectory(t, values, names, [run.units[n] for n in names], other.report, other.settings)
 
-    def watch(self, run: Trajectory, most: float, right: float, smooth: float) -> Watch:
+    def watch(self, run: Trajectory, most: float, smooth: float) -> Watch:
         """What gives up a run with the samples of this one where they differ by more than `most` of the range.
 
         It ends it where `smooth` samples are made, and what both differ by in the last tenth of the whole is at most
-        `AGREED` of `right`, and as it grew in that tenth comes to no more than `right` in the end.
+        `AGREED` of `most`, and as it grew in that tenth comes to no more than `most` in the end.
         """
         compared, samples, tenth = self.refined.compared, len(run.t), len(run.t) / WATCHED
         column = {sensor["name"]: k for k, sensor in enumerate(self.refined.system.meta["sensors"])}
@@ -195,9 +152,9 @@ class CoarserRuns:
             if so_far > most:
                 raise TooFarError
             growth = math.log(max(last / before, 1.0)) if before > 0.0 else math.inf
-            ahead = (samples - end) / tenth * growth + math.log(last / right) if last > 0.0 else -math.inf
+            ahead = (samples - end) / tenth * growth + math.log(last / most) if last > 0.0 else -math.inf
             # where two motions are still to say what guides prescribe, both must have differed
             differ = all(compared[name].always or not is_open(compared) for name in whole.sizes())
-            return differ and end >= smooth and last <= AGREED * right and ahead <= 0.0
+            return differ and end >= smooth and last <= AGREED * most and ahead <= 0.0
 
         return look

@@ -24,7 +24,7 @@ from mbs.settings.input_signals import Signal
 from mbs.simulation import refined_run
 from mbs.simulation.arguments import count_steps
 from mbs.simulation.branch_warning import BranchWarning
-from mbs.simulation.coarser_run import CoarserRuns, one_iteration, rest_of
+from mbs.simulation.coarser_run import CoarserRuns, one_iteration
 from mbs.simulation.large_bending import BendingWarning
 from mbs.simulation.march import march
 from mbs.simulation.stepped_system import SteppedSystem
@@ -125,7 +125,7 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
         return known
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
     balance = accuracy.balance_text(report) if accuracy.balance_says(report, method, driven) else ""
-    doubt = accuracy.doubt(report, report.steps, report.halvings, method, rest_of(report, method, refined.unresolved))
+    doubt = accuracy.doubt(report, report.steps, report.halvings)
     if len(run[0].t) < 2 or not (always or refined.divisor or doubt):
         return known
     if not always and refined.before is None and doubt == accuracy.COARSER:
@@ -149,8 +149,10 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
         return replace(known, check_cost=refined.cost, message=text)
     branch = run[0].branch_change if refined.left_alone else ""
     off = refined.text(known) if (known.error or 0.0) > accuracy.WARNED_ERROR else ""
+    if not (off or refined.finest.balance_wrong):  # if it is, the refined run is off as well, as by round-off
+        balance = ""
     if not (off or balance):
         return replace(known, branch=branch)
-    tried = refined.tried_steps(known) if known.error is not None else []
+    tried = refined.tried_steps(known) if off else []
     message = " ".join(filter(None, [off, balance, accuracy.remedy(system, method, tried)]))
     return replace(known, check_cost=refined.cost, branch=branch, message=message)

@@ -24,6 +24,7 @@ from mbs.results.comparison import (
     shows_motion,
     sizes_of,
 )
+from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import UNRESOLVED, nothing_abrupt, unresolved_share
 from mbs.results.trajectory import Trajectory
@@ -152,6 +153,13 @@ class RefinedRuns:
         asked where errors have an order.
         """
         return not self.has_order and 2.0 * self._missed(self._finer[max(self._finer)]) > self.unresolved
+
+    @property
+    def finest(self) -> Report:
+        """Of the last finer run."""
+        report = self._finer[max(self._finer)][0].report
+        assert report is not None
+        return report
 
     @property
     def first(self) -> int:

@@ -18,7 +18,7 @@ from benchmarks.references.cases import system_of
 from mbs.elements import ContactPoints, EndStops, PlaneRoad
 from mbs.results.accuracy import Accuracy, missed_share
 from mbs.results.comparison import Compared
-from mbs.results.smooth_laws import LOOPS, OPEN, UNRESOLVED, unresolved_share
+from mbs.results.smooth_laws import SMOOTH_UNRESOLVED, UNRESOLVED, unresolved_share
 from mbs.simulation.coarser_run import coarser_steps, difference_from
 from tests.simulation.drawn import drawn
 
@@ -28,8 +28,7 @@ SPAN = (0.0, 1.0)  # s
 @pytest.mark.parametrize(
     ("h", "times", "cost", "more"),
     [
-        pytest.param(0.013, 4.0, 0.375, {}, id="eight times is too far off"),
-        pytest.param(0.016, 2.0, 0.875, {}, id="four times is too"),
+        pytest.param(0.016, 2.0, 0.625, {}, id="eight times is too far off"),
         pytest.param(0.005, 2.0, 0.5, {"method": "energy_momentum"}, id="iterations cannot be limited"),
         pytest.param(0.005, 2.0, 0.5, {"settings": mbs.Settings(step_iterations=4)}, id="they are limited already"),
     ],
@@ -174,10 +173,10 @@ def test_which_coarser_runs_are_made() -> None:
     still, moves, settings = replace(run.report, predictor_path=0.0), {"x": Compared("m", place=True)}, mbs.Settings()
     abrupt = replace(run.report, predictor_path=run.report.velocity_path)
     energy_momentum = mbs.Settings(method="energy_momentum")
-    assert coarser_steps(settings, moves, False, UNRESOLVED, still) == [8, 4, 2]
+    assert coarser_steps(settings, moves, False, UNRESOLVED, still) == [8, 2]
     assert coarser_steps(settings, moves, True, UNRESOLVED, still) == [2]
     assert coarser_steps(settings, {**moves, "force": Compared("N", load=True)}, False, UNRESOLVED, still) == [2]
-    assert coarser_steps(settings, moves, False, UNRESOLVED, run.report) == [4, 2]
+    assert coarser_steps(settings, moves, False, UNRESOLVED, run.report) == [2]
     assert coarser_steps(settings, moves, False, UNRESOLVED, abrupt) == []
     assert coarser_steps(energy_momentum, moves, False, UNRESOLVED, abrupt) == []
 
@@ -185,8 +184,8 @@ def test_which_coarser_runs_are_made() -> None:
 @pytest.mark.parametrize(
     ("system", "share"),
     [
-        pytest.param(lambda: system_of("spatial_chain"), OPEN, id="open tree"),
-        pytest.param(lambda: system_of("double_four_bar"), LOOPS, id="loops"),
+        pytest.param(lambda: system_of("spatial_chain"), SMOOTH_UNRESOLVED, id="open tree"),
+        pytest.param(lambda: system_of("double_four_bar"), SMOOTH_UNRESOLVED, id="loops"),
         pytest.param(lambda: ball(1e3, 0.5), UNRESOLVED, id="stop"),
     ],
 )
@@ -241,13 +240,13 @@ def test_a_dead_centre_keeps_its_share_among_smooth_steps() -> None:
         mbs.simulate(system, span, span / 200, every=4, method="radau_5", progress=False)
 
 
-def test_a_chain_in_long_steps_of_high_order_is_checked_by_half_at_most() -> None:
-    """By quarters and eighths it was, at 14 times its cost, as long steps miss most of v + h a."""
+def test_a_chain_in_long_steps_of_high_order_is_checked_by_a_quarter_at_most() -> None:
+    """By eighths it was too, at 14 times its cost, as long steps miss most of v + h a."""
     system, exact = system_of("spatial_chain"), None
     for h in (0.0125, 0.1):
         run = mbs.simulate(system, 2.0, h, method="semi_recursive", every=round(0.1 / h), progress=False)
         assert run.accuracy is not None
-        assert run.accuracy.check_cost <= 3.0
+        assert run.accuracy.check_cost <= 4.0
         exact = run if exact is None else exact
     names = [f"tip.position.{c}" for c in "xyz"]
     off = max(float(np.abs(run[n] - exact[n]).max()) for n in names)
@@ -298,7 +297,7 @@ def test_a_guide_that_ends_within_the_run_ends_a_step() -> None:
     m.drive("drive", cart.point((0.0, 0.0))[0], pushed)
     m.sense_position("x", rod, (0.0, -0.6), component="x")
     system = mbs.compile(m)
-    assert unresolved_share(system, "runge_kutta_8", (0.0, 0.7)) == LOOPS
+    assert unresolved_share(system, "runge_kutta_8", (0.0, 0.7)) == SMOOTH_UNRESOLVED
     run, fine = (
         mbs.simulate(system, 3.0, h, method="runge_kutta_8", every=round(0.2 / h), progress=False) for h in (0.2, 0.02)
     )
@@ -322,8 +321,8 @@ def cam(lift: PPoly, stiffness: float, damping: float) -> mbs.System:
 @pytest.mark.parametrize(
     ("method", "piece", "rate", "stiffness", "damping", "h", "cost"),
     [
-        pytest.param("radau_5", 0.2, 0.5, 100.0, 2.0, 0.01, 0.0, id="it cost 4 runs"),
-        pytest.param("ali3p", 0.08, 0.5, 5600.0, 11.0, 0.002, 0.25, id="it cost 14"),
+        pytest.param("radau_5", 0.2, 0.5, 100.0, 2.0, 0.01, 0.45, id="it cost 4 runs"),
+        pytest.param("ali3p", 0.08, 0.5, 5600.0, 11.0, 0.002, 0.5, id="it cost 14"),
     ],
 )
 def test_a_guide_whose_rate_jumps_needs_no_repeat(method, piece, rate, stiffness, damping, h, cost) -> None:

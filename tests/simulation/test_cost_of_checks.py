@@ -10,9 +10,8 @@ import pytest
 
 import mbs
 from benchmarks.methods import random_machines
-from mbs.results.comparison import COORDINATES, Compared
-from mbs.results.smooth_laws import LOOPS, OPEN
-from mbs.simulation.coarser_run import CoarserRuns, TooFarError, coarser_steps, rest_missed
+from mbs.results.comparison import COORDINATES
+from mbs.simulation.coarser_run import CoarserRuns, TooFarError
 from mbs.simulation.refined_run import RefinedRuns
 from tests.simulation.drawn import drawn
 from tests.simulation.test_coarser_runs import ball, place
@@ -26,15 +25,6 @@ def swing() -> mbs.System:
     m.initial_velocity(b, linear=(0.02, 0.0), angular=0.02)
     m.sense_position("x", b, (0.0, -1.0), component="x")
     return mbs.compile(m)
-
-
-@pytest.mark.parametrize("h", [0.25, 0.5])
-def test_the_term_that_order_four_leaves_out_is_the_error_of_a_vibration(h: float) -> None:
-    """Of each step (h w)^5/120 of the amplitude, but for the mean of a sine that the sum of the misses is."""
-    run = mbs.simulate(swing(), 20.0, h, method="semi_recursive_4", estimate_error=False, progress=False)
-    assert run.report is not None
-    error = np.abs(run["x"] - 0.02 * np.sin(run.t)).max() / 0.02
-    assert rest_missed(run.report, "semi_recursive_4") == pytest.approx(error, rel=0.6)
 
 
 @pytest.mark.parametrize(
@@ -53,25 +43,11 @@ def test_chains_that_were_silent_are_told(seed: int, number: int, steps: int, me
 
 
 @pytest.mark.parametrize("method", ["semi_recursive_4", "semi_recursive", "runge_kutta_8"])
-def test_a_right_tree_costs_its_run_alone(method: str) -> None:
+def test_a_right_tree_of_high_order_costs_half_of_its_run(method: str) -> None:
     run = mbs.simulate(swing(), 20.0, 0.2, method=method, progress=False)
     assert run.accuracy is not None
-    assert run.accuracy.check_cost == 0.0
+    assert run.accuracy.check_cost == 0.5
     assert np.abs(run["x"] - 0.02 * np.sin(run.t)).max() < 0.005 * 0.02
-
-
-def test_no_coarser_tree_is_made_that_its_order_says_to_be_off() -> None:
-    moves = {"x": Compared("m", place=True)}
-    fine, coarse = (
-        mbs.simulate(swing(), 20.0, h, method="semi_recursive_4", estimate_error=False, progress=False)
-        for h in (0.2, 0.3)
-    )
-    assert fine.settings is not None
-    assert fine.report is not None
-    assert coarse.report is not None
-    assert coarser_steps(fine.settings, moves, False, OPEN, fine.report) == [4, 2]
-    assert coarser_steps(fine.settings, moves, False, OPEN, coarse.report) == [2]
-    assert coarser_steps(fine.settings, moves, False, LOOPS, coarse.report) == [4, 2]
 
 
 def test_a_half_that_surely_is_coarse_is_not_made() -> None:
@@ -121,7 +97,7 @@ def never(*_: Any) -> Any:
 def test_a_coarser_run_goes_on_where_a_difference_grows(grown: Callable[[np.ndarray], np.ndarray], ends: bool) -> None:
     system, t = ball(1e3, 0.9), np.linspace(0.0, 1.0, 101)
     run = mbs.simulate(system, 1.0, 0.01, estimate_error=False, progress=False)
-    look = CoarserRuns(RefinedRuns(system, (run, []), never, 0.01, 1, never)).watch(run, 0.03, 0.03, 40)
+    look = CoarserRuns(RefinedRuns(system, (run, []), never, 0.01, 1, never)).watch(run, 0.03, 40)
     values = np.column_stack([run[name] for name in run.units])
     values[:, list(run.units).index("x")] += grown(t) * np.ptp(run["x"])
     assert look(values[:51]) == ends
