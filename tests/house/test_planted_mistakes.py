@@ -68,7 +68,8 @@ def tyre(**factors: float) -> Told:
             assert found == 1
         file = folder / "t.tir"
         file.write_text(text, encoding="utf-8")
-        return magic_echo("t.tir", read_tyre(file).tyre()).warnings()
+        read = read_tyre(file)
+        return magic_echo("t.tir", read.tyre(), read.numbers).warnings()
 
     return told
 
