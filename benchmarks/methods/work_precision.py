@@ -17,6 +17,7 @@ from benchmarks.references.cases import CASES, SAMPLES, SHARED, exact_of, system
 from benchmarks.shared.command import watched
 from benchmarks.shared.pages import Row, table
 from mbs.kernel.binding import KernelError
+from mbs.settings.input_signals import InputSignals
 from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 
@@ -56,7 +57,7 @@ def kernel_action(scene: str, settings: mbs.Settings, h: float) -> Action:
 def controlled_action(scene: str, method: str, tolerance: float) -> Action:
     """A run under error control, without those that `simulate` makes to estimate the error."""
     case, system = CASES[scene], system_of(scene)
-    task = Task(0.0, case.end, np.linspace(0.0, case.end, SAMPLES + 1)[1:], {})
+    task = Task(0.0, case.end, np.linspace(0.0, case.end, SAMPLES + 1)[1:], InputSignals({}, []))
     columns = [[s["name"] for s in system.meta["sensors"]].index(name) for name in case.sensors]
 
     def act() -> tuple[float, dict[str, Any]]:
