@@ -23,6 +23,7 @@ from mbs.elements import ContactPoints, EndStops, SpringDamper
 from mbs.elements.road import PlaneRoad
 from mbs.flexible import Beam, Frame, Interface, Material, ReducedBody, craig_bampton
 from mbs.flexible.section import tube
+from mbs.kernel.header.enumerations import Status
 
 Array = NDArray[np.float64]
 STEPS = (0.001, 0.002, 0.005, 0.01, 0.02)  # s
@@ -324,7 +325,7 @@ def fmus(rng: np.random.Generator) -> Case:
                 try:
                     fmu.step(k * h, h)
                 except StepRefusedError as refused:
-                    raise mbs.SimulationError(str(refused)) from refused
+                    raise mbs.SimulationError(str(refused), k * h, Status.NOT_CONVERGED) from refused
                 rows += [get()] if (k + 1) % every == 0 else []
             for text in fmu.messages:
                 warnings.warn(text, mbs.AccuracyWarning, stacklevel=1)
