@@ -113,7 +113,7 @@ def parquet_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:
             for batch in table.iter_batches(_BLOCK):
                 time, count, epoch, *values = (column.to_numpy(zero_copy_only=False) for column in batch.columns)
                 yield Rows(time, count, epoch, np.column_stack(values) if values else np.zeros((len(time), 0)))
-    except (pa.ArrowException, OSError) as error:
+    except (pa.ArrowException, OSError, UnicodeDecodeError) as error:
         words = reason(error) if isinstance(error, OSError) else str(error)
         raise HostError(f"{file} cannot be read as Parquet: {one_line(words).rstrip('.')}.") from None
 

@@ -172,9 +172,11 @@ def test_bad_recordings_are_refused_in_words(fmus: dict[str, Path], tmp_path: Pa
     with pytest.raises(HostError, match="has no recording.json; name the folder of a recording"):
         read_recording(tmp_path)
     (folder / "recording.json").write_text(json.dumps(meta))
-    (folder / "inputs_outputs.parquet").write_bytes(b"PAR1 and no more")
-    with pytest.raises(HostError, match="cannot be read as Parquet"):
-        read_recording(folder).rows()
+    good = (folder / "inputs_outputs.parquet").read_bytes()
+    for damaged in (b"PAR1 and no more", good.replace(b"epoch", b"epo\xd0h", 1)):  # no UTF-8
+        (folder / "inputs_outputs.parquet").write_bytes(damaged)
+        with pytest.raises(HostError, match="cannot be read as Parquet"):
+            read_recording(folder).rows()
     with pytest.raises(HostError, match="holds a recording already"):
         Recorder(folder, ["u"], {}, meta)
 
