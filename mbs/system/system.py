@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ali3.files import whole_file
 from ali3.json_reading import json_of
 from ali3.reading import read_bytes
-from ali3.words import one_line
+from ali3.words import brief, one_line
 from mbs.common.checks import instance_of
 from mbs.common.frames import Frames
 from mbs.common.later import Later
@@ -255,7 +255,7 @@ def _parse(data: bytes) -> dict[str, Any]:
         name = raw.rstrip(b"\0").decode("ascii", "replace")
         expected = FLOAT64 if name in FLOATS else INT32 if name in INTEGERS else BYTES if name in TEXTS else 0
         if not expected or kind != expected or name in found:
-            raise SystemFileError(f"The System file holds an unknown, repeated or mistyped array '{name}'.")
+            raise SystemFileError(f"The System file holds an unknown, repeated or mistyped array {brief(name)}.")
         dtype = types[kind]
         if offset % 8 or offset + items * dtype.itemsize > len(data):
             raise SystemFileError(f"The array '{name}' of the System file lies outside the file.")

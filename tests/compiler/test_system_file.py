@@ -83,6 +83,8 @@ def test_an_unknown_array_is_refused_whatever_its_type(data):
         entry = b"unknown".ljust(40, b"\0") + kind.to_bytes(4, "little")
         with pytest.raises(SystemFileError, match="an unknown, repeated or mistyped array 'unknown'"):
             System.from_bytes(forged(data, HEADER.size, entry))
+    with pytest.raises(SystemFileError, match=r"mistyped array 'two\\nlines'\.$"):
+        System.from_bytes(forged(data, HEADER.size, b"two\nlines".ljust(40, b"\0")))
 
 
 @pytest.mark.parametrize("name", ["row_ptr", "row_col", "front_idx", "el_sig", "mass_col", "sig_ptr", "front_parent"])
