@@ -80,7 +80,7 @@ class RawLog:
     def error(self, row: int, name: str, words: str) -> HostError:
         """What is wrong with a cell, with its line; of a row that is the heading once more, that."""
         cells = self.table.iloc[row].astype(str).str.strip()
-        if all(cell.startswith(str(column)) for cell, column in zip(cells, self.table.columns, strict=True)):
+        if all(str(cell).startswith(str(column)) for cell, column in zip(cells, self.table.columns, strict=True)):
             words = "the heading stands there again; cut the log there, each drive is compared by itself."
             return HostError(f"The log {self.path}, line {self.line(row)}: {words}")
         return HostError(f"The log {self.path}, line {self.line(row)}, column '{name}': {words}")

@@ -104,6 +104,9 @@ def test_a_heading_that_is_repeated_is_told_by_its_line(fmu: AliasedFmu, tmp_pat
     again = [*lines[:4], "", heading.strip(), *lines[4:]]
     with pytest.raises(HostError, match=r"log\.csv, line 6: the heading stands there again; cut the log there"):
         read(fmu, tmp_path, "\n".join(again))
+    again[5] = f"time{unit},pull,"  # cut behind a cell that is empty
+    with pytest.raises(HostError, match=r"log\.csv, line 6, column"):
+        read(fmu, tmp_path, "\n".join(again))
     again[5] = "soon,1,2"
     with pytest.raises(HostError, match=r"line 6, column 'time': the time 'soon' is no number"):
         read(fmu, tmp_path, "\n".join(again))
