@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ali3.echo import Echo, Mistake, Value, echo_of, quantities_of
 from mbs.roads.road_header import RoadFileError
 from mbs.worlds.centre_line import of_segments
+from mbs.worlds.layers import AreaLayer
 from mbs.worlds.obstacles import added, footprint
 from mbs.worlds.world_types import FRICTIONS, Area, Band, Course, Kerb, Ramp, Washboard, WorldDescription
 
@@ -110,7 +111,7 @@ def _stands(world: WorldDescription) -> Iterator[Value]:
             for k, thing in enumerate(getattr(world, name)):
                 at = np.array(thing.at[:2])
                 off = [_far(line, at) - 0.5 * course.width for line, course in zip(lines, world.courses, strict=True)]
-                off += [_beside(area, at) for area in world.areas]
+                off += [float(AreaLayer(area).near(*at)[0]) for area in world.areas]
                 yield Value(QUANTITIES[quantity], min(off), {f"{name}.{k}.at": list(thing.at)}, f"{name}.{k}")
     for k, course in enumerate(world.courses):
         yield Value(QUANTITIES["width"], course.width, {f"courses.{k}.width": course.width}, f"courses.{k}")
@@ -147,14 +148,6 @@ def _far(line: NDArray[np.float64], at: NDArray[np.float64]) -> float:
     first, step = line[:-1], np.diff(line, axis=0)
     along = np.clip(((at - first) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), FELT), 0.0, 1.0)
     return float(np.linalg.norm(first + along[:, None] * step - at, axis=1).min(initial=np.inf))
-
-
-def _beside(area: Area, at: NDArray[np.float64]) -> float:
-    """How far a place is beside an area, negative inside, m."""
-    off = np.abs(at - area.at)
-    if area.radius is not None:
-        return float(np.hypot(*off)) - area.radius
-    return float(np.max(off - 0.5 * np.array(area.size or (0.0, 0.0))))
 
 
 def _outside(world: WorldDescription, key: str, places: Sequence[tuple[float, float]]) -> Value:
