@@ -39,10 +39,10 @@ def function_breaks(
     seen = np.zeros(0)
     for begin, end in blocks if len(blocks) > 1 else []:
         x = _ask(function, np.linspace(begin, end, BLOCK + 1))
-        x = x[np.abs(x) < HUGE]
-        seen = np.array([np.min(x, initial=np.inf), np.max(x, initial=-np.inf), *seen])
-        seen = np.array([seen.min(), seen.max()])
-        if len(x) <= BLOCK:
+        good = x[np.abs(x) < HUGE]
+        seen = np.append(seen, good)
+        seen = np.array([seen.min(), seen.max()]) if len(seen) else seen
+        if len(good) < len(x):
             break
     found, jumping = [], list[tuple[float, float]]()
     for begin, end in blocks:

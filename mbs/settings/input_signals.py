@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.common.checks import is_number, numbers, shown
 from mbs.kernel.binding.instance import Instance
-from mbs.settings.input_breaks import Table, distinct, function_breaks, input_breaks
+from mbs.settings.input_breaks import AT_END, Table, distinct, function_breaks, input_breaks
 
 Signal: TypeAlias = "float | Callable[[float], float] | tuple[ArrayLike, ArrayLike]"
 
@@ -126,6 +126,12 @@ class InputSignals:
                 values[i] = value(t, after)
 
         instance.set_input_function(function)
+
+    def attach_to_steps(self, instance: Instance, t0: float, t_end: float, h: float) -> None:
+        """The same for steps of `h`, s, which are parted where a signal jumps or peaks within them."""
+        breaks = self.breaks(t0, t_end, h)
+        self.attach(instance, t0, t_end, AT_END * h)
+        instance.set_input_breaks(breaks)
 
     def _asker(self, i: int, signal: Signal, tolerance: float) -> Callable[[float, bool], float]:
         """Value of one signal at a time, before or behind a jump."""

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.results.left_out import LeftOut
-from mbs.settings.input_breaks import AT_END
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.simulation.follower import NO_PORTS, Follower, names_left_out
 from mbs.simulation.prepared_system import prepared
@@ -49,10 +48,7 @@ def left_out_of_run(
         follower, again = Follower(system), restored(system, settings, roads, state)
         rows, t0 = [follower.values(again.instance)], again.time
         signals = InputSignals(inputs, prepared(system)[1]["inputs"])
-        t_end = t0 + (samples - 1) * every * h
-        breaks = signals.breaks(t0, t_end, h)
-        signals.attach(again.instance, t0, t_end, AT_END * h)
-        again.instance.set_input_breaks(breaks)
+        signals.attach_to_steps(again.instance, t0, t0 + (samples - 1) * every * h, h)
         for _ in range((samples - 1) // stride):
             again.instance.run(h, every * stride)
             rows.append(follower.values(again.instance))

@@ -16,7 +16,6 @@ from mbs.results.comparison import instants
 from mbs.results.left_out import LeftOut
 from mbs.results.run_report import Report
 from mbs.results.trajectory import Trajectory
-from mbs.settings.input_breaks import AT_END
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.simulation.arguments import (
     check_every,
@@ -133,9 +132,7 @@ def notices_of(system: System, t: Array, values: Array) -> list[str]:
 @contextmanager
 def attached(simulation: SteppedSystem, signals: InputSignals, t0: float, t_end: float, h: float) -> Iterator[None]:
     """Inputs of a run: the kernel asks for them at the times at which its method evaluates them."""
-    breaks = signals.breaks(t0, t_end, h)
-    signals.attach(simulation.instance, t0, t_end, AT_END * h)
-    simulation.instance.set_input_breaks(breaks)
+    signals.attach_to_steps(simulation.instance, t0, t_end, h)
     try:
         yield
     finally:
