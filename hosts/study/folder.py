@@ -28,6 +28,16 @@ RECORD = "study.json"
 _HASH = r"^[0-9a-f]{64}$"
 _FILE_NAME = r"^[^/\\:\x00-\x1f]*[^/\\:\x00-\x1f.][^/\\:\x00-\x1f]*$"
 _FORMS = {_HASH: "a SHA-256 hash, 64 hexadecimal digits", _FILE_NAME: "the name of a file in this folder"}
+_FREE = ("versions", "file", "units", "measures", "limits", "created", "reuse")
+"""Keys of the record that may differ when a study goes on, or follow from others."""
+_WORDS = {
+    "guid": "the GUID of the FMU",
+    "fmu_sha256": "the content of the FMU",
+    "program": "the program that makes the runs",
+    "points_sha256": "the points that are drawn",
+    "measured": "the measures",
+}
+_MOST = 3
 
 Hash: TypeAlias = Annotated[str, Field(pattern=_HASH)]
 
@@ -166,18 +176,6 @@ def sync(file: Path) -> None:
     """Bring a file to the disk, so that a rename after it never shows an empty one after a power cut."""
     with file.open("rb+") as stream:
         os.fsync(stream.fileno())
-
-
-_FREE = ("versions", "file", "units", "measures", "limits", "created", "reuse")
-"""Keys of the record that may differ when a study goes on, or follow from others."""
-_WORDS = {
-    "guid": "the GUID of the FMU",
-    "fmu_sha256": "the content of the FMU",
-    "program": "the program that makes the runs",
-    "points_sha256": "the points that are drawn",
-    "measured": "the measures",
-}
-_MOST = 3
 
 
 def check_same(folder: Path, before: Mapping[str, Any], now: Mapping[str, Any]) -> None:

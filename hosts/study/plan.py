@@ -29,6 +29,11 @@ from hosts.study.points import Points, digest, sampled_points, table_points
 from hosts.study.study_file import ManoeuvreEntry, StudyFile, read_study_file
 from hosts.study.work import ALL, Run, Work
 
+OWN_COLUMNS = (
+    *("index", "point", "manoeuvre", "seed"),
+    *("status", "reason", "missing", "messages", "simulated", "wall_seconds"),
+)
+
 
 def aliases_beside(name: str, file: Path, fmu: Fmu) -> Aliases:
     """The aliases that a study file names: a file beside it, else one of the package.
@@ -111,12 +116,6 @@ def _points(study: StudyFile, file: Path, opened: Fmu, fmu: SimulatedFmu) -> tup
     )
     points = sampled_points(parameters, study.sampling, str(file))
     return points, {p.name: p for p in points.parameters}
-
-
-OWN_COLUMNS = (
-    *("index", "point", "manoeuvre", "seed"),
-    *("status", "reason", "missing", "messages", "simulated", "wall_seconds"),
-)
 
 
 @dataclass(frozen=True)
