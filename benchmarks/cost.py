@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from benchmarks.car import lanes, real_time, scene_instructions
+from benchmarks.car import against_checkout, lanes, real_time, scene_instructions
 from benchmarks.methods import growth
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
@@ -28,6 +28,13 @@ def _dearer(rows: Sequence[Row], options: Namespace) -> list[str]:
     if options.against is None:
         return []
     return scene_instructions.compared(rows, json.loads(options.against.read_text("utf-8"))["rows"])
+
+
+def _turns(options: Namespace) -> list[dict[str, Any]]:
+    if options.other is None:
+        raise RuntimeError("--other is missing: the folder of the checkout with which steps are timed in turn.")
+    scenes = [scene for scene in scene_instructions.SCENES if scene.name in options.only]
+    return [*against_checkout.measure(options.other, scenes, options.rounds, options.repeats, options.instructions)]
 
 
 def _growth(options: Namespace) -> list[dict[str, Any]]:
@@ -51,6 +58,17 @@ PARTS = {
         pages=("speed.md",),
         blocks=scene_instructions.instruction_blocks,
         check=_dearer,
+    ),
+    "turns": Part(
+        "steps of scenes by this checkout and by another one in turn: times, their ratio, counts",
+        _turns,
+        names=tuple(dict.fromkeys(scene.name for scene in scene_instructions.SCENES)),
+        options={
+            "other": (Path, "folder of the other checkout: a working tree, made by git worktree add"),
+            "rounds": (7, "each times both; the ratio is the median of theirs"),
+            "repeats": (5, "runs of which a round takes the least"),
+            "instructions": (False, "instructions beside the times"),
+        },
     ),
     "growth": Part(
         "time, memory and non-zeros of the N-four-bar by N and of the car's frame by its modes, with exponents",

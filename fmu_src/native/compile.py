@@ -71,18 +71,26 @@ def exports(files: Sequence[Path]) -> list[str]:
 
 
 def _files(face: str, table: Path) -> tuple[list[Path], list[Path]]:
-    """C files and folders of headers: copies, but the table. All headers name their folder, each C file itself."""
+    """C files and folders of headers: copies, but the table. All headers name their folder, each C file itself.
+
+    C files that a header includes are beside the headers too.
+    """
+    files = [*build.sources(lanes=False), *shell_files(face)]
     headers = {_inside(file): file.read_bytes() for root in _ROOMS for file in root.rglob("*.h")}
+    named = (re.findall(rb'#include "(?:.*/)?(\w+\.c)"', data) for data in headers.values())
+    included = {name.decode() for names in named for name in names}
+    headers |= {_inside(file): file.read_bytes() for file in files if file.name in included}
     place = build.cache_directory() / "sources" / identity_of(headers, None)[0]
-    copies = {place / name: data for name, data in headers.items()}
-    for file in [*build.sources(lanes=False), *shell_files(face)]:
+    copies, compiled = {place / name: data for name, data in headers.items()}, [table]
+    for file in files:
         data = file.read_bytes()
-        copies[(place / _inside(file)).with_stem(f"{file.stem}-{identity_of({'': data}, None)[0]}")] = data
+        compiled.append((place / _inside(file)).with_stem(f"{file.stem}-{identity_of({'': data}, None)[0]}"))
+        copies[compiled[-1]] = data
     for copy, data in copies.items():
         if not copy.is_file():
             with whole_file(copy) as written:
                 written.write_bytes(data)
-    return [*(copy for copy in copies if copy.suffix == ".c"), table], [place / name for name in _INCLUDE]
+    return compiled, [place / name for name in _INCLUDE]
 
 
 def _inside(file: Path) -> str:

@@ -1,6 +1,6 @@
 /* Calls the law of an element for two lanes, with flat arguments: a row for each number, a column for each lane. */
 #define ALI3_WIDTH 2
-#include "lanes/laws.h"
+#include "elements/laws.h"
 
 #if defined(_WIN32)
 #define EXPORT __declspec(dllexport)
@@ -9,13 +9,6 @@
 #endif
 
 enum { MOST = 64 };
-
-/* Other roads are those of each lane, and need its instance. */
-void ali3_lane_contacts(const ali3_lane_road *road, const real *centre, const real *axis, const real *radius,
-                        real *contacts) {
-  (void)road, (void)centre, (void)axis, (void)radius, (void)contacts;
-  __builtin_trap();
-}
 
 static real *of(real *vector, const double *numbers, int32_t n) {
   memcpy(vector, numbers, (size_t)n * sizeof *vector);

@@ -185,6 +185,8 @@ struct ali3_system {
    * first the columns of the others are one and two further, and the values are the same. */
   int32_t *
       mass_alike; /* nq: rows of mass_ptr from this one on that have the same columns; 0: it is the first of a triple */
+  int32_t *four, *alone; /* elements that are evaluated four at a time (elements/fours.h), and the others */
+  unsigned char *el_in_four;
   int32_t *el_beside; /* ne: the first signal of an element whose signals follow each other, else -1 */
   unsigned char *active_triple, *el_triple,
       *triad_triple; /* n_active, as el_sig, as mode_triad: 1: it is the first of a triple that follows in turn */
@@ -218,7 +220,7 @@ struct ali3_system {
   int32_t n_guide_work; /* 1 where the work of guides is sensed, else 0 */
   int32_t n_work, n_work_force; /* elements whose work is sensed, signals of all of them */
   int32_t *work_of, *work_element, *work_ptr; /* ne: number among them or -1; which; n_work + 1: offsets of signals */
-  int32_t n_driven, n_contact, n_turning;
+  int32_t n_driven, n_contact, n_turning, n_four, n_alone;
   int32_t n_active, shift_x, shift_y, shift_z; /* shift_*: a coordinate that shows the translation, or -1 */
 };
 

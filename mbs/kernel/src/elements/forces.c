@@ -8,6 +8,7 @@
 #include "defect.h"
 #include "element.h"
 #include "forces.h"
+#include "fours.h"
 #include "signals.h"
 
 /* Arguments that are the same for all elements. */
@@ -97,7 +98,10 @@ void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals do not lie side by side */
   ali3_element_args a = common(in, call);
-  for (int32_t e = 0; e < S->size.ne; e++) {
+  if (!in->discrete) ali3_fours_forces(in, call);
+  const int32_t n = in->discrete ? S->size.ne : S->n_alone;
+  for (int32_t k = 0; k < n; k++) {
+    const int32_t e = in->discrete ? k : S->alone[k];
     double *tangent = call->tangent && S->el_front[e] >= 0 ? in->S + S->el_S_off[e] : NULL;
     double *f = in->element_force + S->el_sig_ptr[e];
     const int32_t beside = S->el_beside[e];

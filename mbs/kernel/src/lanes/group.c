@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../elements/element.h"
+#include "../elements/laws.h"
 #include "../elements/road.h"
 #include "../flexible/body_arrays.h"
 #include "../state/vectors.h"
@@ -116,8 +117,7 @@ static void place_elements(ali3_lane_group *g, ali3_pool *pool) {
   g->road = ali3_pool_items(pool, (size_t)S->nr, sizeof *g->road);
   for (int32_t e = 0; e < z->ne && pool->block != NULL; e++) g->by_law[e] = has_law(S->el_kind[e]);
   for (int32_t r = 0; r < S->nr; r++) {
-    const ali3_lane_road road = {
-        .group = g, .number = r, .numbers = items(g, pool, ALI3_ROAD_NUMBERS), .friction_factor = items(g, pool, 1)};
+    const ali3_lane_road road = {.numbers = items(g, pool, ALI3_ROAD_NUMBERS), .friction_factor = items(g, pool, 1)};
     if (pool->block != NULL) g->road[r] = road;
   }
 }
@@ -200,7 +200,8 @@ static void roads(ali3_lane_group *g) {
     ali3_lane_road *road = &g->road[r];
     for (int32_t l = 0; l < g->used; l++) {
       double numbers[ALI3_ROAD_NUMBERS];
-      const int32_t type = ali3_road_numbers(&g->lane[l]->road[r], numbers, &road->friction_factor[l]);
+      road->lane[l] = &g->lane[l]->road[r];
+      const int32_t type = ali3_road_numbers(road->lane[l], numbers, &road->friction_factor[l]);
       road->type = l == 0 || road->type == type ? type : ALI3_ROAD_COUNT;
       for (int32_t i = 0; i < ALI3_ROAD_NUMBERS; i++) road->numbers[i * g->width + l] = numbers[i];
     }

@@ -3,9 +3,8 @@
 #ifndef ALI3_GROUP_H
 #define ALI3_GROUP_H
 #include "../algebra/real.h"
+#include "../elements/lane_road.h"
 #include "../instance.h"
-
-enum { ALI3_MOST_LANES = 8 };
 
 #ifdef ALI3_WIDTH
 typedef truth ali3_mask; /* all bits of a lane, or none; counts too */
@@ -21,15 +20,7 @@ typedef struct {
   real *y; /* states of elements */
 } ali3_lane_vectors;
 
-/* Elements whose laws are computed in vectors; see laws.h. */
-#define ALI3_LAWS(X) X(spring_damper) X(gyroscopic_spin) X(drag) X(tyre) X(brake) X(spin_angle)
-
-/* A road of all lanes. */
-typedef struct ali3_lane_road {
-  struct ali3_lane_group *group;
-  int32_t number, type; /* type: ALI3_ROAD_COUNT where the lanes have roads of several types */
-  real *numbers, *friction_factor;
-} ali3_lane_road;
+typedef struct ali3_lane_group ali3_lane_group;
 
 /* What is compiled for a number of lanes. */
 typedef struct ali3_lane_code {
@@ -40,7 +31,7 @@ typedef struct ali3_lane_code {
   void (*collect)(double *const lane[], const double *from, int32_t n);
 } ali3_lane_code;
 
-typedef struct ali3_lane_group {
+struct ali3_lane_group {
   const ali3_system *system;
   const ali3_lane_code *code;
   int32_t width, used; /* lanes, and how many of them have an instance */
@@ -81,14 +72,11 @@ typedef struct ali3_lane_group {
   real *residual, *reach, *violation, *velocity_violation, *open_power, *work, *end, *open, *size, *guides;
   real *gravity_const, *weight; /* energy of gravity without its linear part; at the end of a step */
   real *squares; /* 3, of balance_squares */
-} ali3_lane_group;
+};
 
 extern const ali3_lane_code ali3_code_lanes_2, ali3_code_lanes_4, ali3_code_lanes_8;
 
 /* Element e of the lanes in group->evaluated, one by one; f: its forces. */
 void ali3_lane_element(ali3_lane_group *group, int32_t e, real *f, bool tangent);
-/* What ali3_road_contacts gives in each lane, two contacts. */
-void ali3_lane_contacts(const ali3_lane_road *road, const real *centre, const real *axis, const real *radius,
-                        real *contacts);
 void ali3_lane_elements_accept(ali3_lane_group *group, int32_t lane);
 #endif

@@ -10,7 +10,8 @@
 #pragma clang attribute push(__attribute__((target(ALI3_INSTRUCTIONS))), apply_to = function)
 #endif
 
-#include "laws.h"
+#include "../elements/laws.h"
+#include "group.h"
 
 static inline real ALI3_LANED(sine)(real x) {
   for (int l = 0; l < ALI3_WIDTH; l++) x[l] = ali3_sin(x[l]);

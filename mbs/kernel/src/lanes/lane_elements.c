@@ -1,8 +1,7 @@
-/* Elements and roads of the lanes, one instance after the other, where laws.h has no vectors for them: what they give is
+/* Elements of the lanes, one instance after the other, where laws.h has no vectors for them: what they give is
  * that of a single run. */
 #include "../elements/element.h"
 #include "../elements/forces.h"
-#include "../elements/road.h"
 #include "group.h"
 
 static ali3_force_call call_of(const ali3_lane_group *g, int32_t l) {
@@ -47,30 +46,6 @@ void ali3_lane_element(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
     if (!g->evaluated[l]) continue;
     const ali3_force_call call = call_of(g, l);
     one(g, &call, e, l, f, tangent);
-  }
-}
-
-static bool finite(const double *v, int32_t n) {
-  bool all = true;
-  for (int32_t i = 0; i < n; i++) all = all && v[i] - v[i] == 0.0;
-  return all;
-}
-
-void ali3_lane_contacts(const ali3_lane_road *road, const real *centre, const real *axis, const real *radius,
-                        real *contacts) {
-  const ali3_lane_group *g = road->group;
-  const int32_t width = g->width, numbers = sizeof(ali3_contact) / sizeof(double);
-  for (int32_t l = 0; l < width; l++) {
-    ali3_contact found[2];
-    double disc[7] = {0.0}; /* centre, axis, radius */
-    for (int32_t i = 0; i < 3; i++) disc[i] = centre[i * width + l], disc[3 + i] = axis[i * width + l];
-    disc[6] = radius[l];
-    const bool asked = g->lanes[l] && finite(disc, 7); /* what failed has no place on a road */
-    const int count = asked ? ali3_road_contacts(&g->lane[l]->road[road->number], disc, disc + 3, disc[6], found) : 0;
-    for (int k = 0; k < 2; k++) {
-      if (k >= count) found[k] = ali3_no_contact();
-      for (int32_t i = 0; i < numbers; i++) contacts[(k * numbers + i) * width + l] = ((const double *)&found[k])[i];
-    }
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "../algebra/processor.h"
 #include "../elements/element.h"
+#include "../elements/fours.h"
 #include "../rows/violation.h"
 #include "../system.h"
 #include "../tree/tree.h"
@@ -79,6 +80,9 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->active_signal = ali3_pool_items(p, (size_t)s->size.nsig, sizeof(int32_t));
   s->active_triple = ali3_pool_items(p, (size_t)s->size.nsig, 1);
   s->el_triple = ali3_pool_items(p, (size_t)s->n_el_sig, 1);
+  s->four = ali3_pool_items(p, 2 * ne, sizeof(int32_t));
+  s->alone = ali3_pool_items(p, ne, sizeof(int32_t));
+  s->el_in_four = ali3_pool_items(p, ne, 1);
   s->el_beside = ali3_pool_items(p, ne, sizeof(int32_t));
   s->flex_square = ali3_pool_items(p, (size_t)s->n_flexible + 1, sizeof(int32_t));
   ali3_tabled_place(s, p, n_entry);
@@ -497,6 +501,7 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   derive_mass(s);
   derive_turning(s);
   ali3_elements_derive(s);
+  ali3_fours_derive(s);
   derive_flexible(s);
   const ali3_status tabled = ali3_tabled_derive(s, m);
   if (tabled != ALI3_OK) return tabled;

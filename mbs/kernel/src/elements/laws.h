@@ -1,15 +1,22 @@
-/* The laws of elements, compiled for lanes as kernels.h compiles the step: a law sees all lanes of an element at once.
- * Lanes that have ended see what they saw last and get the same again. */
+/* The laws of elements, compiled in vectors: a law sees an element of several instances at once, as ../lanes/kernels.h
+ * compiles the step, or several elements of one (fours.c). Lanes that have ended see what they saw last and get the same
+ * again. */
 #ifndef ALI3_LAWS_H
 #define ALI3_LAWS_H
+
+/* Elements whose laws are computed in vectors. */
+#define ALI3_LAWS(X) X(spring_damper) X(gyroscopic_spin) X(drag) X(tyre) X(brake) X(spin_angle)
+
 #ifdef ALI3_WIDTH
 #include <string.h>
 
 #include "../algebra/elementary.h"
 #include "../instance.h"
-#include "group.h"
+#include "lane_road.h"
 
+#ifndef ALI3_JOINED
 #define ALI3_JOINED(name, width) name##_lanes_##width
+#endif
 #define ALI3_OF_WIDTH(name, width) ALI3_JOINED(name, width)
 #define ALI3_LANED(name) ALI3_OF_WIDTH(name, ALI3_WIDTH)
 
@@ -42,38 +49,38 @@ static inline real ALI3_LANED(tanh)(real x) {
 #define ali3_contact_loss ALI3_LANED(contact_loss)
 
 #include "../algebra/inverse_tangent.c"
-#include "../elements/contact_law.c"
-#include "../elements/end_stops.c"
-#include "../elements/half_space.c"
-#include "../elements/plane_and_kerb.c"
-#include "../elements/tmeasy.c"
-#include "../elements/tyre_bore.c"
-#include "../elements/tyre_contact.c"
+#include "contact_law.c"
+#include "end_stops.c"
+#include "half_space.c"
+#include "plane_and_kerb.c"
+#include "tmeasy.c"
+#include "tyre_bore.c"
+#include "tyre_contact.c"
 
 #define evaluate spring_damper_law
-#include "../elements/spring_damper.c"
+#include "spring_damper.c"
 #undef evaluate
 #define evaluate gyroscopic_spin_law
-#include "../elements/gyroscopic_spin.c"
+#include "gyroscopic_spin.c"
 #undef evaluate
 #define evaluate drag_law
-#include "../elements/drag.c"
+#include "drag.c"
 #undef evaluate
 #define evaluate tyre_law
-#include "../elements/tyre.c"
+#include "tyre.c"
 #undef evaluate
 #define evaluate brake_law
-#include "../elements/brake.c"
+#include "brake.c"
 #undef evaluate
 #define evaluate spin_angle_law
-#include "../elements/spin_angle.c"
+#include "spin_angle.c"
 #undef evaluate
 
 int ali3_road_contacts(const ali3_road *road, const real centre[3], const real axis[3], real radius,
                        ali3_contact out[2]) {
   if (road->type == ALI3_ROAD_PLANE || road->type == ALI3_ROAD_KERB)
     return ali3_contacts_by_numbers(road->type, road->numbers, *road->friction_factor, centre, axis, radius, out);
-  ali3_lane_contacts(road, centre, axis, &radius, (real *)out);
+  ali3_lane_contacts(road, ALI3_WIDTH, centre, axis, &radius, (real *)out);
   return 2;
 }
 

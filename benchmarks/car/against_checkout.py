@@ -1,0 +1,133 @@
+"""Steps of scenes by the kernel of this checkout and by that of another one, in turn on the same machine."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from benchmarks.car import scene_instructions
+from benchmarks.car.scene_instructions import SOURCE, Scene, instructions
+from benchmarks.shared.command import watched
+from mbs.kernel import build
+
+ROOT = Path(__file__).parents[2]
+_COMMANDS = """
+import json, runpy, sys
+from pathlib import Path
+here = runpy.run_path(sys.argv[1])
+program, wanted, steps = Path(sys.argv[2]), json.loads(sys.argv[3]), int(sys.argv[4])
+commands = {}
+for scene in here["SCENES"]:
+    if [scene.name, scene.step] in wanted:
+        folder = program.parent / str(len(commands))
+        folder.mkdir()
+        key = f"{scene.name} {scene.step}"
+        commands[key] = here["command_of"](scene._replace(steps=steps or scene.steps), program, folder)
+print("\\n" + json.dumps(commands))
+"""
+"""Scenes of `scene_instructions` of this checkout, made by the packages of another one."""
+
+
+def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: int) -> dict[str, list[str]]:
+    """The program of `SOURCE` with the kernel of a checkout, and its arguments for each scene.
+
+    Parameters
+    ----------
+    checkout : Path
+        Folder of a working tree.
+    scenes : sequence of Scene
+    folder : Path
+        Empty; program and files are written there.
+    steps : int
+        Of each scene; 0: its own number.
+
+    Raises
+    ------
+    RuntimeError
+        It is no working tree of this project, its kernel does not compile, or its packages do not make the scenes.
+    """
+    kernel, program = checkout / "mbs" / "kernel", folder / "run_system"
+    rooms = (file for file in sorted((kernel / "src").rglob("*.c")))
+    sources = [file for file in rooms if not {file.parent.name, file.name} & set(build.LANES)]
+    if not sources:
+        raise RuntimeError(
+            f"{checkout} is no working tree of this project: it has no mbs/kernel/src; git worktree add FOLDER COMMIT "
+            "makes one."
+        )
+    what = f"the program that repeats steps, with the kernel of {checkout},"
+    include = (kernel / "include",)
+    build.compile_c([SOURCE, *sources], build.host_target(), program, include=include, what=what, shared=False)
+    wanted = json.dumps([[scene.name, scene.step] for scene in scenes])
+    command = [sys.executable, "-c", _COMMANDS, scene_instructions.__file__, str(program), wanted, str(steps)]
+    environment = os.environ | {"PYTHONPATH": str(checkout)}
+    done = subprocess.run(command, cwd=checkout, env=environment, capture_output=True, text=True)
+    if done.returncode != 0:
+        last = done.stderr.strip().rsplit("\n", 1)[-1]
+        raise RuntimeError(f"The packages of {checkout} do not make these scenes: {last}")
+    found: dict[str, list[str]] = json.loads(done.stdout.rsplit("\n", 2)[-2])
+    return found
+
+
+def measure(
+    other: Path, scenes: Sequence[Scene], rounds: int, repeats: int, counted: bool, steps: int = 0
+) -> Iterator[dict[str, Any]]:
+    """A row for each scene that both have: microseconds a step, their ratio, and what a step takes, here and there.
+
+    Parameters
+    ----------
+    other : Path
+        Folder of the other checkout.
+    scenes : sequence of Scene
+    rounds : int
+        Each times both, one after the other; the ratio is the median of theirs.
+    repeats : int
+        Runs of which a round takes the least.
+    counted : bool
+        Instructions too, where valgrind is there.
+    steps : int
+        Of each scene; 0: its own number.
+    """
+    with tempfile.TemporaryDirectory() as place:
+        sides = []
+        for name, checkout in (("here", ROOT), ("there", other)):
+            Path(place, name).mkdir()
+            sides.append(commands_of(checkout.resolve(), scenes, Path(place, name), steps))
+        for scene in watched([s for s in scenes if f"{s.name} {s.step}" in sides[1]]):
+            key = f"{scene.name} {scene.step}"
+            yield _row(scene, [side[key] for side in sides], steps or scene.steps, rounds, repeats, counted)
+
+
+def _row(
+    scene: Scene, both: Sequence[list[str]], steps: int, rounds: int, repeats: int, counted: bool
+) -> dict[str, Any]:
+    times: list[list[float]] = [[], []]
+    counts: list[list[int]] = [[], []]
+    for k in range(2 * rounds):
+        side = (k + k // 2) % 2  # here, there, there, here: a drift of the machine's pace is on both sides
+        done = subprocess.run([*both[side], str(repeats)], capture_output=True, text=True, check=True).stdout.split()
+        if done[0] != "0":
+            raise RuntimeError(f"A step of the scene {scene.name!r} was refused (status {done[0]}).")
+        counts[side] = [int(count) for count in done[1:4]]
+        times[side].append(1e6 * float(done[4]) / steps)
+    row: dict[str, Any] = {"scene": scene.name, "step, ms": 1e3 * scene.step}
+    for side, name in enumerate(("here", "there")):
+        row[f"us {name}"] = round(min(times[side]), 3)
+    row["ratio"] = round(median(a / b for a, b in zip(*times, strict=True)), 3)
+    for side, name in enumerate(("here", "there")):
+        row |= {
+            f"{what} {name}": round(n / steps, 3)
+            for what, n in zip(("iterations", "solves"), counts[side][::2], strict=True)
+        }
+    if counted and scene_instructions.counter() is not None:
+        for command, name in zip(both, ("here", "there"), strict=True):
+            still = [*command[:5], "0"]
+            taken = [instructions(of) for of in (command, still)]
+            row[f"instructions {name}"] = round((taken[0] - taken[1]) / steps)  # type: ignore[operator]
+    return row

@@ -1,0 +1,17 @@
+/* A road as laws see it that are computed for several discs at once: of instances (../lanes/) or of one (fours.h). */
+#ifndef ALI3_LANE_ROAD_H
+#define ALI3_LANE_ROAD_H
+#include "../algebra/real.h"
+
+enum { ALI3_MOST_LANES = 8 };
+
+typedef struct ali3_lane_road {
+  int32_t type;                                   /* ALI3_ROAD_COUNT where the lanes have roads of several types */
+  const struct ali3_road *lane[ALI3_MOST_LANES];  /* NULL: none, nothing is touched */
+  real *numbers, *friction_factor;                /* of ali3_road_numbers */
+} ali3_lane_road;
+
+/* What ali3_road_contacts gives in each lane, two contacts. */
+void ali3_lane_contacts(const ali3_lane_road *road, int32_t width, const real *centre, const real *axis,
+                        const real *radius, real *contacts);
+#endif
