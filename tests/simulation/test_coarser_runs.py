@@ -179,6 +179,8 @@ def test_which_coarser_runs_are_made() -> None:
     assert coarser_steps(settings, moves, False, UNRESOLVED, run.report) == [2]
     assert coarser_steps(settings, moves, False, UNRESOLVED, abrupt) == []
     assert coarser_steps(energy_momentum, moves, False, UNRESOLVED, abrupt) == []
+    assert coarser_steps(energy_momentum, moves, False, UNRESOLVED, still) == [2]
+    assert coarser_steps(mbs.Settings(method="radau_5"), moves, False, SMOOTH_UNRESOLVED, still) == [8, 2]
 
 
 @pytest.mark.parametrize(
