@@ -325,9 +325,9 @@ def fmus(rng: np.random.Generator) -> Case:
 
 
 def fmu_mechanisms(rng: np.random.Generator) -> Case:
-    """The mechanisms of `planar` and `spatial` for up to 20 s through FMPy."""
+    """The mechanisms of `planar` and `spatial` for up to 10 s through FMPy."""
     kind, drawing = random_mechanisms.drawing(rng)
-    span = float(round(rng.uniform(2.0, 20.0), 1))
+    span = float(round(rng.uniform(2.0, 10.0), 1))
     drive = None if drawing.drive is None else PPoly(drawing.drive.c, [0.0, 2.0 * span])
     case = _drawn(kind, replace(drawing, drive=drive, span=span))
 
