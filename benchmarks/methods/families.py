@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import atexit
+import shutil
+import tempfile
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from fmpy import platform
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.interpolate import PPoly
@@ -17,6 +22,7 @@ import mbs
 from benchmarks.methods import random_cars, random_machines, random_mechanisms
 from benchmarks.references import boxes, masses_on_a_line, newton_euler
 from benchmarks.references.newton_euler import INSTANTS, Drawing, Joint
+from fmu_src.build.build import build_fmu
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from mbs.elements import ContactPoints, EndStops, SpringDamper
@@ -313,25 +319,45 @@ def fmus(rng: np.random.Generator) -> Case:
         )  # fmt: skip
 
     truth = random_cars.agreed(system, simulate)
-
-    def run(h: float, every: int) -> Found:
-        names = list(truth)
-        with Fmu(fmu_of_car(car, lambda _: None)) as fmu:
-            get = fmu.getter(names)
-            start = {f"initial.{name}": value for name, value in pose.items()} | road | inputs
-            fmu.initialise(start | {"step_size": h})
-            rows = [get()]
-            for k in range(round(span / h)):
-                try:
-                    fmu.step(k * h, h)
-                except StepRefusedError as refused:
-                    raise mbs.SimulationError(str(refused), k * h, Status.NOT_CONVERGED) from refused
-                rows += [get()] if (k + 1) % every == 0 else []
-            for text in fmu.messages:
-                warnings.warn(text, mbs.AccuracyWarning, stacklevel=1)
-        return Found(dict(zip(names, np.array(rows).T, strict=True)), None)
-
+    start = {f"initial.{name}": value for name, value in pose.items()} | road | inputs
+    run = partial(_through_fmpy, lambda: fmu_of_car(car, lambda _: None), list(truth), span, start)
     return Case(f"{car}, {'falls' if falls else 'kerb'}", system, truth, span, run, (step,), ())
+
+
+def fmu_mechanisms(rng: np.random.Generator) -> Case:
+    """The mechanisms of `planar` and `spatial` for up to 10 s through FMPy."""
+    kind, drawing = random_mechanisms.drawing(rng)
+    span = float(round(rng.uniform(2.0, 10.0), 1))
+    drive = None if drawing.drive is None else PPoly(drawing.drive.c, [0.0, 2.0 * span])
+    case = _drawn(kind, replace(drawing, drive=drive, span=span))
+
+    @cache
+    def built() -> Path:
+        folder = Path(tempfile.mkdtemp())
+        atexit.register(shutil.rmtree, folder)
+        return build_fmu(case.system, "mechanism", folder, [platform])
+
+    return replace(case, run=partial(_through_fmpy, built, list(case.truth), span, {}), tolerances=())
+
+
+def _through_fmpy(
+    built: Callable[[], Path], names: list[str], span: float, start: dict[str, float], h: float, every: int
+) -> Found:
+    """What a host reads of an FMU that it steps by its `step_size`; each message of it counts as a warning."""
+    with Fmu(built()) as fmu:
+        get = fmu.getter(names)
+        fmu.initialise(start | {"step_size": h})
+        rows = [get()]
+        for k in range(round(span / h)):
+            try:
+                fmu.step(k * h, h)
+            except StepRefusedError as refused:
+                raise mbs.SimulationError(str(refused), k * h, Status.NOT_CONVERGED) from refused
+            rows += [get()] if (k + 1) % every == 0 else []
+        texts = fmu.messages
+    for text in texts:
+        warnings.warn(text, mbs.AccuracyWarning, stacklevel=1)
+    return Found(dict(zip(names, np.array(rows).T, strict=True)), None)
 
 
 FAMILIES: dict[str, Callable[[np.random.Generator], Case]] = {
@@ -346,4 +372,5 @@ FAMILIES: dict[str, Callable[[np.random.Generator], Case]] = {
     "gears": gears,
     "tumbling": tumbling,
     "fmus": fmus,
+    "fmu_mechanisms": fmu_mechanisms,
 }

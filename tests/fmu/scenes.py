@@ -137,6 +137,24 @@ def double_pendulum_accelerations() -> mbs.Model:
     return double_pendulum("double_pendulum_accelerations", 2)
 
 
+def pendulum(damping: float = 0.0) -> mbs.Model:
+    """A rod of 1 m that goes round about its end."""
+    m = mbs.Model("damped_pendulum" if damping else "pendulum", dimension=2, gravity=(0.0, -9.81))
+    rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=1.0 / 12.0)
+    m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
+    m.initial_velocity(rod, linear=(0.0, 6.0), angular=12.0)
+    if damping:
+        m.torsional_spring_damper("brake", m.relative_angle("angle", m.ground, rod), stiffness=0.0, damping=damping)
+    for c in "xy":
+        m.sense_position(f"tip.{c}", rod, (1.0, 0.0), c)
+    return m
+
+
+def damped_pendulum() -> mbs.Model:
+    """The same, which comes to rest."""
+    return pendulum(0.5)
+
+
 def sled() -> mbs.Model:
     m = mbs.Model("sled", dimension=2, gravity=(0.0, 0.0))
     m.floating = True

@@ -1,20 +1,19 @@
 /* Where a force of a tyre, a contact or a spring with end stops changes abruptly, and where a run in long steps starts,
  * what follows is made a second time, until both agree for 0.4 s or its budget is spent, with half of a short step and
- * down to an eighth of a long one: what the outputs of both differ by is the error of the step. A run without either, or
- * that has been told of one, pays nothing. The other motion is a snapshot of the same instance; of short steps it makes
- * the dear ones later, in cheaper calls. */
+ * down to an eighth of a long one: what the outputs of both differ by is the error of the step. Where nothing can touch,
+ * it is foretold beyond, by how it grew. A run without either, or that has been told of one, pays nothing. The other
+ * motion is a snapshot of the same instance; of short steps it makes the dear ones later, in cheaper calls. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "slave.h"
 
-static const double SPAN = 0.4; /* s after an abrupt step or a difference: a wheel swings four times */
-static const double LATER = 0.5; /* s after a difference in which what it is held against grows: a wheel lands */
-static const double BUDGET = 2.0, SHARE = 0.1; /* s from a start on, as a wheel spins; beside them s, and of what was
-                                                * driven: how much is made twice at most */
+static const double SPAN = 0.5; /* s after an abrupt step or a difference: a wheel swings five times, or lands */
+static const double BUDGET = 2.0, SHARE = 0.1; /* s from a start on in MOST parts, as a wheel spins; beside them s, and
+                                                * of what was driven: how much is made twice at most */
 static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre; a second costs no more than at 2 ms */
 static const int64_t MOST = 8; /* parts of a step */
-static const double SAFE = 0.6; /* of what is wrong: what an untried step would do with, by order one as at a kink */
 /* Iterations of both motions in an inner step of up to 2 SHORT: where it takes more the other one waits. */
 static const int64_t ROOM = 7;
 enum { MOST_LATE = 512 }; /* communication steps that may wait */
@@ -23,6 +22,9 @@ enum { MOST_LATE = 512 }; /* communication steps that may wait */
 static bool spent(const slave_half_steps *t, const slave_late_step *step) {
   return t->spent > BUDGET + SHARE * step->driven;
 }
+
+/* Whether two motions that differ by this much do not agree. */
+static bool differ(double apart) { return apart > ALI3_AGREED * ALI3_WRONG_ERROR; }
 
 /* What is compared: outputs that the System at work computes, see `judged` of the table. */
 static bool is_judged(const slave *s, const slave_variable *v) {
@@ -80,6 +82,10 @@ void slave_half_steps_begin(slave *s) {
   t->n_late = 0;
   t->cost = 0;
   t->made = 0;
+  t->before = t->then = 0.0;
+  t->origin = t->driven;
+  t->foretold = HUGE_VAL;
+  t->checked = -HUGE_VAL;
   t->begins = s->made.n == 0;
   if (!begin_comparison(s)) return;
   forget(t);
@@ -138,6 +144,9 @@ static int64_t parts_of(const slave *s, double h) {
   return n;
 }
 
+/* s from a start on that are made twice: at the cost of MOST parts. */
+static double start_of(const slave *s, double h) { return BUDGET * (double)MOST / (double)parts_of(s, h); }
+
 /* One inner step of the communication step that waits longest, by the other motion, which the kernel has; slopes are
  * those of the present one, which does not wait if it has them. */
 static ali3_status make(slave *s, const slave_late_step *step) {
@@ -168,10 +177,30 @@ static bool begin(slave *s, const slave_late_step *step) {
   return t->left > 0.0;
 }
 
+/* When the other motion ends: what is known and, where nothing can touch, when the error is large by how it grew between
+ * the last two windows of a start, as a power of the time. */
+static void conclude(slave *s, const slave_late_step *step, double apart) {
+  slave_half_steps *t = &s->half_steps;
+  const double n = (double)parts_of(s, step->h), error = ali3_error_of(t->then, n, ALI3_EVENT_ORDER);
+  char why[SLAVE_TEXT / 4], grows[SLAVE_TEXT / 8] = "";
+  if (touches(s) && !differ(apart)) return; /* until the next abrupt force */
+  const bool first = t->checked == -HUGE_VAL; /* later windows begin after an abrupt force, and are short */
+  if (first) t->checked = step->end;
+  if (first && !touches(s) && t->before > 0.0 && t->then > t->before) {
+    const double length = step->driven - t->origin,
+                 power = log(t->then / t->before) / log(2.0 * length / start_of(s, step->h));
+    t->foretold = step->end + length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
+    snprintf(grows, sizeof grows, ", and this grows as time to the power %.2g", power);
+  }
+  snprintf(why, sizeof why, "%smade again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
+           differ(apart) ? "the time that may be made twice is spent; " : "", n, 100.0 * apart, grows);
+  say_unchecked(s, step->end, why);
+}
+
 /* What both motions differ by at the end of a communication step. */
 static void compare(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
-  const double length = (double)step->n * step->h;
+  const double length = (double)step->n * step->h, start = start_of(s, step->h);
   int32_t worst;
   ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->shown);
   ali3_compare(t->what, t->n, 1, &step->end, step->number + inputs_of(s), t->shown, t->seen);
@@ -182,10 +211,16 @@ static void compare(slave *s, const slave_late_step *step) {
     t->time = step->end;
     t->h = step->h;
   }
+  if (step->driven - t->origin <= 0.5 * start) {
+    if (step->driven - t->origin > 0.25 * start) t->before = fmax(t->before, apart);
+  } else if (apart > t->then) {
+    t->then = apart;
+    t->worst = worst;
+  }
   t->left -= length;
-  if (apart > ALI3_AGREED * ALI3_WRONG_ERROR && !spent(t, step))
-    t->left = fmax(t->left, SPAN); /* it may still grow, as of a wheel that spins */
+  if (differ(apart) && !spent(t, step)) t->left = fmax(t->left, SPAN); /* it may still grow, as of a wheel that spins */
   t->spent += length;
+  if (!(t->left > 0.0)) conclude(s, step, apart);
 }
 
 static int64_t iterations(const slave *s) {
@@ -267,7 +302,7 @@ static slave_status judge(slave *s) {
   ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, 0, t->size);
   const double n = (double)parts_of(s, t->h), h = t->h, apart = ali3_compared_error(t->n, t->seen, t->size, 0, &worst),
                error = ali3_error_of(apart, n, ALI3_EVENT_ORDER);
-  const bool met = error <= n * ALI3_WRONG_ERROR; /* by the step of the other motion, by order one */
+  const bool met = error <= n * ALI3_WRONG_ERROR; /* by the step of the other motion, by order one, as at a kink */
   if (!(error > ALI3_WRONG_ERROR)) {
     forget(t);
     return SLAVE_OK;
@@ -282,20 +317,34 @@ static slave_status judge(slave *s) {
                    "the largest %s at communication points. Run again with a step_size of %.2g s%s. This is said once.",
                    t->seen[worst].time, n, v->name, t->n_late > 0 ? "at least" : "about", load ? 15 : 3,
                    load ? round(off) : off, v->unit, 100.0 * error, load ? "force" : "range in its unit",
-                   met ? h / n : h * SAFE * ALI3_WRONG_ERROR / error, met ? ", as was tried" : ", which was not tried");
+                   h / n / ceil(error / (n * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
+}
+
+/* Where the error that was seen grows on as it did. */
+static slave_status foretell(slave *s, double now) {
+  const slave_half_steps *t = &s->half_steps;
+  s->event_said = true;
+  return slave_say(s, SLAVE_WARNING,
+                   "At %.4g s %s may be off by %.0f %% of the largest range in its unit: made again with 1/%.0f of the "
+                   "step up to %.4g s it was off by %.2g %%, and this grows as it did until then. Compare with a run "
+                   "of half the step_size, %g s. This is said once.",
+                   now, slave_the_table.variable[t->variable[t->worst]].name, 100.0 * ALI3_WRONG_ERROR,
+                   (double)parts_of(s, t->h), t->checked,
+                   100.0 * ali3_error_of(t->then, (double)parts_of(s, t->h), ALI3_EVENT_ORDER), 0.5 * t->h);
 }
 
 /* What can be said by now, or when the run has `ended`. */
 static slave_status tell(slave *s, double now, bool ended) {
   const slave_half_steps *t = &s->half_steps;
-  return t->apart > 0.0 && (ended || now > t->time + LATER) ? judge(s) : SLAVE_OK;
+  const slave_status judged = t->apart > 0.0 && (ended || now > t->time + SPAN) ? judge(s) : SLAVE_OK;
+  return s->event_said || now < t->foretold ? judged : foretell(s, now);
 }
 
 /* What is not judged when the run ends, also where the host resets or frees it without a word. */
 void slave_half_steps_end(slave *s) {
   if (s->event_said || !(s->calls.phase & (SLAVE_STEPPING | SLAVE_STEP_FAILED))) return;
   if (s->half_steps.n_late > 0) catch_up(s, 0, 0, 0);
-  tell(s, 0.0, true);
+  tell(s, ali3_time(s->fidelity.kernel), true);
 }
 
 /* After a good communication step whose start the fidelity keeps; before slopes are forgotten. */
@@ -311,12 +360,12 @@ slave_status slave_halve_steps(slave *s) {
   t->abrupt = report.abrupt_steps;
   t->iterations = report.iterations;
   t->begins = false;
-  if (begins && !(t->driven > 0.0)) t->spent = -BUDGET; /* beside what abrupt forces may cost */
+  if (begins && !(t->driven > 0.0)) t->spent = -start_of(s, s->made.h); /* beside what abrupt forces may cost */
   t->driven += length;
   if (abrupt && !allocate(s)) return SLAVE_OK;
   if (t->end != NULL && (abrupt || t->left > 0.0 || t->n_late > 0)) {
     const bool waits = parts_of(s, s->made.h) == 2 && !s->made.sloped;
-    put_off(s, now, abrupt ? (begins ? BUDGET : SPAN) : 0.0);
+    put_off(s, now, abrupt ? (begins ? start_of(s, s->made.h) : SPAN) : 0.0);
     catch_up(s, waits ? MOST_LATE - 1 : 0, made, ROOM * s->made.n);
   }
   return tell(s, now, false);

@@ -163,6 +163,10 @@ typedef struct { /* of a motion that is made a second time with half the step, s
   int64_t iterations, cost; /* of this motion so far; of the other one in its last step */
   double left, spent, driven; /* s: of the time that is made twice, 0: nothing is; made twice so far; of all steps */
   double apart, time, h; /* largest difference that is not judged yet, of its size; when, s; inner step there, s */
+  double origin; /* s: what was driven when the state was set that the run goes on from */
+  double before, then; /* largest difference in the second quarter of a start, and since, of its size */
+  double checked, foretold; /* s: up to when steps were made twice, and when by its growth the error is large */
+  int32_t worst; /* of what is compared: where it is `then` */
   int64_t abrupt; /* abrupt steps that were seen */
   bool started; /* a step that waits may need `start` */
   bool begins; /* no step was made since the start */
