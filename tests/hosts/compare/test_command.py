@@ -135,11 +135,17 @@ class TestCommand:
     @pytest.mark.parametrize(
         ("change", "words"),
         [
-            (lambda c: c | {"bob.x": 1000.0 * c["bob.x"]}, "thousandths"),
+            (lambda c: c | {"bob.x": 1000.0 * c["bob.x"]}, 'it looks like mm in place of m: unit = "mm"'),
             (lambda c: c | {"bob.x": -c["bob.x"]}, "has the opposite sign"),
             (lambda c: c | {"bob.x": -c["bob.x"]}, "Or the input 'pull' (pull) has the opposite sign"),
-            (lambda c: c | {"bob.x": np.degrees(c["bob.x"])}, "it looks like degrees"),
-            (lambda c: c | {"bob.x": c["bob.x"] / 9.81}, "it looks like g"),
+            (
+                lambda c: c | {"bob.x": np.degrees(c["bob.x"])},
+                "in the simulation: is it in another unit",
+            ),
+            (
+                lambda c: c | {"bob.x": c["bob.x"] / 9.81},
+                "in the simulation: is it in another unit",
+            ),
         ],
     )
     def test_a_wrong_unit_is_seen_and_nothing_is_fitted(
