@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -55,21 +55,20 @@ def log_for(
     fmu: AliasedFmu,
     raw: RawLog,
     aliases: LogAliases,
-    why_missing: Callable[[str], str] = lambda name: "",
     chosen: Collection[str] = (),
     used: Collection[str] = (),
 ) -> Log:
     """The signals of a log that an FMU has too; a tunable parameter of the FMU is driven as an input is.
 
-    `why_missing`: why the FMU does not have one of our names, in a sentence; empty where nothing is known; `chosen`:
-    parameters that are set or sought: the log does not drive them; `used`: outputs with notes; all where it is empty.
-    Raises `HostError`: a column is not there, is no signal of the FMU, or its unit or clock is wrong; one sentence.
+    `chosen`: parameters that are set or sought: the log does not drive them; `used`: outputs with notes; all where it
+    is empty. Raises `HostError`: a column is not there, is no signal of the FMU, or its unit or clock is wrong; one
+    sentence.
     """
     tunable = fmu.tunable
     inputs, outputs = [*fmu.names("input"), *(n for n in tunable if n not in chosen)], fmu.names("output")
     record = record_of(raw.path)
     raw = raw.with_jumps(record)
-    columns = _columns(raw, aliases, fmu, inputs, outputs, why_missing)
+    columns = _columns(raw, aliases, fmu, inputs, outputs)
     notes: list[str] = []
     clocks: dict[str, tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
     signals: dict[str, Signal] = {}
@@ -107,7 +106,6 @@ def _columns(
     fmu: AliasedFmu,
     inputs: Collection[str],
     outputs: Collection[str],
-    why_missing: Callable[[str], str],
 ) -> Mapping[str, Column]:
     there = [str(c) for c in raw.table.columns]
     for ours, column in aliases.columns.items():
@@ -120,7 +118,7 @@ def _columns(
                     f"{where} is a {causality} of {fmu.path.name}, which a column of a log cannot be{use}; "
                     "a column can be an input, a tunable parameter or an output."
                 )
-            why = why_missing(ours)
+            why = fmu.why_missing(ours)
             hint = f": {why.rstrip('.')}" if why else _near(ours, [*inputs, *outputs])
             raise HostError(f"{where} is no input or output of {fmu.path.name}{hint}.")
         for name in (column.name, column.time):
