@@ -1,4 +1,4 @@
-"""What a chart shows, in words that its PNG carries: pictures of documents are held against what draws them."""
+"""What a chart shows, in words that its file carries: pictures of documents are held against what draws them."""
 
 from __future__ import annotations
 
@@ -30,11 +30,15 @@ def described(figure: Figure) -> str:
     return "\n".join(" ".join(line.split()) for line in lines if line)
 
 
-def description_of(png: Path) -> str:
-    """The words that a PNG carries; empty without them."""
+def description_of(file: Path) -> str:
+    """The words that a PNG or an SVG carries; empty without them."""
+    if file.suffix == ".svg":
+        from lxml import etree
+
+        return str(etree.parse(file).findtext("{*}desc", ""))
     from PIL import Image
 
-    with Image.open(png) as picture:
+    with Image.open(file) as picture:
         return str(picture.info.get(_KEY, ""))
 
 

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from xml.sax.saxutils import escape
 
 import matplotlib
 
@@ -17,8 +18,9 @@ from matplotlib import pyplot as plt
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from ali3.chart_words import png_metadata
+from ali3.chart_words import described, png_metadata
 from ali3.files import whole_file
+from ali3.words import clean
 
 _PIXELS = 96  # of CSS, an inch
 _DOTS = 150  # an inch, of what a drawing has as dots
@@ -52,8 +54,12 @@ def _however_long() -> Iterator[None]:
 
 
 def drawing(figure: Figure, words: str) -> Drawing:
-    """Draw a figure as SVG, and close it; the same figure gives the same bytes."""
+    """Draw a figure as SVG, and close it; the same figure gives the same bytes.
+
+    `words`: what it shows, in a sentence; its title in the file, which tells what each panel shows too.
+    """
     content = io.BytesIO()
+    title, told = (escape(clean(text)) for text in (words, described(figure)))
     figure.set_dpi(_DOTS)
     with plt.rc_context({"svg.hashsalt": "ali3"}), _however_long():
         # once: savefig draws a figure and its layout twice
@@ -61,7 +67,11 @@ def drawing(figure: Figure, words: str) -> Drawing:
         canvas.print_svg(content, metadata={"Date": None, "Creator": None})
     plt.close(figure)
     width, height = (round(_PIXELS * length) for length in figure.get_size_inches())
-    return Drawing(content.getvalue(), words, (width, height))
+    # matplotlib writes a title, but no description, and screen readers read neither of a drawing without a role.
+    before, root, rest = content.getvalue().partition(b"<svg ")
+    tag, _, content_of_it = rest.partition(b">")
+    named = f' role="img">\n <title>{title}</title>\n <desc>{told}</desc>'.encode()
+    return Drawing(before + root + tag + named + content_of_it, words, (width, height))
 
 
 def save_picture(figure: Figure, file: Path) -> None:

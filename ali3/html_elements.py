@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -11,6 +10,7 @@ import lxml.html
 from lxml.html import builder
 
 from ali3 import html
+from ali3.words import clean
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from ali3.charts import Drawing
 
 Content: TypeAlias = "HtmlElement | str"
-_FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
-"""What no text of a document can have."""
 
 
 def element(tag: str, /, *content: Content, **attributes: Any) -> HtmlElement:
@@ -36,11 +34,6 @@ def element(tag: str, /, *content: Content, **attributes: Any) -> HtmlElement:
         else:
             node.text = (node.text or "") + clean(part)
     return node
-
-
-def clean(text: str) -> str:
-    """Text without characters that a document cannot have."""
-    return _FORBIDDEN.sub("\ufffd", text)
 
 
 def table(

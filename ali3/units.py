@@ -1,4 +1,8 @@
-"""Units as data loggers, engineers and programs write them, in SI base units, and numbers with a unit behind them."""
+"""Units as data loggers, engineers and programs write them, in SI base units; how they are read, printed and mistaken.
+
+Files of ours and of FMI have them as in `UNITS`, such as ``m/s2`` and ``N.m``; what people read is made of that by
+`typeset`.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +11,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Callable
+from typing import NamedTuple
 
 from ali3.decimal_number import DECIMAL, number, parse_number, short
 from ali3.unit_definition import UnitDefinition
@@ -27,6 +32,7 @@ UNITS: dict[str, tuple[dict[str, int], float, float]] = {
     "mrad/s": (_RATE, 1e-3, 0.0),
     "deg/s": (_RATE, _DEGREE, 0.0),
     "rpm": (_RATE, math.pi / 30.0, 0.0),
+    "r/s": (_RATE, math.tau, 0.0),
     "rad/s2": ({"rad": 1, "s": -2}, 1.0, 0.0),
     "deg/s2": ({"rad": 1, "s": -2}, _DEGREE, 0.0),
     "m": (_LENGTH, 1.0, 0.0),
@@ -76,12 +82,77 @@ OTHER_NAMES = {
     "m/s/s": "m/s2", "m/sec2": "m/s2", "ms-2": "m/s2", "G": "g", "Nm": "N.m", "kNm": "kN.m",
     "g's": "g", "mbar": "hPa", "°C": "degC", "C": "degC", "sec": "s", "rad/sec": "rad/s", "kmph": "km/h",
 }  # fmt: skip
+_MISTAKEN = (
+    ("m/s", "km/h", "mph", "kn", "ft/s", "mm/s"),
+    ("rad/s", "deg/s", "rpm", "r/s"),
+    ("m/s2", "g", "mm/s2", "mg", "ft/s2"),
+    ("rad", "deg"),
+    ("rad/s2", "deg/s2"),
+    ("m", "mm", "cm", "km", "ft"),
+    ("N", "kN"),
+    ("N.m", "kN.m"),
+    ("Pa", "bar", "kPa", "MPa"),
+    ("W", "kW"),
+    ("J", "kJ"),
+    ("1", "%", "deg"),
+)
+"""Units that are taken for each other: that of the SI, the most usual other one, others."""
+_SMALL = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_EXPONENT = re.compile(r"(?<=[a-zA-Z])(-?\d+)(\.\d+)?")
+
+
+class Misread(NamedTuple):
+    """Values that are in one unit and were taken for values in another: times `factor` they are what they should be."""
+
+    factor: float
+    unit: str
+    taken: str
+    usual: bool
+    """Whether it is the mistake of that quantity that is made most, one way or the other."""
+
+    @property
+    def words(self) -> str:
+        """Such as "km/h in place of m/s"."""
+        return f"{typeset(self.unit) or '1'} in place of {typeset(self.taken) or '1'}"
+
+
+def misread(unit: str) -> list[Misread]:
+    """The mistakes that are made with values in a unit, the usual ones first; "" for one that is not known: all."""
+    found = []
+    for group in _MISTAKEN:
+        own = _named(unit) if unit else group[0]
+        if own not in group:
+            continue
+        first = group[own == group[0]]
+        pairs = [(first, own), (own, first), *((other, own) for other in group if other not in (own, first))]
+        found += [Misread(_scale(a) / _scale(b), a, b, first in (a, b)) for a, b in pairs]
+        if unit:
+            break  # a number in degrees is an angle first
+    return sorted(found, key=lambda one: not one.usual)
+
+
+def _named(unit: str) -> str:
+    name = plain_unit(unit)
+    return OTHER_NAMES.get(name, name)
+
+
+def _scale(unit: str) -> float:
+    known = known_unit(unit)
+    assert known is not None
+    return known.factor
+
+
+def typeset(unit: str) -> str:
+    """A unit as it is printed, such as m/s² of ``m/s2``; empty where there is none."""
+    if unit in ("1", ""):
+        return ""
+    text = re.sub(r"\.(?=[a-zA-Z])", "·", unit)
+    return _EXPONENT.sub(lambda found: f"^{found[0]}" if found[2] else found[0].translate(_SMALL), text)
 
 
 def known_unit(text: str) -> UnitDefinition | None:
     """A unit as written, or None where it is not known."""
-    name = plain_unit(text)
-    name = OTHER_NAMES.get(name, name)
+    name = _named(text)
     if name not in UNITS:
         return _compound(name)
     exponents, factor, offset = UNITS[name]

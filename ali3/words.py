@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping
 VALUE, SENTENCE = 60, 400
 """Characters of a value in a sentence, and of a sentence with texts of a file in it."""
 _WORD, _MESSAGE = 240, 2000  # of a text without a blank, and of a whole message, that is shown as it is
+_FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")  # by XML
 
 
 def brief(value: object) -> str:
@@ -20,6 +21,11 @@ def brief(value: object) -> str:
         return "a whole number of more than 19 digits"  # Python refuses to write a very long one
     text = re.sub(r"\n\s*", " ", repr(value))  # of an array in one line
     return text if len(text) <= VALUE else f"{text[:VALUE]}..."
+
+
+def clean(text: str) -> str:
+    """Text without characters that a document cannot have."""
+    return _FORBIDDEN.sub("\ufffd", text)
 
 
 def value_words(value: object) -> str:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ali3.columns import in_columns
 from ali3.echo.quantity import WIDEST, Quantity, Range
+from ali3.units import typeset
 
 ROUNDING = 1e-9  # of the range
 FEWEST_OTHERS = 10
@@ -233,7 +234,7 @@ def _cell(values: Sequence[Value], column: str = "") -> str:
     """What a table shows of some values of one quantity, of many the ends. `column`: first word of their `of`."""
     if not values:
         return ""
-    unit = "" if values[0].quantity.unit == "1" else f" {values[0].quantity.unit}"
+    unit = f" {typeset(values[0].quantity.unit)}".rstrip()
     if len(values) > MOST_SHOWN:
         ends = (pick(values, key=lambda v: v.value) for pick in (min, max))
         return f"{' to '.join(f'{v.value:.4g}{unit} ({v.of})' for v in ends)} of {len(values)}"
@@ -244,7 +245,7 @@ def _range(quantity: Quantity, kind: str) -> str:
     bounds = quantity.range(kind)
     if bounds is None:
         return ""
-    unit = "" if quantity.unit == "1" else f" {quantity.unit}"
+    unit = f" {typeset(quantity.unit)}".rstrip()
     low, high = bounds
     if math.isinf(high):
         return f"{low:g}{unit} or more"

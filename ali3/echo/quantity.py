@@ -9,6 +9,8 @@ from functools import cache
 from pathlib import Path
 from typing import TypeAlias
 
+from ali3.units import typeset
+
 Range: TypeAlias = tuple[float, float]
 TABLE = Path(__file__).with_name("quantities.csv")
 WIDEST = ""
@@ -46,7 +48,7 @@ class Quantity:
 
     def shown(self, value: float) -> str:
         """A value with the unit."""
-        return f"{value:.4g}" + ("" if self.unit == "1" else f" {self.unit}")
+        return f"{value:.4g} {typeset(self.unit)}".rstrip()
 
 
 @cache

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import re
+import shlex
+import shutil
 import tempfile
 from collections.abc import Callable
 from contextlib import redirect_stdout
@@ -13,6 +17,8 @@ from ali3.chart_words import description_of
 from ali3.charts import save_picture
 from benchmarks.car.frame_pictures import draw_gauges
 from benchmarks.shared.figures import Again
+from benchmarks.shared.pages import DOCS
+from hosts.compare.command import main as compare
 from hosts.fmu.built_fmu import fmu_of_scene
 from hosts.run.command import main as run
 from mbs.vehicle import load
@@ -50,6 +56,22 @@ def _frame(car: str, file: Path) -> None:
     draw_gauges(load(car), str(file))
 
 
+def _compared(file: Path) -> None:
+    """The fit of docs/compare.md: its log is made, and its command run, as the page has them."""
+    page = (DOCS / "compare.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    command = re.search(r"^    ali3 compare (dist/PrototypeCar.fmu (?:.*\\\n)*.*)", page, re.MULTILINE)
+    assert command is not None
+    folder = file.with_suffix("")
+    (folder / "dist").mkdir(parents=True)
+    shutil.copy(_prototype(), folder / "dist" / "PrototypeCar.fmu")
+    with contextlib.chdir(folder):
+        exec(code, {})
+        if compare(shlex.split(command[1].replace("\\\n", ""))):
+            raise RuntimeError("The fit of docs/compare.md is no good.")
+    (folder / "out" / "compare" / "drive.svg").rename(file)
+
+
 def _travel(file: Path) -> None:
     save_picture(travel_figure(kinematics(load("hatchback")), "front"), file)
 
@@ -61,6 +83,7 @@ def _map(file: Path) -> None:
 DRAWN: dict[str, Callable[[Path], None]] = {
     "double_lane_change.png": _first_command,
     "frame_gauges.png": partial(_frame, "prototype"),
+    "compare.svg": _compared,
     "hatchback_frame.png": partial(_frame, "hatchback"),
     "kinematics_hatchback.png": _travel,
     "proving_ground.png": _map,

@@ -29,13 +29,13 @@ class Again:
     left_out: tuple[str, ...] = ()
     """Columns that are not compared: times, and what is round-off."""
     picture: bytes = b""
-    """The chart as it is drawn now, a PNG."""
+    """The chart as it is drawn now, PNG or SVG."""
 
 
 def read(page: str) -> str:
     """Text of a page, or what a chart says that it shows."""
     file = DOCS.parent / page
-    return description_of(file) if file.suffix == ".png" else file.read_text(encoding="utf-8")
+    return description_of(file) if file.suffix in (".png", ".svg") else file.read_text(encoding="utf-8")
 
 
 def rows_of(text: str) -> list[dict[str, str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from ali3.units import typeset
 from hosts.catalogue.record import Setting, Standard, StandardTest
 from hosts.catalogue.registry import TESTS, standard_test
 
@@ -34,7 +35,7 @@ def _standard(standard: Standard) -> str:
 
 
 def _setting(setting: Setting) -> str:
-    unit = "" if setting.unit == "1" else f" {setting.unit}"
+    unit = f" {typeset(setting.unit)}".rstrip()
     limits = [f"from {setting.lowest:g}"] if math.isfinite(setting.lowest) else []
     limits += [f"to {setting.highest:g}"] if math.isfinite(setting.highest) else []
     words = f" ({' '.join(limits)})" if limits else ""

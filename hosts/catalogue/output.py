@@ -12,6 +12,7 @@ from typing import Any
 
 from ali3.columns import in_columns
 from ali3.files import write_text
+from ali3.units import typeset
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.catalogue.task import Outcome, run_file
@@ -119,7 +120,7 @@ def print_measures(
         for name in dict.fromkeys(m.name for o in records.values() for m in o.measures):
             by_car = {label: m.displayed() for label, o in records.items() for m in o.measures if m.name == name}
             unit = next(iter(by_car.values())).unit
-            rows.append([name, "" if unit == "1" else unit, *(_cell(by_car.get(label)) for label in labels)])
+            rows.append([name, typeset(unit), *(_cell(by_car.get(label)) for label in labels)])
         _print_rows(rows)
         for label, outcome in found.items():
             for sentence in (outcome,) if isinstance(outcome, str) else _sentences(outcome):

@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from ali3.columns import some_of
+from ali3.units import typeset
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.common.errors import HostError
@@ -28,7 +29,7 @@ def settings_of_test(test: StandardTest, given: Mapping[str, float]) -> dict[str
             raise HostError(f"The test {test.name} has no setting '{name}'; it has: {', '.join(known) or 'none'}.")
         s = known[name]
         if not s.lowest <= value <= s.highest:  # nor is a NaN
-            unit = "" if s.unit == "1" else f" {s.unit}"
+            unit = f" {typeset(s.unit)}".rstrip()
             raise HostError(
                 f"The setting {name} of the test {test.name} is {value:g}{unit}; it must be from {s.lowest:g} to "
                 f"{s.highest:g}{unit}."

@@ -142,7 +142,7 @@ def refuse_odd(run: SteeredRun) -> None:
     if len(run.time) < FEWEST or not np.abs(run.acceleration).max() >= ENOUGH:
         return
     given = (
-        ("steering.angle", "rad", run.steering),
+        ("steering_wheel_angle", "rad", run.steering),
         ("speed", "m/s", run.speed),
         ("chassis.wz", "rad/s", run.yaw_rate),
         ("chassis.ay", "m/s2", run.acceleration),

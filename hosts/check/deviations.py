@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.columns import some_of
+from ali3.units import misread
 from hosts.check.junit import Case
 from hosts.common.angles import angle_difference
 from hosts.driving.result import Result
@@ -20,7 +21,7 @@ BOUND = 0.01
 # Of a signal that hardly moves, the least size: shares of its largest value, whose digits a table cuts, and of its
 # nominal value.
 _OF_VALUE, _OF_NOMINAL = 1e-3, 1e-4
-_FACTORS = (1000.0, 100.0, 180.0 / math.pi, 9.80665, 3.6)  # between usual units
+_TURNED = "with the other sign"
 
 
 @dataclass(frozen=True)
@@ -147,13 +148,14 @@ def remedies(
     def agrees(d: Deviation, values: NDArray[np.float64], wanted: NDArray[np.float64]) -> bool:
         return bool(np.abs(values - wanted).max() <= d.bound * d.size)
 
-    factors = [*_FACTORS, *(1.0 / f for f in _FACTORS), -1.0]
     for d in bad:
-        fits = [f for f in factors if d.range > 0.0 and agrees(d, f * result[d.name][rows], wanted[d.name])]
+        named = [(1.0 / m.factor, m.words) for m in misread(d.unit)]
+        other = [(1.0 / m.factor, "another unit") for m in misread("")]
+        why = [(f, f"{f:.4g} times as large: {words}?") for f, words in (*named, *other)] + [(-1.0, _TURNED)]
+        fits = [w for f, w in why if d.range > 0.0 and agrees(d, f * result[d.name][rows], wanted[d.name])]
         if fits:
             left.remove(d)
-            why = "with the other sign" if fits[0] == -1.0 else f"{fits[0]:.4g} times as large: another unit?"
-            lines.append(f"{d.name}: in agreement where the table has it {why}")
+            lines.append(f"{d.name}: in agreement where the table has it {fits[0]}")
     apart = int(np.median(np.diff(rows))) if len(rows) > 1 else 1
     for late in (apart, -apart) if left else ():
         inside = (rows >= late) & (rows - late < len(result.time))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from ali3.units import known_unit, typeset
 from hosts.common.units import conversion
 
 _SHOWN = {
@@ -43,22 +44,17 @@ def axis_shown(label: str) -> Shown:
     """The label of an axis that ends with its unit, such as ``yaw rate, rad/s``, and the factor of its values."""
     what, comma, unit = label.rpartition(", ")
     shown = shown_in(unit)
-    return Shown(f"{what}{comma}{shown.unit}", shown.factor)
-
-
-def unit_shown(unit: str) -> str:
-    """A unit beside a number or a name; empty where it is 1."""
-    return "" if unit == "1" else unit
+    return Shown(f"{what}{comma}{typeset(shown.unit) if known_unit(shown.unit) else shown.unit}", shown.factor)
 
 
 def titled(name: str, unit: str) -> str:
     """A name with its unit, as of an axis."""
-    return ", ".join(filter(None, (name, unit_shown(unit))))
+    return ", ".join(filter(None, (name, typeset(unit))))
 
 
 def number_in(value: float, unit: str, form: str = ".4g") -> str:
     """A number with its unit."""
-    return f"{value:{form}} {unit_shown(unit)}".rstrip()
+    return f"{value:{form}} {typeset(unit)}".rstrip()
 
 
 def shown_number(value: float, unit: str, name: str) -> str:

@@ -20,7 +20,7 @@ _DELIMITERS = (";", "\t", ",", "|")
 _LINES = 60  # that are looked at: loggers write their settings first
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _NOT_THERE = ("", "nan", "na", "n/a", "null", "-", "#n/a", "--", "inf", "-inf")
-_DATE = re.compile(r"\d{4}-\d\d-\d\d[T ].*")
+_DATE = re.compile(r"(\d{4}-\d\d-\d\d[T ]|\d\d?([./])\d\d?\2\d{4} ).*")  # the latter to be refused by its name
 CLOCK_TIME = re.compile(r"[+-]?\d+:\d\d(:\d\d)?([.,]\d*)?")
 """Hours, minutes and seconds, or minutes and seconds."""
 _WITH_UNIT = re.compile(rf"({_NUMBER.pattern})\s*(?P<unit>[A-Za-z°%µ][\w°%µ/²^.]*)")
@@ -51,7 +51,8 @@ def find_dialect(path: Path, stated: Dialect) -> FoundDialect:
     if not any(line.strip() for line in lines):
         raise HostError(f"The log {path} is empty; it needs a line of names and rows of values.")
     found = [(d, *_rows(lines, d)) for d in ((stated.delimiter,) if stated.delimiter else _DELIMITERS)]
-    delimiter, first, width = max(found, key=lambda item: item[2])  # the first of the most columns
+    # A comma may also divide numbers and seconds: what leaves the most values, then the most columns, is right.
+    delimiter, first, width, _ = max(found, key=lambda item: (item[3], item[2]))
     if width < 2:
         _refuse_units(path, lines, stated)
         tried = "' or '".join(repr(d)[1:-1] for d, *_ in found)
@@ -128,8 +129,8 @@ def _is_value(cell: str) -> bool:
     )
 
 
-def _rows(lines: Sequence[str], delimiter: str) -> tuple[int, int]:
-    """Where rows of values begin, and how many columns they have; 0 columns: nowhere."""
+def _rows(lines: Sequence[str], delimiter: str) -> tuple[int, int, float]:
+    """Where rows of values begin, how many columns they have, and which part are values; 0 columns: nowhere."""
     for k, line in enumerate(lines):
         try:
             cells = cells_of(line, delimiter)
@@ -140,8 +141,8 @@ def _rows(lines: Sequence[str], delimiter: str) -> tuple[int, int]:
         numbers = sum(map(_is_value, cells))
         is_row = len(cells) > 1 and any(_NUMBER.fullmatch(c) for c in cells) and 2 * numbers > len(cells)
         if is_row and all(len(other) == len(cells) for other in following):
-            return k, len(cells)
-    return 0, 0
+            return k, len(cells), numbers / len(cells)
+    return 0, 0, 0.0
 
 
 def _heading(

@@ -12,6 +12,7 @@ from scipy import stats
 from scipy.optimize import OptimizeResult, least_squares
 from scipy.stats import qmc
 
+from hosts.common.display_units import number_in
 from hosts.common.errors import HostError
 from hosts.compare.correlated import covariance, effective_samples
 from hosts.compare.deviations import rms
@@ -154,9 +155,10 @@ def _begins(p: NDArray[np.float64], unknowns: Sequence[Unknown], count: int) -> 
 def _check_effects(unknowns: Sequence[Unknown], sensitivities: NDArray[np.float64], own: float) -> None:
     for u, change in zip(unknowns, sensitivities, strict=False):
         if change < max(_NO_EFFECT, 10.0 * own):
+            span = f"'{u.name}' from {u.low:.6g} to {number_in(u.high, u.unit, '.6g')}"
             raise HostError(
-                f"'{u.name}' from {u.low:.6g} to {u.high:.6g} {u.unit} does not change any of the compared signals (by "
-                f"{change:.1g} of their noise): this log cannot tell it; leave it out, or compare signals that show it."
+                f"{span} does not change any of the compared signals (by {change:.1g} of their noise): this log cannot "
+                "tell it; leave it out, or compare signals that show it."
             )
 
 

@@ -6,7 +6,8 @@ import math
 from collections.abc import Sequence
 
 from ali3.columns import in_columns
-from hosts.common.display_units import number_in, shown_number, unit_shown
+from ali3.units import typeset
+from hosts.common.display_units import number_in, shown_number
 from hosts.compare.fit_result import Fit, Found
 
 _WIDE = 0.5  # of the range, of half an interval that says little
@@ -29,7 +30,7 @@ def fit_rows(fit: Fit) -> list[tuple[str, ...]]:
             f.unknown.name,
             f"{f.unknown.start:.6g}",
             *_value(f),
-            unit_shown(f.unknown.unit),
+            typeset(f.unknown.unit),
             f"{100.0 * (f.without - 1.0):+.1f} %" if math.isfinite(f.without) else "-",
             f"{min(f.folds):.4g} to {max(f.folds):.4g}" if f.folds else "-",
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,6 +21,7 @@ from hosts.common.units import unit_definition, unit_of
 from hosts.compare.csv_dialect import CLOCK_TIME, unit_behind
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
+from hosts.compare.repeated import rows_of_a_value
 from hosts.compare.spikes import spike_words, spikes
 from hosts.driving.missed_inputs import counted
 from hosts.driving.recorded_rows import ROUND_OFF
@@ -31,6 +32,8 @@ from hosts.measures.signal import Signal
 
 FEWEST_SAMPLES = 10
 _TIMES = ("time", "t", "timestamp", "zeit", "time_s", "seconds", "elapsed")
+_SHUFFLED = 5.0  # usual times between rows, by which rows in a wrong order go back
+_HOUR = 3600.0
 _SLOWEST = 0.5  # s between samples of a test drive, unless the user has named the unit
 
 
@@ -52,21 +55,20 @@ def log_for(
     fmu: AliasedFmu,
     raw: RawLog,
     aliases: LogAliases,
-    why_missing: Callable[[str], str] = lambda name: "",
     chosen: Collection[str] = (),
     used: Collection[str] = (),
 ) -> Log:
     """The signals of a log that an FMU has too; a tunable parameter of the FMU is driven as an input is.
 
-    `why_missing`: why the FMU does not have one of our names, in a sentence; empty where nothing is known; `chosen`:
-    parameters that are set or sought: the log does not drive them; `used`: outputs with notes; all where it is empty.
-    Raises `HostError`: a column is not there, is no signal of the FMU, or its unit or clock is wrong; one sentence.
+    `chosen`: parameters that are set or sought: the log does not drive them; `used`: outputs with notes; all where it
+    is empty. Raises `HostError`: a column is not there, is no signal of the FMU, or its unit or clock is wrong; one
+    sentence.
     """
     tunable = fmu.tunable
     inputs, outputs = [*fmu.names("input"), *(n for n in tunable if n not in chosen)], fmu.names("output")
     record = record_of(raw.path)
     raw = raw.with_jumps(record)
-    columns = _columns(raw, aliases, fmu, inputs, outputs, why_missing)
+    columns = _columns(raw, aliases, fmu, inputs, outputs)
     notes: list[str] = []
     clocks: dict[str, tuple[NDArray[np.float64], NDArray[np.int64]]] = {}
     signals: dict[str, Signal] = {}
@@ -78,7 +80,7 @@ def log_for(
             clocks[clock] = times
         told = [] if used and ours in outputs and ours not in used else notes
         read = _of_each_time(_signal(fmu, raw, ours, column, *clocks[clock], told), ours in inputs)
-        signals[ours] = _without_spikes(fmu, read, told)
+        signals[ours] = _without_spikes(fmu, read if ours in inputs else _as_measured(fmu, read, told), told)
     if jumps := {n: s.jumps for n, s in signals.items() if len(s.jumps)}:
         which = counted(jumps, np.concatenate([*jumps.values()]))
         notes.append(f"Jumps of inputs, between two rows of one time or by the record of a run: {which}.")
@@ -104,7 +106,6 @@ def _columns(
     fmu: AliasedFmu,
     inputs: Collection[str],
     outputs: Collection[str],
-    why_missing: Callable[[str], str],
 ) -> Mapping[str, Column]:
     there = [str(c) for c in raw.table.columns]
     for ours, column in aliases.columns.items():
@@ -117,7 +118,7 @@ def _columns(
                     f"{where} is a {causality} of {fmu.path.name}, which a column of a log cannot be{use}; "
                     "a column can be an input, a tunable parameter or an output."
                 )
-            why = why_missing(ours)
+            why = fmu.why_missing(ours)
             hint = f": {why.rstrip('.')}" if why else _near(ours, [*inputs, *outputs])
             raise HostError(f"{where} is no input or output of {fmu.path.name}{hint}.")
         for name in (column.name, column.time):
@@ -178,8 +179,7 @@ def _times(
         k = int(back[0])
         raise HostError(
             f"The log {raw.path}, line {raw.line(int(rows[k + 1]))}: time '{name}' goes back from "
-            f"{t[k] - t[0]:.6g} s to {t[k + 1] - t[0]:.6g} s after the first sample; "
-            "cut the log there, each drive is compared by itself."
+            f"{t[k] - t[0]:.6g} s to {t[k + 1] - t[0]:.6g} s after the first sample; {_why_back(np.diff(t), k)}."
         )
     steps = np.diff(t)
     if (twice := int(np.sum(steps == 0.0)) - raw.added) > 0:
@@ -197,18 +197,30 @@ def _times(
     return (t + (zero - start), rows), start
 
 
+def _why_back(steps: NDArray[np.float64], k: int) -> str:
+    """What to do about times that go back, which step `k` is the first to do."""
+    usual, back = float(np.median(np.abs(steps))), -float(steps[k])
+    if (steps <= 0.0).all():
+        return "the last row stands first: turn the order of the rows round"
+    if back <= _SHUFFLED * usual:
+        return "rows stand in another order than their times: sort them"
+    if abs(back - _HOUR) <= _SHUFFLED * usual:
+        return "a clock was put back by an hour there: stamps with their zone, such as +02:00, go on"
+    return "cut the log there, each drive is compared by itself"
+
+
 def _moments(raw: RawLog, name: str, unit: str | None) -> NDArray[np.float64]:
     """Times that are written as dates, s."""
     texts = raw.table[name].astype(str).str.strip().str.replace(",", ".", regex=False)
     if unit != "iso" and texts.str.fullmatch(CLOCK_TIME).any():
         return _clock_times(raw, name, texts)
-    moments = pd.to_datetime(raw.table[name], errors="coerce", utc=True, format="ISO8601")
+    moments = pd.to_datetime(texts.where(raw.table[name].notna()), errors="coerce", utc=True, format="ISO8601")
     wrong = moments.isna() & raw.table[name].notna()
     if wrong.any() and unit != "iso":  # of numbers the first that is none
         wrong = wrong & pd.to_numeric(raw.table[name], errors="coerce").isna()
     if wrong.any():
         row = int(np.argmax(wrong.to_numpy()))
-        what = "date of ISO 8601" if unit == "iso" else "number"
+        what = "date of ISO 8601" if unit == "iso" else "number, and no date such as 2024-05-03T12:00:00.010"
         cell = str(raw.table[name].iloc[row])
         raise raw.error(row, name, unit_behind(cell) or f"the time {brief(cell)} is no {what}.")
     first = moments.dropna().iloc[0]
@@ -272,6 +284,19 @@ def _of_each_time(signal: Signal, jumps: bool) -> Signal:
     moved = np.abs(signal.values - begun) > ROUND_OFF * (np.abs(signal.values) + np.abs(begun))
     kept = first | (last & moved) if jumps else first
     return replace(signal, time=signal.time[kept], values=signal.values[kept])
+
+
+def _as_measured(fmu: AliasedFmu, signal: Signal, notes: list[str]) -> Signal:
+    """Without rows in which a logger repeats what it has, which is told; whole numbers and switches stay."""
+    rows = rows_of_a_value(signal.values)
+    if fmu.variables[signal.name].type != "Real" or rows == 1:
+        return signal
+    new = np.append(True, np.diff(signal.values) != 0.0)
+    notes.append(
+        f"'{signal.source}' ({signal.name}) has a new value every {rows} rows ({rows * signal.interval:.3g} s): it "
+        f"counts where it is new, {int(new.sum())} of {len(new)} rows."
+    )
+    return replace(signal, time=signal.time[new], values=signal.values[new])
 
 
 def _without_spikes(fmu: AliasedFmu, signal: Signal, notes: list[str]) -> Signal:

@@ -67,7 +67,9 @@ class RawLog:
         if wrong.any():
             row = int(np.argmax(wrong.to_numpy()))
             cell = str(column.iloc[row])
-            raise self.error(row, name, unit_behind(cell) or f"{brief(cell)} is no number.")
+            raise self.error(
+                row, name, unit_behind(cell) or f"{brief(cell)} is no number; a cell without one is empty."
+            )
         values = np.array(numbers, dtype=np.float64)
         values[~np.isfinite(values)] = np.nan
         beyond = np.flatnonzero(np.abs(values) > LARGEST_NUMBER)

@@ -113,7 +113,7 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
     told = {n: s for n, s in compared.signals.items() if not (cause and len(opposite) > 1 and n in opposite)}
     right = consistent(task.echo)  # a factor in one of these would break what holds among them
     odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for n, s in told.items() if n not in right]
-    return compared, problems + [line for line in (*task.echo.warnings(), cause, *odd) if line]
+    return compared, problems + [line for line in (*task.echo.warnings(), *odd, cause) if line]
 
 
 def _refuse_odd(problems: list[str], options: argparse.Namespace) -> None:

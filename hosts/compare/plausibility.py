@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ali3.units import misread
 from hosts.common.errors import HostError
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import deviations
@@ -17,17 +18,6 @@ from hosts.measures.signal import Signal
 LONGEST_GAP = 0.2
 """s between samples of an input that is bridged unless the user says otherwise."""
 _MANY = 5.0  # median intervals are a gap
-_RATIOS = (
-    (180.0 / math.pi, 'it looks like degrees where radians were taken: unit = "deg" (or "deg/s")'),
-    (math.pi / 180.0, "it looks like radians that were taken for degrees"),
-    (3.6, 'it looks like km/h where m/s was taken: unit = "km/h"'),
-    (1.0 / 3.6, "it looks like m/s that was taken for km/h"),
-    (9.80665, "it looks like m/s² that was taken for g"),
-    (1.0 / 9.80665, 'it looks like g where m/s² was taken: unit = "g"'),
-    (1000.0, 'it looks like thousandths (unit = "mm", "kN" the other way round)'),
-    (1e-3, 'it looks like thousands (unit = "kN", "kJ")'),
-    (100.0, 'it looks like percent: unit = "%"'),
-)
 _CLOSE = 1.12  # of a ratio
 _ALIKE = 0.8  # correlation
 
@@ -86,9 +76,11 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
         return ""
     # Of the spreads, not of the regression, which noise makes smaller.
     ratio = float(np.std(y) / np.std(x))
-    for factor, words in _RATIOS:
-        if factor / _CLOSE < ratio < factor * _CLOSE:
-            return f"{what} is {ratio:.4g} times as large as in the simulation: {words}."
+    named = [(m, f'it looks like {m.words}: unit = "{m.unit}" in the alias file.') for m in misread(signal.unit)]
+    other = [(m, "is it in another unit, or is a factor missing?") for m in misread("")]
+    for m, words in (*named, *other):
+        if m.usual and 1.0 / _CLOSE < ratio * m.factor < _CLOSE:
+            return f"{what} is {ratio:.4g} times as large as in the simulation: {words}"
     return ""
 
 

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 from ali3.charts import Drawing
 from ali3.files import write_text
 from ali3.html_elements import element, picture, table
+from ali3.units import typeset
 from ali3.words import sentence_of
-from hosts.common.display_units import shown_in, unit_shown
+from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
 from hosts.compare.fit_result import Fit
 from hosts.compare.fit_words import FIT_COLUMNS, fit_rows, result_words
@@ -75,7 +76,7 @@ def bin_rows(told: Sequence[Bin], comparison: Comparison) -> list[Sequence[str]]
         unit, factor = shown_in(comparison.signals[b.signal].measured.unit, b.signal)
         scale, width = shown_in(b.unit)
         rows.append(
-            [b.signal, unit_shown(unit), f"{b.quantity}, {scale}", f"{width * b.low:g} to {width * b.high:g}",
+            [b.signal, typeset(unit), f"{b.quantity}, {typeset(scale)}", f"{width * b.low:g} to {width * b.high:g}",
              str(b.samples), f"{factor * b.rms:.4g}", f"{factor * b.mean:.4g}"]
         )  # fmt: skip
     return rows

@@ -126,9 +126,8 @@ class Residuals:
         if len(at) < 2:
             at.append((float(p[k]), self(p)))
         if len(at) < 2 or at[0][0] == at[1][0]:
-            raise RefusedError(
-                f"The FMU refuses what lies on both sides of {u.name} = {p[k]:.6g} {u.unit}; give it another range."
-            )
+            where = f"{u.name} = {number_in(float(p[k]), u.unit, '.6g')}"
+            raise RefusedError(f"The FMU refuses what lies on both sides of {where}; give it another range.")
         return np.asarray((at[0][1] - at[1][1]) / (at[0][0] - at[1][0]))
 
     def _exact(self, p: Array, k: int, curves: Mapping[str, Curve]) -> Array:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.columns import some_of
+from hosts.common.display_units import number_in
 
 _SIDE = 2  # neighbours on either side
 _SPREADS = 4.0  # of the neighbours among themselves
@@ -43,6 +44,6 @@ def spike_words(what: str, unit: str, time: NDArray[np.float64], values: NDArray
 
     `what`: the signal, as a user knows it; `time`, `values`: of the spikes, s, shape (k,), k > 0.
     """
-    each = (f"{v:.4g} {unit} at {t:.6g} s".replace(" 1 at", " at") for t, v in zip(time, values, strict=True))
+    each = (f"{number_in(v, unit)} at {t:.6g} s" for t, v in zip(time, values, strict=True))
     samples = "sample" if len(time) == 1 else "samples"
     return f"{len(time)} {samples} of {what} that no neighbour supports left out: {some_of(each, 3)}."

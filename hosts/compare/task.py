@@ -29,7 +29,6 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.missed_inputs import missed_inputs
 from hosts.driving.run_checks import check_columns, communication_step
 from hosts.fmu.aliased_fmu import AliasedFmu
-from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.input_ranges import beyond_range
@@ -83,13 +82,13 @@ def prepare(options: argparse.Namespace) -> Task:
         refuse_log_aliases(options.aliases)
     raw = read_log(options.log, log_aliases.dialect)
     with Fmu(options.fmu) as opened:
-        source = FmuSource(options.fmu.absolute(), aliases_of(options.aliases, opened.table))
+        source = FmuSource.named(opened, options.aliases)
         fmu, names = AliasedFmu(opened, source.names), source.names
         set_values = settings_of(opened.table, wishes_with_road(options, options.out)).start
-        given = {names.names([n])[0]: v for n, v in set_values.items()}
+        given = names.own_values(set_values)
         sought = {names.names([t.partition("=")[0].strip()])[0] for t in options.fit}
         used = {*options.signals, "speed"} if options.signals else ()  # the start and --hold-speed need it too
-        log = log_for(fmu, raw, log_aliases, names.why_missing, {*given, *sought}, used)
+        log = log_for(fmu, raw, log_aliases, {*given, *sought}, used)
         notes = log.notes
         inputs, outputs = _chosen(log, fmu, options)
         followed = _add_steering(fmu, log, inputs, outputs, notes, given, sought)

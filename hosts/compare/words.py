@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from ali3.columns import in_columns
-from hosts.common.display_units import shown_in, unit_shown
+from ali3.units import typeset
+from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
 
 _APART = 0.1  # of a sample: delays that differ by less are one
@@ -23,7 +24,7 @@ def signal_rows(comparison: Comparison, none: str) -> list[dict[str, str]]:
     for name, s in comparison.signals.items():
         d, r, a = s.deviations, s.rating, s.alignment
         unit, factor = shown_in(s.measured.unit, name)
-        row = {"signal": name, "unit": unit_shown(unit), "at, s": f"{d.time_of_largest:.4g}", "": r.grade}
+        row = {"signal": name, "unit": typeset(unit), "at, s": f"{d.time_of_largest:.4g}", "": r.grade}
         row |= {n: f"{factor * x:.4g}" for n, x in (("rms", d.rms), ("mean", d.mean), ("largest", d.largest))}
         row |= {"normalised": number(d.normalised, ".3f"), "correlation": number(d.correlation, ".4f")}
         scores = {"rating": r.overall, "corridor": r.corridor, "phase": r.phase, "magnitude": r.magnitude}

@@ -150,6 +150,10 @@ class AliasedFmu(NamedScalars):
         ours = {n: (x - self._alias[n].offset) / self._alias[n].factor for n, x in theirs.items()}
         return {**ours, **self._aliases.constants}
 
+    def why_missing(self, name: str) -> str:
+        """Why there is no variable of one of our names, in a sentence; empty where nothing is known."""
+        return self._aliases.why_missing(name)
+
     def _chosen(self, names: Iterable[str]) -> list[Alias]:
         return [self._alias[n] for n in names]
 

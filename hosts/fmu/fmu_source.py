@@ -11,6 +11,7 @@ from typing import Any, Protocol, TypeVar
 from hosts.common.numbers import Value
 from hosts.fmu.aliased_fmu import AliasedFmu, seen_through
 from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.own_process import files_of, in_own_process
 
@@ -30,6 +31,11 @@ class FmuSource:
     """Absolute."""
     names: Aliases = field(default_factory=Aliases)
     """Ours for its variables."""
+
+    @classmethod
+    def named(cls, fmu: Fmu, file: str | Path | None) -> FmuSource:
+        """That of an FMU that is open, whose variables an alias file names; see `aliases_of`."""
+        return cls(fmu.path.absolute(), aliases_of(file, fmu.table))
 
     @classmethod
     def of(cls, fmu: _Opened) -> FmuSource:

@@ -7,20 +7,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.units import misread, typeset
 from hosts.fmu.variables import Variable
 
 ROUNDING = 1e-6  # of the range
 LEAST = 0.02  # of the range that values in another unit reach
 CLIPPED = 1.2  # times the range: a factor or an offset more than another unit
-_MISTAKES = {  # by unit of the input: what undoes the mistake, and its words
-    "1": ((0.01, "percent"), (math.pi / 180.0, "degrees")),
-    "rad": ((math.pi / 180.0, "degrees"),),
-    "rad/s": ((math.pi / 180.0, "degrees per second"), (math.pi / 30.0, "rpm")),
-    "m": ((1e-3, "mm"),),
-    "m/s": ((1.0 / 3.6, "km/h"), (0.44704, "mph"), (1e-3, "mm/s")),
-    "N": ((1e-3, "mN"),),
-    "Pa": (),
-}
 
 
 def beyond_range(variable: Variable, values: NDArray[np.float64], where: str = "row") -> str:
@@ -53,10 +45,10 @@ def _hint(variable: Variable, values: NDArray[np.float64]) -> str:
     if largest <= CLIPPED * limit:
         return "; it may be clipped by a factor or an offset."
     found = [
-        words
-        for factor, words in _MISTAKES.get(variable.unit or "1", ())
-        if low <= factor * float(values.min())
-        and factor * float(values.max()) <= high
-        and factor * largest >= LEAST * limit
+        typeset(m.unit)
+        for m in misread(variable.unit or "1")
+        if low <= m.factor * float(values.min())
+        and m.factor * float(values.max()) <= high
+        and m.factor * largest >= LEAST * limit
     ]
     return f"; it looks like {' or '.join(found)}." if found else "; is its unit right?"

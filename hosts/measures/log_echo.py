@@ -13,42 +13,13 @@ from itertools import pairwise
 import numpy as np
 
 from ali3.echo import Echo, Mistake, Value, far_values
+from ali3.units import misread, typeset
 from hosts.measures.relations import FINE, PATH, QUANTITIES, RELATIONS, SPEEDS, WHEELS, Signals, log_values
 from hosts.measures.samples import of_all, of_samples
 from hosts.measures.signal import Signal
 
 LATE = 0.1  # s: of a signal
-RATES = ("chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw", "steering.angle")
-_DEG = 180.0 / np.pi
-FACTORS: dict[str, tuple[tuple[float, str], ...]] = {  # what undoes a mistake, by the signal's unit
-    "m/s": (
-        (1.0 / 3.6, "km/h in place of m/s"),
-        (0.44704, "mph in place of m/s"),
-        (0.514444, "knots in place of m/s"),
-        (0.3048, "ft/s in place of m/s"),
-        (3.6, "m/s taken for km/h"),
-    ),
-    "rad/s": (
-        (1.0 / _DEG, "deg/s in place of rad/s"),
-        (_DEG, "rad/s taken for deg/s"),
-        (np.pi / 30.0, "rpm in place of rad/s"),
-        (2.0 * np.pi, "turns per second in place of rad/s"),
-    ),
-    "m/s2": (
-        (9.80665, "g in place of m/s2"),
-        (1.0 / 9.80665, "m/s2 taken for g"),
-        (1e-3, "mm/s2 in place of m/s2"),
-        (9.80665e-3, "mg in place of m/s2"),
-        (0.3048, "ft/s2 in place of m/s2"),
-    ),
-    "rad": ((1.0 / _DEG, "degrees in place of radians"), (_DEG, "radians taken for degrees")),
-    "m": (
-        (1e-3, "mm in place of m"),
-        (1e-2, "cm in place of m"),
-        (1e3, "km in place of m"),
-        (0.3048, "feet in place of m"),
-    ),
-}
+RATES = ("chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw", "steering_wheel_angle")
 TIMES = (
     (2.0, "time twice as fast"),
     (0.5, "time half as fast"),
@@ -119,7 +90,7 @@ def _undone(signals: Signals, echo: Echo) -> Iterator[tuple[str, set[str], Signa
             continue
         s = signals[group[0]]
         of = "the path" if group == PATH else "all wheels" if len(group) > 1 else f"'{s.source}' ({s.name})"
-        known = (*FACTORS.get(s.unit, ()), *RIM * (group[0] in WHEELS))
+        known = (*((m.factor, m.words) for m in misread(s.unit)), *RIM * (group[0] in WHEELS))
         for words, factor, guessed in _factors(echo, group, known):
             altered = {n: replace(signals[n], values=factor * signals[n].values) for n in group}
             yield f"{words} of {of}", set(group), {**signals, **altered}, guessed
@@ -178,5 +149,5 @@ def _moved(signals: Signals, s: Signal, of: str, echo: Echo) -> Iterator[tuple[s
         yield words, {s.name}, {**signals, s.name: replace(s, time=s.time - delay)}, False
     off = [v.value for v, power in _exponents(echo, "_off", (s.name,)) if power < 0]
     if off:
-        words = f"an offset of {-off[-1]:.3g} {s.unit} in {of}"
+        words = f"an offset of {-off[-1]:.3g} {typeset(s.unit)} in {of}"
         yield words, {s.name}, {**signals, s.name: replace(s, values=s.values + off[-1])}, False

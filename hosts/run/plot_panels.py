@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ali3.chart_style import BLACK
+from ali3.units import typeset
 
 
 def table_of(axes: Axes, rows: Sequence[tuple[str, str]]) -> None:
@@ -35,7 +36,7 @@ def draw_lines(
         style = (0, (4, 3)) if label in ("FR", "RR") else "-"
         axes.plot(t, values, color=colour, label=label, linestyle=style, drawstyle="steps-pre" if steps else "default")
     axes.set_title(title, loc="left")
-    axes.set_ylabel(unit if unit != "1" else "")
+    axes.set_ylabel(typeset(unit))
     axes.margins(x=0)
     if len(series) > 1:
         axes.legend(

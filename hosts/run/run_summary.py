@@ -58,7 +58,7 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
     for name, label in (("ax", "longitudinal"), ("ay", "lateral"), ("az", "vertical")):
         if f"chassis.{name}" in result:
             a = result[f"chassis.{name}"]
-            rows.append((f"{label} acceleration", f"{_signed(a.min())} to {_signed(a.max())} m/s2"))
+            rows.append((f"{label} acceleration", f"{_signed(a.min())} to {_signed(a.max())} m/s²"))
     for name in ("roll", "pitch"):
         if f"chassis.{name}" in result:
             angle = np.degrees(result[f"chassis.{name}"])

@@ -16,6 +16,7 @@ from scipy.stats import binomtest
 
 from ali3.columns import in_columns
 from ali3.files import whole_file, write_text
+from ali3.units import typeset
 from hosts.common.display_units import shown_in
 from hosts.common.numbers import or_null
 from hosts.measures.measure import Limit
@@ -164,7 +165,7 @@ def share_rows(found: Sequence[Share], about: Mapping[str, Any]) -> list[tuple[s
 def _allowed(s: Share) -> str:
     unit, factor = shown_in(s.unit, s.measure)
     shown = Limit("", factor * s.limit.lowest, factor * s.limit.highest)
-    return "" if s.measure == ALL else shown.words("" if unit == "1" else unit)
+    return "" if s.measure == ALL else shown.words(typeset(unit))
 
 
 def share_notes(found: Sequence[Share], about: Mapping[str, Any]) -> list[str]:

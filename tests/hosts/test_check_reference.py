@@ -99,7 +99,7 @@ def test_a_jump_inside_a_step_is_told(fmu: Path, tmp_path: Path, at: float) -> N
 @pytest.mark.parametrize(
     ("what", "bounds", "said"),
     [
-        (lambda y: 1000.0 * y, (), "bob.y: in agreement where the table has it 1000 times as large: another unit?"),
+        (lambda y: 1000.0 * y, (), "bob.y: in agreement where the table has it 1000 times as large: mm in place of m?"),
         (lambda y: -y, (), "bob.y: in agreement where the table has it with the other sign"),
         (lambda y: np.r_[y[0], y[:-1]], ("--bound", "bob.y=1e-5"), "where the table has it 0.01 s later, by one row"),
         (lambda y: np.r_[y[1:], y[-1]], ("--bound", "bob.y=1e-5"), "where the table has it 0.01 s earlier, by one row"),

@@ -311,7 +311,7 @@ def test_columns_beyond_their_range_and_late_tables_are_refused(tmp_path: Path) 
 
     with Fmu(build_fmu(mbs.compile(model), "bob", tmp_path, [fmpy.platform])) as fmu:
         check_columns(fmu, drive([0.0, 1.0 + 1e-7, -1.0]))
-        with pytest.raises(HostError, match="'pull' that reaches 45 in row 2 .*; it looks like percent or degrees"):
+        with pytest.raises(HostError, match="'pull' that reaches 45 in row 2 .*; it looks like % or deg"):
             check_columns(fmu, drive([0.0, 45.0, 20.0]))
         check_columns(fmu, drive([0.0, 1.0, 0.0], 2.0))
         with pytest.raises(HostError, match="begins at 100 s, and the run ends at 2 s"):

@@ -146,7 +146,7 @@ PLANTED: dict[str, tuple[Told, str]] = {
     "masses in g": (robot(MASS, 1e3), "grams in place of kilograms in masses"),
     "moments in kg cm2": (robot(MOMENTS, 1e4), "kg cm2 in place of kg m2"),
     "limits in degrees": (robot(LIMITS, DEG), "degrees in place of radians in the limits"),
-    "speed in knots": (log(scaled("speed", 1.94384)), "knots in place of m/s"),
+    "speed in knots": (log(scaled("speed", 1.94384)), "kn in place of m/s"),
     "speed in ft/s": (log(scaled("speed", 3.28084)), "ft/s in place of m/s"),
     "path in cm": (log(lambda d: scaled("chassis.x", 100.0)(scaled("chassis.y", 100.0)(d))), "cm in place of m of the"),
     "exchanged coordinates": (log(swapped("chassis.x", "chassis.y")), "'x' and 'y' exchanged"),

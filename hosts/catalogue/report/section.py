@@ -7,8 +7,9 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from ali3.html_elements import Content, element, table
+from ali3.units import typeset
 from hosts.catalogue.record import Standard, StandardTest, TestRecord
-from hosts.catalogue.report.numbers import NONE, kept_shown, typeset, with_unit
+from hosts.catalogue.report.numbers import NONE, kept_shown, with_unit
 from hosts.experiment.report import FAINT, NOTE, Section, paragraph
 from hosts.measures.measure import Measure
 

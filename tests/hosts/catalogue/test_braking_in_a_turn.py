@@ -71,7 +71,7 @@ def test_measures_of_a_made_turn(radius: float) -> None:
 def test_a_deceleration_that_no_stop_has_is_told() -> None:
     measured = measures_of([turn(3.0, 1.0, 80.0, 0.0)], 6.0)
     assert math.isnan(measured["yaw_rate.ratio"].value)
-    assert "3 to 3 m/s2" in measured["yaw_rate.ratio"].note
+    assert "3 to 3 m/s²" in measured["yaw_rate.ratio"].note
     assert measured["worst.yaw_rate.ratio"].value == pytest.approx(1.0)
 
 

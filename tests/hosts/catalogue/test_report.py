@@ -15,10 +15,11 @@ import pytest
 from lxml import etree
 
 from ali3.errors import FileError
+from ali3.units import typeset
 from hosts.catalogue.output import print_measures
 from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.report import write_report
-from hosts.catalogue.report.numbers import difference, shown, typeset
+from hosts.catalogue.report.numbers import difference, shown
 from hosts.catalogue.report.pictures import pictures_of
 from hosts.catalogue.report.section import command_of
 from hosts.catalogue.two_sides import mean_of_sides

@@ -68,6 +68,29 @@ class TestCommand:
         assert "The fit was stopped after " in (tmp_path / "drive.html").read_text()
         assert not (tmp_path / "drive.ssv").exists()
 
+    def test_a_value_that_is_set_keeps_its_size_under_another_name(
+        self, tuned: Path, log: Path, tmp_path: Path
+    ) -> None:
+        (tmp_path / "names.toml").write_text('rate = { name = "spring.stiffness", factor = 1000.0 }\n')
+        found = []
+        for k, more in enumerate(([], ["--aliases", str(tmp_path / "names.toml")])):
+            record = tmp_path / f"{k}.json"
+            main(
+                [
+                    str(tuned),
+                    str(log),
+                    "--out",
+                    str(tmp_path),
+                    "--json",
+                    str(record),
+                    "--set",
+                    "spring.stiffness=130",
+                    *more,
+                ]
+            )
+            found.append(json.loads(record.read_text())["measures"])
+        assert found[0] == found[1]
+
     @pytest.mark.slow
     @pytest.mark.drawn
     def test_compare_and_fit(self, tuned: Path, log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -135,11 +158,17 @@ class TestCommand:
     @pytest.mark.parametrize(
         ("change", "words"),
         [
-            (lambda c: c | {"bob.x": 1000.0 * c["bob.x"]}, "thousandths"),
+            (lambda c: c | {"bob.x": 1000.0 * c["bob.x"]}, 'it looks like mm in place of m: unit = "mm"'),
             (lambda c: c | {"bob.x": -c["bob.x"]}, "has the opposite sign"),
             (lambda c: c | {"bob.x": -c["bob.x"]}, "Or the input 'pull' (pull) has the opposite sign"),
-            (lambda c: c | {"bob.x": np.degrees(c["bob.x"])}, "it looks like degrees"),
-            (lambda c: c | {"bob.x": c["bob.x"] / 9.81}, "it looks like g"),
+            (
+                lambda c: c | {"bob.x": np.degrees(c["bob.x"])},
+                "in the simulation: is it in another unit",
+            ),
+            (
+                lambda c: c | {"bob.x": c["bob.x"] / 9.81},
+                "in the simulation: is it in another unit",
+            ),
         ],
     )
     def test_a_wrong_unit_is_seen_and_nothing_is_fitted(

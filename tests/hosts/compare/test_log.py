@@ -218,8 +218,56 @@ def test_units(unit: str, si: float) -> None:
     assert unit_definition(unit, "").factor == pytest.approx(si, rel=1e-12)
 
 
+SUMMER_ENDS = "2024-10-27T01:59:59.800+00:00"
+
+
+def stamped(form: str, shift: float = 0.0) -> str:
+    """Rows with stamps of ISO 8601; `shift`: from row 20 on, s."""
+    begin = pd.Timestamp(SUMMER_ENDS)
+    stamps = [begin + pd.Timedelta(seconds=0.01 * k + shift * (k >= 20)) for k in range(ROWS)]
+    return "\n".join(form.format(stamp.isoformat(timespec="milliseconds"), 0.001 * k) for k, stamp in enumerate(stamps))
+
+
+def test_stamps_with_a_decimal_comma_and_of_two_zones(fmu: AliasedFmu, tmp_path: Path) -> None:
+    alias = '[signals]\n"bob.x" = "x"\n[time]\nname = "stamp"'
+    with_comma = "stamp;x\n" + stamped("{0};{1}").replace("+00:00", "").replace(".", ",").replace("T", " ")
+    lines = stamped("{0};{1}").splitlines()
+    lines[20:] = [line.replace("T02:", "T03:").replace("+00:00", "+01:00") for line in lines[20:]]
+    for text in (with_comma, "\n".join(["stamp;x", *lines])):
+        found = read(fmu, tmp_path, text, alias).outputs["bob.x"]
+        assert found.time == pytest.approx(0.01 * np.arange(ROWS))
+        assert found.values == pytest.approx(0.001 * np.arange(ROWS))
+
+
+@pytest.mark.parametrize(("rate", "jitter"), [(10, 0), (10, 1), (5, 0), (100, 3)])
+def test_a_signal_that_is_repeated_row_by_row_counts_where_it_is_new(
+    fmu: AliasedFmu, tmp_path: Path, rate: int, jitter: int
+) -> None:
+    count, chance = 20 * rate, np.random.default_rng(3)
+    new = np.clip(rate * np.arange(20) + chance.integers(-jitter, jitter + 1, 20), 0, None)
+    new[0] = 0
+    held = np.sin(new)[np.searchsorted(new, np.arange(count), side="right") - 1]
+    lines = [f"{0.01 * k:.2f},{0.5 * k},{float(held[k])!r},{0.25 * (k // rate)}" for k in range(count)]
+    log = read(fmu, tmp_path, "time,pull,bob.x,bob.y\n" + "\n".join(lines))
+    found = log.outputs["bob.x"]
+    assert found.time == pytest.approx(0.01 * new)
+    assert found.values == pytest.approx(np.sin(new))
+    (told,) = [note for note in log.notes if "has a new value every" in note]
+    assert f"every {rate} rows" in told
+    assert len(log.outputs["bob.y"].time) == count  # a ramp of a coarse signal
+
+
 BAD = [
     ("time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.2,", "0.05,", 1), "", "goes back from 0.19 s to 0.05 s"),
+    ("\n".join(["time,pull,bob.x", *rows("{t},{f},{x}").splitlines()[::-1]]), "", "the last row stands first"),
+    ("time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.2,", "0.18,", 1), "", "sort them"),
+    ("stamp;bob.x\n" + stamped("{0};{1}", -3600.0), '[time]\nname = "stamp"', "put back by an hour"),
+    (
+        "stamp;bob.x\n" + stamped("{0};{1}").replace("2024-10-27T", "27.10.2024 "),
+        '[time]\nname = "stamp"',
+        "no date such as 2024",
+    ),
+    ("time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.011\n", "invalid\n"), "", "a cell without one is empty"),
     ("time,pull,bob.x\n" + rows("{ms},{f},{x}"), "", '[time] unit = "ms"'),
     ("time,Pull,bob_x\n" + rows("{t},{f},{x}"), "", "has no column with the name of an input or output"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = "f"', "has no column 'f'; did you mean 'F'"),

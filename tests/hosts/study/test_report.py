@@ -106,7 +106,7 @@ def test_all_runs_failed(frame: pd.DataFrame, tmp_path: Path) -> None:
 def test_a_measure_that_never_changes(tmp_path: Path) -> None:
     made = frame_of({"mass": np.arange(100.0)}, {"peak": np.full(100, 3.0)}, UNITS)
     text = report_of(made, tmp_path, commands)[0].read_text(encoding="utf-8")
-    assert "It is 3 m/s2 in all runs, but for rounding: nothing that was varied changes it." in text
+    assert "It is 3 m/s² in all runs, but for rounding: nothing that was varied changes it." in text
 
 
 def test_round_off_is_no_effect(tmp_path: Path) -> None:
@@ -115,7 +115,7 @@ def test_round_off_is_no_effect(tmp_path: Path) -> None:
     made = frame_of({"mass": np.arange(100.0)}, {"peak": peaks}, UNITS)
     data = study_data(made)
     assert np.isnan(rank_correlations(data, data.responses)).all()
-    assert "It is 3 m/s2 in all runs" in report_of(made, tmp_path, commands)[0].read_text(encoding="utf-8")
+    assert "It is 3 m/s² in all runs" in report_of(made, tmp_path, commands)[0].read_text(encoding="utf-8")
     made["peak"] = 3.0 * (1.0 + 1e-6 * rng.random(100))
     assert study_data(made).responses[0].varies
 
