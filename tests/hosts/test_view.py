@@ -353,6 +353,7 @@ def test_options_that_cannot_be_met(result: Path, said: Said) -> None:
 def test_names_of_before_are_named(result: Path, said: Said, capsys: pytest.CaptureFixture[str]) -> None:
     for given, words in (
         (["--out", "page.html"], "page.html is the name of a file; --out names the folder of what is written"),
+        (["--out", "x.GLB"], "x.GLB is the name of a file; --out names the folder of what is written"),
     ):
         with pytest.raises(SystemExit) as end:
             said(result, *given)
