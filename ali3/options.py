@@ -86,7 +86,10 @@ def assignment(text: str) -> tuple[str, float]:
     return name, number(value)
 
 
-_SUFFIXES = (".html", ".htm", ".csv", ".json", ".ssv", ".fmu", ".so", ".dll", ".dylib", ".wasm")
+_SUFFIXES = (
+    *(".html", ".htm", ".csv", ".json", ".toml", ".ssv", ".fmu", ".ssp", ".zip", ".so", ".dll", ".dylib", ".wasm"),
+    *(".png", ".svg", ".pdf", ".mp4", ".glb", ".gltf"),
+)
 
 SHARED: dict[str, Option] = {
     "--out": Option("DIR", "folder of what is written", folder),

@@ -68,7 +68,7 @@ class Recording:
         if scene is not None:
             check_scene(scene)
         self.name = name or (str(scene["name"]) if scene is not None else "run")
-        self.t = _times(t)
+        self.t = _times(t, self.name)
         self.epoch = np.zeros(len(self.t)) if epoch is None else _column("epoch", epoch, len(self.t))
         self.columns = {str(key): _column(str(key), values, len(self.t)) for key, values in columns.items()}
         self.units = {key: str((units or {}).get(key, "")) for key in self.columns}
@@ -228,22 +228,22 @@ class Recording:
             self.notes.append(f"The column '{name}' was given within one turn; it is shown as a continuous angle.")
 
 
-def _times(t: ArrayLike) -> NDArray[np.float64]:
+def _times(t: ArrayLike, name: str) -> NDArray[np.float64]:
     try:
         times = np.asarray(t, dtype=np.float64)
     except (TypeError, ValueError):
-        raise ViewerError("The times of a recording are no numbers.") from None
+        raise ViewerError(f"The times of {name!r} are no numbers.") from None
     if times.ndim != 1 or len(times) == 0:
-        raise ViewerError(
-            f"The times of a recording have the shape {times.shape}; it must be (n,) with n of 1 or more."
-        )
+        raise ViewerError(f"The times of {name!r} have the shape {times.shape}; it must be (n,) with n of 1 or more.")
     if not np.isfinite(times).all():
         k = int((~np.isfinite(times)).argmax())
-        raise ViewerError(f"The times of a recording must be numbers; time {k} (from 0 on) is {times[k]}.")
+        raise ViewerError(f"The times of {name!r} must be numbers; time {k} (from 0 on) is {times[k]}.")
     back = np.diff(times) < 0.0
     if back.any():
         k = int(back.argmax())
-        raise ViewerError(f"The times of a recording go back from {times[k]:g} s to {times[k + 1]:g} s.")
+        raise ViewerError(
+            f"The times of {name!r} go back from {times[k]:g} s to {times[k + 1]:g} s; they must not decrease."
+        )
     return times
 
 

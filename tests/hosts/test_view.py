@@ -301,7 +301,7 @@ def test_a_table_that_would_fill_the_memory_is_read_in_part(
         ("a.csv", "x,y\n0,1\n", "its heading begins with 'x'; it must be time"),
         ("a.csv", "time,x,x\n0,1,1\n", "has the column 'x' twice"),
         ("a.csv", "time\n0\n", "a column of times and no other"),
-        ("a.csv", "time,x\n1,1\n0,1\n", "go back from 1 s to 0 s"),
+        ("a.csv", "time,x\n1,1\n0,1\n", "The times of 'a' go back from 1 s to 0 s"),
         ("a.csv", "time,x\nnan,1\n", "time 0 (from 0 on) is nan"),
         ("a.csv", b"\xff\xfe\x00", "is no text in UTF-8"),
         ("a.json", "{}", "has no table a.csv beside it"),
@@ -353,6 +353,7 @@ def test_options_that_cannot_be_met(result: Path, said: Said) -> None:
 def test_names_of_before_are_named(result: Path, said: Said, capsys: pytest.CaptureFixture[str]) -> None:
     for given, words in (
         (["--out", "page.html"], "page.html is the name of a file; --out names the folder of what is written"),
+        (["--out", "x.GLB"], "x.GLB is the name of a file; --out names the folder of what is written"),
     ):
         with pytest.raises(SystemExit) as end:
             said(result, *given)

@@ -85,15 +85,21 @@ def test_each_surface_has_its_colour_and_what_is_wet_mirrors_the_sky(drawn, qual
 def test_a_road_that_is_slick_everywhere_is_drawn_wet_or_as_ice(drawn, quality):
     grid = {"kind": "grid", "origin": [-30, -30], "spacing": [30, 30], "shape": [3, 3], "heights": floats(np.zeros(9))}
     kerb = {"kind": "profile", "stations": [0, 0.001], "heights": [0, -0.08], "origin": [1e6, 0, 0]}
-    for one in ({"kind": "flat"}, {"kind": "plane", "point": [0, 0, 0], "normal": [0, 0.1, 1]}, kerb, grid):
-        seen = []
-        for said in ({}, {"friction": 0.5}, {"friction": 0.5, "friction_factor": 0.3}):
-            drawn.show(world(roads=[one | said], extent=4.0), at(0, 0, 0), camera="top", quality=quality)
-            seen.append(around(drawn.picture(), drawn.project((1.5, 1.0, 0.0)), 10))
-        dry, wet, ice = seen
-        assert wet.mean() < 0.8 * dry.mean(), one
+    # The sun stands towards +y: a plane that falls to it mirrors it, where it is wet.
+    to_sun, from_sun = ({"kind": "plane", "point": [0, 0, 0], "normal": [0, side, 1]} for side in (0.2, -0.1))
+
+    def seen(one: dict[str, Any], said: dict[str, float]) -> np.ndarray:
+        drawn.show(world(roads=[one | said], extent=4.0), at(0, 0, 0), camera="top", quality=quality)
+        return around(drawn.picture(), drawn.project((1.5, 1.0, 0.0)), 10)
+
+    wet = {"friction": 0.5}
+    for one in ({"kind": "flat"}, from_sun, kerb, grid):
+        dry, ice = seen(one, {}), seen(one, wet | {"friction_factor": 0.3})
+        assert seen(one, wet).mean() < 0.8 * dry.mean(), one
         assert ice.mean() > 1.5 * dry.mean(), one
         assert ice[2] > 1.03 * ice[0], one
+    brightness = seen(to_sun, wet).mean() / seen(to_sun, {}).mean()
+    assert (brightness > 1.0) == (quality == "high"), brightness
 
 
 def test_the_border_of_a_grid_goes_on_before_it_as_road_and_beside_it_as_grass(drawn):

@@ -1,5 +1,5 @@
 // Runs that were recorded, as a source of a page; see `Source` in shell/shell.js.
-import { paceActs } from "./acts.js";
+import { paceActs, unitsOf } from "./acts.js";
 import { Clock, SPEEDS } from "./clock.js";
 import { Sampler } from "./sampler.js";
 
@@ -35,7 +35,7 @@ export class Recordings {
     const [begin, end] = [Math.min(...runs.map(({ t }) => t[0])), Math.max(...runs.map(({ t }) => t[t.length - 1]))];
     this.clock = new Clock(begin, end, { speed, loop });
     this.clock.seek(time ?? begin);
-    this.columns = this._columns();
+    this.columns = unitsOf(signalNames(runs), (name) => runs.find(({ columns }) => name in columns).columns[name].unit);
     const far = (/** @type {Data} */ event) => STEPS[event?.shiftKey ? 1 : 0];
     const toggle = () => this._pace(() => (this.running ? this.clock.pause() : this.clock.play()));
     const seek = (t) => this._seek(t);
@@ -74,11 +74,6 @@ export class Recordings {
 
   get speed() {
     return this.clock.speed;
-  }
-
-  _columns() {
-    const unit = (name) => this.runs.find(({ columns }) => name in columns).columns[name].unit;
-    return new Map(signalNames(this.runs).map((name) => [name, unit(name)]));
   }
 
   /** Runs as diagrams show them. */

@@ -21,9 +21,9 @@ function surfaceOf(mesh, toGroup) {
   const geometry = mesh.geometry.clone().applyMatrix4(toGroup.multiply(mesh.matrixWorld));
   const { position, normal } = geometry.attributes;
   const colour = colourOf(mesh);
-  const index = geometry.index ? [...geometry.index.array] : [...Array(position.count).keys()];
+  const index = geometry.index?.array ?? [...Array(position.count).keys()];
   geometry.dispose();
-  return { positions: [...position.array], normals: [...normal.array], colours: Array(position.count).fill(colour).flat(), index };
+  return { positions: position.array, normals: normal.array, colours: Array.from(position.array, (_, k) => colour[k % 3]), index };
 }
 
 function together(surfaces) {

@@ -25,33 +25,66 @@ function numbering() {
   };
 }
 
+/** Colour and side of each point as one number: what keeps points of one cell apart. @param {Surface} surface */
+function kindsOf({ normals, colours }) {
+  const tints = numbering();
+  let [tint, last] = [0, -1]; // points of a part have one colour
+  return Uint32Array.from({ length: normals.length / 3 }, (_, k) => {
+    if (last < 0 || [0, 1, 2].some((i) => colours[3 * k + i] !== colours[3 * last + i])) tint = tints(`${colours[3 * k]},${colours[3 * k + 1]},${colours[3 * k + 2]}`);
+    last = k;
+    return 6 * tint + side(normals, k);
+  });
+}
+
+/**
+ * Which points and cells of a lattice the points of a surface belong to, and the triangles that are left.
+ * @param {Surface} surface @param {Uint32Array} kinds of its points @param {number} cell side of a cell, m
+ */
+function latticed({ positions, index }, kinds, cell) {
+  const [cells, points] = [numbering(), numbering()];
+  const [cellOf, pointOf] = [new Uint32Array(kinds.length), new Uint32Array(kinds.length)];
+  const line = (k) => Math.round(positions[k] / cell) + LINES / 2;
+  let many = 0;
+  kinds.forEach((kind, k) => {
+    cellOf[k] = cells((line(3 * k) * LINES + line(3 * k + 1)) * LINES + line(3 * k + 2));
+    pointOf[k] = points(kind * kinds.length + cellOf[k]);
+    many = Math.max(many, pointOf[k] + 1);
+  });
+  const seen = new Set();
+  const left = [];
+  for (let k = 0; k < index.length; k += 3) {
+    const [a, b, c] = [cellOf[index[k]], cellOf[index[k + 1]], cellOf[index[k + 2]]];
+    if (a === b || b === c || c === a) continue;
+    const [p, q, r] = [pointOf[index[k]], pointOf[index[k + 1]], pointOf[index[k + 2]]];
+    const [low, high] = [Math.min(p, q, r), Math.max(p, q, r)];
+    const key = (low * many + (p + q + r - low - high)) * many + high;
+    if (seen.has(key)) continue;
+    seen.add(key);
+    left.push(p, q, r);
+  }
+  return { cellOf, pointOf, index: left };
+}
+
 /**
  * Points of one cell get the place of their mean, so that no crack opens; triangles within one or two cells go.
- * @param {Surface} surface @param {number} cell side of a cell, m
+ * @param {Surface} surface @param {ReturnType<typeof latticed>} lattice
  * @returns {Surface}
  */
-export function thinned({ positions, normals, colours, index }, cell) {
-  const count = positions.length / 3;
-  const [cells, points, tints] = [numbering(), numbering(), numbering()];
-  const [cellOf, pointOf] = [new Uint32Array(count), new Uint32Array(count)];
+function joined({ positions, normals, colours }, { cellOf, pointOf, index }) {
   const means = []; // of cells: sums of places, and how many
   const looks = []; // of points: sums of normals and colours, how many, and their cell
-  const line = (k) => Math.round(positions[k] / cell) + LINES / 2;
-  for (let k = 0; k < count; k++) {
-    const at = (cellOf[k] = cells((line(3 * k) * LINES + line(3 * k + 1)) * LINES + line(3 * k + 2)));
-    const tint = tints(`${colours[3 * k]},${colours[3 * k + 1]},${colours[3 * k + 2]}`);
-    const point = (pointOf[k] = points((tint * 6 + side(normals, k)) * count + at));
-    means[at] ??= [0, 0, 0, 0];
-    looks[point] ??= [0, 0, 0, 0, 0, 0, 0, at];
+  cellOf.forEach((at, k) => {
+    const mean = (means[at] ??= [0, 0, 0, 0]);
+    const look = (looks[pointOf[k]] ??= [0, 0, 0, 0, 0, 0, 0, at]);
     for (let i = 0; i < 3; i++) {
-      means[at][i] += positions[3 * k + i];
-      looks[point][i] += normals[3 * k + i];
-      looks[point][3 + i] += colours[3 * k + i];
+      mean[i] += positions[3 * k + i];
+      look[i] += normals[3 * k + i];
+      look[3 + i] += colours[3 * k + i];
     }
-    means[at][3] += 1;
-    looks[point][6] += 1;
-  }
-  const made = { positions: [], normals: [], colours: [], index: [] };
+    mean[3] += 1;
+    look[6] += 1;
+  });
+  const made = { positions: [], normals: [], colours: [], index };
   for (const [x, y, z, red, green, blue, many, at] of looks) {
     const size = Math.hypot(x, y, z) || 1;
     const mean = means[at];
@@ -59,20 +92,11 @@ export function thinned({ positions, normals, colours, index }, cell) {
     made.normals.push(x / size, y / size, z / size);
     made.colours.push(red / many, green / many, blue / many);
   }
-  const seen = new Set();
-  for (let k = 0; k < index.length; k += 3) {
-    const [a, b, c] = [cellOf[index[k]], cellOf[index[k + 1]], cellOf[index[k + 2]]];
-    if (a === b || b === c || c === a) continue;
-    const numbers = [pointOf[index[k]], pointOf[index[k + 1]], pointOf[index[k + 2]]];
-    const low = Math.min(...numbers);
-    const high = Math.max(...numbers);
-    const key = (low * looks.length + (numbers[0] + numbers[1] + numbers[2] - low - high)) * looks.length + high;
-    if (seen.has(key)) continue;
-    seen.add(key);
-    made.index.push(...numbers);
-  }
   return made;
 }
+
+/** @param {Surface} surface @param {number} cell side of a cell, m */
+export const thinned = (surface, cell) => joined(surface, latticed(surface, kindsOf(surface), cell));
 
 /**
  * Surfaces with at most so many triangles together: all of one lattice, as fine as that allows.
@@ -80,8 +104,9 @@ export function thinned({ positions, normals, colours, index }, cell) {
  */
 export function within(surfaces, most, finest) {
   const count = (list) => list.reduce((sum, { index }) => sum + index.length / 3, 0);
-  const lattice = (/** @type {number} */ k) => surfaces.map((surface) => thinned(surface, finest * COARSER ** k));
   if (count(surfaces) <= most) return surfaces;
+  const kinds = surfaces.map(kindsOf);
+  const lattice = (/** @type {number} */ k) => surfaces.map((surface, i) => latticed(surface, kinds[i], finest * COARSER ** k));
   let [low, high] = [-1, 0]; // too fine, and to be tried
   let made = lattice(high);
   while (count(made) > most) {
@@ -94,5 +119,5 @@ export function within(surfaces, most, finest) {
     if (count(tried) > most) low = middle;
     else [high, made] = [middle, tried];
   }
-  return made;
+  return surfaces.map((surface, i) => joined(surface, made[i]));
 }
