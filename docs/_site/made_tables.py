@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
 from benchmarks.car.variable_tables import blocks
 from benchmarks.car.variable_tables import tables as variable_tables
-from mbs.kernel.read_headers import sensor_table
+from mbs.kernel.read_headers import PARTS, array_table, sensor_table, size_table
 from mbs.vehicle.reference import tables
 
 MARK = re.compile(r"<!-- made with the site: (.+) -->\n")
@@ -26,6 +26,8 @@ VARIABLES = ("car inputs", "car parameters", "car outputs", "car constants")
 MAKERS: dict[str, Callable[[], str]] = {
     "car file": tables,
     "sensors": sensor_table,
+    "sizes of a System": size_table,
+    **{f"arrays {part}".rstrip(): partial(array_table, part) for part in ("", *PARTS)},
     **{name: lambda name=name: _variables()[name] for name in VARIABLES},
 }
 

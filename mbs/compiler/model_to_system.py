@@ -52,7 +52,7 @@ from mbs.compiler.tabled import (
 from mbs.compiler.tables import Signals, channel_arrays, element_arrays, element_cliques, sensor_arrays
 from mbs.compiler.written_axes import axis_arrays, axis_cliques, axis_room
 from mbs.compiler.written_inertias import inertia_arrays, inertia_cliques
-from mbs.kernel.header.arrays import FLOAT_ARRAYS, INTEGER_ARRAYS
+from mbs.kernel.header.arrays import ARRAYS
 from mbs.model.equation import Equation
 from mbs.model.mechanism import Mechanism
 from mbs.system.compiled_model import CompiledModel
@@ -64,7 +64,7 @@ LoopWatch = Callable[
     [Mechanism, Sequence[RowTerms], Sequence[Affine], Array, Array, Signals], tuple[Tables, Callable[[], Tables]]
 ]
 Trees = Callable[[Mechanism, Signals, Sequence[int], NDArray[np.int64]], tuple[Tables, str]]
-NO_TREE: Tables = {name: [] for name in FLOAT_ARRAYS + INTEGER_ARRAYS if name.startswith("tree_")}
+NO_TREE: Tables = {name: [] for name in ARRAYS if name.startswith("tree_")}
 """Of a System that has no open tree."""
 
 

@@ -18,7 +18,7 @@ KERNEL = Path(__file__).resolve().parent
 HEADER = KERNEL / "header"
 ENTRIES = KERNEL / "src" / "api" / "entries.c"
 PUBLIC, SYSTEM, SENSORS = "include/ali3.h", "src/system.h", "src/system/sensor_types.h"
-ELEMENTS = "src/elements/element_types.h"
+ARRAYS, ELEMENTS = "src/system_arrays.h", "src/elements/element_types.h"
 MAGIC = "src/elements/magic_formula.h"
 
 ENUMERATIONS = {
@@ -106,20 +106,24 @@ def enumeration(file: str, first: str, prefix: str) -> dict[str, int]:
     return items
 
 
+_PART = re.compile(r"""\s*((?:"(?:[^"\\]|\\.)*"\s*)+|(?:[^,()"]|\([^()]*\))+)\s*([,)])""")
+"""An argument of a list macro, strings or a word with at most one pair of parentheses, and what ends it."""
+
+
 def table(file: str, name: str) -> list[list[str]]:
     """Entries ``X(...)`` of a list macro: the arguments as text, adjacent strings joined and without quotes."""
     found = re.search(rf"#define {name}\(X\)((?:[^\n]*\\\n)+[^\n]*)", text_of(file))
     if found is None:
         raise ValueError(f"{file} has no list {name}.")
-    argument = re.compile(r'\s*((?:"(?:[^"\\]|\\.)*"\s*)+|[^,()"]+?)\s*([,)])')
     entries, text, at = [], found[1].replace("\\\n", " "), 0
     while (start := text.find("X(", at)) >= 0:
         at, end, entry = start + 2, "", []
         while end != ")":
-            part = argument.match(text, at)
+            part = _PART.match(text, at)
             if part is None:
                 raise ValueError(f"an entry of {name} in {file} cannot be read: {text[start : start + 60]}")
-            entry.append(str(ast.literal_eval(f"({part[1]})")) if part[1].startswith('"') else part[1])
+            words = part[1].strip()
+            entry.append(str(ast.literal_eval(f"({words})")) if words.startswith('"') else words)
             at, end = part.end(), part[2]
         entries.append(entry)
     return entries
@@ -158,6 +162,68 @@ def sensor_table() -> str:
     """The table of sensors, as the page of the System file shows it on the site."""
     rows = (f"| {t.number} | {t.name} | {' | '.join(t.words)} |" for t in sensor_types())
     return "\n".join(["| type | name | ints | reals | value |", "| --- | --- | --- | --- | --- |", *rows])
+
+
+class ArrayEntry(NamedTuple):
+    """An entry of ALI3_SYSTEM_ARRAYS; what `length` and `values` may be is said there."""
+
+    items: str
+    name: str
+    presence: str
+    length: str
+    values: str
+    words: str
+
+
+def arrays() -> list[ArrayEntry]:
+    """The arrays of a System in the order of their list. Raises `ValueError` if a name appears twice."""
+    entries = [ArrayEntry(*entry) for entry in table(ARRAYS, "ALI3_SYSTEM_ARRAYS")]
+    if len({entry.name for entry in entries}) != len(entries):
+        raise ValueError(f"an array appears twice in ALI3_SYSTEM_ARRAYS of {ARRAYS}.")
+    return entries
+
+
+PARTS = ("flex_", "tree_", "mode_")
+"""Names of arrays that have a table of their own begin so."""
+_ITEMS = {"INTEGERS": "i", "REALS": "f", "BYTES": "bytes"}
+_SPELT = (
+    (r"ANY|RELATED_LENGTH", "any"),
+    (r"OR_NONE\((.+)\)", r"\1 or 0"),
+    (r"IF_ANY\((.+), (.+)\)", r"\2, or 0 without \1"),
+    (r"ANY_IF\((.+)\)", r"any, or 0 without \1"),
+    (r"RELATED|FINITE|TEXT|.*ALI3_.*", ""),
+    (r"OR_INFINITE", "may be infinite"),
+    (r"BELOW\(2\)", "0 or 1"),
+    (r"BELOW\((.+)\)", r"0 to \1 - 1"),
+    (r"WITHIN\((.+), (.+)\)", r"\1 to \2"),
+    (r"OFFSETS\((\w+)\)", r"offsets in `\1`"),
+    (r"ASCENDING", "offsets"),
+)
+"""Lengths and values as the page has them; what follows from the words has none."""
+
+
+def _spelt(text: str) -> str:
+    return next((found.expand(words) for old, words in _SPELT if (found := re.fullmatch(old, text))), text)
+
+
+def array_table(part: str = "") -> str:
+    """A table of the page of the System file: the arrays whose names begin with `part`, or those of no such table."""
+    rows = [
+        f"| `{a.name}` | {_ITEMS[a.items]} {_spelt(a.length)}{', may be missing' * (a.presence == 'MAY')} "
+        f"| {_spelt(a.values)} | {a.words.replace('|', chr(92) + '|')} |"
+        for a in arrays()
+        if (a.name.startswith(part) if part else not a.name.startswith(PARTS))
+    ]
+    return "\n".join(["| name | type, length | values | meaning |", "| --- | --- | --- | --- |", *rows])
+
+
+def size_table() -> str:
+    """The table of sizes of the page of the System file."""
+    rows = (
+        f"| `{name}` | {words} | items of `{array}`{'' if each == '1' else ' / ' + each} |"
+        for name, array, each, words in table(ARRAYS, "ALI3_SYSTEM_SIZES")
+    )
+    return "\n".join(["| size | number of | is |", "| --- | --- | --- |", *rows])
 
 
 def structure(name: str) -> list[tuple[str, str]]:
@@ -238,7 +304,7 @@ def header() -> dict[str, str]:
         "limits.py": _text(
             "Limits and versions", [], ["\n".join(_defined(PUBLIC, LIMITS) + _defined(ROADS, ROAD_LIMITS))]
         ),
-        "arrays.py": _text("Names of the arrays of a System", [], _arrays()),
+        "arrays.py": _text("Arrays of a System", [], [_array_names()]),
         "enumerations.py": _text("Types and codes", [_ENUM], _enumerations()),
         "steps.py": _text("Methods and what steps tell", [_ENUM], _steps()),
         "sensor_reads.py": _text("What sensors read", [_ENUM + "\n\n" + _SENSOR_TYPE], _sensor_reads()),
@@ -257,14 +323,9 @@ def _text(what: str, imports: list[str], parts: Iterable[str]) -> str:
     return "\n\n".join([head, *imports, *parts]) + "\n"
 
 
-def _arrays() -> Iterator[str]:
-    required, optional = table(SYSTEM, "ALI3_SYSTEM_ARRAYS"), table(SYSTEM, "ALI3_OPTIONAL_ARRAYS")
-    kinds = {"double": "FLOAT_ARRAYS", "int32_t": "INTEGER_ARRAYS"}
-    for kind, names_of in kinds.items():
-        arrays = [name for of_kind, _, name in required + optional if of_kind == kind]
-        yield _names(names_of, arrays, f"Arrays of a System of type {kind}.")
-    names = [name for of_kind, _, name in optional if of_kind in kinds]
-    yield _names("OPTIONAL_ARRAYS", names, "Those that a System need not have.")
+def _array_names() -> str:
+    rows = "\n".join(f'    "{a.name}": ("{a.items}", "{a.presence}"),' for a in arrays())
+    return f'ARRAYS = {{\n{rows}\n}}\n"""Type of the items; MUST, or MAY: a System need not have it."""'
 
 
 def _classes(of: dict[str, tuple[str, str, str, str]]) -> Iterator[str]:
@@ -309,11 +370,6 @@ def _structures() -> Iterator[str]:
         yield _class(name, "Structure", f"`ali3_{c_name}`.", body)
     structures = "\n".join(f'    "ali3_{c_name}": {name},' for c_name, name in STRUCTURES.items())
     yield f'\nSTRUCTURES = {{\n{structures}\n}}\n"""By their names in C."""'
-
-
-def _names(name: str, values: Iterable[str], text: str) -> str:
-    lines = "\n".join(f'    "{value}",' for value in values)
-    return f'{name} = (\n{lines}\n)\n"""{text}"""'
 
 
 def _class(name: str, base: str, text: str, body: Iterable[str]) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mbs.common.frames import Frames
-from mbs.kernel.header.arrays import FLOAT_ARRAYS, INTEGER_ARRAYS, OPTIONAL_ARRAYS
+from mbs.kernel.header.arrays import ARRAYS
 from mbs.kernel.header.limits import SYSTEM_VERSION
 
 MAGIC = b"ALI3SYS\n"
@@ -22,9 +22,11 @@ HEADER = struct.Struct("<8sIIQII")
 ENTRY = struct.Struct("<40sIIQQ")
 INT32, FLOAT64, BYTES = 1, 2, 3
 
-FLOATS, INTEGERS, OPTIONAL = frozenset(FLOAT_ARRAYS), frozenset(INTEGER_ARRAYS), frozenset(OPTIONAL_ARRAYS)
-"""Names of the arrays; the optional ones may be missing: then nothing is known of assembly modes or of a start in
-equilibrium."""
+FLOATS, INTEGERS, TEXTS = (
+    frozenset(name for name, (items, _) in ARRAYS.items() if items == of) for of in ("REALS", "INTEGERS", "BYTES")
+)
+OPTIONAL = frozenset(name for name, (_, presence) in ARRAYS.items() if presence == "MAY") - TEXTS
+"""Names of the arrays; the optional ones may be missing."""
 MODES = ("mode_cell", "mode_cell_ptr")
 
 

@@ -28,6 +28,7 @@ from mbs.system.compiled_model import (
     INT32,
     INTEGERS,
     MAGIC,
+    TEXTS,
     VERSION,
     CompiledModel,
     SystemFileError,
@@ -37,7 +38,6 @@ from mbs.system.meta_check import problem_of
 from mbs.system.text import system_text
 
 _LARGEST = 4_000_000_000  # bytes of a file
-TEXTS = ("meta", "drawing")
 
 
 class System(CompiledModel):

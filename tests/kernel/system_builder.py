@@ -8,36 +8,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from mbs.kernel.header.arrays import ARRAYS
+
 INT, REAL, BYTES = 1, 2, 3
-REALS = {
-    "q0", "qd0", "y0", "mass_val", "gravity_force", "gravity_const", "row_lin", "row_const", "row_scale",
-    "row_measure", "quad_h", "angle_hc", "angle_hs", "gterm_h", "sig_val", "sig_const", "el_real", "input_start",
-    "input_min", "input_max", "guide_real", "road_real", "par_value", "par_min", "par_max", "par_scale", "par_offset",
-    "pose_0", "pose_cos", "pose_sin", "pose_x", "pose_y", "pose_z", "pose_speed", "sen_real",
-    "velocity_h", "flex_gravity", "flex_P", "flex_c", "flex_T", "flex_K", "flex_C",
-    "tree_base", "tree_mass", "tree_centre", "tree_inertia", "tree_gravity", "tree_out_local", "tree_cut_place",
-    "tree_angle_sign", "tree_angle_inertia",
-    "static_value", "static_q", "payload_mass", "payload_gravity", "tree_payload_place", "ported_val",
-    "fineness", "ported_const", "armature_inertia", "armature_ratio", "tabled_axis", "tabled_coef", "tabled_mass",
-    "tabled_gravity",
-    "inertia_real", "inertia_gravity", "axis_real", "axis_vector", "axis_inertia", "axis_rolling",
-}  # fmt: skip
-INTS = {
-    "mass_ptr", "mass_col", "mass_pos", "row_ptr", "row_col", "row_front", "row_loc", "quad_ptr", "quad_a", "quad_b",
-    "row_switch", "switch_start", "angle_row", "angle_theta", "angle_ptr", "angle_a", "angle_b",
-    "velocity_row", "velocity_ptr", "velocity_a", "velocity_b", "gterm_row", "gterm_guide", "gterm_power",
-    "gterm_a", "gterm_b", "front_col", "front_ptr", "front_idx", "front_parent", "front_map", "front_off", "sig_ptr",
-    "sig_col", "el_type", "el_sig_ptr", "el_sig", "el_real_ptr", "el_int_ptr", "el_int", "el_state_ptr", "el_out_ptr",
-    "el_front", "el_loc_ptr", "el_loc", "guide_type", "guide_input", "guide_real_ptr", "road_type", "road_real_ptr",
-    "par_ptr", "par_target", "par_index", "sen_type", "sen_int_ptr", "sen_int", "sen_real_ptr",
-    "flex_mode_ptr", "flex_frame", "flex_mode", "flex_front", "flex_loc",
-    "tree_parent", "tree_slides", "tree_frame", "tree_out_body", "tree_out_col", "tree_cut_body", "tree_cut_rows",
-    "tree_angle_col", "tree_angle_ptr", "tree_angle_joint",
-    "mode_triad_ptr", "mode_triad", "mode_cell_ptr", "mode_cell", "mode_name_ptr", "mode_name",
-    "static_start", "static_par", "pose_partner", "par_fixed", "payload_signal", "tree_payload_body",
-    "ported_ptr", "ported_row", "armature_col", "tabled_size", "tabled_frame", "tabled_param",
-    "axis_frame", "axis_signal", "axis_spin", "axis_table", "inertia_signal", "guide_second", "par_inverse",
-}  # fmt: skip
+REALS = {name for name, (items, _) in ARRAYS.items() if items == "REALS"}
+INTS = {name for name, (items, _) in ARRAYS.items() if items == "INTEGERS"}
 
 
 @dataclass

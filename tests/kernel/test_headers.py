@@ -12,6 +12,7 @@ import pytest
 from mbs.kernel import build, read_headers
 from mbs.kernel.binding import library, load_library
 from mbs.kernel.header import limits
+from mbs.kernel.header.arrays import ARRAYS
 from mbs.kernel.header.enumerations import Doubt, GuideType, ParameterTarget, RoadType, SensorType, SolverValue, Status
 from mbs.kernel.header.steps import METHOD_ORDERS, MethodNumber
 from mbs.kernel.header.structures import STRUCTURES
@@ -28,6 +29,20 @@ def test_the_python_side_is_what_the_headers_say():
 def test_the_table_of_sensors_has_a_row_for_each_type():
     rows = re.findall(r"^\| (\d+) \| ([A-Z_]+) \|", read_headers.sensor_table(), re.MULTILINE)
     assert [(int(number), name) for number, name in rows] == [(t.value, t.name) for t in SensorType]
+
+
+def test_the_tables_of_arrays_have_a_row_for_each_in_known_words():
+    tables = [read_headers.array_table(part) for part in ("", *read_headers.PARTS)]
+    names = [name for table in tables for name in re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE)]
+    assert sorted(names) == sorted(ARRAYS)
+    assert not re.search(r"\b(ANY|ANY_IF|IF_ANY|OR_NONE|BELOW|WITHIN|OFFSETS|RELATED|FINITE)\b", "\n".join(tables))
+    assert "| `row_ptr` | i nc + 1 | offsets in `row_col` |" in tables[0]
+    assert "| `el_front` | i ne | -1 to nf - 1 |" in tables[0]
+    assert "| `guide_second` | i ng or 0, may be missing |  |" in tables[0]
+    assert "| `tree_gravity` | f 3, or 0 without n_joint |  |" in "\n".join(tables)
+    sizes = dict(re.findall(r"^\| `(\w+)` \| [^|]+ \| items of `(\w+)`", read_headers.size_table(), re.MULTILINE))
+    assert sizes["nq"] == "q0"
+    assert set(sizes.values()) <= set(ARRAYS)
 
 
 def test_numbers_known_from_the_documents():

@@ -278,8 +278,8 @@ def test_fronts_of_impossible_size_are_refused_without_asking_for_memory() -> No
         ({"fineness": [1.0, 1.0]}, "'fineness' has 2 items instead of 1"),
         ({"fineness": [0.0]}, "the fineness is 0"),
         ({"ported_const": [0.0]}, "'ported_const' has 1 items instead of 5"),
-        ({"ported_ptr": []}, "'ported_const' has 5 items instead of 0"),
-        ({"ported_ptr": [], "ported_const": []}, "'ported_row' has 3 items instead of 0"),
+        ({"ported_ptr": []}, "'ported_row' has 3 items instead of 0"),
+        ({"ported_ptr": [], "ported_row": [], "ported_val": []}, "'ported_const' has 5 items instead of 0"),
     ],
 )
 def test_a_map_of_ports_that_points_elsewhere_is_refused(changes: dict[str, list[float]], said: str) -> None:

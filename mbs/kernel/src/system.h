@@ -4,72 +4,17 @@
 #include <stdbool.h>
 
 #include "../include/ali3.h"
-
-/* The arrays of a System file: C type, item type number, name; first those that it need not have: without them nothing
- * is known of assembly modes or of a start in equilibrium, no guide has two inputs, all parameters are tunable and
- * without offset and write multiples, and there are neither payloads nor armatures, bodies whose inertia or wheels whose axis may change. `drawing` is for those who draw: the kernel does not read it. */
-/* clang-format off */
-#define ALI3_OPTIONAL_ARRAYS(X) \
-  X(unsigned char, 3, drawing) \
-  X(int32_t, 1, mode_triad_ptr) X(int32_t, 1, mode_triad) X(int32_t, 1, mode_cell_ptr) X(int32_t, 1, mode_cell) \
-  X(int32_t, 1, mode_name_ptr) X(int32_t, 1, mode_name) \
-  X(int32_t, 1, static_start) X(int32_t, 1, static_par) X(double, 2, static_value) X(double, 2, static_q) \
-  X(int32_t, 1, pose_partner) \
-  X(double, 2, par_offset) X(int32_t, 1, par_fixed) \
-  X(double, 2, payload_mass) X(int32_t, 1, payload_signal) X(double, 2, payload_gravity) \
-  X(int32_t, 1, tree_payload_body) X(double, 2, tree_payload_place) \
-  X(int32_t, 1, armature_col) X(double, 2, armature_inertia) X(double, 2, armature_ratio) \
-  X(double, 2, inertia_real) X(int32_t, 1, inertia_signal) X(double, 2, inertia_gravity) X(int32_t, 1, par_inverse) \
-  X(double, 2, axis_real) X(double, 2, axis_vector) X(double, 2, axis_inertia) X(int32_t, 1, axis_frame) \
-  X(int32_t, 1, axis_signal) X(int32_t, 1, axis_table) X(int32_t, 1, axis_spin) X(double, 2, axis_rolling) \
-  X(int32_t, 1, guide_second) \
-  X(int32_t, 1, tabled_size) X(int32_t, 1, tabled_frame) X(int32_t, 1, tabled_param) X(double, 2, tabled_axis) \
-  X(double, 2, tabled_coef) X(double, 2, tabled_mass) X(double, 2, tabled_gravity) \
-  X(double, 2, fineness) X(int32_t, 1, ported_ptr) X(int32_t, 1, ported_row) X(double, 2, ported_val) X(double, 2, ported_const)
-
-#define ALI3_SYSTEM_ARRAYS(X) \
-  X(unsigned char, 3, meta) \
-  X(double, 2, q0) X(double, 2, qd0) X(double, 2, y0) \
-  X(int32_t, 1, mass_ptr) X(int32_t, 1, mass_col) X(double, 2, mass_val) X(int32_t, 1, mass_pos) \
-  X(double, 2, gravity_force) X(double, 2, gravity_const) \
-  X(int32_t, 1, row_ptr) X(int32_t, 1, row_col) X(double, 2, row_lin) X(double, 2, row_const) \
-  X(double, 2, row_scale) X(double, 2, row_measure) X(int32_t, 1, row_front) X(int32_t, 1, row_loc) \
-  X(int32_t, 1, quad_ptr) X(int32_t, 1, quad_a) X(int32_t, 1, quad_b) X(double, 2, quad_h) \
-  X(int32_t, 1, angle_row) X(int32_t, 1, angle_theta) X(int32_t, 1, angle_ptr) X(int32_t, 1, angle_a) \
-  X(int32_t, 1, angle_b) X(double, 2, angle_hc) X(double, 2, angle_hs) \
-  X(int32_t, 1, gterm_row) X(int32_t, 1, gterm_guide) X(int32_t, 1, gterm_power) X(int32_t, 1, gterm_a) \
-  X(int32_t, 1, gterm_b) X(double, 2, gterm_h) X(int32_t, 1, row_switch) X(int32_t, 1, switch_start) \
-  X(int32_t, 1, velocity_row) X(int32_t, 1, velocity_ptr) X(int32_t, 1, velocity_a) X(int32_t, 1, velocity_b) \
-  X(double, 2, velocity_h) \
-  X(int32_t, 1, front_col) X(int32_t, 1, front_ptr) X(int32_t, 1, front_idx) X(int32_t, 1, front_parent) \
-  X(int32_t, 1, front_map) X(int32_t, 1, front_off) \
-  X(int32_t, 1, sig_ptr) X(int32_t, 1, sig_col) X(double, 2, sig_val) X(double, 2, sig_const) \
-  X(int32_t, 1, el_type) X(int32_t, 1, el_sig_ptr) X(int32_t, 1, el_sig) X(int32_t, 1, el_real_ptr) \
-  X(double, 2, el_real) X(int32_t, 1, el_int_ptr) X(int32_t, 1, el_int) X(int32_t, 1, el_state_ptr) \
-  X(int32_t, 1, el_out_ptr) X(int32_t, 1, el_front) X(int32_t, 1, el_loc_ptr) X(int32_t, 1, el_loc) \
-  X(double, 2, input_start) X(double, 2, input_min) X(double, 2, input_max) \
-  X(int32_t, 1, guide_type) X(int32_t, 1, guide_input) X(int32_t, 1, guide_real_ptr) X(double, 2, guide_real) \
-  X(int32_t, 1, road_type) X(int32_t, 1, road_real_ptr) X(double, 2, road_real) \
-  X(double, 2, par_value) X(double, 2, par_min) X(double, 2, par_max) X(int32_t, 1, par_ptr) \
-  X(int32_t, 1, par_target) X(int32_t, 1, par_index) X(double, 2, par_scale) \
-  X(double, 2, pose_0) X(double, 2, pose_cos) X(double, 2, pose_sin) X(double, 2, pose_x) X(double, 2, pose_y) \
-  X(double, 2, pose_z) X(double, 2, pose_speed) \
-  X(int32_t, 1, sen_type) X(int32_t, 1, sen_int_ptr) X(int32_t, 1, sen_int) X(int32_t, 1, sen_real_ptr) \
-  X(double, 2, sen_real) \
-  X(int32_t, 1, flex_mode_ptr) X(int32_t, 1, flex_frame) X(int32_t, 1, flex_mode) X(int32_t, 1, flex_front) \
-  X(int32_t, 1, flex_loc) X(double, 2, flex_gravity) X(double, 2, flex_P) X(double, 2, flex_c) X(double, 2, flex_T) \
-  X(double, 2, flex_K) X(double, 2, flex_C) \
-  X(int32_t, 1, tree_parent) X(int32_t, 1, tree_slides) X(double, 2, tree_base) X(double, 2, tree_mass) \
-  X(double, 2, tree_centre) X(double, 2, tree_inertia) X(double, 2, tree_gravity) X(int32_t, 1, tree_frame) \
-  X(int32_t, 1, tree_out_body) X(double, 2, tree_out_local) X(int32_t, 1, tree_out_col) \
-  X(int32_t, 1, tree_cut_body) X(int32_t, 1, tree_cut_rows) X(double, 2, tree_cut_place) \
-  X(int32_t, 1, tree_angle_col) X(int32_t, 1, tree_angle_ptr) X(int32_t, 1, tree_angle_joint) \
-  X(double, 2, tree_angle_sign) X(double, 2, tree_angle_inertia) \
-  ALI3_OPTIONAL_ARRAYS(X)
-/* clang-format on */
+#include "system_arrays.h"
 
 enum { ALI3_INERTIA_REALS = 10, ALI3_INERTIA_SIGNALS = 12 }; /* of a body whose inertia parameters write */
 enum { ALI3_AXIS_REALS = 2, ALI3_AXIS_SIGNALS = 9 }; /* of a wheel whose axis parameters write */
+
+enum {
+#define ALI3_NUMBER(items, name, ...) ALI3_ARRAY_##name,
+  ALI3_SYSTEM_ARRAYS(ALI3_NUMBER)
+#undef ALI3_NUMBER
+      ALI3_ARRAY_COUNT
+};
 
 enum { ALI3_TRIPLES = 1, ALI3_POINTS }; /* row_triples: the latter where the second factors of terms are so too */
 
@@ -121,10 +66,10 @@ typedef struct ali3_tabled_group ali3_tabled_group;
 typedef struct ali3_tree ali3_tree;           /* tree/tree.h: the part of a System for relative coordinates */
 
 struct ali3_system {
-#define ALI3_DECLARE(type, number, name) const type *name;
+#define ALI3_DECLARE(items, name, ...) const ALI3_ITEM_##items *name;
   ALI3_SYSTEM_ARRAYS(ALI3_DECLARE)
 #undef ALI3_DECLARE
-#define ALI3_DECLARE(type, number, name) int64_t n_##name;
+#define ALI3_DECLARE(items, name, ...) int64_t n_##name;
   ALI3_SYSTEM_ARRAYS(ALI3_DECLARE)
 #undef ALI3_DECLARE
   ali3_memory memory;

@@ -11,8 +11,6 @@
   } while (0)
 
 ali3_status ali3_check_length(ali3_message m, const char *name, int64_t n, int64_t expected);
-ali3_status ali3_check_pointers(ali3_message m, const char *name, const int32_t *ptr, int64_t n_ptr, int64_t n,
-                                int64_t total);
 ali3_status ali3_check_indices(ali3_message m, const char *name, const int32_t *v, int64_t n, int64_t low,
                                int64_t high);
 int32_t ali3_find(const int32_t *sorted, int32_t n, int32_t value); /* position or -1 */

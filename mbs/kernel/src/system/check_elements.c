@@ -36,16 +36,6 @@ static ali3_status check_element_places(const ali3_system *s, int32_t e, int64_t
 
 ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
   const int32_t ne = s->size.ne;
-  CHECK(ali3_check_pointers(m, "el_sig_ptr", s->el_sig_ptr, s->n_el_sig_ptr, ne, s->n_el_sig));
-  CHECK(ali3_check_indices(m, "el_sig", s->el_sig, s->n_el_sig, 0, s->size.nsig));
-  CHECK(ali3_check_pointers(m, "el_real_ptr", s->el_real_ptr, s->n_el_real_ptr, ne, s->n_el_real));
-  CHECK(ali3_check_pointers(m, "el_int_ptr", s->el_int_ptr, s->n_el_int_ptr, ne, s->n_el_int));
-  CHECK(ali3_check_pointers(m, "el_state_ptr", s->el_state_ptr, s->n_el_state_ptr, ne, s->size.ny));
-  if (s->n_el_out_ptr != ne + 1) return ali3_bad(m, "'el_out_ptr' has %lld items", (long long)s->n_el_out_ptr);
-  CHECK(ali3_check_pointers(m, "el_out_ptr", s->el_out_ptr, s->n_el_out_ptr, ne, s->el_out_ptr[ne]));
-  if (s->n_el_front != ne) return ali3_bad(m, "'el_front' has %lld items", (long long)s->n_el_front);
-  CHECK(ali3_check_indices(m, "el_front", s->el_front, ne, -1, s->size.nf));
-  CHECK(ali3_check_pointers(m, "el_loc_ptr", s->el_loc_ptr, s->n_el_loc_ptr, ne, s->n_el_loc));
   for (int32_t e = 0; e < ne; e++) {
     const ali3_element_type *type = ali3_element_type_get(s->el_type[e]);
     const int32_t nsig = s->el_sig_ptr[e + 1] - s->el_sig_ptr[e], nreal = s->el_real_ptr[e + 1] - s->el_real_ptr[e],

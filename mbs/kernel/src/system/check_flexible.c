@@ -1,4 +1,4 @@
-/* Flexible bodies of a System: lengths, places in the fronts, symmetry. */
+/* Flexible bodies of a System: places in the fronts, symmetry. */
 #include <math.h>
 
 #include "../system.h"
@@ -43,16 +43,7 @@ static ali3_status check_symmetry(const double *M, int32_t n, double sign, const
 }
 
 ali3_status ali3_check_flexible(ali3_system *s, ali3_message m) {
-  const int64_t nb = s->n_flex_front, n_mode = s->n_flex_mode;
-  CHECK(ali3_check_pointers(m, "flex_mode_ptr", s->flex_mode_ptr, s->n_flex_mode_ptr, nb, n_mode));
-  CHECK(ali3_check_length(m, "flex_frame", s->n_flex_frame, 12 * nb));
-  CHECK(ali3_check_length(m, "flex_loc", s->n_flex_loc, 12 * nb + n_mode));
-  CHECK(ali3_check_length(m, "flex_gravity", s->n_flex_gravity, 3 * nb));
-  CHECK(ali3_check_length(m, "flex_P", s->n_flex_P, 3 * n_mode));
-  CHECK(ali3_check_length(m, "flex_c", s->n_flex_c, 9 * n_mode));
-  CHECK(ali3_check_indices(m, "flex_frame", s->flex_frame, 12 * nb, 0, s->size.nq));
-  CHECK(ali3_check_indices(m, "flex_mode", s->flex_mode, n_mode, 0, s->size.nq));
-  CHECK(ali3_check_indices(m, "flex_front", s->flex_front, nb, 0, s->size.nf));
+  const int64_t nb = s->n_flex_front;
   int64_t square = 0;
   for (int64_t b = 0; b < nb; b++) {
     const int64_t n = s->flex_mode_ptr[b + 1] - s->flex_mode_ptr[b];

@@ -31,16 +31,9 @@ static ali3_status check_front(const ali3_system *s, int32_t f, ali3_message m) 
 
 ali3_status ali3_check_fronts(ali3_system *s, ali3_message m) {
   const int32_t nf = s->size.nf, nq = s->size.nq;
-  CHECK(ali3_check_pointers(m, "front_col", s->front_col, s->n_front_col, nf, nq));
-  CHECK(ali3_check_pointers(m, "front_ptr", s->front_ptr, s->n_front_ptr, nf, s->n_front_idx));
-  CHECK(ali3_check_length(m, "front_map", s->n_front_map, s->n_front_idx));
-  CHECK(ali3_check_indices(m, "front_parent", s->front_parent, nf, -1, nf));
-  CHECK(ali3_check_length(m, "front_off", s->n_front_off, nf + 1));
-  CHECK(ali3_check_pointers(m, "front_off", s->front_off, s->n_front_off, nf, s->front_off[nf]));
   if (s->front_off[nf] > MAX_FRONT_STORAGE) return ali3_bad(m, "the fronts need %d numbers", (int)s->front_off[nf]);
   for (int32_t f = 0; f < nf; f++) CHECK(check_front(s, f, m));
   s->size.front_size = s->front_off[nf];
-  CHECK(ali3_check_length(m, "mass_pos", s->n_mass_pos, s->n_mass_col));
   int32_t f = 0;
   for (int32_t j = 0; j < nq; j++) { /* column j of the lower triangle lies in the front that eliminates j */
     while (j >= s->front_col[f + 1]) f++;
@@ -84,12 +77,6 @@ static ali3_status check_term(ali3_message m, const char *name, int32_t a, int32
 
 static ali3_status check_angles(const ali3_system *s, ali3_message m) {
   const int64_t na = s->n_angle_row;
-  CHECK(ali3_check_length(m, "angle_theta", s->n_angle_theta, na));
-  CHECK(ali3_check_length(m, "angle_b", s->n_angle_b, s->n_angle_a));
-  CHECK(ali3_check_length(m, "angle_hc", s->n_angle_hc, s->n_angle_a));
-  CHECK(ali3_check_length(m, "angle_hs", s->n_angle_hs, s->n_angle_a));
-  CHECK(ali3_check_pointers(m, "angle_ptr", s->angle_ptr, s->n_angle_ptr, na, s->n_angle_a));
-  CHECK(ali3_check_indices(m, "angle_row", s->angle_row, na, 0, s->size.nc));
   for (int64_t i = 0; i < na; i++) {
     const int32_t k = s->angle_row[i], n = s->row_ptr[k + 1] - s->row_ptr[k], theta = s->angle_theta[i];
     CHECK(ali3_check_indices(m, "angle_theta", &theta, 1, 0, n));
@@ -104,9 +91,6 @@ static ali3_status check_angles(const ali3_system *s, ali3_message m) {
 
 /* A switched row has no angle. */
 static ali3_status check_switches(const ali3_system *s, ali3_message m) {
-  CHECK(ali3_check_length(m, "row_switch", s->n_row_switch, s->size.nc));
-  CHECK(ali3_check_indices(m, "row_switch", s->row_switch, s->size.nc, -1, s->n_switch_start));
-  CHECK(ali3_check_indices(m, "switch_start", s->switch_start, s->n_switch_start, 0, 2));
   for (int32_t i = 0; i < s->n_switch_start; i++) {
     int32_t k = 0;
     while (k < s->size.nc && s->row_switch[k] != i) k++;
@@ -120,10 +104,6 @@ static ali3_status check_switches(const ali3_system *s, ali3_message m) {
 /* A condition on velocities holds nothing else: no constant, no products of positions, no angle, no guide. */
 static ali3_status check_velocities(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_velocity_row;
-  CHECK(ali3_check_indices(m, "velocity_row", s->velocity_row, n, 0, s->size.nc));
-  CHECK(ali3_check_pointers(m, "velocity_ptr", s->velocity_ptr, s->n_velocity_ptr, n, s->n_velocity_a));
-  CHECK(ali3_check_length(m, "velocity_b", s->n_velocity_b, s->n_velocity_a));
-  CHECK(ali3_check_length(m, "velocity_h", s->n_velocity_h, s->n_velocity_a));
   for (int64_t i = 0; i < n; i++) {
     const int32_t k = s->velocity_row[i], size = s->row_ptr[k + 1] - s->row_ptr[k];
     bool other = s->row_const[k] != 0.0 || s->quad_ptr[k + 1] > s->quad_ptr[k];
@@ -141,18 +121,6 @@ static ali3_status check_velocities(const ali3_system *s, ali3_message m) {
 
 ali3_status ali3_check_rows(const ali3_system *s, ali3_message m) {
   const int32_t nc = s->size.nc;
-  CHECK(ali3_check_length(m, "row_scale", s->n_row_scale, nc));
-  CHECK(ali3_check_length(m, "row_measure", s->n_row_measure, nc));
-  CHECK(ali3_check_length(m, "row_front", s->n_row_front, nc));
-  CHECK(ali3_check_length(m, "row_lin", s->n_row_lin, s->n_row_col));
-  CHECK(ali3_check_length(m, "row_loc", s->n_row_loc, s->n_row_col));
-  CHECK(ali3_check_pointers(m, "row_ptr", s->row_ptr, s->n_row_ptr, nc, s->n_row_col));
-  CHECK(ali3_check_indices(m, "row_col", s->row_col, s->n_row_col, 0, s->size.nq));
-  CHECK(ali3_check_indices(m, "row_front", s->row_front, nc, 0, s->size.nf));
-  CHECK(ali3_check_pointers(m, "quad_ptr", s->quad_ptr, s->n_quad_ptr, nc, s->n_quad_a));
-  CHECK(ali3_check_length(m, "quad_b", s->n_quad_b, s->n_quad_a));
-  CHECK(ali3_check_length(m, "quad_h", s->n_quad_h, s->n_quad_a));
-  CHECK(ali3_check_length(m, "fineness", s->n_fineness, s->n_fineness > 0 ? 1 : 0));
   if (s->n_fineness > 0 && !(s->fineness[0] > 0.0 && s->fineness[0] < 1e300))
     return ali3_bad(m, "the fineness is %g", s->fineness[0]);
   for (int32_t k = 0; k < nc; k++) {
@@ -164,14 +132,6 @@ ali3_status ali3_check_rows(const ali3_system *s, ali3_message m) {
   CHECK(check_angles(s, m));
   CHECK(check_switches(s, m));
   const int64_t nt = s->n_gterm_row;
-  CHECK(ali3_check_length(m, "gterm_guide", s->n_gterm_guide, nt));
-  CHECK(ali3_check_length(m, "gterm_power", s->n_gterm_power, nt));
-  CHECK(ali3_check_length(m, "gterm_a", s->n_gterm_a, nt));
-  CHECK(ali3_check_length(m, "gterm_b", s->n_gterm_b, nt));
-  CHECK(ali3_check_length(m, "gterm_h", s->n_gterm_h, nt));
-  CHECK(ali3_check_indices(m, "gterm_row", s->gterm_row, nt, 0, nc));
-  CHECK(ali3_check_indices(m, "gterm_guide", s->gterm_guide, nt, 0, s->size.ng));
-  CHECK(ali3_check_indices(m, "gterm_power", s->gterm_power, nt, 1, 3));
   for (int64_t t = 0; t < nt; t++) {
     const int32_t k = s->gterm_row[t];
     CHECK(check_term(m, "gterm_a", s->gterm_a[t], s->gterm_b[t], s->row_ptr[k + 1] - s->row_ptr[k], -1));

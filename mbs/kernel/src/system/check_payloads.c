@@ -18,9 +18,6 @@ bool ali3_mass_has_room(const ali3_system *s, int32_t one, int32_t other) {
 /* The arrays of signals and of the mass matrix are checked. */
 ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_payload_mass;
-  CHECK(ali3_check_length(m, "payload_signal", s->n_payload_signal, 3 * n));
-  CHECK(ali3_check_length(m, "payload_gravity", s->n_payload_gravity, n > 0 ? 3 : 0));
-  CHECK(ali3_check_indices(m, "payload_signal", s->payload_signal, 3 * n, 0, s->size.nsig));
   for (int64_t i = 0; i < 3 * n; i++) CHECK(ali3_check_independent(s, s->payload_signal[i], "a payload", m));
   for (int64_t i = 0; i < 3 * n; i++)
     if (!ali3_mass_has_room(s, s->payload_signal[i], s->payload_signal[i]))
@@ -30,10 +27,6 @@ ali3_status ali3_check_payloads(const ali3_system *s, ali3_message m) {
 
 ali3_status ali3_check_inertias(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_inertia_real / ALI3_INERTIA_REALS;
-  CHECK(ali3_check_length(m, "inertia_real", s->n_inertia_real, ALI3_INERTIA_REALS * n));
-  CHECK(ali3_check_length(m, "inertia_signal", s->n_inertia_signal, ALI3_INERTIA_SIGNALS * n));
-  CHECK(ali3_check_length(m, "inertia_gravity", s->n_inertia_gravity, n > 0 ? 3 : 0));
-  CHECK(ali3_check_indices(m, "inertia_signal", s->inertia_signal, s->n_inertia_signal, 0, s->size.nsig));
   for (int64_t i = 0; i < ALI3_INERTIA_SIGNALS * n; i++)
     CHECK(ali3_check_independent(s, s->inertia_signal[i], "a body whose inertia parameters write", m));
   for (int64_t i = 0; i < ALI3_INERTIA_SIGNALS * n; i++)
@@ -48,9 +41,6 @@ ali3_status ali3_check_inertias(const ali3_system *s, ali3_message m) {
 
 ali3_status ali3_check_armatures(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_armature_ratio;
-  CHECK(ali3_check_length(m, "armature_col", s->n_armature_col, n));
-  CHECK(ali3_check_length(m, "armature_inertia", s->n_armature_inertia, n));
-  CHECK(ali3_check_indices(m, "armature_col", s->armature_col, n, 0, s->size.nq));
   for (int64_t k = 0; k < n; k++) {
     const int32_t row = s->armature_col[k], first = s->mass_ptr[row];
     const int32_t at = ali3_find(s->mass_col + first, s->mass_ptr[row + 1] - first, row);

@@ -79,9 +79,6 @@ static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m)
 }
 
 ali3_status ali3_check_sensors(const ali3_system *s, ali3_message m) {
-  CHECK(ali3_check_indices(m, "sen_type", s->sen_type, s->size.ns, 0, ALI3_SENSOR_TYPE_COUNT));
-  CHECK(ali3_check_pointers(m, "sen_int_ptr", s->sen_int_ptr, s->n_sen_int_ptr, s->size.ns, s->n_sen_int));
-  CHECK(ali3_check_pointers(m, "sen_real_ptr", s->sen_real_ptr, s->n_sen_real_ptr, s->size.ns, s->n_sen_real));
   for (int32_t i = 0; i < s->size.ns; i++) CHECK(check_sensor(s, i, m));
   return ALI3_OK;
 }

@@ -9,7 +9,6 @@ enum { MAX_TABLED = 4096, FEWEST = 4, MOST = 4096 }; /* control points along a p
 ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
   const int64_t n = s->n_tabled_size / 3;
   int64_t coefficients = 0;
-  CHECK(ali3_check_length(m, "tabled_size", s->n_tabled_size, 3 * n));
   if (n > MAX_TABLED) return ali3_bad(m, "%lld tabled bodies and numbers", (long long)n);
   for (int64_t i = 0; i < n; i++) {
     const int32_t *size = s->tabled_size + 3 * i;
@@ -21,14 +20,7 @@ ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
     s->n_dependent += size[0];
     coefficients += (int64_t)size[0] * size[1] * size[2];
   }
-  CHECK(ali3_check_length(m, "tabled_frame", s->n_tabled_frame, 12 * n));
-  CHECK(ali3_check_length(m, "tabled_param", s->n_tabled_param, 2 * n));
-  CHECK(ali3_check_length(m, "tabled_axis", s->n_tabled_axis, 4 * n));
-  CHECK(ali3_check_length(m, "tabled_mass", s->n_tabled_mass, ALI3_TABLED_MOMENTS * n));
-  CHECK(ali3_check_length(m, "tabled_gravity", s->n_tabled_gravity, 3 * n));
   CHECK(ali3_check_length(m, "tabled_coef", s->n_tabled_coef, coefficients));
-  CHECK(ali3_check_indices(m, "tabled_frame", s->tabled_frame, s->n_tabled_frame, -1, s->size.nq));
-  CHECK(ali3_check_indices(m, "tabled_param", s->tabled_param, s->n_tabled_param, -1, s->size.nq));
   for (int64_t i = 0; i < n; i++) {
     const int32_t *frame = s->tabled_frame + 12 * i, *param = s->tabled_param + 2 * i;
     for (int k = 1; k < 12; k++)

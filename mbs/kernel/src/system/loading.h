@@ -5,6 +5,7 @@
 #include "message.h"
 
 ali3_status ali3_system_check(ali3_system *s, ali3_message m);
+ali3_status ali3_check_arrays(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_fronts(ali3_system *s, ali3_message m);
 ali3_status ali3_check_rows(const ali3_system *s, ali3_message m);
 ali3_status ali3_check_elements(const ali3_system *s, ali3_message m);

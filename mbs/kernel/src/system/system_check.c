@@ -1,5 +1,4 @@
-/* Content of a System: lengths, mass, signals, inputs, guides, roads, parameters, pose. Nothing is indexed before it
- * is checked. */
+/* Content of a System: mass, signals, inputs, guides, roads, parameters. Nothing is indexed before it is checked. */
 #include <math.h>
 
 #include "../elements/element.h"
@@ -31,26 +30,11 @@ static ali3_status check_sizes(ali3_system *s, ali3_message m) {
   z->has_pose = s->n_pose_0 > 0;
   z->n_switch = (int32_t)s->n_switch_start;
   s->nr = (int32_t)s->n_road_type;
-  CHECK(ali3_check_length(m, "qd0", s->n_qd0, z->nq));
-  CHECK(ali3_check_length(m, "gravity_force", s->n_gravity_force, z->nq));
-  CHECK(ali3_check_length(m, "gravity_const", s->n_gravity_const, 1));
-  CHECK(ali3_check_length(m, "input_min", s->n_input_min, z->nu));
-  CHECK(ali3_check_length(m, "input_max", s->n_input_max, z->nu));
-  const int64_t n_pose = z->has_pose ? z->nq : 0;
-  CHECK(ali3_check_length(m, "pose_0", s->n_pose_0, n_pose));
-  CHECK(ali3_check_length(m, "pose_cos", s->n_pose_cos, n_pose));
-  CHECK(ali3_check_length(m, "pose_sin", s->n_pose_sin, n_pose));
-  CHECK(ali3_check_length(m, "pose_x", s->n_pose_x, n_pose));
-  CHECK(ali3_check_length(m, "pose_y", s->n_pose_y, n_pose));
-  CHECK(ali3_check_length(m, "pose_z", s->n_pose_z, n_pose));
-  return ali3_check_length(m, "pose_speed", s->n_pose_speed, n_pose);
+  return ALI3_OK;
 }
 
 static ali3_status check_mass(const ali3_system *s, ali3_message m) {
   const int32_t nq = s->size.nq;
-  CHECK(ali3_check_length(m, "mass_val", s->n_mass_val, s->n_mass_col));
-  CHECK(ali3_check_pointers(m, "mass_ptr", s->mass_ptr, s->n_mass_ptr, nq, s->n_mass_col));
-  CHECK(ali3_check_indices(m, "mass_col", s->mass_col, s->n_mass_col, 0, nq));
   for (int32_t i = 0; i < nq; i++)
     for (int32_t k = s->mass_ptr[i]; k < s->mass_ptr[i + 1]; k++) {
       const int32_t j = s->mass_col[k];
@@ -67,8 +51,6 @@ static ali3_status check_mass(const ali3_system *s, ali3_message m) {
 }
 
 static ali3_status check_signals(const ali3_system *s, ali3_message m) {
-  CHECK(ali3_check_length(m, "sig_val", s->n_sig_val, s->n_sig_col));
-  CHECK(ali3_check_pointers(m, "sig_ptr", s->sig_ptr, s->n_sig_ptr, s->n_sig_const, s->n_sig_col));
   CHECK(ali3_check_indices(m, "sig_col", s->sig_col, s->n_sig_col, 0, s->size.nq + s->n_dependent));
   for (int64_t i = 0; i < s->size.nu; i++)
     if (!(s->input_min[i] <= s->input_start[i] && s->input_start[i] <= s->input_max[i]))
@@ -78,10 +60,6 @@ static ali3_status check_signals(const ali3_system *s, ali3_message m) {
 
 static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) {
   const int32_t ng = s->size.ng;
-  CHECK(ali3_check_length(m, "guide_input", s->n_guide_input, ng));
-  CHECK(ali3_check_pointers(m, "guide_real_ptr", s->guide_real_ptr, s->n_guide_real_ptr, ng, s->n_guide_real));
-  CHECK(ali3_check_indices(m, "guide_type", s->guide_type, ng, 0, ALI3_GUIDE_TYPE_COUNT));
-  if (s->n_guide_second != 0) CHECK(ali3_check_length(m, "guide_second", s->n_guide_second, ng));
   for (int32_t g = 0; g < ng; g++) {
     if (s->guide_type[g] == ALI3_GUIDE_BY_TABLE) {
       CHECK(ali3_check_indices(m, "guide_input", s->guide_input + g, 1, 0, g));
@@ -94,13 +72,11 @@ static ali3_status check_guides_and_roads(const ali3_system *s, ali3_message m) 
     if (s->n_guide_second == 0) return ali3_bad(m, "guide %d has two inputs and guide_second is missing", (int)g);
     CHECK(ali3_check_indices(m, "guide_second", s->guide_second + g, 1, 0, s->size.nu));
   }
-  return ali3_check_pointers(m, "road_real_ptr", s->road_real_ptr, s->n_road_real_ptr, s->nr, s->n_road_real);
+  return ALI3_OK;
 }
 
 /* A mass that changes while it moves would take momentum from nowhere, rows that a parameter turns on an impact. */
 static ali3_status check_fixed(const ali3_system *s, ali3_message m) {
-  if (s->n_par_fixed != 0) CHECK(ali3_check_length(m, "par_fixed", s->n_par_fixed, s->size.np));
-  CHECK(ali3_check_indices(m, "par_fixed", s->par_fixed, s->n_par_fixed, 0, 2));
   for (int32_t p = 0; p < s->size.np; p++)
     for (int32_t k = s->par_ptr[p]; k < s->par_ptr[p + 1]; k++)
       if (s->par_target[k] >= ALI3_TARGET_PAYLOAD && s->par_target[k] != ALI3_TARGET_SENSOR &&
@@ -122,16 +98,8 @@ static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
       [ALI3_TARGET_SWITCH] = s->n_switch_start,  [ALI3_TARGET_ARMATURE] = s->n_armature_ratio,
       [ALI3_TARGET_INERTIA] = s->n_inertia_real, [ALI3_TARGET_SENSOR] = s->n_sen_real,
       [ALI3_TARGET_AXIS] = s->n_axis_real};
-  CHECK(ali3_check_length(m, "par_min", s->n_par_min, np));
-  CHECK(ali3_check_length(m, "par_max", s->n_par_max, np));
-  CHECK(ali3_check_length(m, "par_index", s->n_par_index, s->n_par_target));
-  CHECK(ali3_check_length(m, "par_scale", s->n_par_scale, s->n_par_target));
-  if (s->n_par_offset != 0) CHECK(ali3_check_length(m, "par_offset", s->n_par_offset, s->n_par_target));
-  CHECK(ali3_check_pointers(m, "par_ptr", s->par_ptr, s->n_par_ptr, np, s->n_par_target));
-  CHECK(ali3_check_indices(m, "par_target", s->par_target, s->n_par_target, 0, ALI3_TARGET_COUNT));
   for (int64_t k = 0; k < s->n_par_target; k++)
     CHECK(ali3_check_indices(m, "par_index", s->par_index + k, 1, 0, length[s->par_target[k]]));
-  if (s->n_par_inverse != 0) CHECK(ali3_check_length(m, "par_inverse", s->n_par_inverse, s->n_par_target));
   for (int32_t p = 0; s->n_par_inverse != 0 && p < np; p++)
     for (int32_t k = s->par_ptr[p]; k < s->par_ptr[p + 1]; k++)
       if (s->par_inverse[k] && !(s->par_min[p] > 0.0))
@@ -241,6 +209,7 @@ const char *ali3_check_target(const ali3_system *s, int64_t k, const double *con
 
 ali3_status ali3_system_check(ali3_system *s, ali3_message m) {
   CHECK(check_sizes(s, m));
+  CHECK(ali3_check_arrays(s, m));
   CHECK(check_mass(s, m));
   CHECK(ali3_check_tabled_sizes(s, m));
   CHECK(check_signals(s, m));

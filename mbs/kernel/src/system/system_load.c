@@ -9,24 +9,24 @@
 
 enum { HEADER_SIZE = 32, ENTRY_SIZE = 64, NAME_SIZE = 40 };
 
+enum { MAY = 0, MUST }; /* presence */
+
 typedef struct {
   const char *name;
   uint32_t dtype;
+  bool must;
   size_t pointer, count; /* offsets in ali3_system */
 } ali3_slot;
 
-static const ali3_slot slots[] = {
-#define ALI3_SLOT(type, number, array)                                                                                 \
-  {.name = #array, .dtype = number, .pointer = offsetof(ali3_system, array), .count = offsetof(ali3_system, n_##array)},
+static const ali3_slot slots[ALI3_ARRAY_COUNT] = {
+#define ALI3_SLOT(items, array, presence, ...)                                                                         \
+  {.name = #array,                                                                                                     \
+   .dtype = ALI3_##items,                                                                                              \
+   .must = presence,                                                                                                   \
+   .pointer = offsetof(ali3_system, array),                                                                            \
+   .count = offsetof(ali3_system, n_##array)},
     ALI3_SYSTEM_ARRAYS(ALI3_SLOT)
 #undef ALI3_SLOT
-};
-enum { SLOT_COUNT = sizeof slots / sizeof slots[0] };
-
-static const char *const optional[] = {
-#define ALI3_NAME(type, number, array) #array,
-    ALI3_OPTIONAL_ARRAYS(ALI3_NAME)
-#undef ALI3_NAME
 };
 
 static uint32_t read_u32(const unsigned char *p) {
@@ -66,8 +66,8 @@ static ali3_status read_entry(ali3_system *s, const unsigned char *entry, size_t
   const uint32_t dtype = read_u32(entry + NAME_SIZE);
   const uint64_t offset = read_u64(entry + 48), count = read_u64(entry + 56);
   int k = 0;
-  while (k < SLOT_COUNT && strcmp(slots[k].name, name) != 0) k++;
-  if (k == SLOT_COUNT) {
+  while (k < ALI3_ARRAY_COUNT && strcmp(slots[k].name, name) != 0) k++;
+  if (k == ALI3_ARRAY_COUNT) {
     for (char *p = name; *p; p++)
       if (*p < ' ' || *p > '~') *p = '?';
     return ali3_bad(m, "unknown array '%s'", name);
@@ -76,14 +76,6 @@ static ali3_status read_entry(ali3_system *s, const unsigned char *entry, size_t
   if (dtype != slots[k].dtype) return ali3_bad(m, "array '%s' has item type %u", name, (unsigned)dtype);
   if (offset % 8 != 0 || offset > size || count > (size - offset) / item_size[dtype])
     return ali3_bad(m, "array '%s' lies outside the file", name);
-  if (dtype == 2) {
-    const bool may_be_infinite = strcmp(name, "input_min") == 0 || strcmp(name, "input_max") == 0 ||
-                                 strcmp(name, "par_min") == 0 || strcmp(name, "par_max") == 0;
-    const double *v = (const double *)(s->bytes + offset);
-    for (uint64_t i = 0; i < count; i++)
-      if (may_be_infinite ? v[i] != v[i] : !(v[i] - v[i] == 0.0))
-        return ali3_bad(m, "item %llu of '%s' is not a finite number", (unsigned long long)i, name);
-  }
   const void *pointer = s->bytes + offset;
   const int64_t n = (int64_t)count;
   memcpy((char *)s + slots[k].pointer, &pointer, sizeof pointer);
@@ -92,23 +84,17 @@ static ali3_status read_entry(ali3_system *s, const unsigned char *entry, size_t
   return ALI3_OK;
 }
 
-static bool may_lack(const char *name) {
-  for (size_t i = 0; i < sizeof optional / sizeof optional[0]; i++)
-    if (strcmp(optional[i], name) == 0) return true;
-  return false;
-}
-
 static ali3_status read_directory(ali3_system *s, size_t size, ali3_message m) {
-  bool seen[SLOT_COUNT] = {false};
+  bool seen[ALI3_ARRAY_COUNT] = {false};
   const uint32_t n = read_u32(s->bytes + 12);
-  if (n > SLOT_COUNT || (size_t)n * ENTRY_SIZE > size - HEADER_SIZE)
-    return ali3_bad(m, "the directory names %u arrays, at most %d are known", (unsigned)n, (int)SLOT_COUNT);
+  if (n > ALI3_ARRAY_COUNT || (size_t)n * ENTRY_SIZE > size - HEADER_SIZE)
+    return ali3_bad(m, "the directory names %u arrays, at most %d are known", (unsigned)n, (int)ALI3_ARRAY_COUNT);
   for (uint32_t i = 0; i < n; i++) {
     ali3_status status = read_entry(s, s->bytes + HEADER_SIZE + (size_t)i * ENTRY_SIZE, size, seen, m);
     if (status != ALI3_OK) return status;
   }
-  for (int k = 0; k < SLOT_COUNT; k++)
-    if (!seen[k] && !may_lack(slots[k].name)) return ali3_bad(m, "array '%s' is missing", slots[k].name);
+  for (int k = 0; k < ALI3_ARRAY_COUNT; k++)
+    if (!seen[k] && slots[k].must) return ali3_bad(m, "array '%s' is missing", slots[k].name);
   return ALI3_OK;
 }
 

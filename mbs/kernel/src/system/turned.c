@@ -29,17 +29,6 @@ static bool has_all(const ali3_system *s, int32_t to, int32_t from) {
 /* The arrays of signals, tables and of the mass matrix are checked. */
 ali3_status ali3_check_axes(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_axis_inertia;
-  CHECK(ali3_check_length(m, "axis_real", s->n_axis_real, ALI3_AXIS_REALS * n));
-  CHECK(ali3_check_length(m, "axis_vector", s->n_axis_vector, FRAME * n));
-  CHECK(ali3_check_length(m, "axis_frame", s->n_axis_frame, FRAME * n));
-  CHECK(ali3_check_length(m, "axis_signal", s->n_axis_signal, FRAME * n));
-  CHECK(ali3_check_length(m, "axis_table", s->n_axis_table, n));
-  CHECK(ali3_check_length(m, "axis_spin", s->n_axis_spin, n));
-  CHECK(ali3_check_length(m, "axis_rolling", s->n_axis_rolling, 2 * n));
-  CHECK(ali3_check_indices(m, "axis_spin", s->axis_spin, n, 0, s->size.nq));
-  CHECK(ali3_check_indices(m, "axis_frame", s->axis_frame, s->n_axis_frame, 0, s->size.nsig));
-  CHECK(ali3_check_indices(m, "axis_signal", s->axis_signal, s->n_axis_signal, 0, s->size.nsig));
-  CHECK(ali3_check_indices(m, "axis_table", s->axis_table, n, -1, s->n_tabled));
   for (int64_t i = 0; i < FRAME * n; i++)
     for (int64_t j = 0; j < FRAME; j += 3) {
       const int32_t own = s->axis_frame[i], axis = s->axis_frame[i / FRAME * FRAME + i % 3 + j];
