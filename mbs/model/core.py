@@ -102,6 +102,12 @@ class ModelCore(Register):
         self.elements.append(element)
         return element
 
+    def _join(self, joint: Joint) -> Joint:
+        """Add a joint."""
+        self.unique("joint", joint.name)
+        self.joints.append(joint)
+        return joint
+
     def joint_named(self, name: str) -> Joint:
         """The joint of a name."""
         for joint in self.joints:
