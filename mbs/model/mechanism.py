@@ -64,9 +64,8 @@ class Mechanism(
         self.owned_coordinate(coordinate, f"The armature '{name}'")
         own = not_negative(inertia, f"The inertia of armature '{name}'")
         turns = positive(ratio, f"The ratio of armature '{name}'")
-        new = Armature(self.unique("armature", name), coordinate.affine, own, turns)
+        new = self.enter("armature", self.armatures, Armature(name, coordinate.affine, own, turns))
         self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + own * turns * turns
-        self.armatures.append(new)
         return new
 
     # --- inputs, guides, parameters ---
