@@ -17,6 +17,30 @@ from mbs.model.perpendicular import perpendicular
 
 
 def relative_angle(
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike | None = None, zero: float = 0.0
+) -> Coordinate:
+    """Angle of body 2 against body 1 about an axis, not wrapped, as one more coordinate.
+
+    Parameters
+    ----------
+    body_1, body_2 : Body
+        Bodies with axes, or the ground.
+    axis : array_like, shape (3,), optional
+        In space only: earth axes in the reference configuration, of any length.
+    zero : float
+        The angle in the reference configuration, rad.
+
+    Raises
+    ------
+    ModelError
+        The bodies are the same or have no axes, or the axis is missing in space or given in the plane.
+    """
+    coordinate, joint = angle_and_joint(model, name, body_1, body_2, axis, zero)
+    model._join(joint)
+    return coordinate
+
+
+def angle_and_joint(
     model: BodyVocabulary, name: str, body_1: Body, body_2: Body, axis: ArrayLike | None, zero: float
 ) -> tuple[Coordinate, Joint]:
     """The row ``cos(theta) S - sin(theta) C = 0`` with C = v.e1, S = v.e2; regular at every angle, and theta is not

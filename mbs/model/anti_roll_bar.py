@@ -8,14 +8,72 @@ from mbs.common.checks import flag, positive, shown
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
-from mbs.model.angle import relative_angle
+from mbs.model.angle import angle_and_joint
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.joints.joint import Joint
 
 
-def arm_angles(
+def anti_roll_bar(
+    model: BodyVocabulary,
+    name: str,
+    left: Coordinate | Body,
+    right: Coordinate | Body,
+    *,
+    stiffness: float,
+    damping: float = 0.0,
+    stiffness_factor: float = 1.0,
+    carrier: Body | None = None,
+    axis: ArrayLike | None = None,
+    free_twist: float | None = None,
+    mirrored: bool = False,
+) -> ElementRecord:
+    """A torsion spring between two arms; its torque on the left one is the output ``force`` of the element.
+
+    Drop links between the arms and the suspension are `distance` joints; without them the arms are those of the
+    suspension.
+
+    Parameters
+    ----------
+    left, right : Coordinate or Body
+        Relative angles of the arms, or the arms themselves, which turn on `carrier` about `axis`.
+    stiffness, damping : float
+        N m/rad and N m s/rad of the twist.
+    stiffness_factor : float
+        Factor on the stiffness, for a parameter.
+    carrier : Body, optional
+        With arms given as bodies: what they turn on.
+    axis : array_like, shape (3,), optional
+        With arms given as bodies, in space.
+    free_twist : float, optional
+        Twist without torque, rad; by default as drawn.
+    mirrored : bool
+        The angles count opposite ways (mirrored axes): the twist is their sum instead of left minus right.
+
+    Raises
+    ------
+    ModelError
+        The arms are the same, a body and an angle, or a spin; or bodies are given without a carrier.
+    """
+    what = f"anti-roll bar '{name}'"
+    angles, joints = _arm_angles(model, name, (left, right), carrier, axis)
+    first, second = angles
+    flag(mirrored, f"The mirrored of {what}")
+    if first.index == second.index:
+        raise ModelError(f"The {what} joins '{first.name}' with itself; it needs two arms.")
+    twist = first.affine + second.affine if mirrored else first.affine - second.affine
+    if free_twist is None:
+        free_twist = float(twist.value(model.drawn()))
+    k = positive(stiffness, f"The stiffness of the {what}")
+    bar = ScalarSpringDamper(k, damping, free_twist, stiffness_factor=stiffness_factor)
+    record = model.add(bar.record(name, twist))
+    for joint in joints:
+        model._join(joint)
+    return record
+
+
+def _arm_angles(
     model: BodyVocabulary,
     name: str,
     arms: tuple[Coordinate | Body, Coordinate | Body],
@@ -35,7 +93,7 @@ def arm_angles(
         if carrier is None:
             raise ModelError(f"The {what} needs the carrier on which its arms turn.")
         made = [
-            relative_angle(model, f"{name}.{side}", carrier, arm, axis, 0.0)  # type: ignore[arg-type]
+            angle_and_joint(model, f"{name}.{side}", carrier, arm, axis, 0.0)  # type: ignore[arg-type]
             for side, arm in zip(("left", "right"), arms, strict=True)
         ]
         angles, joints = [angle for angle, _ in made], [joint for _, joint in made]
@@ -45,25 +103,3 @@ def arm_angles(
             f"{shown(arms[1])}."
         )
     return angles, joints
-
-
-def anti_roll_bar(
-    model: BodyVocabulary,
-    name: str,
-    angles: list[Coordinate],
-    stiffness: float,
-    damping: float,
-    stiffness_factor: float,
-    free_twist: float | None,
-    mirrored: bool,
-) -> ElementRecord:
-    """Torque ``-k (twist - free_twist) - c d(twist)/dt`` on the first angle and against it on the second."""
-    first, second = angles
-    flag(mirrored, f"The mirrored of anti-roll bar '{name}'")
-    if first.index == second.index:
-        raise ModelError(f"The anti-roll bar '{name}' joins '{first.name}' with itself; it needs two arms.")
-    twist = first.affine + second.affine if mirrored else first.affine - second.affine
-    if free_twist is None:
-        free_twist = float(twist.value(model.drawn()))
-    k = positive(stiffness, f"The stiffness of the anti-roll bar '{name}'")
-    return model.add(ScalarSpringDamper(k, damping, free_twist, stiffness_factor=stiffness_factor).record(name, twist))

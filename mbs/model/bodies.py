@@ -118,9 +118,7 @@ class BodyVocabulary(ModelCore):
             carrier = point
         else:  # the origin of a floating frame is no material point, a node is
             carrier = body.at(place, what).point(place)
-        new = Payload(self.unique("payload", name), body, place, carrier, m, point is not None)
-        self.payloads.append(new)
-        return new
+        return self.enter("payload", self.payloads, Payload(name, body, place, carrier, m, point is not None))
 
     def written_inertia(
         self,
@@ -163,11 +161,8 @@ class BodyVocabulary(ModelCore):
         (xx, xy, xz), (_, yy, yz), (_, _, zz) = tensor.tolist()
         place = vector(com, 3, f"the centre of mass of {what}").tolist()
         reals = (m, *place, xx, yy, zz, xy, xz, yz)
-        new = WrittenInertia(
-            self.unique("written inertia", name), (self.expressions(point, f"The {what}"), x, y, z), reals
-        )
-        self.written_inertias.append(new)
-        return new
+        new = WrittenInertia(name, (self.expressions(point, f"The {what}"), x, y, z), reals)
+        return self.enter("written inertia", self.written_inertias, new)
 
     def owned(self, body: Body, what: str) -> Body:
         """A body, if it is one of this model.

@@ -26,10 +26,9 @@ class ConstantVocabulary(ModelCore):
         """
         what = f"constant {shown(name)}"
         constant = Constant(
-            self.unique("constant", name),
+            name,
             number(value, f"The value of {what}"),
             text(unit, f"The unit of {what}"),
             text(description, f"The description of {what}", lines=True),
         )
-        self.constants.append(constant)
-        return constant
+        return self.enter("constant", self.constants, constant)

@@ -98,13 +98,15 @@ class ModelCore(Register):
         instance_of(ElementRecord, element, "The element of Model.add", "an ElementRecord")
         for signal in element.signals:
             self.expression(signal, f"The element '{element.name}'")
-        self.unique("element", element.name)
-        self.elements.append(element)
-        return element
+        return self.enter("element", self.elements, element)
+
+    def _join(self, joint: Joint) -> Joint:
+        """Add a joint."""
+        return self.enter("joint", self.joints, joint)
 
     def joint_named(self, name: str) -> Joint:
         """The joint of a name."""
-        for joint in self.joints:
-            if isinstance(name, str) and joint.name == name:
-                return joint
-        raise ModelError(f"The model '{self.name}' has no joint named {shown(name)}.")
+        k = self.place_of(self.joints, name)
+        if k is None:
+            raise ModelError(f"The model '{self.name}' has no joint named {shown(name)}.")
+        return self.joints[k]

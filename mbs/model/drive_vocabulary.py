@@ -1,51 +1,14 @@
-"""Drives, and the coordinates that only drives, racks or tables move."""
+"""Coordinates that only drives, racks or tables move."""
 
 from __future__ import annotations
 
-from mbs.common.affine import Affine
 from mbs.common.checks import not_negative, number, one_of, shown
 from mbs.model.coordinate import Coordinate
-from mbs.model.ends import End
-from mbs.model.joints.drive import drive
-from mbs.model.joints.joint import Joint
 from mbs.model.mechanism import Mechanism
-from mbs.model.records import Guide
 
 
 class DriveVocabulary(Mechanism):
-    """The drives of a model."""
-
-    def drive(
-        self: Mechanism,
-        name: str,
-        driven: Coordinate | Affine | tuple[End, End],
-        guide: Guide,
-        *,
-        switch: bool | None = None,
-    ) -> Joint:
-        """Prescribed motion: a coordinate, a component of a point, or the distance of two points follows a guide.
-
-        Parameters
-        ----------
-        driven : Coordinate, Affine or (end, end)
-            A relative angle; an expression such as ``body.point(p)[0]``; or two ends as of `distance`.
-        guide : Guide
-            Of this model, rad or m.
-        switch : bool, optional
-            With a switch of the same name, on or off at the start: the drive can let go. One that is turned on later
-            keeps the distance to its guide that there is then.
-
-        Returns
-        -------
-        Joint
-            For sensors: its force is that of the drive, zero while it is off.
-
-        Raises
-        ------
-        ModelError
-            What is driven cannot move, an end slides, or a driven distance starts at zero.
-        """
-        return self._join(drive(self, name, driven, guide, switch))
+    """Shafts and travels of a model."""
 
     def shaft(self: Mechanism, name: str, *, inertia: float = 0.0) -> Coordinate:
         """A shaft that turns in something else, as one coordinate: its angle, from 0 as drawn.

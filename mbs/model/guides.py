@@ -66,9 +66,8 @@ def new_guide(
     """A guide, noted in the model."""
     text(unit, f"The unit of guide {shown(name)}")
     checked = tuple(number(r, f"A number of guide {shown(name)}") for r in reals)
-    guide = Guide(model.unique("guide", name), len(model.guides), type, input, checked, start, unit, second)
-    model.guides.append(guide)
-    return guide
+    guide = Guide(name, len(model.guides), type, input, checked, start, unit, second)
+    return model.enter("guide", model.guides, guide)
 
 
 class GuideVocabulary(BodyVocabulary):

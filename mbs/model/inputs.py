@@ -40,11 +40,9 @@ def new_input(
     if flag(whole, f"The whole of input '{name}'"):
         _check_whole(name, {"min": low, "max": high, "start": value}, unit)
     as_port = flag(port, f"The port of input '{name}'")
-    number_of, own = len(model.inputs), model.unique("input", name)
     limits = value, low, high, unit, description
-    channel = Input(own, number_of, *limits, bool(whole), bool(as_port), role, near, tried, figures)
-    model.inputs.append(channel)
-    return channel
+    channel = Input(name, len(model.inputs), *limits, bool(whole), bool(as_port), role, near, tried, figures)
+    return model.enter("input", model.inputs, channel)
 
 
 def _check_whole(name: str, numbers: dict[str, float], unit: str) -> None:

@@ -7,15 +7,13 @@ import math
 from numpy.typing import ArrayLike
 
 from mbs.common.checks import not_negative, positive
-from mbs.elements.record import ElementRecord
 from mbs.model.air import AirVocabulary
 from mbs.model.angle import relative_angle
-from mbs.model.anti_roll_bar import anti_roll_bar, arm_angles
-from mbs.model.body import Body
+from mbs.model.anti_roll_bar import anti_roll_bar
 from mbs.model.coordinate import Coordinate
 from mbs.model.guides import GuideVocabulary
 from mbs.model.inputs import new_input
-from mbs.model.link_vocabulary import LinkVocabulary
+from mbs.model.joint_vocabulary import JointVocabulary
 from mbs.model.parameters import ParameterVocabulary
 from mbs.model.records import Armature, Input
 from mbs.model.road_vocabulary import RoadVocabulary
@@ -25,7 +23,7 @@ from mbs.model.springs import SpringVocabulary
 
 
 class Mechanism(
-    LinkVocabulary,
+    JointVocabulary,
     SpringVocabulary,
     AirVocabulary,
     RoadVocabulary,
@@ -36,7 +34,7 @@ class Mechanism(
 ):
     """A `Model`, which describes the arguments, with the words that all cars need; `compile` takes it.
 
-    A part of a car that needs one more word calls it by its vocabulary, as ``TransmissionVocabulary.gear(m, ...)``.
+    A part of a car that needs one more word calls it by its vocabulary, as ``ForceVocabulary.torque_on(m, ...)``.
     """
 
     def __init__(
@@ -46,28 +44,8 @@ class Mechanism(
         self.coordinate_rates: dict[int, float] = {}
 
     # --- coordinates ---
-    def relative_angle(
-        self, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike | None = None, zero: float = 0.0
-    ) -> Coordinate:
-        """Angle of body 2 against body 1 about an axis, not wrapped, as one more coordinate.
-
-        Parameters
-        ----------
-        body_1, body_2 : Body
-            Bodies with axes, or the ground.
-        axis : array_like, shape (3,), optional
-            In space only: earth axes in the reference configuration, of any length.
-        zero : float
-            The angle in the reference configuration, rad.
-
-        Raises
-        ------
-        ModelError
-            The bodies are the same or have no axes, or the axis is missing in space or given in the plane.
-        """
-        coordinate, joint = relative_angle(self, name, body_1, body_2, axis, zero)
-        self._join(joint)
-        return coordinate
+    relative_angle = relative_angle
+    anti_roll_bar = anti_roll_bar
 
     def armature(self, name: str, coordinate: Coordinate, *, inertia: float, ratio: float = 1.0) -> Armature:
         """Inertia that turns with a relative angle, such as the rotor of a motor behind a gear.
@@ -86,57 +64,9 @@ class Mechanism(
         self.owned_coordinate(coordinate, f"The armature '{name}'")
         own = not_negative(inertia, f"The inertia of armature '{name}'")
         turns = positive(ratio, f"The ratio of armature '{name}'")
-        new = Armature(self.unique("armature", name), coordinate.affine, own, turns)
+        new = self.enter("armature", self.armatures, Armature(name, coordinate.affine, own, turns))
         self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + own * turns * turns
-        self.armatures.append(new)
         return new
-
-    def anti_roll_bar(
-        self,
-        name: str,
-        left: Coordinate | Body,
-        right: Coordinate | Body,
-        *,
-        stiffness: float,
-        damping: float = 0.0,
-        stiffness_factor: float = 1.0,
-        carrier: Body | None = None,
-        axis: ArrayLike | None = None,
-        free_twist: float | None = None,
-        mirrored: bool = False,
-    ) -> ElementRecord:
-        """A torsion spring between two arms; its torque on the left one is the output ``force`` of the element.
-
-        Drop links between the arms and the suspension are `distance` joints; without them the arms are those of the
-        suspension.
-
-        Parameters
-        ----------
-        left, right : Coordinate or Body
-            Relative angles of the arms, or the arms themselves, which turn on `carrier` about `axis`.
-        stiffness, damping : float
-            N m/rad and N m s/rad of the twist.
-        stiffness_factor : float
-            Factor on the stiffness, for a parameter.
-        carrier : Body, optional
-            With arms given as bodies: what they turn on.
-        axis : array_like, shape (3,), optional
-            With arms given as bodies, in space.
-        free_twist : float, optional
-            Twist without torque, rad; by default as drawn.
-        mirrored : bool
-            The angles count opposite ways (mirrored axes): the twist is their sum instead of left minus right.
-
-        Raises
-        ------
-        ModelError
-            The arms are the same, a body and an angle, or a spin; or bodies are given without a carrier.
-        """
-        angles, joints = arm_angles(self, name, (left, right), carrier, axis)
-        bar = anti_roll_bar(self, name, angles, stiffness, damping, stiffness_factor, free_twist, mirrored)
-        for joint in joints:
-            self._join(joint)
-        return bar
 
     # --- inputs, guides, parameters ---
     def input(

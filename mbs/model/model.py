@@ -21,20 +21,16 @@ from mbs.model.flexible import FlexibleBody
 from mbs.model.flexible_vocabulary import FlexibleVocabulary
 from mbs.model.forces import ForceVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
-from mbs.model.joint_vocabulary import JointVocabulary
 from mbs.model.more_guides import MoreGuidesVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.orientation_sensors import OrientationSensorVocabulary
 from mbs.model.point_mass import PointMass
 from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.model.table_vocabulary import TableVocabulary
-from mbs.model.transmission_vocabulary import TransmissionVocabulary
 
 
 class Model(
     Understood,
-    TransmissionVocabulary,
-    JointVocabulary,
     TableVocabulary,
     ForceVocabulary,
     MotionSensorVocabulary,

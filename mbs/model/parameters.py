@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -13,9 +13,12 @@ from mbs.kernel.header.enumerations import GuideType, ParameterTarget, SensorTyp
 from mbs.model.carried import AXIS_REALS, INERTIA_REALS, Payload, WrittenAxis, WrittenInertia
 from mbs.model.core import ModelCore
 from mbs.model.records import Armature, Guide, Parameter
+from mbs.model.register import Named
 from mbs.model.spin import STEEPEST
 
-_OF_INPUT: dict[str, Callable[[object, str], float]] = {"frequency": positive, "gain": number, "start": number}
+Reals: TypeAlias = dict[str, Callable[[object, str], float]]
+"""What may be written to a thing, by name, with its check."""
+_OF_INPUT: Reals = {"frequency": positive, "gain": number, "start": number}
 GUIDE_REALS = {
     GuideType.OF_INPUT: _OF_INPUT,
     GuideType.OF_TWO_INPUTS: _OF_INPUT | {"gain_2": number, "low": number, "high": number},
@@ -103,49 +106,44 @@ def _target(model: ModelCore, what: str, given: Target) -> _Target:
     if isinstance(owner, tuple) and len(owner) == 2 and owner[0] == "sensor":
         return _sensor(model, what, owner[1], real, line)
     owner_name = getattr(owner, "name", owner)
-    for index, element in enumerate(model.elements):
-        if element.name == owner_name:
-            names = list(element.real_names)
-            if real not in names:
-                known = ", ".join(names) or "none"
-                raise ModelError(f"The {what} asks for {shown(real)} of element '{owner_name}', which has: {known}.")
-            k = names.index(str(real))
-            check = element.real_checks[k] if element.real_checks else number
-            return _Target((ParameterTarget.ELEMENT, index, k, *line), f"the {real} of element '{owner_name}'", check)
-    for guide in model.guides:
-        if guide.name == owner_name and real in GUIDE_REALS.get(guide.type, {}):
-            reals = GUIDE_REALS[guide.type]
-            k, check = list(reals).index(str(real)), reals[str(real)]
-            return _Target((ParameterTarget.GUIDE, guide.index, k, *line), f"the {real} of guide '{owner_name}'", check)
-    for k, payload in enumerate(model.payloads):
-        if payload.name == owner_name and real == "mass":
-            return _Target((ParameterTarget.PAYLOAD, k, 0, *line), f"the mass of payload '{owner_name}'", not_negative)
-    for k, armature in enumerate(model.armatures):
-        if armature.name == owner_name and real == "ratio":
-            return _Target((ParameterTarget.ARMATURE, k, 0, *line), f"the ratio of armature '{owner_name}'", positive)
-    for k, body in enumerate(model.written_inertias):
-        if body.name == owner_name and real in INERTIA_REALS:
-            i = INERTIA_REALS.index(str(real))
-            return _Target((ParameterTarget.INERTIA, k, i, *line), f"the {real} of inertia '{owner_name}'", number)
-    for k, axis in enumerate(model.written_axes):
-        if axis.name == owner_name and real in AXIS_REALS:
-            i = AXIS_REALS.index(str(real))
-            return _Target((ParameterTarget.AXIS, k, i, *line), f"the {real} of axis '{owner_name}'", _direction)
-    for k, switch in enumerate(model.switches):
-        if switch.name == owner_name and real == "on":
-            return _Target((ParameterTarget.SWITCH, k, 0, *line), f"the switch '{owner_name}'", _on_or_off)
+    index = model.place_of(model.elements, owner_name)
+    if index is not None:
+        element = model.elements[index]
+        names = list(element.real_names)
+        if real not in names:
+            known = ", ".join(names) or "none"
+            raise ModelError(f"The {what} asks for {shown(real)} of element '{owner_name}', which has: {known}.")
+        k = names.index(str(real))
+        check = element.real_checks[k] if element.real_checks else number
+        return _Target((ParameterTarget.ELEMENT, index, k, *line), f"the {real} of element '{owner_name}'", check)
+    for target, kind, things, own in _owners(model):
+        place = model.place_of(things, owner_name)
+        reals = {} if place is None else own(place)
+        if place is not None and real in reals:
+            words = f"the {real} of {kind} '{owner_name}'" if real != "on" else f"the {kind} '{owner_name}'"
+            return _Target((target, place, list(reals).index(str(real)), *line), words, reals[str(real)])
     raise ModelError(
         f"The {what} writes {shown(real)} of {shown(owner_name)}, but the model has no such element, guide, payload, "
         "armature or switch."
     )
 
 
+def _owners(model: ModelCore) -> Iterator[tuple[int, str, Sequence[Named], Callable[[int], Reals]]]:
+    """Of what a parameter writes to by name beside elements: kind, things, and the reals of the thing at a place."""
+    yield ParameterTarget.GUIDE, "guide", model.guides, lambda k: GUIDE_REALS.get(model.guides[k].type, {})
+    yield ParameterTarget.PAYLOAD, "payload", model.payloads, lambda _: {"mass": not_negative}
+    yield ParameterTarget.ARMATURE, "armature", model.armatures, lambda _: {"ratio": positive}
+    yield ParameterTarget.INERTIA, "inertia", model.written_inertias, lambda _: dict.fromkeys(INERTIA_REALS, number)
+    yield ParameterTarget.AXIS, "axis", model.written_axes, lambda _: dict.fromkeys(AXIS_REALS, _direction)
+    yield ParameterTarget.SWITCH, "switch", model.switches, lambda _: {"on": _on_or_off}
+
+
 def _sensor(model: ModelCore, what: str, name: object, real: str | int, line: tuple[float, float, bool]) -> _Target:
     """A factor of a sensor, by its number."""
-    for k, sensor in enumerate(model.sensors):
-        if sensor.name == name and sensor.type in _SCALED:
-            i = whole(real, f"The number of the factor of sensor '{name}' for {what}", 0, sensor.factors - 1)
-            return _Target((ParameterTarget.SENSOR, k, i, *line), f"factor {i} of sensor '{name}'", number)
+    k = model.place_of(model.sensors, name)
+    if k is not None and model.sensors[k].type in _SCALED:
+        i = whole(real, f"The number of the factor of sensor '{name}' for {what}", 0, model.sensors[k].factors - 1)
+        return _Target((ParameterTarget.SENSOR, k, i, *line), f"factor {i} of sensor '{name}'", number)
     raise ModelError(
         f"The {what} writes {shown(real)} of sensor {shown(name)}, but the model has no sensor of that name that has "
         "factors."
@@ -246,8 +244,6 @@ class ParameterVocabulary(ModelCore):
         text(description, f"The description of {what}", lines=True)
         if flag(tunable, f"The tunable of {what}"):
             _moving(what, found)
-        self.unique("parameter", name)
         places = tuple(target.where for target in found)
         parameter = Parameter(name, start, low, high, unit, description, places, tunable, span)
-        self.parameters.append(parameter)
-        return parameter
+        return self.enter("parameter", self.parameters, parameter)

@@ -39,9 +39,7 @@ class PortedBody(Body):
             free = AffineVector(tuple(Affine({i: 1.0}) for i in numbers))
             joint = Joint(what, "port", equal_vectors(what, "point", free, owner.vector(arm)), rows_weight=1.0)
             joint.as_rows = True
-            model.unique("joint", what)
-            model.joints.append(joint)
-            self.ports[name] = joint
+            self.ports[name] = model._join(joint)
             self._points.append((place, owner.point(owner.com) + free))
 
     def point(self, position: ArrayLike) -> AffineVector:

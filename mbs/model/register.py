@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import functools
 import weakref
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,7 +16,16 @@ from mbs.common.checks import Vector, named, positive, shown, vector, whole
 from mbs.common.errors import ModelError
 from mbs.model.coordinate import Coordinate, CoordinateInfo
 
-T = TypeVar("T")
+
+class Named(Protocol):
+    """What is registered by a name."""
+
+    @property
+    def name(self) -> str:
+        """Unique in its family."""
+
+
+N = TypeVar("N", bound=Named)
 TIME = "time"
 """First column of tables of runs, and a variable of FMI 3.0."""
 
@@ -164,6 +173,17 @@ class Register:
         if self._undo is not None:
             self._undo.append(lambda: self._names.discard(key))
         return key[1]
+
+    def enter(self, family: str, things: list[N], thing: N) -> N:
+        """Add to the `things` of a family one whose name is new there."""
+        self.unique(family, thing.name)
+        things.append(thing)
+        return thing
+
+    @staticmethod
+    def place_of(things: Sequence[Named], name: object) -> int | None:
+        """Where in a list of a family the thing of a name is; None where there is none."""
+        return next((k for k, thing in enumerate(things) if isinstance(name, str) and thing.name == name), None)
 
     def new_coordinate(self, name: str, kind: str, reference: float, component: int = 0) -> int:
         """Register a scalar full coordinate.

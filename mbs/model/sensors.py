@@ -56,7 +56,7 @@ class SensorVocabulary(BodyVocabulary):
     ) -> Sensor:
         what = f"sensor {shown(name)}"
         sensor = Sensor(
-            self.unique("sensor", name),
+            name,
             text(unit, f"The unit of {what}"),
             text(description, f"The description of {what}", lines=True),
             type,
@@ -70,8 +70,7 @@ class SensorVocabulary(BodyVocabulary):
             text(display_unit, f"The display unit of {what}"),
             computed=flag(computed, f"The computed of {what}"),
         )
-        self.sensors.append(sensor)
-        return sensor
+        return self.enter("sensor", self.sensors, sensor)
 
     def sense_element(
         self,
@@ -101,26 +100,28 @@ class SensorVocabulary(BodyVocabulary):
                 f"{shown(element)} and {shown(output)}."
             )
         factor = number(scale, f"The scale of sensor '{name}'")
-        for index, record in enumerate(self.elements):
-            if record.name == element_name:
-                for k, out in enumerate(record.outputs):
-                    if out.name == output:
-                        return self._sense(
-                            name,
-                            self._unit(unit, out.unit),
-                            self._unit(description, out.description),
-                            SensorType.ELEMENT_OUTPUT,
-                            integers=[index, k],
-                            reals=[factor],
-                            whole=out.whole and factor == 1.0,
-                            display_unit=out.display_unit if isinstance(unit, str) and not unit else "",
-                        )
-                known = ", ".join(o.name for o in record.outputs) or "none"
-                raise ModelError(
-                    f"The sensor '{name}' asks for {shown(output)} of element '{element_name}', which has: {known}."
-                )
-        raise ModelError(
-            f"The sensor '{name}' asks for element {shown(element_name)}, but the model has no such element."
+        index = self.place_of(self.elements, element_name)
+        if index is None:
+            raise ModelError(
+                f"The sensor '{name}' asks for element {shown(element_name)}, but the model has no such element."
+            )
+        outputs = self.elements[index].outputs
+        k = self.place_of(outputs, output)
+        if k is None:
+            known = ", ".join(o.name for o in outputs) or "none"
+            raise ModelError(
+                f"The sensor '{name}' asks for {shown(output)} of element '{element_name}', which has: {known}."
+            )
+        out = outputs[k]
+        return self._sense(
+            name,
+            self._unit(unit, out.unit),
+            self._unit(description, out.description),
+            SensorType.ELEMENT_OUTPUT,
+            integers=[index, k],
+            reals=[factor],
+            whole=out.whole and factor == 1.0,
+            display_unit=out.display_unit if isinstance(unit, str) and not unit else "",
         )
 
     def sense_vector(

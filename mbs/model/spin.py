@@ -134,8 +134,6 @@ class SpinVocabulary(BodyVocabulary):
         x, y, z = wheel.axis_reference
         if abs(asin(min(max(z, -1.0), 1.0))) > STEEPEST:
             raise ModelError(f"The axis of the {what} '{wheel.name}' stands upright; its azimuth is not known.")
-        name = self.unique("written axis", wheel.name)
         frame = tuple(wheel.carrier.vector(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
-        new = WrittenAxis(name, wheel, (frame[0], frame[1], frame[2]), (atan2(-x, y), asin(z)), grows)
-        self.written_axes.append(new)
-        return new
+        new = WrittenAxis(wheel.name, wheel, (frame[0], frame[1], frame[2]), (atan2(-x, y), asin(z)), grows)
+        return self.enter("written axis", self.written_axes, new)

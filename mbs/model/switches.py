@@ -14,6 +14,4 @@ def new_switch(model: ModelCore, name: str, on: bool) -> Switch:
     """Register a switch."""
     if not isinstance(on, (bool, np.bool_)):
         raise ModelError(f"The switch '{name}' is {shown(on)} at the start; it must be True or False.")
-    switch = Switch(model.unique("switch", name), len(model.switches), bool(on))
-    model.switches.append(switch)
-    return switch
+    return model.enter("switch", model.switches, Switch(name, len(model.switches), bool(on)))

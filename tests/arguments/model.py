@@ -328,7 +328,7 @@ RIGHT: dict[str, Callable[[Bench], dict[str, Any]]] = {  # by method, with a wor
 }
 REGISTER = {"remember", "unique", "new_coordinate", "drawn", "owned_coordinate", "expression", "expressions", "owned"}
 REGISTER |= {"anchor", "anchor_axis", "together", "put_off", "look", "draw_before_change"}
-REGISTER |= {"summary"}
+REGISTER |= {"enter", "place_of", "summary"}
 """What the vocabulary itself calls, and what has no arguments."""
 
 

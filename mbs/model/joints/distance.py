@@ -32,8 +32,29 @@ def end_body(end: End, what: str) -> Body:
     return end.body if isinstance(end, SlidingPoint) else body_and_point(end, what, ENDS)[0]
 
 
-def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: float | None) -> Joint:
-    """``(|p1 - p2|^2 - length^2)/2 = 0``; its multiplier times the length is the tension of the rod."""
+def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, *, length: float | None = None) -> Joint:
+    """Massless rod: the distance of two points is constant.
+
+    The equation is ``(|p_1 - p_2|^2 - length^2)/2 = 0``; its multiplier times the length is the tension.
+
+    Parameters
+    ----------
+    end_1, end_2 : (Body, array_like), Body or SlidingPoint
+        A body and its point, m; a body alone for its centre of mass; or a point that a guide slides (one of the
+        two at most).
+    length : float, optional
+        m; by default as drawn.
+
+    Returns
+    -------
+    Joint
+        For sensors: its force is the tension.
+
+    Raises
+    ------
+    ModelError
+        Both ends are on the same body, or the length is not positive.
+    """
     what = f"distance '{name}'"
     bodies = end_body(end_1, what), end_body(end_2, what)
     p1, slide_1 = end_point(model, end_1, what)
@@ -81,7 +102,7 @@ def _drawing(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: f
         (_place(*first), _place(*second)),
         None,
         ("distance",),
-        lambda p, _, rod: distance(model, name, (first[0], p[0]), (second[0], p[1]), rod),
+        lambda p, _, rod: distance(model, name, (first[0], p[0]), (second[0], p[1]), length=rod),
         length,
     )
 

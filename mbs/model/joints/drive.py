@@ -21,9 +21,33 @@ def drive(
     name: str,
     driven: Coordinate | Affine | tuple[End, End],
     guide: Guide,
-    switch: bool | None,
+    *,
+    switch: bool | None = None,
 ) -> Joint:
-    """``coordinate - s(t) = 0``, or for a pair of ends ``(|p1 - p2|^2 - s(t)^2)/2 = 0``; with a switch or without."""
+    """Prescribed motion: a coordinate, a component of a point, or the distance of two points follows a guide.
+
+    The equation is ``coordinate - s(t) = 0``, or for two ends ``(|p_1 - p_2|^2 - s(t)^2)/2 = 0``.
+
+    Parameters
+    ----------
+    driven : Coordinate, Affine or (end, end)
+        A relative angle; an expression such as ``body.point(p)[0]``; or two ends as of `distance`.
+    guide : Guide
+        Of this model, rad or m.
+    switch : bool, optional
+        With a switch of the same name, on or off at the start: the drive can let go. One that is turned on later
+        keeps the distance to its guide that there is then.
+
+    Returns
+    -------
+    Joint
+        For sensors: its force is that of the drive, zero while it is off.
+
+    Raises
+    ------
+    ModelError
+        What is driven cannot move, an end slides, or a driven distance starts at zero.
+    """
     joint = _drive(model, name, driven, guide)
     if switch is not None:
         joint.switch = new_switch(model, name, switch)
@@ -39,7 +63,7 @@ def _drive(model: BodyVocabulary, name: str, driven: Coordinate | Affine | tuple
             raise ModelError(
                 f"The guide of {what} starts at {guide.start:g} m; a driven distance must be greater than zero."
             )
-        rod = distance(model, name, driven[0], driven[1], guide.start)
+        rod = distance(model, name, driven[0], driven[1], length=guide.start)
         if rod.equations[0].guides:
             raise ModelError(f"An end of {what} slides; only fixed points may have a driven distance.")
         row = Equation(

@@ -24,15 +24,40 @@ def drop_link(
     name: str,
     carrier: Body,
     body: Body,
+    *,
     pivot: ArrayLike,
     axis: ArrayLike,
     lever_end: ArrayLike,
     link_end: ArrayLike,
-) -> tuple[Coordinate, Joint]:
-    """``(|g|^2 + r^2 - L^2)/2 - g . (cos(theta) u + sin(theta) w) = 0`` with theta = 0 as drawn.
+) -> Coordinate:
+    """A lever that turns on a carrier and a rod from its end to a point of another body, both without mass.
 
-    The lever u of length r is square to its axis a, ``w = a x u``; both are vectors of the carrier. The vector g goes
-    from the axis to the end of the rod on the body.
+    Two of them and `anti_roll_bar` are an anti-roll bar with its links. Against two bodies with joints it costs one
+    coordinate and one equation. The tension of the rod is a joint force.
+
+    The equation is ``(|g|^2 + r^2 - L^2)/2 - g . (cos(theta) u + sin(theta) w) = 0`` with theta = 0 as drawn. The lever
+    u of length r is square to its axis a, ``w = a x u``; both are vectors of the carrier. The vector g goes from the
+    axis to the end of the rod on the body.
+
+    Parameters
+    ----------
+    carrier, body : Body
+        What the lever turns on, and where the rod ends; in space, not point masses.
+    pivot, axis : array_like, shape (3,)
+        A point of the lever's axis, m, and its direction, fixed in the carrier; earth axes as drawn.
+    lever_end, link_end : array_like, shape (3,)
+        Ends of the rod on the lever and on the body, earth axes as drawn, m.
+
+    Returns
+    -------
+    Coordinate
+        Angle of the lever about the axis, rad, 0 as drawn and not wrapped.
+
+    Raises
+    ------
+    ModelError
+        The bodies are the same, the lever lies along its axis, or the rod pulls along the lever or across its plane
+        and could not turn it.
     """
     what = f"drop link '{name}'"
     different(carrier, body, what)
@@ -66,4 +91,5 @@ def drop_link(
         Affine({}, 0.5 * (lever * lever - rod * rod)),
         angle=AnglePart(theta, dot_products(gap, carrier.vector(w)), dot_products(gap, carrier.vector(-u))),
     )
-    return Coordinate(name, theta, "rad"), Joint(name, "drop_link", [row], rows_weight=rod)
+    model._join(Joint(name, "drop_link", [row], rows_weight=rod))
+    return Coordinate(name, theta, "rad")

@@ -12,10 +12,29 @@ from mbs.model.joints.joint import Joint
 from mbs.model.joints.transmission import turned, turning_rate, wheel
 
 
-def gear(model: BodyVocabulary, name: str, wheel_1: Coordinate, wheel_2: Coordinate, ratio: float) -> Joint:
-    """``theta_1 = ratio * theta_2`` from where both are drawn; with a spin, the same of the rates.
+def gear(model: BodyVocabulary, name: str, wheel_1: Coordinate, wheel_2: Coordinate, *, ratio: float) -> Joint:
+    """Two wheels that turn in a constant ratio.
 
-    Both sides are measured against the carriers, so the reactions on these are right by virtual work.
+    The equation is ``theta_1 = ratio * theta_2`` from where both are drawn; with a spin, the same of the rates. Both
+    are angles against the carriers, which therefore take their reactions.
+
+    Parameters
+    ----------
+    wheel_1, wheel_2 : Coordinate
+        Relative angles of the wheels against what carries them, or spins.
+    ratio : float
+        Turns of the first wheel for one of the second, each against its carrier; negative where they turn opposite
+        ways about the axes of their angles (-z2/z1 for external teeth on parallel axes).
+
+    Returns
+    -------
+    Joint
+        For sensors: its torque on the first wheel.
+
+    Raises
+    ------
+    ModelError
+        The ratio is zero, or the wheels are the same.
     """
     what = f"gear '{name}'"
     a, b = wheel(model, wheel_1, what), wheel(model, wheel_2, what)

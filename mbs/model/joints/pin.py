@@ -11,10 +11,24 @@ from mbs.model.joints.joint import Joint, equal_vectors
 from mbs.model.switches import new_switch
 
 
-def pin(model: BodyVocabulary, name: str, body: Body, point: ArrayLike | None, on: bool) -> Joint:
-    """The point of the body stays where it is when the switch of the same name goes on.
+def pin(model: BodyVocabulary, name: str, body: Body, point: ArrayLike | None = None, *, on: bool = False) -> Joint:
+    """Hold a point of a body by a switch of the same name, which a running `Simulation` turns on and off.
 
-    At the start, if `on`, that is where it is drawn.
+    The point stays where it is when the switch is turned on.
+
+    Parameters
+    ----------
+    body : Body
+        A body or a point mass that can move.
+    point : array_like, shape (dimension,), optional
+        Earth axes in the reference configuration, m; by default the centre of mass.
+    on : bool
+        Whether it holds from the start, where it is drawn.
+
+    Raises
+    ------
+    ModelError
+        The body is the ground.
     """
     what = f"pin '{name}'"
     if model.owned(body, f"The {what}").is_ground:

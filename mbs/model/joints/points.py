@@ -59,8 +59,16 @@ def may_share(body_1: Body, body_2: Body) -> bool:
     return not (body_1.bends or body_2.bends or rigid.is_ground or rigid.is_flexible)
 
 
-def spherical(model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair) -> Joint:
-    """Shared point (spatial: ball joint)."""
+def spherical(model: BodyVocabulary, name: str, body_1: Body, body_2: Body, *, point: PointPair) -> Joint:
+    """Spherical joint: the bodies share a point.
+
+    Parameters
+    ----------
+    body_1, body_2 : Body
+        Bodies, point masses, the ground, or nodes of flexible bodies.
+    point : array_like, shape (dimension,), or pair of them
+        Earth axes in the reference configuration, m; a pair is one point per body.
+    """
     what = f"spherical joint '{name}'"
     different(body_1, body_2, what)
     p1, p2 = point_pair(point, model.dimension, what)
@@ -69,6 +77,6 @@ def spherical(model: BodyVocabulary, name: str, body_1: Body, body_2: Body, poin
     joint = Joint(name, "spherical", equations, rows_weight=1.0, places=JointPlaces((body_1, body_2), (p1, p2)))
     joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
     joint.drawing = Drawing(
-        (body_1, body_2), (p1, p2), None, ("point",), lambda p, u, _: spherical(model, name, body_1, body_2, p)
+        (body_1, body_2), (p1, p2), None, ("point",), lambda p, u, _: spherical(model, name, body_1, body_2, point=p)
     )
     return joint

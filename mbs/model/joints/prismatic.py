@@ -41,10 +41,24 @@ def no_turning(body_1: Body, p1: ArrayLike, body_2: Body, p2: ArrayLike) -> Turn
 
 
 def prismatic(
-    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair | None, axis: ArrayLike
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, *, axis: ArrayLike, point: PointPair | None = None
 ) -> Joint:
-    """Shared orientation, and the point of body 1 on the axis of body 2; without a point, the centre of mass of a
-    moving body.
+    """Prismatic joint: the bodies share their orientation, and body 1 slides along an axis of body 2.
+
+    Parameters
+    ----------
+    body_1, body_2 : Body
+        Bodies, the ground, or nodes of flexible bodies.
+    axis : array_like, shape (dimension,)
+        Direction of the slide, fixed in body 2, of any length.
+    point : array_like, shape (dimension,), or pair of them, optional
+        Point of body 1 on the axis, m; by default the centre of mass of body 1, of body 2 where body 1 is the
+        ground.
+
+    Raises
+    ------
+    ModelError
+        The bodies are the same or have no axes.
     """
     what = f"prismatic joint '{name}'"
     different(body_1, body_2, what)
@@ -62,6 +76,6 @@ def prismatic(
         (p1, p2),
         (axis, axis),
         ("orientation", "line"),
-        lambda p, u, _: prismatic(model, name, body_1, body_2, p, (u or (axis, axis))[1]),
+        lambda p, u, _: prismatic(model, name, body_1, body_2, point=p, axis=(u or (axis, axis))[1]),
     )
     return joint

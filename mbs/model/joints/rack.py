@@ -21,13 +21,37 @@ def rack(
     name: str,
     pinion: Coordinate,
     body: Body,
+    *,
     carrier: Body,
     axis: ArrayLike,
     radius: float,
-    point: ArrayLike | None,
+    point: ArrayLike | None = None,
 ) -> Joint:
-    """``(p - c) . e = radius * theta`` with p of the rack, c and e of the carrier, p = c and theta = 0 as drawn; with a
-    spin as pinion the same of the rates.
+    """A rack that slides on a carrier by the radius of a pinion per radian; it guides nothing (see `prismatic`).
+
+    The equation is ``(p - c) . e = radius * theta`` with p of the rack, c and e of the carrier, p = c and theta = 0 as
+    drawn; with a spin as pinion the same of the rates.
+
+    Parameters
+    ----------
+    pinion : Coordinate
+        Relative angle of the pinion against the carrier, or a spin on it.
+    axis : array_like, shape (dimension,)
+        Direction of the slide, fixed in the carrier, earth axes as drawn.
+    radius : float
+        m per rad; negative where the rack goes against `axis` when the pinion turns positively.
+    point : array_like, shape (dimension,), optional
+        Of the rack, as drawn, m; by default its centre of mass.
+
+    Returns
+    -------
+    Joint
+        For sensors: its force on the rack along the axis.
+
+    Raises
+    ------
+    ModelError
+        The radius is zero, the carrier is a point mass, or the rack is the ground or the carrier.
     """
     what = f"rack '{name}'"
     turns = wheel(model, pinion, what)

@@ -12,9 +12,24 @@ from mbs.model.joints.points import shared_axis, shared_point, turning_about
 
 
 def revolute(
-    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair, axis: PointPair | None
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, *, point: PointPair, axis: PointPair | None = None
 ) -> Joint:
-    """Shared point and, in space, shared axis: all equations are linear."""
+    """Revolute joint: the bodies share a point and, in space, an axis.
+
+    Parameters
+    ----------
+    body_1, body_2 : Body
+        Bodies, the ground, or nodes of flexible bodies.
+    point : array_like, shape (dimension,), or pair of them
+        Earth axes in the reference configuration, m; a pair is one point per body.
+    axis : array_like, shape (3,), or pair of them, optional
+        Of any length; in space only.
+
+    Raises
+    ------
+    ModelError
+        The bodies are the same, or the axis is missing in space or given in the plane.
+    """
     what = f"revolute joint '{name}'"
     different(body_1, body_2, what)
     p1, p2 = point_pair(point, model.dimension, what)
@@ -37,6 +52,10 @@ def revolute(
     joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)), shared)
     conditions = ("point",) if axes is None else ("point", "axis")
     joint.drawing = Drawing(
-        (body_1, body_2), (p1, p2), axes, conditions, lambda p, u, _: revolute(model, name, body_1, body_2, p, u)
+        (body_1, body_2),
+        (p1, p2),
+        axes,
+        conditions,
+        lambda p, u, _: revolute(model, name, body_1, body_2, point=p, axis=u),
     )
     return joint

@@ -18,7 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import Vector, direction, number, positive
+from mbs.common.checks import Vector, number, positive
+from mbs.common.checks import direction as unit_vector
 from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
@@ -36,12 +37,36 @@ def rolling(
     model: BodyVocabulary,
     name: str,
     wheel: Body | Spin,
+    *,
     radius: float,
-    centre: ArrayLike | None,
-    axis: ArrayLike | None,
-    level: float,
+    centre: ArrayLike | None = None,
+    axis: ArrayLike | None = None,
+    level: float = 0.0,
 ) -> Joint:
-    """A wheel, a body or a spin on its carrier, that rolls without slip on the plane z = level."""
+    """A wheel with a knife edge that rolls without slip on a level plane; it always touches.
+
+    Parameters
+    ----------
+    wheel : Body or Spin
+        A rigid body, or a spin on its carrier.
+    radius : float
+        m.
+    centre, axis : array_like, shape (3,)
+        As drawn, in earth axes, m and without unit; of a body, a spin has them.
+    level : float
+        Height z of the plane, m.
+
+    Returns
+    -------
+    Joint
+        It has no force that can be read.
+
+    Raises
+    ------
+    ModelError
+        The model is planar, the wheel is not rigid or lies flat, or it misses the plane by more than a thousandth
+        of its radius.
+    """
     what = f"rolling joint '{name}'"
     if model.dimension == 2:
         raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
@@ -60,7 +85,7 @@ def rolling(
         if centre is None or axis is None:
             raise ModelError(f"The {what} needs the centre and the axis of the wheel on body '{body.name}'.")
         c, n = model.anchor(body, centre, what), model.anchor_axis(body, axis, what)
-        square = perpendicular(direction(axis, 3, f"The axis of {what}"))
+        square = perpendicular(unit_vector(axis, 3, f"The axis of {what}"))
     _touches(_at_reference(model, c)[2] - z, _at_reference(model, n)[2], R, what)
     height = Affine({}, -z) + c[2]
     touch = [(0.5 / R, height, height), (0.5 * R, n[2], n[2])]
@@ -84,17 +109,34 @@ def rolling(
 
 
 def skate(
-    model: BodyVocabulary, name: str, body: Body, point: ArrayLike, direction_: ArrayLike, switch: bool | None
+    model: BodyVocabulary, name: str, body: Body, *, point: ArrayLike, direction: ArrayLike, switch: bool | None = None
 ) -> Joint:
-    """A knife edge: the point of the body moves along the direction only, as seen from above (planar: in the plane).
+    """A knife edge: a point of a body moves along a direction of the body only, seen from above.
 
-    With d the direction, d_x p_y' - d_y p_x' = 0.
+    With d the direction the equation is ``d_x p_y' - d_y p_x' = 0``.
+
+    Parameters
+    ----------
+    point, direction : array_like, shape (2,) or (3,)
+        As drawn, in earth axes, m and without unit; the height is free.
+    switch : bool, optional
+        With a switch of the same name, on or off at the start.
+
+    Returns
+    -------
+    Joint
+        It has no force that can be read.
+
+    Raises
+    ------
+    ModelError
+        The direction is vertical, or the body is not rigid.
     """
     what = f"skate '{name}'"
     owned = model.owned(body, f"The {what}")
     if owned.is_ground or owned.is_point or owned.is_flexible:
         raise ModelError(f"The {what} needs a rigid body, not '{owned.name}'.")
-    unit = direction(direction_, model.dimension, f"The direction of {what}")
+    unit = unit_vector(direction, model.dimension, f"The direction of {what}")
     if np.linalg.norm(unit[:2]) < FLAT:
         raise ModelError(f"The {what} has the direction {unit.tolist()}, which is upright; it must lie in the plane.")
     p, d = model.anchor(body, point, what), model.anchor_axis(body, unit, what)

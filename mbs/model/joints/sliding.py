@@ -54,9 +54,24 @@ def sliding_ends(end_1: tuple[Body, ArrayLike], end_2: tuple[Body, ArrayLike], a
 
 
 def point_on_line(
-    model: BodyVocabulary, name: str, end_1: tuple[Body, ArrayLike], end_2: tuple[Body, ArrayLike], axis: ArrayLike
+    model: BodyVocabulary, name: str, end_1: tuple[Body, ArrayLike], end_2: tuple[Body, ArrayLike], *, axis: ArrayLike
 ) -> Joint:
-    """Point of body 1 on a line fixed in body 2."""
+    """A point of body 1 stays on a line fixed in body 2.
+
+    Parameters
+    ----------
+    end_1 : (Body, array_like of shape (dimension,))
+        Body 1 and its point, m.
+    end_2 : (Body, array_like of shape (dimension,))
+        Body 2 and a point of the line, m.
+    axis : array_like, shape (dimension,)
+        Direction of the line, fixed in body 2, of any length.
+
+    Raises
+    ------
+    ModelError
+        The bodies are the same, or body 2 is a point mass.
+    """
     what = f"point-on-line joint '{name}'"
     end_1, end_2 = (body_and_point(end, what, "(body, point)") for end in (end_1, end_2))
     different(end_1[0], end_2[0], what)
@@ -68,15 +83,30 @@ def point_on_line(
         (end_1[1], end_2[1]),
         (axis, axis),
         ("line",),
-        lambda p, u, _: point_on_line(model, name, (end_1[0], p[0]), (end_2[0], p[1]), (u or (axis, axis))[1]),
+        lambda p, u, _: point_on_line(model, name, (end_1[0], p[0]), (end_2[0], p[1]), axis=(u or (axis, axis))[1]),
     )
     return joint
 
 
 def cylindrical(
-    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair, axis: PointPair
+    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, *, point: PointPair, axis: PointPair
 ) -> Joint:
-    """Shared axis direction, and the point of body 1 on the axis of body 2."""
+    """Cylindrical joint: the bodies share an axis, along which they slide and about which they turn.
+
+    Parameters
+    ----------
+    body_1, body_2 : Body
+        Bodies, the ground, or nodes of flexible bodies of a spatial model.
+    point : array_like, shape (3,), or pair of them
+        Point of body 1 on the axis of body 2, m.
+    axis : array_like, shape (3,), or pair of them
+        Of any length; a pair is one axis per body.
+
+    Raises
+    ------
+    ModelError
+        The model is planar, or the bodies are the same.
+    """
     what = f"cylindrical joint '{name}'"
     if model.dimension == 2:
         raise ModelError(f"The {what} needs a spatial model; in the plane use point_on_line.")
@@ -95,6 +125,6 @@ def cylindrical(
         (p1, p2),
         axes,
         ("axis", "line"),
-        lambda p, u, _: cylindrical(model, name, body_1, body_2, p, u or axes),
+        lambda p, u, _: cylindrical(model, name, body_1, body_2, point=p, axis=u or axes),
     )
     return joint

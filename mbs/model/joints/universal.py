@@ -20,9 +20,31 @@ _BIG = 1.0 - 1e-12
 
 
 def universal(
-    model: BodyVocabulary, name: str, body_1: Body, body_2: Body, point: PointPair, axis_1: ArrayLike, axis_2: ArrayLike
+    model: BodyVocabulary,
+    name: str,
+    body_1: Body,
+    body_2: Body,
+    *,
+    point: PointPair,
+    axis_1: ArrayLike,
+    axis_2: ArrayLike,
 ) -> Joint:
-    """Shared point, and the angle between an axis of each body stays what it is (one quadratic row)."""
+    """Universal joint: the bodies share a point, and the angle between an axis of each is constant.
+
+    Parameters
+    ----------
+    body_1, body_2 : Body
+        Bodies, the ground, or nodes of flexible bodies of a spatial model.
+    point : array_like, shape (3,), or pair of them
+        Earth axes in the reference configuration, m; a pair is one point per body.
+    axis_1, axis_2 : array_like, shape (3,)
+        Axis fixed in body 1 and axis fixed in body 2, of any length and not parallel.
+
+    Raises
+    ------
+    ModelError
+        The model is planar, the bodies are the same, or the axes are parallel.
+    """
     what = f"universal joint '{name}'"
     if model.dimension == 2:
         raise ModelError(f"The {what} needs a spatial model; this one has dimension 2.")
@@ -39,11 +61,16 @@ def universal(
     turning = lambda: Turning(points_of(body_1, p1, body_2, p2), [(a1, a2, cosine)])  # noqa: E731
     joint = Joint(name, "universal", equations, rows_weight=1.0, turning=turning)
     joint.ends = JointEnds((body_1, body_2), (body_1.point(p1), body_2.point(p2)))
+
+    def remade(point: PointPair, axes: tuple[ArrayLike, ArrayLike] | None, _: float) -> Joint:
+        first, second = axes or (u1, u2)
+        return universal(model, name, body_1, body_2, point=point, axis_1=first, axis_2=second)
+
     joint.drawing = Drawing(
         (body_1, body_2),
         (p1, p2),
         (u1, u2),
         ("point", "angle"),
-        lambda p, u, _: universal(model, name, body_1, body_2, p, *(u or (u1, u2))),
+        remade,
     )
     return joint

@@ -11,7 +11,13 @@ from mbs.model.joints.prismatic import no_turning, same_orientation
 
 
 def weld(model: BodyVocabulary, name: str, body_1: Body, body_2: Body) -> Joint:
-    """Both bodies move as one; all equations are linear."""
+    """Weld: the bodies move as one.
+
+    Parameters
+    ----------
+    body_1, body_2 : Body
+        Bodies, point masses, the ground, or nodes of flexible bodies.
+    """
     what = f"weld '{name}'"
     different(body_1, body_2, what)
     point = body_2.com if body_1.is_ground or body_2.is_node else body_1.com

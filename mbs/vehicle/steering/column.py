@@ -19,11 +19,9 @@ from mbs.model.ends import End
 from mbs.model.energy_sensors import EnergySensorVocabulary
 from mbs.model.forces import ForceVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
-from mbs.model.joint_vocabulary import JointVocabulary
 from mbs.model.mechanism import Mechanism
 from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.records import Guide, Input
-from mbs.model.transmission_vocabulary import TransmissionVocabulary
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.port_inputs import new_port
@@ -143,9 +141,9 @@ class Column(RackSection, of=TorsionBar):
             unit="rad",
         )
         hands = DriveVocabulary.shaft(m, "hands")
-        TransmissionVocabulary.gear(m, "grip", wheel, hands, ratio=1.0)
+        m.gear("grip", wheel, hands, ratio=1.0)
         ForceVocabulary.torque_on(m, "steering torque", hands, input=torque)
-        DriveVocabulary.drive(m, "steering angle", hands, guide, switch=True)
+        m.drive("steering angle", hands, guide, switch=True)
         b.tie(self, "by_torque", "steering angle", "on", -1.0, offset=1.0)
         # an equilibrium of a free steering wheel would be any angle at which friction holds
         m.equilibrium_parameters[self.key("by_torque")] = 0.0
@@ -164,10 +162,8 @@ class Column(RackSection, of=TorsionBar):
         middle, across = (left[0], 0.0, left[2]), self.rack_mass * length**2 / 12.0
         inertia = (across, self.rack_mass * RACK_RADIUS**2, across)
         rack = m.body("rack", mass=self.rack_mass, com=middle, inertia=inertia)
-        JointVocabulary.prismatic(m, "rack housing", rack, chassis, axis=LEFT, point=middle)
-        TransmissionVocabulary.rack(
-            m, "pinion", pinion, rack, carrier=chassis, axis=LEFT, radius=per_radian, point=middle
-        )
+        m.prismatic("rack housing", rack, chassis, axis=LEFT, point=middle)
+        m.rack("pinion", pinion, rack, carrier=chassis, axis=LEFT, radius=per_radian, point=middle)
         friction = CoordinateFriction(self.rack_friction, *RACK_STICK, unit="N")
         m.add(friction.record("rack friction", pinion.affine * per_radian))
         b.tie(self, "rack_friction", "rack friction", "largest")

@@ -30,12 +30,12 @@ def by_table(m: Mechanism, held: Guide, rows: ArrayLike) -> Guide:
 def column_friction(m: Mechanism, held: Guide, per_radian: float, torque: float) -> None:
     """Friction at a steering wheel, `torque` in N m, that goes with `held`, which is `per_radian` of its angle."""
     wheel = DriveVocabulary.shaft(m, "steering wheel")
-    DriveVocabulary.drive(m, "steering column", wheel.affine * per_radian, held)
+    m.drive("steering column", wheel.affine * per_radian, held)
     m.add(CoordinateFriction(torque, *COLUMN_STICK).record("steering friction", wheel.affine))
 
 
 def travel(m: Mechanism, rack: Guide) -> Coordinate:
     """The travel of the rack as a coordinate, m."""
     way = DriveVocabulary.travel(m, RACK)
-    DriveVocabulary.drive(m, RACK, way.affine, rack)
+    m.drive(RACK, way.affine, rack)
     return way
