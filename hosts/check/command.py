@@ -13,6 +13,7 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.cores import available_cores
 from ali3.decimal_number import number
 from ali3.extras import command_needs
 from ali3.files import check_writable
@@ -38,9 +39,9 @@ _THOROUGH = 500
 _TIME_LIMIT = 20.0  # s for a check
 _OF_CHECK = ("steps", "time_limit", "thorough")
 _OF_PARAMETERS = ("show_parameters", "save_parameters", "diff")
-_OF_SOAK = ("drives", "seed", "stop_time", "world", "jobs", "again", "out", "json")
+_OF_SOAK = ("drives", "seed", "stop_time", "world", "again", "out", "json")
 _OF_REFERENCE = ("manoeuvre", "bound")
-_OF_BOTH = ("fidelity", "step")
+_OF_BOTH = ("fidelity", "step", "jobs")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 check") -> int:
@@ -177,13 +178,10 @@ def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
 
     if len(options.fidelity) > 1:
         raise HostError("--fidelity is given twice; a reference is of one.")
-    how = {
-        "manoeuvre": options.manoeuvre,
-        "step": options.step,
-        "fidelity": options.fidelity[0] if options.fidelity else None,
-        "wishes": wishes(options),
-    }
-    return check_references(fmu, options.reference, cases, options.bound, **how)
+    fidelity = options.fidelity[0] if options.fidelity else None
+    jobs = options.jobs or available_cores()
+    driven = options.manoeuvre, options.step, fidelity, wishes(options), jobs
+    return check_references(fmu, options.reference, cases, options.bound, *driven)
 
 
 def _settings(fmu: Path, given: Wishes) -> Settings:
