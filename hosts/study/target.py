@@ -28,7 +28,7 @@ from hosts.measures.limits import column_of
 from hosts.study.campaign import fmu_of_study, out_folder
 from hosts.study.folder import check_no_link
 from hosts.study.jobs import Job
-from hosts.study.one_run import RunProcesses
+from hosts.study.one_run import OneProcess
 from hosts.study.plan import Plan, make_plan
 from hosts.study.search import TOLERANCE, Found, Run, seek
 from hosts.study.study_file import ParameterEntry, SamplingEntry, StudyFile, read_study_file
@@ -90,7 +90,7 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
     folder = out if out is not None else out_folder(None, study, file) / "target"
     make_folder(folder)
     check_no_link(folder)
-    with RunProcesses(search.work, fmu) as search.processes:
+    with OneProcess(search.work, fmu) as search.processes:
         found = search.found(_start(study, target.by, fmu))
     lines = search.words(found)
     print("\n".join(lines))
@@ -164,7 +164,7 @@ class _Search:
         self.job, self.column = self._job()
         is_test = self.job.manoeuvre is None
         self.work = replace(plan.work, jobs=(self.job,), columns=() if is_test else plan.work.columns)
-        self.processes: RunProcesses
+        self.processes: OneProcess
         self.unit, self.wanted, self.shown = "", target.value, Shown("", 1.0)
         if not is_test:
             self._take_unit(plan.units[self.column])
