@@ -33,7 +33,7 @@ from ali3.words import shortened
 DONE, TOLD, ERROR, READY = 0, 1, 2, 3
 """Kinds of frames: a result, what is told before it, an error as its sentence and exit code, that work has come and may
 begin."""
-_START = 60.0  # s in which Python and its packages have begun, on a busy machine
+_START = 600.0  # s in which Python and its packages have begun, on a busy machine
 _LONGEST = 1e7  # s that a timer can wait on all platforms
 _END = 10.0  # s in which a guard ends all that is left
 _MOST_SAID = 4000  # bytes that are kept
@@ -251,7 +251,9 @@ class Isolated(Generic[T, R]):
             raise
         if answer is None:
             how, call, kept = self._end(finish)
-            return Lost(f"took more than {seconds:g} s{call}", True, kept) if late.is_set() else Lost(how, False, kept)
+            if late.is_set():
+                how = f"{'took more than' if process.number else 'had not begun after'} {seconds:g} s{call}"
+            return Lost(how, late.is_set(), kept)
         kind, content = answer
         result: R | None = finish(content, process.store) if kind == DONE else None
         if late.is_set():
