@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 from hosts.common.units import conversion
@@ -18,6 +19,8 @@ _SHOWN = {
     "Pa": "MPa",
 }
 _RAD_PER_PERIOD = 6.283185307179586
+_SMALL = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_POWER = re.compile(r"(?<=[a-zA-Z])(-?\d+)(\.\d+)?")
 
 
 class Shown(NamedTuple):
@@ -42,8 +45,8 @@ def shown_in(unit: str, name: str = "") -> Shown:
 def axis_shown(label: str) -> Shown:
     """The label of an axis that ends with its unit, such as ``yaw rate, rad/s``, and the factor of its values."""
     what, comma, unit = label.rpartition(", ")
-    shown = shown_in(unit)
-    return Shown(f"{what}{comma}{shown.unit}", shown.factor)
+    shown = shown_in(unit if comma else "")
+    return Shown(f"{what}{comma}{typeset(shown.unit)}" if comma else label, shown.factor)
 
 
 def unit_shown(unit: str) -> str:
@@ -51,9 +54,17 @@ def unit_shown(unit: str) -> str:
     return "" if unit == "1" else unit
 
 
+def typeset(unit: str) -> str:
+    """A unit of FMI as it is printed; empty where there is none."""
+    if unit in ("1", ""):
+        return ""
+    text = re.sub(r"\.(?=[a-zA-Z])", "·", unit)
+    return _POWER.sub(lambda found: f"^{found[0]}" if found[2] else found[0].translate(_SMALL), text)
+
+
 def titled(name: str, unit: str) -> str:
     """A name with its unit, as of an axis."""
-    return ", ".join(filter(None, (name, unit_shown(unit))))
+    return ", ".join(filter(None, (name, typeset(unit))))
 
 
 def number_in(value: float, unit: str, form: str = ".4g") -> str:

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import math
-import re
 from typing import TYPE_CHECKING
 
 from ali3.html_elements import element
+from hosts.common.display_units import typeset
 from hosts.common.numbers import is_round_off
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
 
-_SMALL = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_POWER = re.compile(r"(?<=[a-zA-Z])(-?\d+)(\.\d+)?")
 NONE = "–"
 """Shown in place of a number that there is not."""
 
@@ -25,14 +23,6 @@ def shown(value: float) -> str:
     if 1e4 <= abs(value) < 1e7:
         return f"{float(f'{value:.4g}'):.0f}"
     return f"{value:.4g}".replace("e+0", "e+").replace("e-0", "e-")
-
-
-def typeset(unit: str) -> str:
-    """A unit of FMI as it is printed; empty where there is none."""
-    if unit in ("1", ""):
-        return ""
-    text = re.sub(r"\.(?=[a-zA-Z])", "·", unit)
-    return _POWER.sub(lambda found: f"^{found[0]}" if found[2] else found[0].translate(_SMALL), text)
 
 
 def with_unit(value: float, unit: str) -> str:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from ali3.html_elements import Content, element, table
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
-from hosts.catalogue.report.numbers import NONE, difference, kept_shown, typeset, with_unit
+from hosts.catalogue.report.numbers import NONE, difference, kept_shown, with_unit
+from hosts.common.display_units import typeset
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described

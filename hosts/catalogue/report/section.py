@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from ali3.html_elements import Content, element, table
 from hosts.catalogue.record import Standard, StandardTest, TestRecord
-from hosts.catalogue.report.numbers import NONE, kept_shown, typeset, with_unit
+from hosts.catalogue.report.numbers import NONE, kept_shown, with_unit
+from hosts.common.display_units import typeset
 from hosts.experiment.report import FAINT, NOTE, Section, paragraph
 from hosts.measures.measure import Measure
 

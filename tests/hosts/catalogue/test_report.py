@@ -18,10 +18,11 @@ from ali3.errors import FileError
 from hosts.catalogue.output import print_measures
 from hosts.catalogue.record import Line, Plot, TestRecord
 from hosts.catalogue.report import write_report
-from hosts.catalogue.report.numbers import difference, shown, typeset
+from hosts.catalogue.report.numbers import difference, shown
 from hosts.catalogue.report.pictures import pictures_of
 from hosts.catalogue.report.section import command_of
 from hosts.catalogue.two_sides import mean_of_sides
+from hosts.common.display_units import typeset
 from hosts.experiment.thinning import MOST, thinned
 from hosts.measures.measure import Limit, Measure
 from tests.hosts.catalogue.synthetic_records import EVIL, record, synthetic
