@@ -84,6 +84,11 @@ class Stop:
         return math.copysign(self.circle[2], self.before("chassis.wz"))
 
     @property
+    def lateral_acceleration_on_circle(self) -> float:
+        """Of the undisturbed circle: speed squared over radius, m/s2."""
+        return self.before("speed") ** 2 / self.circle[2]
+
+    @property
     def deceleration(self) -> float:
         """Mean over the first second, m/s2."""
         return self.before("speed") - self.at("speed", 1.0)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Mapping, Sequence
-from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -194,10 +193,11 @@ def _settings(fmu: Path, given: Wishes) -> Settings:
 
 def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     """The checks in a process of their own; one that a check takes down is replaced for the others."""
-    from ali3.isolated import Isolated, Lost
+    from ali3.isolated import Lost
     from hosts.check.all_checks import CHECKS, Checker, left_out, lost
     from hosts.check.archive import archive_findings
     from hosts.check.instance import Finding
+    from hosts.experiment.pool import Pool
     from hosts.fmu.own_process import files_of
 
     if refused := archive_findings(fmu):
@@ -217,13 +217,13 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     without: list[str] = []
     steps = options.steps or (_THOROUGH if options.thorough else _STEPS)
     checker = Checker(fmu.absolute(), steps, start)
-    with closing(Isolated(checker, Finding, reads=(fmu, *files_of(start)))) as process:
+    with Pool(checker, Finding, reads=(fmu, *files_of(start)), limit=limit) as process:
         for place, check in enumerate(CHECKS):
             if check.name in without:
                 cases.append(Case(fmu.stem, check.name, "skipped", "functions of the FMU cannot be called"))
                 continue
             begin = time.perf_counter()
-            result = process.do(place, limit=limit)
+            result = process.run(place)
             finding = lost(check, result, limit) if isinstance(result, Lost) else result
             print_finding(finding)
             cases.append(Case(fmu.stem, check.name, finding.verdict, finding.words, time.perf_counter() - begin))

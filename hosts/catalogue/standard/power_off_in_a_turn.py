@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from hosts.catalogue.circle_stop import COMPARED, STEADY, Stop
 from hosts.catalogue.sheet import Sheet
@@ -14,7 +15,7 @@ AFTER = 2.0  # s that are driven after the release
 def drive(sheet: Sheet) -> None:
     """Releases at growing lateral acceleration, until the car does not get onto the circle."""
     car, settings = sheet.with_step_up_to(STEP, "the yaw acceleration"), dict(sheet.settings)
-    levels, released = round(settings["levels"]), list[Stop]()
+    levels, released = round(settings["levels"]), list[tuple[float, Stop]]()
     for k in range(1, levels + 1):
         asked = settings["lowest"] + (settings["highest"] - settings["lowest"]) * (k - 1) / max(levels - 1, 1)
         made = stop(car, settings | {"lateral_acceleration": asked, "rise_time": 0.0}, 0.0, AFTER + STEADY)
@@ -22,16 +23,17 @@ def drive(sheet: Sheet) -> None:
         if math.isnan(made.onset):
             sheet.add("not_there", last=made, asked=asked)
             break
-        released.append(made)
+        released.append((asked, made))
         sheet.progress(k / levels)
     add_releases(sheet, released)
 
 
-def add_releases(sheet: Sheet, released: list[Stop]) -> None:
-    """The measures of releases with growing lateral acceleration."""
+def add_releases(sheet: Sheet, released: Sequence[tuple[float, Stop]]) -> None:
+    """The measures of releases, each with the lateral acceleration that was asked for."""
     known = [
-        {"ay": r.before("speed") ** 2 / r.circle[2], "deceleration": r.deceleration, **values}
-        for r in released
+        {"ay": r.lateral_acceleration_on_circle, "deceleration": r.deceleration, **values}
+        for _, r in released
         if (values := r.values())
     ]
-    sheet.add("releases", compared=COMPARED, released=released, known=sorted(known, key=lambda v: v["ay"]))
+    rows = [{"asked": asked, "r": r} for asked, r in released]
+    sheet.add("releases", compared=COMPARED, released=rows, known=sorted(known, key=lambda v: v["ay"]))

@@ -21,7 +21,7 @@ TEST = standard_test("power_off_in_a_turn")
 def test_measures_of_made_turns(side: float) -> None:
     """At 20 m/s on circles of 100 and 80 m; compared halfway between both lateral accelerations, 4 and 5 m/s2."""
     sheet = sheet_of("power_off_in_a_turn", compared_at=4.5)
-    add_releases(sheet, [turn(1.0, 1.1, side * 100.0, 0.2), turn(1.0, 1.3, side * 80.0, -0.4)])
+    add_releases(sheet, [(4.0, turn(1.0, 1.1, side * 100.0, 0.2)), (5.0, turn(1.0, 1.3, side * 80.0, -0.4))])
     measured = {m.name: m.value for m in sheet.measures}
     assert measured["yaw_rate.ratio"] == pytest.approx(1.2, rel=1e-4)
     assert measured["worst.yaw_rate.ratio"] == pytest.approx(1.3, rel=1e-6)
@@ -33,16 +33,17 @@ def test_measures_of_made_turns(side: float) -> None:
     assert measured["deceleration"] == pytest.approx(1.0, rel=1e-6)
     assert measured["ay.largest"] == pytest.approx(5.0, rel=1e-6)
     assert math.isnan(measured["spin.ay"])
-    assert not sheet.notes
+    assert [note for note in sheet.notes if "asked for" not in note] == []
 
 
 def test_a_lateral_acceleration_that_no_circle_has_is_told() -> None:
     sheet = sheet_of("power_off_in_a_turn", compared_at=7.0)
-    add_releases(sheet, [turn(1.0, 1.0, 80.0, 0.0)])
+    add_releases(sheet, [(6.0, turn(1.0, 1.0, 80.0, 0.0))])
     measured = {m.name: m for m in sheet.measures}
     assert math.isnan(measured["yaw_rate.ratio"].value)
     assert "5 to 5 m/s2" in measured["yaw_rate.ratio"].note
     assert measured["worst.yaw_rate.ratio"].value == pytest.approx(1.0)
+    assert "80 m and 5 m/s2 where 100 m and 6 m/s2 were asked for" in sheet.notes[0]
 
 
 def test_prototype_without_power_turns_in_and_slows_down(prototype: TestedCar) -> None:
