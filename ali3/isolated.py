@@ -33,7 +33,7 @@ from ali3.words import shortened
 DONE, TOLD, ERROR, READY = 0, 1, 2, 3
 """Kinds of frames: a result, what is told before it, an error as its sentence and exit code, that work has come and may
 begin."""
-_START = 60.0  # s in which Python and its packages have begun, on a busy machine
+_START = 600.0  # s in which Python and its packages have begun, on a busy machine
 _LONGEST = 1e7  # s that a timer can wait on all platforms
 _END = 10.0  # s in which a guard ends all that is left
 _MOST_SAID = 4000  # bytes that are kept
@@ -41,7 +41,6 @@ _MOST_PRINTED = 200_000_000  # bytes
 
 T = TypeVar("T")
 R = TypeVar("R")
-S = TypeVar("S")
 Tell: TypeAlias = Callable[[Any], None]
 
 
@@ -54,7 +53,7 @@ class Lost:
     late: bool = False
     """Whether it was ended at the time limit."""
     kept: Any = None
-    """What `keep` of `Isolated.do` found in its store."""
+    """What `finish` of `Isolated.do` has found in its store."""
 
 
 class _Process:
@@ -126,7 +125,7 @@ class _Process:
                 os.killpg(self.process.pid, signal.SIGKILL)
         self.process.kill()
 
-    def end(self, keep: Callable[[Path], Any]) -> tuple[str, str, Any, int]:
+    def end(self, finish: Callable[[Any, Path], Any]) -> tuple[str, str, Any, int]:
         """Wait for its end, or make it end.
 
         How it ended, with its last words; what it was asked last; what is kept; how many processes that it had started
@@ -144,7 +143,7 @@ class _Process:
         for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
             with suppress(OSError):
                 stream.close()  # type: ignore[union-attr]
-        call, left, kept = last_call(self.folder), self._left(), keep(self.store)
+        call, left, kept = last_call(self.folder), self._left(), finish(None, self.store)
         self._close()
         if self.unread:
             how = self.unread
@@ -221,13 +220,14 @@ class Isolated(Generic[T, R]):
         task: T,
         tell: Tell = lambda word: None,
         limit: float | None = None,
-        keep: Callable[[Path], Any] = lambda store: None,
+        finish: Callable[[R | None, Path], Any] = lambda result, store: result,
     ) -> R | Lost:
         """Do a task and wait for it.
 
         `tell`: called with what the work tells meanwhile; `limit`: in s without a word, after which the process is
-        ended; `keep`: takes what is to be kept from the `store` of a process that has ended. Raises `UserError`: the
-        work has raised one, or another error that `run_command` would show.
+        ended; `finish`: makes the result out of that of the work and of what is in the store of the process, see
+        `ali3.processes.store`; where the process has ended it is given None, and makes what is kept. Raises
+        `UserError`: the work has raised one, or another error that `run_command` would show.
         """
         data, late = pickle.dumps(task), threading.Event()
         process, is_new = self._started()
@@ -250,17 +250,19 @@ class Isolated(Generic[T, R]):
             self._end()
             raise
         if answer is None:
-            how, call, kept = self._end(keep)
-            return Lost(f"took more than {seconds:g} s{call}", True, kept) if late.is_set() else Lost(how, False, kept)
+            how, call, kept = self._end(finish)
+            if late.is_set():
+                how = f"{'took more than' if process.number else 'had not begun after'} {seconds:g} s{call}"
+            return Lost(how, late.is_set(), kept)
+        kind, content = answer
+        result: R | None = finish(content, process.store) if kind == DONE else None
         if late.is_set():
             self._end()
-        kind, content = answer
         if kind == ERROR:
             error = UserError(content[0])
             error.status = content[1]
             raise error
-        result: R = content
-        return result
+        return result  # type: ignore[return-value]
 
     @property
     def pid(self) -> int | None:
@@ -276,10 +278,6 @@ class Isolated(Generic[T, R]):
         """Say more to the process, which takes it by `ali3.processes.received` in the middle of its task."""
         if self._process is not None:
             self._process.send(pickle.dumps(word))
-
-    def stored(self, read: Callable[[Path], S]) -> S | None:
-        """What a function reads from the store of the process, see `ali3.processes.store`."""
-        return None if self._process is None else read(self._process.store)
 
     def close(self) -> None:
         """End the process, also in the middle of a task, which another thread may wait for; it is then lost."""
@@ -317,12 +315,12 @@ class Isolated(Generic[T, R]):
                 process.kill()
         return process, True
 
-    def _end(self, keep: Callable[[Path], Any] = lambda store: None) -> tuple[str, str, Any]:
+    def _end(self, finish: Callable[[Any, Path], Any] = lambda result, store: None) -> tuple[str, str, Any]:
         """Forget the process, which has ended or is made to; how it ended, at which call, and what is kept of it."""
         with self._lock:
             process, self._process = self._process, None
         if process is None:
             return "was ended", "", None
-        how, call, kept, left = process.end(keep)
+        how, call, kept, left = process.end(finish)
         self.left += left
         return how, call, kept

@@ -24,9 +24,9 @@ from ali3.errors import UserError
 from ali3.processes import module_command
 from benchmarks.shared.command import watched
 from fmu_src.build.build import build_fmu
+from hosts.study.campaign import missing, on_cluster
 from hosts.study.folder import begin_study
-from hosts.study.missing import ChunkSize, missing_runs
-from hosts.study.one_run import Bench
+from hosts.study.one_run import Bench, experiment_of, outcome_of
 from hosts.study.plan import make_plan
 from hosts.study.study_file import read_study_file
 from hosts.study.trial import try_out
@@ -144,8 +144,7 @@ def _cluster(workers: int) -> Iterator[str]:
 
 def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, folder: Path) -> Row:
     """A study on a cluster of Dask, without its start: time beside the runs, memory, disk."""
-    from hosts.study.cluster import bring, connected
-    from hosts.study.cluster_runs import ClusterRuns
+    from hosts.experiment.cluster import connected
     from hosts.study.outcome_store import OutcomeStore
     from hosts.study.parts import part_files
     from hosts.study.store import read_study
@@ -154,24 +153,19 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     trial = try_out(plan)
     plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
     begin_study(folder, plan.record, b"", plan.fmu)
-    me, chunks, memory = psutil.Process(), [0], [0.0]
-
-    def counted(missing: Iterator[list[int]]) -> Iterator[list[int]]:
-        for chunk in missing:
-            chunks[0] += 1
-            yield chunk
-
+    me, memory = psutil.Process(), [0.0]
     with (
         _cluster(workers) as address,
         connected(address) as client,
         OutcomeStore(folder, plan.record, plan) as store,
     ):
-        bring(client, plan)
-        size = ChunkSize(trial.seconds, workers)
+        runner = on_cluster(client, plan, trial, plan.runs)
         before, processor, started = me.memory_info().rss, sum(me.cpu_times()[:2]), time.perf_counter()
-        missing = counted(missing_runs(np.zeros(plan.runs, np.bool_), size))
-        for run, outcome in ClusterRuns(client, plan, size).outcomes(missing):
-            store.add(run, outcome)
+        made = experiment_of(plan.work, plan.fmu).results(
+            missing(plan, np.zeros(plan.runs, np.bool_)), runner, whole=plan.runs
+        )
+        for _, run, result in made:
+            store.add(run, outcome_of(plan.work, result))
             memory.append(me.memory_info().rss)
         store.flush()
         elapsed, processor = time.perf_counter() - started, sum(me.cpu_times()[:2]) - processor
@@ -192,7 +186,7 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
         "runs/s": runs / elapsed,
         "overhead, ms/run": 1e3 * float(beside) / runs,
         "overhead": float(beside / walls.sum()),
-        "chunks": chunks[0],
+        "chunks": runner.chunks,
         "main, ms/run": 1e3 * processor / runs,
         "main before, MB": 1e-6 * before,
         "main at most, MB": 1e-6 * max(memory),
@@ -270,7 +264,7 @@ def rows_written(case: str, fmu: Path, rows: int, folder: Path) -> Row:
 
 def empty_tasks(tasks: int, workers: int) -> Row:
     """Tasks that do nothing, to see what Dask itself takes."""
-    from hosts.study.cluster import connected
+    from hosts.experiment.cluster import connected
 
     with _cluster(workers) as address, connected(address) as client:
         client.gather(client.map(_nothing, range(100), pure=False))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +18,38 @@ from hosts.measures.wheels import at_wheels
 STEADY = 1.0  # s before the onset, over which the circle is taken
 SLOWEST = 2.0  # m/s; slower, angles of travel mean little
 
+COMPARED: Sequence[Mapping[str, Any]] = [
+    {"name": name, "unit": unit, "neutral": neutral, "text": text}
+    for (name, unit, neutral), text in (
+        (
+            ("yaw_rate.ratio", "1", 1.0),
+            "yaw rate over that which keeps the circle at the speed then, 1 s after the onset",
+        ),
+        (
+            ("yaw_rate.change", "rad/s", 0.0),
+            "yaw rate less that which keeps the circle at the speed then, 1 s after the onset, into the turn",
+        ),
+        (
+            ("yaw_acceleration.largest", "rad/s2", 0.0),
+            "largest change of the yaw rate in the first second, positive into the turn",
+        ),
+        (
+            ("sideslip.change", "rad", 0.0),
+            "sideslip less that on the circle, 1 s after the onset, positive to the inside",
+        ),
+        (
+            ("ay.ratio", "1", 1.0),
+            "lateral acceleration over that of the circle at the speed then, 1 s after the onset",
+        ),
+        (("path.deviation", "m", 0.0), "distance from the circle 1 s after the onset, positive outside"),
+    )
+]
+"""`Stop.values` for the files of tests: name, unit, value of a car that stays on the circle, and what it is."""
+
 
 @dataclass(frozen=True)
 class Stop:
-    """One stop from the circle."""
+    """One stop from the circle, by the brake or with the throttle released."""
 
     pedal: float
     result: Result
@@ -52,6 +82,11 @@ class Stop:
     def signed_radius(self) -> float:
         """m; negative: to the right."""
         return math.copysign(self.circle[2], self.before("chassis.wz"))
+
+    @property
+    def lateral_acceleration_on_circle(self) -> float:
+        """Of the undisturbed circle: speed squared over radius, m/s2."""
+        return self.before("speed") ** 2 / self.circle[2]
 
     @property
     def deceleration(self) -> float:

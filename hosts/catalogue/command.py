@@ -202,15 +202,15 @@ def _done(
         do,
         TestRecord | Reason,
         lambda task: f"{task.test}, {task.car.label}",
-        lambda task: files_of_drives(task.car.path, [task.car.start]),
+        [file for task in tasks for file in files_of_drives(task.car.path, [task.car.start])],
     )
-    with closing(experiment.results(tasks, jobs)) as results:
-        for place, outcome in results:
+    with closing(experiment.results(tasks, experiment.pool(jobs))) as results:
+        for _, task, outcome in results:
             words = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome
-            outcomes[tasks[place].test][tasks[place].car.label] = words
+            outcomes[task.test][task.car.label] = words
             if not isinstance(words, str):
-                write_runs(tasks[place], words)
-                keep(kept, tasks[place], words)
+                write_runs(task, words)
+                keep(kept, task, words)
             yield
 
 

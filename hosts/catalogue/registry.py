@@ -21,6 +21,7 @@ _ALL = (
     "straight_braking",
     "split_braking",
     "braking_in_a_turn",
+    "power_off_in_a_turn",
     "kerb",
     "drop",
 )

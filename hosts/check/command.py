@@ -9,10 +9,10 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Mapping, Sequence
-from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.cores import available_cores
 from ali3.decimal_number import number
 from ali3.extras import command_needs
 from ali3.files import check_writable
@@ -38,9 +38,9 @@ _THOROUGH = 500
 _TIME_LIMIT = 20.0  # s for a check
 _OF_CHECK = ("steps", "time_limit", "thorough")
 _OF_PARAMETERS = ("show_parameters", "save_parameters", "diff")
-_OF_SOAK = ("drives", "seed", "stop_time", "world", "jobs", "again", "out", "json")
+_OF_SOAK = ("drives", "seed", "stop_time", "world", "again", "out", "json")
 _OF_REFERENCE = ("manoeuvre", "bound")
-_OF_BOTH = ("fidelity", "step")
+_OF_BOTH = ("fidelity", "step", "jobs")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 check") -> int:
@@ -177,13 +177,10 @@ def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
 
     if len(options.fidelity) > 1:
         raise HostError("--fidelity is given twice; a reference is of one.")
-    how = {
-        "manoeuvre": options.manoeuvre,
-        "step": options.step,
-        "fidelity": options.fidelity[0] if options.fidelity else None,
-        "wishes": wishes(options),
-    }
-    return check_references(fmu, options.reference, cases, options.bound, **how)
+    fidelity = options.fidelity[0] if options.fidelity else None
+    jobs = options.jobs or available_cores()
+    driven = options.manoeuvre, options.step, fidelity, wishes(options), jobs
+    return check_references(fmu, options.reference, cases, options.bound, *driven)
 
 
 def _settings(fmu: Path, given: Wishes) -> Settings:
@@ -196,10 +193,11 @@ def _settings(fmu: Path, given: Wishes) -> Settings:
 
 def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     """The checks in a process of their own; one that a check takes down is replaced for the others."""
-    from ali3.isolated import Isolated, Lost
+    from ali3.isolated import Lost
     from hosts.check.all_checks import CHECKS, Checker, left_out, lost
     from hosts.check.archive import archive_findings
     from hosts.check.instance import Finding
+    from hosts.experiment.pool import Pool
     from hosts.fmu.own_process import files_of
 
     if refused := archive_findings(fmu):
@@ -219,13 +217,13 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     without: list[str] = []
     steps = options.steps or (_THOROUGH if options.thorough else _STEPS)
     checker = Checker(fmu.absolute(), steps, start)
-    with closing(Isolated(checker, Finding, reads=(fmu, *files_of(start)))) as process:
+    with Pool(checker, Finding, reads=(fmu, *files_of(start)), limit=limit) as process:
         for place, check in enumerate(CHECKS):
             if check.name in without:
                 cases.append(Case(fmu.stem, check.name, "skipped", "functions of the FMU cannot be called"))
                 continue
             begin = time.perf_counter()
-            result = process.do(place, limit=limit)
+            result = process.run(place)
             finding = lost(check, result, limit) if isinstance(result, Lost) else result
             print_finding(finding)
             cases.append(Case(fmu.stem, check.name, finding.verdict, finding.words, time.perf_counter() - begin))

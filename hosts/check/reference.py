@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import fnmatch
 import math
-import time
 from collections.abc import Sequence
-from dataclasses import replace
+from contextlib import closing
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,16 +17,18 @@ from ali3.errors import UserError
 from ali3.tables import TextTable
 from hosts.check.deviations import BOUND, Deviation, deviations, remedies
 from hosts.check.junit import Case
-from hosts.common.errors import HostError
+from hosts.common.errors import FailedFmuError, HostError
 from hosts.common.options import Wishes
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.manoeuvre_settings import set_in
 from hosts.driving.manoeuvre_table import check_begin, read_table
+from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.driving.run_record import record_of
-from hosts.driving.run_with_bar import run_with_bar
+from hosts.driving.run_with_bar import Drive, runs_with_bar
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.settings import Settings
 from hosts.fmu.variables import default_step
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
@@ -37,15 +38,61 @@ _DIAGNOSTICS = "solver."
 _ROUND_OFF = 1e-4
 
 
-def check_references(
-    path: Path, place: Path, cases: list[Case], bounds: Sequence[tuple[str, float]], **how: Any
-) -> int:
-    """Compare an FMU with a table, or with all tables in a folder, by name.
+@dataclass(frozen=True)
+class _Reference:
+    """A table, and what drives the FMU as it was driven then."""
 
-    `cases`: takes what was found, also before an error; `bounds`: see `deviations`; each fits an output of one of the
-    tables; `how`: of `check_reference`. Result: exit code: 0 if all are within their bounds and no step was refused.
-    Raises `HostError`: there is no table, or no output that a bound fits; or the first of what `check_reference`
-    raises, when all tables have been tried.
+    file: Path
+    drive: Drive
+    times: NDArray[np.float64]
+    columns: dict[str, NDArray[np.float64]]
+    """Outputs of the FMU by name."""
+    left: list[str]
+    """Columns that the FMU does not have."""
+    settings: Settings
+
+
+def check_references(
+    path: Path,
+    place: Path,
+    cases: list[Case],
+    bounds: Sequence[tuple[str, float]],
+    manoeuvre: str | None,
+    step: float | None,
+    fidelity: float | None,
+    wishes: Wishes,
+    jobs: int,
+) -> int:
+    """Run an FMU as its references were, and print how far its outputs are from them.
+
+    Parameters
+    ----------
+    place : Path
+        A table with a column time, or a folder of tables. Columns that are inputs or tunable parameters of the FMU
+        drive it, as `hosts.driving.manoeuvre_table.read_table` says; those that are outputs are compared, `solver.*`
+        where a bound names them.
+    cases : list of Case
+        Takes the run of each table and each signal, also before an error.
+    bounds : sequence of (str, float)
+        See `deviations`; each fits an output of one of the tables.
+    manoeuvre : str, optional
+        What drives it in place of columns of a table.
+    step : float, optional
+        Communication step, s; by default that of the record beside a table, else of the FMU, else what divides the
+        distance of the rows.
+    jobs : int
+        Tables at a time.
+
+    Returns
+    -------
+    int
+        Exit code: 0 if all are within their bounds and no step was refused.
+
+    Raises
+    ------
+    HostError
+        There is no table, or no output that a bound fits; or, when all tables have been tried, the first of what a
+        table raises: it has no output of the FMU, or times that are no communication points.
     """
     files = sorted(place.glob("*.csv")) if place.is_dir() else [place]
     if not files:
@@ -53,15 +100,27 @@ def check_references(
     for pattern, share in bounds:
         if not 0.0 <= share < math.inf:
             raise HostError(f"--bound {pattern} is {share:g}; a bound is a share of the range, from 0 on.")
-    errors = []
-    for file in files:
-        try:
-            cases += check_reference(path, file, bounds=bounds, **how)
-        except UserError as error:
-            cases.append(Case(file.stem, "comparison", "error", str(error)))
-            errors.append(error)
-            if len(files) > 1:
-                print(f"BAD   {error}")
+    errors = list[UserError]()
+
+    def fails(file: Path, error: UserError) -> None:
+        cases.append(Case(file.stem, "comparison", "error", str(error)))
+        errors.append(error)
+        if len(files) > 1:
+            print(f"BAD   {error}")
+
+    with Fmu(path) as fmu:
+        references = []
+        for file in files:
+            try:
+                references.append(_reference(fmu, file, manoeuvre, step, fidelity, wishes))
+            except UserError as error:
+                fails(file, error)
+        with closing(runs_with_bar(fmu, [reference.drive for reference in references], jobs)) as results:
+            for number, result in results:
+                if isinstance(result, FailedFmuError):
+                    fails(references[number].file, result)
+                else:
+                    cases += _compared(fmu, references[number], result, bounds, manoeuvre is None)
     names = [case.name for case in cases if case.name != "run" and case.verdict in ("good", "bad")]
     for pattern, _ in bounds:
         if not errors and not fnmatch.filter(names, pattern):
@@ -71,70 +130,44 @@ def check_references(
     return int(any(case.verdict == "bad" for case in cases))
 
 
-def check_reference(
-    path: Path,
-    file: Path,
-    manoeuvre: str | None,
-    step: float | None,
-    fidelity: float | None,
-    wishes: Wishes,
-    bounds: Sequence[tuple[str, float]],
+def _reference(
+    fmu: Fmu, file: Path, manoeuvre: str | None, step: float | None, fidelity: float | None, wishes: Wishes
+) -> _Reference:
+    driven, times, columns, left = _read(fmu, file, manoeuvre)
+    driven = with_names_of(driven, fmu.variables)
+    check_columns(fmu, driven)
+    driver = driver_of(fmu, driven)
+    driven, settings = set_in(fmu, driven, wishes, fidelity)
+    driven = replace(driven, stop_time=float(times[-1]))
+    step = _step(fmu, driven, times) if step is None else step
+    _check_times(times, step, file)
+    return _Reference(file, Drive(driven, step, driver), times, columns, left, settings)
+
+
+def _compared(
+    fmu: Fmu, reference: _Reference, result: Result, bounds: Sequence[tuple[str, float]], by_table: bool
 ) -> list[Case]:
-    """Run an FMU as its reference was, and print how far its outputs are from it.
-
-    Parameters
-    ----------
-    file : Path
-        Table with a column time. Columns that are inputs or tunable parameters of the FMU drive it, as
-        `hosts.driving.manoeuvre_table.read_table` says; those that are outputs are compared, `solver.*` where a bound
-        names them.
-    manoeuvre : str, optional
-        What drives it in place of columns of the table.
-    step : float, optional
-        Communication step, s; by default that of the record beside the table, else of the FMU, else what divides the
-        distance of the rows.
-    bounds : sequence of (str, float)
-        See `deviations`.
-
-    Returns
-    -------
-    list of Case
-        The run, and each signal.
-
-    Raises
-    ------
-    HostError
-        The table has no output of the FMU, or times that are no communication points.
-    """
-    begin = time.perf_counter()
-    with Fmu(path) as fmu:
-        driven, times, columns, left = _read(fmu, file, manoeuvre)
-        driven = with_names_of(driven, fmu.variables)
-        check_columns(fmu, driven)
-        driver = driver_of(fmu, driven)
-        driven, settings = set_in(fmu, driven, wishes, fidelity)
-        driven = replace(driven, stop_time=float(times[-1]))
-        step = _step(fmu, driven, times, file) if step is None else step
-        _check_times(times, step, file)
-        result = run_with_bar(fmu, driven, step, driver)
-        if not any(pattern.startswith(_DIAGNOSTICS) for pattern, _ in bounds):  # of steps, not of the car
-            columns = {n: values for n, values in columns.items() if not n.startswith(_DIAGNOSTICS)} or columns
-        nominals = {n: abs(float(fmu.variables[n].nominal or 1.0)) for n in columns}
-        found = deviations(nominals, result, times, columns, bounds)
-    for name, words in settings.rows():
+    """Print how far a run is from its reference; the run, and each signal. `by_table`: whether that drove it."""
+    file, times, columns = reference.file, reference.times, reference.columns
+    driven, step = reference.drive.manoeuvre, reference.drive.step
+    if not any(pattern.startswith(_DIAGNOSTICS) for pattern, _ in bounds):  # of steps, not of the car
+        columns = {n: values for n, values in columns.items() if not n.startswith(_DIAGNOSTICS)} or columns
+    nominals = {n: abs(float(fmu.variables[n].nominal or 1.0)) for n in columns}
+    found = deviations(nominals, result, times, columns, bounds)
+    for name, words in reference.settings.rows():
         print(f"{name}  {words}")
     _print_table(found[:_WORST])
     bad = [d for d in found if not d.good]
     for words in remedies(result, times, columns, bad):
         print(words)
-    if still := [n for n in fmu.names("input") if n not in {*driven.inputs, *driven.start} and manoeuvre is None]:
+    if still := [n for n in fmu.names("input") if n not in {*driven.inputs, *driven.start} and by_table]:
         print(f"inputs without a column, which keep their start values: {some_of(still)}")
     apart = float(np.diff(times).max(initial=0.0))
-    if bad and manoeuvre is None and driven.inputs and apart > (1.0 + _ROUND_OFF) * step:
+    if bad and by_table and driven.inputs and apart > (1.0 + _ROUND_OFF) * step:
         print(f"between rows, up to {apart:g} s apart, inputs go straight: did those of the reference do so?")
-    if left:
-        print(f"not compared, for {path.name} has no such output: {', '.join(left)}")
-    if times[0] > 0.0 and manoeuvre is None:
+    if reference.left:
+        print(f"not compared, for {fmu.path.name} has no such output: {', '.join(reference.left)}")
+    if times[0] > 0.0 and by_table:
         print(f"{file} begins at {times[0]:g} s and is compared from there")
     if result.late:
         print(f"inputs that were held, and late by {500.0 * step:.3g} ms on average: {', '.join(result.late)}")
@@ -146,7 +179,7 @@ def check_reference(
         print(wrong)
     share = "" if bounds else f"; the bound is {100.0 * BOUND:g} % of the range of each, --bound NAME=SHARE sets others"
     print(
-        f"\n{path} against {file}, {len(found)} signals up to {result.time[-1]:g} s in steps of {step:g} s: "
+        f"\n{fmu.path} against {file}, {len(found)} signals up to {result.time[-1]:g} s in steps of {step:g} s: "
         f"{'all within their bounds' if not bad else f'{len(bad)} beyond their bounds'}{share}"
     )
     ended = f"up to {result.time[-1]:g} s in steps of {step:g} s"
@@ -155,8 +188,8 @@ def check_reference(
         print(ended)
     elif wrong:
         ended = wrong
-    run = Case(file.stem, "run", "good" if result.is_good else "bad", ended, time.perf_counter() - begin)
-    missing = [Case(file.stem, name, "skipped", f"{path.name} has no such output") for name in left]
+    run = Case(file.stem, "run", "good" if result.is_good else "bad", ended, result.wall)
+    missing = [Case(file.stem, name, "skipped", f"{fmu.path.name} has no such output") for name in reference.left]
     return [run, *(deviation.case(file.stem) for deviation in found), *missing]
 
 
@@ -181,7 +214,7 @@ def _read(
     return driven, values[:, 0], columns, [n for n in table.names[1:] if n not in drives | outputs]
 
 
-def _step(fmu: Fmu, driven: Manoeuvre, times: NDArray[np.float64], file: Path) -> float:
+def _step(fmu: Fmu, driven: Manoeuvre, times: NDArray[np.float64]) -> float:
     """The communication step of the record or of the FMU, made such that the rows are communication points."""
     step, between = driven.step or default_step(fmu.description), np.diff(times)
     apart = float(np.median(between[between > 0.0])) if (between > 0.0).any() else float(times[-1])

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable, Sequence
-from contextlib import ExitStack
+import math
+import sys
+from collections.abc import Callable, Generator, Iterable
+from contextlib import ExitStack, closing
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 from ali3.bars import bar as bar_of
 from ali3.isolated import Lost, Tell
@@ -14,11 +16,30 @@ from ali3.locks import locked
 from hosts.common.closing import Closing
 from hosts.experiment.journal import Journal
 from hosts.experiment.pool import Pool
+from hosts.fmu.own_process import PATIENCE
 
 _FORM = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
 
 T = TypeVar("T")
 R = TypeVar("R")
+T_contra = TypeVar("T_contra", contravariant=True)
+R_co = TypeVar("R_co", covariant=True)
+
+
+class Runner(Protocol[T_contra, R_co]):
+    """What makes runs: processes of this machine (`Pool`), or workers of Dask (`hosts.experiment.cluster`)."""
+
+    @property
+    def left(self) -> int:
+        """Processes that those of the runs had started and that were ended with them."""
+
+    def results(
+        self, tasks: Iterable[T_contra], told: Callable[[int, Any], None]
+    ) -> Generator[tuple[int, R_co | Lost]]:
+        """See `Pool.results`."""
+
+    def close(self) -> None:
+        """End what is in hand."""
 
 
 @dataclass(frozen=True)
@@ -32,37 +53,57 @@ class Experiment(Generic[T, R]):
     """`work`, `answer`: see `Isolated`; the work tells how much of the task is done, in the unit of `size`."""
     label: Callable[[T], str]
     """Of a task, on the bar."""
-    reads: Callable[[T], Iterable[Path]]
-    """Files that the run of a task reads."""
+    reads: Iterable[Path] = ()
+    """Files that the runs read."""
     size: Callable[[T], float] = lambda task: 1.0
     """By which a task counts among the others."""
+    limit: float = PATIENCE
+    """s without a word, after which a run is ended."""
+    finish: Callable[[T, R | None, Path], Any] = lambda task, result, store: result
+    """See `Pool`."""
+
+    def pool(self, jobs: int = 1) -> Pool[T, R]:
+        """So many processes of this machine that make the runs."""
+        return Pool(self.work, self.answer, jobs, self.reads, self.limit, self.finish)
 
     def results(
-        self, tasks: Sequence[T], jobs: int, told: Callable[[int, float], None] = lambda number, done: None
-    ) -> Generator[tuple[int, R | Lost]]:
-        """Make runs under a bar; give each result with the number of its task, from 0, as soon as it is there.
+        self,
+        tasks: Iterable[T],
+        runner: Runner[T, R],
+        told: Callable[[int, float], None] = lambda number, done: None,
+        whole: float | None = None,
+        before: float = 0.0,
+    ) -> Generator[tuple[int, T, R | Lost]]:
+        """Make runs under a bar; give each result with its task and the number of that, from 0, as soon as it is there.
 
-        `told`: called with the number of a task and how much of it is done.
+        `runner`: is closed with the iteration; `told`: called with the number of a task and how much of it is done;
+        `whole`, `before`: sizes of all tasks, where `tasks` is no sequence, and of those that are done already.
         """
-        sizes = [self.size(task) for task in tasks]
-        done, reads = [0.0] * len(tasks), [file for task in tasks for file in self.reads(task)]
-        with (
-            bar_of(total=sum(sizes), bar_format=_FORM, desc=self.name) as bar,
-            Pool(self.work, self.answer, jobs, reads) as pool,
-        ):
+        if whole is None:
+            tasks = list(tasks)
+            whole = sum(map(self.size, tasks))
+        flying: dict[int, tuple[T, float]] = {}
 
-            def shown(number: int, part: float) -> None:
-                done[number] = min(max(part, done[number]), sizes[number])
-                bar.set_description_str(self.label(tasks[number]), refresh=False)
-                bar.update(sum(done) - bar.n)
+        def sent() -> Generator[T]:
+            for number, task in enumerate(tasks):
+                flying[number] = task, 0.0
+                yield task
 
-            def progress(number: int, part: float) -> None:
-                shown(number, part)
-                told(number, done[number])
+        with closing(runner), bar_of(total=whole, initial=before, bar_format=_FORM, desc=self.name) as bar:
 
-            for number, result in pool.results(tasks, progress):
-                shown(number, sizes[number])
-                yield number, result
+            def shown(number: int, part: float) -> float:
+                task, done = flying[number]
+                now = min(max(part, done), self.size(task))
+                flying[number] = task, now
+                bar.set_description_str(self.label(task), refresh=False)
+                bar.update(now - done)
+                return now
+
+            for number, result in runner.results(sent(), lambda number, part: told(number, shown(number, part))):
+                shown(number, math.inf)
+                yield number, flying.pop(number)[0], result
+        if runner.left:
+            print(f"note: {runner.left} processes that an FMU had started were ended with it.", file=sys.stderr)
 
 
 class Kept(Closing, Generic[R]):

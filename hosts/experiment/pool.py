@@ -6,6 +6,7 @@ import queue
 from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
@@ -25,7 +26,8 @@ class Pool(Closing, Generic[T, R]):
     """Processes that make runs, one at a time each; one that a run takes down is replaced.
 
     `work`, `answer`, `reads`: see `Isolated`; `jobs`: how many; `limit`: in s without a word, after which the process
-    of a run is ended. An iteration that is left early, as by Ctrl-C or an error, closes the pool.
+    of a run is ended; `finish`: see `Isolated.do`, with the task before. An iteration that is left early, as by Ctrl-C
+    or an error, closes the pool.
     """
 
     def __init__(
@@ -35,14 +37,20 @@ class Pool(Closing, Generic[T, R]):
         jobs: int = 1,
         reads: Iterable[Path] = (),
         limit: float = PATIENCE,
+        finish: Callable[[T, R | None, Path], Any] = lambda task, result, store: result,
     ) -> None:
-        reads, self._limit = list(reads), limit
+        reads, self._limit, self._finish = list(reads), limit, finish
         self._workers: list[Isolated[T, R]] = [
             Isolated(work, answer, reads=reads, environment=_ONE_THREAD) for _ in range(max(1, jobs))
         ]
 
     def __len__(self) -> int:
         return len(self._workers)
+
+    @property
+    def left(self) -> int:
+        """Processes that those of the pool had started and that were ended with them."""
+        return sum(worker.left for worker in self._workers)
 
     def close(self) -> None:
         """End the processes, also in the middle of runs."""
@@ -51,7 +59,7 @@ class Pool(Closing, Generic[T, R]):
 
     def run(self, task: T) -> R | Lost:
         """Make a run, each time by the same process."""
-        return self._workers[0].do(task, limit=self._limit)
+        return self._done(self._workers[0], task)
 
     def results(
         self, tasks: Iterable[T], told: Callable[[int, Any], None] = lambda number, word: None
@@ -69,7 +77,7 @@ class Pool(Closing, Generic[T, R]):
         def one(number: int, task: T) -> R | Lost:
             worker = idle.get()
             try:
-                return worker.do(task, lambda word: arrived.put((number, word)), self._limit)
+                return self._done(worker, task, lambda word: arrived.put((number, word)))
             finally:
                 idle.put(worker)
 
@@ -94,3 +102,6 @@ class Pool(Closing, Generic[T, R]):
                 threads.shutdown(wait=False, cancel_futures=True)
                 self.close()
                 raise
+
+    def _done(self, worker: Isolated[T, R], task: T, tell: Tell = lambda word: None) -> R | Lost:
+        return worker.do(task, tell, self._limit, partial(self._finish, task))

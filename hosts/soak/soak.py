@@ -96,15 +96,15 @@ def _driven(tasks: Sequence[Task], outcomes: list[Outcome], left: Sequence[int],
         drive,
         Outcome,
         lambda task: f"soak, seed {task.seed}",
-        lambda task: [Path(task.fmu), *_files(task)],
+        [file for task in tasks for file in (Path(task.fmu), *_files(task))],
         lambda task: task.seconds,
     )
 
     def driven(number: int, seconds: float) -> None:
         outcomes[left[number]].simulated = seconds
 
-    with closing(experiment.results([tasks[place] for place in left], jobs, driven)) as results:
-        for number, outcome in results:
+    with closing(experiment.results([tasks[place] for place in left], experiment.pool(jobs), driven)) as results:
+        for number, _, outcome in results:
             if isinstance(outcome, Lost):
                 lost, words = outcomes[left[number]], f"The process of the drive {outcome.how}."
                 lost.failures.append(Failure("crash", words, -1, lost.simulated, ""))

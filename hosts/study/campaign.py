@@ -6,10 +6,11 @@ import json
 import sys
 import time as clock
 from collections.abc import Generator, Mapping
-from contextlib import closing, nullcontext
+from contextlib import ExitStack, closing, nullcontext
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,7 @@ from ali3.errors import FileError
 from ali3.locks import locked
 from ali3.reading import is_file, is_folder
 from hosts.common.errors import HostError
+from hosts.experiment.experiment import Runner
 from hosts.measures.limits import limits_record
 from hosts.study.folder import (
     begin_study,
@@ -30,18 +32,21 @@ from hosts.study.folder import (
     keep_limits,
     read_record,
 )
-from hosts.study.missing import ChunkSize, missing_runs
-from hosts.study.one_run import RunProcesses
+from hosts.study.one_run import experiment_of, outcome_of, tell_start
 from hosts.study.outcome_store import OutcomeStore
 from hosts.study.parts import forget_rows, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
-from hosts.study.progress import StudyProgress, duration
+from hosts.study.progress import Counts, duration
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.trial import Trial, bytes_of, try_out, with_columns
 from hosts.study.work import FAILED, Outcome, Run
 
+if TYPE_CHECKING:
+    from hosts.experiment.cluster_runs import ClusterRuns
+
 _MARGIN = 50e6  # bytes of the disk that are left to others
 _CHUNK_BYTES = 20e6  # of signals that come from a worker at once
+_LOOK = 1000  # runs that are prepared at a time
 
 
 @dataclass(frozen=True)
@@ -196,8 +201,7 @@ def _run(
             _check_space(bytes_of(plan) * (plan.runs - before) / plan.runs, folder)
         if before == plan.runs:
             return Ended(folder, True, 0)
-        progress = StudyProgress(plan.runs, before)
-        return _make(folder, record, store, progress, _outcomes(plan, trial, done, scheduler, workers), scheduler)
+        return _make(folder, record, store, _outcomes(plan, trial, done, scheduler, workers), scheduler)
 
 
 def _has_not_failed(table: Any) -> list[bool]:
@@ -217,17 +221,16 @@ def _make(
     folder: Path,
     record: dict[str, Any],
     store: OutcomeStore,
-    progress: StudyProgress,
     outcomes: Generator[tuple[Run, Outcome]],
     scheduler: str | None,
 ) -> Ended:
-    begin, lost = clock.monotonic(), False
+    begin, lost, counts = clock.monotonic(), False, Counts()
     try:
-        with progress, closing(outcomes):
+        with closing(outcomes):
             try:
                 for run, outcome in outcomes:
                     store.add(run, outcome)
-                    progress(outcome)
+                    counts.add(outcome)
             except FileError:
                 raise
             except BaseException:
@@ -248,43 +251,64 @@ def _make(
     seconds = clock.monotonic() - begin
     if lost and not runs_done(folder, record).all():
         print(f"The scheduler at {scheduler} has gone. {_kept(folder, record)}", file=sys.stderr)
-        return Ended(folder, False, progress.failed)
-    rate = progress.made / seconds
-    words = f"{progress.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {progress.failed} failed"
-    if progress.incomplete:
-        words += f", {progress.incomplete} incomplete"
-    for line in progress.said():
+        return Ended(folder, False, counts.failed)
+    rate = counts.made / seconds
+    words = f"{counts.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {counts.failed} failed"
+    if counts.incomplete:
+        words += f", {counts.incomplete} incomplete"
+    for line in counts.said():
         print(line)
     print(f"{words}; written: {folder}")
-    bare = progress.made > 0 and progress.failed + progress.incomplete == progress.made
+    bare = counts.made > 0 and counts.failed + counts.incomplete == counts.made
     if bare:
         print(
             "No run has yielded all its measures; the column reason says why. Of a test, measures = [...] beside it "
             "keeps only those that are wanted.",
             file=sys.stderr,
         )
-    return Ended(folder, not bare, progress.failed)
+    return Ended(folder, not bare, counts.failed)
 
 
 def _outcomes(
     plan: Plan, trial: Trial, done: NDArray[np.bool_], scheduler: str | None, workers: int | None
 ) -> Generator[tuple[Run, Outcome]]:
     """Make the runs that are not done, on a cluster or in processes of this machine."""
-    count = workers or available_cores()
-    if scheduler is None:
-        missing = missing_runs(done, ChunkSize(trial.seconds, count))
-        with RunProcesses(plan.work, plan.fmu, count) as processes:
-            yield from processes.outcomes(run for indices in missing for run in plan.runs_at(indices))
-        return
-    from hosts.study.cluster import bring, connected, take_away
-    from hosts.study.cluster_runs import ClusterRuns
+    work, before = plan.work, int(np.count_nonzero(done))
+    experiment, runs = experiment_of(work, plan.fmu), missing(plan, done)
+    with ExitStack() as held:
+        runner: Runner[Run, Outcome]
+        if scheduler is None:
+            runner = experiment.pool(workers or available_cores())
+        else:
+            from hosts.experiment.cluster import connected
 
-    bytes_a_run = max(8 * job.samples * len(plan.work.signals) for job in plan.work.jobs) + 1
-    with connected(scheduler) as client:
-        bring(client, plan)
-        size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))
-        yield from ClusterRuns(client, plan, size).outcomes(missing_runs(done, size))
-        take_away(client, plan)
+            runner = on_cluster(held.enter_context(connected(scheduler)), plan, trial, plan.runs - before)
+        made = held.enter_context(closing(experiment.results(runs, runner, whole=plan.runs, before=before)))
+        for _, run, result in made:
+            yield run, outcome_of(work, result)
+
+
+def missing(plan: Plan, done: NDArray[np.bool_]) -> Generator[Run]:
+    """Runs that are not done, in their order."""
+    for first in range(0, len(done), _LOOK):
+        indices = (first + np.flatnonzero(~done[first : first + _LOOK])).tolist()
+        for run in plan.runs_at(indices) if indices else []:
+            tell_start(plan.work, run)
+            yield run
+
+
+def on_cluster(client: Any, plan: Plan, trial: Trial, left: int) -> ClusterRuns[Run, Outcome]:
+    """A cluster as what makes runs; its workers have the study then."""
+    from hosts.experiment.cluster import bring
+    from hosts.experiment.cluster_runs import ChunkSize, ClusterRuns
+    from hosts.experiment.cluster_worker import Brought
+
+    work = plan.work
+    brought = Brought(plan.key, work.fmu, work.sha256, work.program, partial(experiment_of, work))
+    bring(client, brought, plan.fmu)
+    bytes_a_run = max(8 * job.samples * len(work.signals) for job in work.jobs) + 1
+    size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))
+    return ClusterRuns(client, brought, left, size)
 
 
 def _kept(folder: Path, record: Mapping[str, Any]) -> str:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time as clock
 import warnings
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +23,7 @@ from hosts.driving.co_simulation import run
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.result import Result
-from hosts.experiment.pool import Pool
+from hosts.experiment.experiment import Experiment
 from hosts.fmu.fmu_source import FmuSource, LoadedFmu
 from hosts.fmu.own_process import PATIENCE, files_of
 from hosts.measures.measure import Measure
@@ -148,46 +149,47 @@ def _take(outcome: Outcome, measures: Sequence[tuple[str, Measure]]) -> None:
         outcome.status, outcome.reason = INCOMPLETE, "; ".join(missing[:_MOST_NOTES] + more)
 
 
-class RunProcesses(Closing):
-    """Processes with a `Bench` each; that a run crashed or took too long is its outcome. `jobs`: how many."""
+def experiment_of(work: Work, path: Path) -> Experiment[Run, Outcome]:
+    """Runs of a study as an experiment, with a `Bench` in each process. `path`: of the FMU."""
+    reads = [path, *(file for start in _starts(work) for file in files_of(start))]
+    limit = PATIENCE if work.time_limit is None else work.time_limit
+    return Experiment("study", Bench(work, path.absolute()), Outcome, partial(_label, work), reads, limit=limit)
 
-    def __init__(self, work: Work, path: Path, jobs: int = 1) -> None:
-        self._limit = work.time_limit
-        started = [job.manoeuvre.start for job in work.jobs if job.manoeuvre is not None]
-        reads = [path, *(file for start in started for file in files_of(start))]
-        limit = PATIENCE if work.time_limit is None else work.time_limit
-        self._started = started or [{}]
-        self._pool: Pool[Run, Outcome] = Pool(Bench(work, path.absolute()), Outcome, jobs, reads, limit)
+
+def _label(work: Work, run: Run) -> str:
+    return f"study: {work.jobs[run.index % len(work.jobs)].label}"
+
+
+def _starts(work: Work) -> list[Mapping[str, Value]]:
+    return [job.manoeuvre.start for job in work.jobs if job.manoeuvre is not None] or [{}]
+
+
+def tell_start(work: Work, run: Run) -> None:
+    """Tell of a start of a run that is beside its road."""
+    tell_starts({**start, **run.values} for start in _starts(work))
+
+
+def outcome_of(work: Work, result: Outcome | Lost) -> Outcome:
+    """The outcome of a run; that it crashed or took too long is one."""
+    if not isinstance(result, Lost):
+        return result
+    if result.late:
+        which = "" if work.time_limit is None else " (time_limit)"
+        return Outcome(FAILED, f"The run {result.how}{which}.", wall=work.time_limit or 0.0)
+    return Outcome(FAILED, f"The process of the run {result.how}.")
+
+
+class OneProcess(Closing):
+    """Makes runs one after the other, each time in the same process."""
+
+    def __init__(self, work: Work, path: Path) -> None:
+        self._work, self._pool = work, experiment_of(work, path).pool()
 
     def close(self) -> None:
-        """End the processes."""
+        """End the process."""
         self._pool.close()
 
     def run(self, run: Run) -> Outcome:
-        """Make a run, each time in the same process."""
-        self._tell(run)
-        return self._outcome(self._pool.run(run))
-
-    def _tell(self, run: Run) -> None:
-        tell_starts({**start, **run.values} for start in self._started)
-
-    def outcomes(self, runs: Iterable[Run]) -> Generator[tuple[Run, Outcome]]:
-        """Make runs; give each with its outcome as soon as it is there."""
-        sent: dict[int, Run] = {}
-
-        def remembered() -> Iterator[Run]:
-            for number, each in enumerate(runs):
-                sent[number] = each
-                self._tell(each)
-                yield each
-
-        for number, result in self._pool.results(remembered()):
-            yield sent.pop(number), self._outcome(result)
-
-    def _outcome(self, result: Outcome | Lost) -> Outcome:
-        if not isinstance(result, Lost):
-            return result
-        if result.late:
-            which = "" if self._limit is None else " (time_limit)"
-            return Outcome(FAILED, f"The run {result.how}{which}.", wall=self._limit or 0.0)
-        return Outcome(FAILED, f"The process of the run {result.how}.")
+        """Make a run."""
+        tell_start(self._work, run)
+        return outcome_of(self._work, self._pool.run(run))

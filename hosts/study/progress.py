@@ -1,41 +1,30 @@
-"""What a study shows while it runs, and counts."""
+"""What a study counts while it runs."""
 
 from __future__ import annotations
 
 from collections import Counter
 
-from ali3.bars import bar
-from hosts.common.closing import Closing
 from hosts.study.work import FAILED, INCOMPLETE, Outcome
 
 _MOST_SAID = 1000  # messages that are counted
 _TOLD = 5
 
 
-class StudyProgress(Closing):
-    """Counts runs. `runs`, `done`: in all, and those that are done already."""
+class Counts:
+    """Counts runs that were made."""
 
-    def __init__(self, runs: int, done: int) -> None:
-        self.failed = 0
-        self.incomplete = 0
-        self.made = 0
+    def __init__(self) -> None:
+        self.failed = self.incomplete = self.made = 0
         self._said: Counter[str] = Counter()
-        self._bar = bar(total=runs, initial=done, desc="study", unit="run", smoothing=0.05)
 
-    def close(self) -> None:
-        """Take the bar away."""
-        self._bar.close()
-
-    def __call__(self, outcome: Outcome) -> None:
-        """Count a run that has come, whether it failed, and what was said in it."""
+    def add(self, outcome: Outcome) -> None:
+        """Count a run, whether it failed, and what was said in it."""
         self.made += 1
         self.failed += outcome.status == FAILED
         self.incomplete += outcome.status == INCOMPLETE
         for message in outcome.messages:
             if message in self._said or len(self._said) < _MOST_SAID:
                 self._said[message] += 1
-        self._bar.set_postfix(failed=self.failed, refresh=False)
-        self._bar.update()
 
     def said(self) -> list[str]:
         """What was said in most of the runs."""

@@ -203,11 +203,15 @@ class _Search:
         first, middle, last = distances = [abs(self._at(u)) for u in places]
         if not np.isfinite(distances).all() or np.ptp(distances) <= self._tolerance:
             return bool(np.isfinite(distances).all())
-        if min(abs(first - middle), abs(last - middle)) <= self._tolerance or (first - middle) * (middle - last) < 0.0:
+        if min(abs(first - middle), abs(last - middle)) <= self._least() or (first - middle) * (middle - last) < 0.0:
             return False
         a, b, c = (float(x) for x in np.polyfit(places, distances, 2))
         u = -0.5 * b / a if a > 0.0 else places[0]
         return not (places[0] < u < places[2] and c + u * (b + u * a) < 0.5 * min(distances))
+
+    def _least(self) -> float:
+        """Of a change that is one; what is wanted may be far off."""
+        return min(self._tolerance, TOLERANCE * max(abs(run.y) for _, run in self._sorted()))
 
     def _to_the_extremum(self, first: float, last: float) -> None:
         sign = math.copysign(1.0, self._at(first))
@@ -243,7 +247,7 @@ class _Search:
         made = list(self._runs)  # of equal ones the last: at a jump the nearest to it
         place, best = min(known, key=lambda item: (abs(item[1].y - self._wanted), -made.index(item[0])))
         changes = [b.y - a.y for (_, a), (_, b) in itertools.pairwise(known)]
-        least = min(self._tolerance, TOLERANCE * max(abs(run.y) for _, run in known))  # what is wanted may be far off
+        least = self._least()
         apart = [(u, run) for u, run in known if abs(u - place) >= _APART or _are_apart(run.x, best.x)]
         below = [run for u, run in apart if u < place] or [best]
         above = [run for u, run in apart if u > place] or [best]

@@ -10,6 +10,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from matplotlib import pyplot as plt
 
 from ali3.chart_style import BLUE, RED, STYLE
@@ -25,10 +26,11 @@ from hosts.fmu.fmu import described
 from hosts.fmu.parameters_as_set import parameter_set_of
 from hosts.fmu.variables import Variable, Variables
 from hosts.measures.limits import column_of
+from hosts.study.analysis.data import without_round_off
 from hosts.study.campaign import fmu_of_study, out_folder
 from hosts.study.folder import check_no_link
 from hosts.study.jobs import Job
-from hosts.study.one_run import RunProcesses
+from hosts.study.one_run import OneProcess
 from hosts.study.plan import Plan, make_plan
 from hosts.study.search import TOLERANCE, Found, Run, seek
 from hosts.study.study_file import ParameterEntry, SamplingEntry, StudyFile, read_study_file
@@ -90,7 +92,7 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
     folder = out if out is not None else out_folder(None, study, file) / "target"
     make_folder(folder)
     check_no_link(folder)
-    with RunProcesses(search.work, fmu) as search.processes:
+    with OneProcess(search.work, fmu) as search.processes:
         found = search.found(_start(study, target.by, fmu))
     lines = search.words(found)
     print("\n".join(lines))
@@ -164,7 +166,7 @@ class _Search:
         self.job, self.column = self._job()
         is_test = self.job.manoeuvre is None
         self.work = replace(plan.work, jobs=(self.job,), columns=() if is_test else plan.work.columns)
-        self.processes: RunProcesses
+        self.processes: OneProcess
         self.unit, self.wanted, self.shown = "", target.value, Shown("", 1.0)
         if not is_test:
             self._take_unit(plan.units[self.column])
@@ -244,7 +246,7 @@ class _Search:
             lines.append(f"Wanted: {self.y_words(self.wanted)}, to within {TOLERANCE:g} of it.")
         else:
             lines += self._not_met(found, found.best)
-        if found.best is not None and math.isfinite(found.slope):
+        if found.best is not None and math.isfinite(found.slope) and not self._is_flat(found):
             slope, one, other = self.shown.factor * found.slope, *map(self.x_words, found.between)
             change = number_in(0.01 * found.best.x * slope, self.shown.unit, ".5g")
             lines.append(f"Sensitivity: 1 % more of {by} changes it by {change} (from runs at {one} and {other}).")
@@ -264,8 +266,9 @@ class _Search:
             f"{self.column} = {self.y_words(self.wanted)} is not met with {self.target.by} from {ends}.",
             f"The nearest is {self.y_words(best.y)}, at {self.x_words(best.x)}; the runs lie between {low} and {high}.",
         ]
+        changes = (False, False) if self._is_flat(found) else (found.rises, found.falls)
         form = {(True, True): "is not monotone", (True, False): "only rises", (False, True): "only falls"}.get(
-            (found.rises, found.falls), "does not change"
+            changes, "does not change"
         )
         if found.crossed:
             one, other = self._around(found)
@@ -285,6 +288,11 @@ class _Search:
             f"try {remedy}."
         )
         return lines
+
+    def _is_flat(self, found: Found) -> bool:
+        """Whether the measure differs by rounding alone."""
+        ys = np.array([run.y for run in found.runs if not run.reason])
+        return len(ys) > 1 and not np.ptp(without_round_off(ys, self.unit))
 
     def _around(self, found: Found) -> tuple[Run, Run]:
         """The nearest two runs on different sides of what is wanted."""

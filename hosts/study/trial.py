@@ -10,7 +10,7 @@ from typing import Any
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.study.jobs import Job
-from hosts.study.one_run import RunProcesses
+from hosts.study.one_run import OneProcess
 from hosts.study.plan import Plan
 from hosts.study.work import FAILED, INCOMPLETE, Outcome, Work
 
@@ -82,7 +82,7 @@ def _columns(units: Mapping[str, str], job: Job, where: str) -> dict[str, str]:
 
 def _outcomes(work: Work, plan: Plan, number: int, points: Sequence[int]) -> list[Outcome]:
     """Of the job of a number at some points, one after the other in one process."""
-    with RunProcesses(work, plan.fmu) as processes:
+    with OneProcess(work, plan.fmu) as processes:
         return [processes.run(plan.runs_at([point * len(work.jobs) + number])[0]) for point in points]
 
 

@@ -70,6 +70,13 @@ def worker() -> Any:
     made.close()
 
 
+def test_a_process_that_does_not_begin_is_told_as_such(
+    worker: Isolated[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ali3.isolated._START", 1e-3)
+    assert worker.do("") == Lost("had not begun after 0.001 s", late=True)
+
+
 def test_a_process_keeps_what_it_has_between_tasks_and_prints_what_it_likes(worker: Isolated[str, Any]) -> None:
     heard: list[int] = []
     first, process = worker.do("tell", heard.append)

@@ -66,9 +66,9 @@ def test_what_ends_a_run_is_told_with_the_rows_until_then(
 
 
 def test_processes_of_an_fmu_end_with_it_and_are_told(faults: Path, tmp_path: Path, temporary: Path) -> None:
-    code, said, _ = driven(faults, tmp_path / "out", FORK)
-    assert code == 0
-    assert "FMU: 3 processes that it had started were ended with it." in said
+    done = run(main, faults, "--set", f"u={FORK}", "--out", tmp_path / "out")
+    assert done.returncode == 0
+    assert done.stderr == "note: 3 processes that an FMU had started were ended with it.\n"
     assert not [p for p in psutil.process_iter(["cmdline"]) if (p.info["cmdline"] or [""])[0] == "odd_child"]
     assert not list(temporary.iterdir())
 

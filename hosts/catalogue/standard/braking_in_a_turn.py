@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.circle_stop import STEADY, Stop
+from hosts.catalogue.circle_stop import COMPARED, STEADY, Stop
 from hosts.catalogue.ends import Ends
 from hosts.catalogue.preparation import held, start_at
 from hosts.catalogue.sheet import Sheet
@@ -45,11 +45,12 @@ def add_stops(sheet: Sheet, stops: Sequence[Stop]) -> None:
     )
     first = braked[0] if braked else HostError("the car did not get onto the circle")
     sheet.add("circle", first=first)
-    sheet.add("stops", braked=braked if braked else first, known=known if braked else first)
+    there = {"braked": braked, "known": known} if braked else {"braked": first, "known": first}
+    sheet.add("stops", compared=COMPARED, **there)
 
 
-def stop(car: TestedCar, settings: Mapping[str, float], pedal: float) -> Stop:
-    """Onto the circle, steering fixed, one application of the brake to rest."""
+def stop(car: TestedCar, settings: Mapping[str, float], pedal: float, longest: float = math.inf) -> Stop:
+    """Onto the circle, steering fixed, one application of the brake to rest. `longest`: after its onset, s."""
     constants, radius = car.facts.constants, settings["radius"]
     speed = math.sqrt(settings["lateral_acceleration"] * abs(radius))
     start = start_at(car, speed)
@@ -64,7 +65,7 @@ def stop(car: TestedCar, settings: Mapping[str, float], pedal: float) -> Stop:
         settings["rise_time"],
     )
     # a car with less than 0.5 m/s2 does not brake
-    stop_time = begin + 1.5 * STEADY + settings["rise_time"] + speed / 0.5
+    stop_time = begin + 1.5 * STEADY + min(longest, settings["rise_time"] + speed / 0.5)
     ends = Ends(stands=0.05)
 
     def over(time: float, outputs: Mapping[str, float]) -> bool:

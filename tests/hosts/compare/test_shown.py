@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from hosts.common.display_units import number_in, shown_number, titled
+from hosts.common.display_units import axis_shown, number_in, shown_number, titled
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve
 from hosts.compare.page import comparison_figure
@@ -107,3 +107,6 @@ def test_a_number_without_a_unit_has_none() -> None:
     assert shown_number(0.5, "m/s", "speed") == "1.8 km/h"
     assert titled("gear", "1") == titled("gear", "") == "gear"
     assert titled("mass", "kg") == "mass, kg"
+    assert titled("yaw acceleration", "rad/s2") == "yaw acceleration, rad/s²"
+    assert axis_shown("yaw acceleration, rad/s2")[0] == "yaw acceleration, deg/s²"
+    assert axis_shown("share of m2") == ("share of m2", 1.0)

@@ -12,6 +12,7 @@ import pytest
 
 from ali3.errors import FileError
 from ali3.isolated import Lost
+from ali3.processes import store
 from hosts.experiment.experiment import Experiment, Kept, tell_kept
 
 
@@ -25,14 +26,37 @@ def half(task: float, tell: Callable[[Any], None]) -> float:
 
 
 def test_what_is_done_is_told_and_what_is_lost_has_its_part() -> None:
-    experiment: Experiment[float, float] = Experiment("halves", half, float, str, lambda task: [], lambda task: task)
+    experiment: Experiment[float, float] = Experiment("halves", half, float, str, size=lambda task: task)
     told: list[tuple[int, float]] = []
-    with closing(experiment.results([2.0, 3.0], 1, lambda *word: told.append(word))) as results:
-        found = dict(results)
-    assert found[0] == -2.0
-    assert isinstance(found[1], Lost)
+    with closing(experiment.results([2.0, 3.0], experiment.pool(), lambda *word: told.append(word))) as results:
+        found = {number: (task, result) for number, task, result in results}
+    assert found[0] == (2.0, -2.0)
+    assert found[1][0] == 3.0
+    assert isinstance(found[1][1], Lost)
     assert [done for number, done in told if number == 0] == [1.0, 2.0]  # never more than there is
     assert [done for number, done in told if number == 1] == [1.5]
+
+
+def stored(task: float, tell: Callable[[Any], None]) -> float:
+    """Leaves its task in the store; the third is lost."""
+    place = store()
+    assert place is not None
+    place.write_bytes(str(task).encode())
+    if task == 3.0:
+        os._exit(7)
+    return 0.0
+
+
+def test_a_result_is_finished_out_of_the_store_and_of_a_lost_one_that_is_kept() -> None:
+    """Each task has its own, though they share a process."""
+
+    def finish(task: float, result: float | None, place: Path) -> str:
+        return f"{task} {result} {place.read_text()}"
+
+    experiment: Experiment[float, Any] = Experiment("stores", stored, float, str, finish=finish)
+    with closing(experiment.results(iter([2.0, 3.0, 4.0]), experiment.pool(), whole=3.0)) as results:
+        found = [result.kept if isinstance(result, Lost) else result for _, _, result in results]
+    assert found == ["2.0 0.0 2.0", "3.0 None 3.0", "4.0 0.0 4.0"]
 
 
 def test_a_result_is_found_by_its_name_while_its_key_is_the_same(

@@ -13,8 +13,8 @@ import pytest
 from distributed import LocalCluster, Security
 
 from hosts.common.errors import HostError
+from hosts.experiment.cluster import _check_encryption, connected
 from hosts.study.campaign import run_study
-from hosts.study.cluster import _check_encryption, connected
 from hosts.study.store import read_study
 
 

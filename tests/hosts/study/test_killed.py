@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from itertools import islice
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -20,9 +21,10 @@ from distributed import Client
 from distributed.comm import CommClosedError
 
 from hosts.common.errors import HostError
+from hosts.experiment.cluster import bring
+from hosts.experiment.cluster_runs import ClusterRuns
+from hosts.experiment.cluster_worker import Brought
 from hosts.experiment.journal import Journal
-from hosts.study.cluster import bring
-from hosts.study.cluster_runs import ClusterRuns
 from hosts.study.command import main
 from hosts.study.parts import part_files
 from hosts.study.store import read_study
@@ -68,7 +70,7 @@ def command(*arguments: object) -> subprocess.Popen[str]:
 
 def said(error: str) -> list[str]:
     """Lines but those of the progress bar."""
-    return [line for line in error.splitlines() if not line.startswith("study: ")]
+    return [line for line in error.splitlines() if not line.startswith("study")]
 
 
 def wait_for_part(folder: Path, process: subprocess.Popen[str], parts: int) -> None:
@@ -242,14 +244,14 @@ def test_whatever_dask_raises_the_exit_code_says_whether_all_rows_are_there(
     def broken(*_: object) -> Iterator[SimpleNamespace]:
         yield SimpleNamespace(nthreads=lambda: {"a": 1})
 
-    def outcomes(self: ClusterRuns, _: object) -> Iterator[tuple[Run, Outcome]]:
-        for run in self._plan.runs_at(range(count)):
-            yield run, Outcome(measures={"lowest": 0.1, "highest": 0.2})
+    def results(_: object, runs: Iterator[Run], __: object) -> Iterator[tuple[int, Outcome]]:
+        for number, _ in enumerate(islice(runs, count)):
+            yield number, Outcome(measures={"lowest": 0.1, "highest": 0.2})
         raise CommClosedError("in <TCP local=...>: Stream is closed")
 
-    monkeypatch.setattr("hosts.study.cluster.connected", broken)
-    monkeypatch.setattr("hosts.study.cluster.bring", lambda *_: None)
-    monkeypatch.setattr(ClusterRuns, "outcomes", outcomes)
+    monkeypatch.setattr("hosts.experiment.cluster.connected", broken)
+    monkeypatch.setattr("hosts.experiment.cluster.bring", lambda *_: None)
+    monkeypatch.setattr(ClusterRuns, "results", results)
     code = main([str(study_file()), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9", "--no-report"])
     assert len(read_study(tmp_path / "out")) == count
     assert code == (0 if count == 16 else 1)
@@ -279,7 +281,7 @@ def test_a_worker_that_ends_too_early_is_told_as_such() -> None:
         def register_plugin(self, _: object) -> None:
             raise CommClosedError("in <TCP local=...>: Stream is closed")
 
-    plan = SimpleNamespace(key="a", work=None, seed=0, fmu=Path(__file__))
-    with pytest.raises(HostError, match="A worker has ended or was cut off before it had the study") as caught:
-        bring(Lost(), plan)  # type: ignore[arg-type]
+    brought = Brought("a", "none.fmu", "", "", lambda path: None)  # type: ignore[arg-type, return-value]
+    with pytest.raises(HostError, match="A worker has ended or was cut off before it had what is run") as caught:
+        bring(Lost(), brought, Path(__file__))  # type: ignore[arg-type]
     assert "version" not in str(caught.value)

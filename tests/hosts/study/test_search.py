@@ -54,6 +54,8 @@ def test_what_is_far_off_is_not_what_a_change_is_measured_by() -> None:
     """A thousandth of what is wanted is more than all that the measure changes by."""
     far = sought(lambda x: 9.0 + x, 1e4, 0.0, 1.0)
     assert (far.met, far.rises, far.falls) == (False, True, False)
+    near = sought(lambda x: 3.13 - 0.066 * x, 50.0, 0.0, 1.0)
+    assert (len(near.runs), near.rises, near.falls) == (3, False, True)
     still = sought(lambda x: 9.0 + 1e-3 * x, 1e4, 0.0, 1.0)
     assert (still.rises, still.falls) == (False, False)
 

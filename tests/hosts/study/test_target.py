@@ -82,6 +82,17 @@ def test_a_value_that_cannot_be_met(
     assert "try another parameter (--by)." in words, "the FMU allows no smaller value"
 
 
+@pytest.mark.slow
+def test_what_changes_by_rounding_alone_does_not_change(
+    seek: Callable[..., int], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The mass begins at rest at y = -1, its highest place."""
+    assert seek("--target", "highest=-0.5") == 1
+    words = capsys.readouterr().out
+    assert "the measure does not change with it and does not reach what is wanted; try another parameter" in words
+    assert "Sensitivity" not in words
+
+
 @pytest.mark.parametrize(
     ("options", "by", "words"),
     [

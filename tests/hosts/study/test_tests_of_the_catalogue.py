@@ -26,6 +26,7 @@ SHORT = {
     "double_lane_change": "course = 2.0, lowest = 60.0, increment = 20.0, resolution = 10.0",
     "straight_braking": "speed = 30.0",
     "braking_in_a_turn": "levels = 2.0, pedal = 0.5, radius = 40.0, deceleration = 4.0",
+    "power_off_in_a_turn": "levels = 2.0, lowest = 4.0, highest = 5.2",
     "drop": "height = 0.1, duration = 4.0",
 }
 

@@ -12,7 +12,7 @@ from hosts.common.road import road_value
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.study.campaign import run_study
 from hosts.study.jobs import Job
-from hosts.study.one_run import RunProcesses
+from hosts.study.one_run import OneProcess
 from hosts.study.work import Run, Work
 
 
@@ -45,6 +45,6 @@ def test_a_start_is_told_where_a_run_has_it(
     start = {"road.file": road_value(str(tmp_path / "far.csv"), tmp_path)}
     job = Job("far", Manoeuvre("far", np.zeros(1), {}, 1.0, start))
     work = Work("none.fmu", "", "", "", (job,), ("initial.x",), (), (), ())
-    with RunProcesses(work, tmp_path / "none.fmu") as processes:
+    with OneProcess(work, tmp_path / "none.fmu") as processes:
         assert "none.fmu" in processes.run(Run(0, {"initial.x": x})).reason
     assert capfd.readouterr().err.count("warning: ") == told

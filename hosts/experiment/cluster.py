@@ -1,4 +1,4 @@
-"""Workers of a study on a cluster that is there: its scheduler, and whether the traffic is encrypted."""
+"""Workers of Dask on a cluster that is there: its scheduler, and whether the traffic is encrypted."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import logging
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 from distributed import Client, KilledWorker, Security
 
@@ -14,8 +15,7 @@ from ali3.errors import UserError
 from ali3.reading import read_bytes
 from ali3.words import shortened
 from hosts.common.errors import HostError
-from hosts.study.plan import Plan
-from hosts.study.worker import StudyPlugin, why_wrong
+from hosts.experiment.cluster_worker import Brought, ExperimentPlugin, why_wrong
 
 _PATIENCE = 20.0  # s for an answer
 _ENCRYPTED = ("tls://", "wss://")
@@ -79,30 +79,25 @@ def _without_logs() -> Iterator[None]:
         logging.disable(before)
 
 
-def bring(client: Client, plan: Plan) -> None:
-    """Give the study to all workers, also those to come, and check that they would make the same runs.
+def bring(client: Client, brought: Brought, fmu: Path) -> None:
+    """Give an experiment to all workers, also those to come, and check that they would make the same runs.
 
     Raises `HostError`: a worker has another version of ALi3, or cannot load it.
     """
-    plugin = StudyPlugin(plan.key, plan.work, read_bytes(plan.fmu, LARGEST_ARCHIVE, HostError))
+    plugin = ExperimentPlugin(brought, read_bytes(fmu, LARGEST_ARCHIVE, HostError))
     try:
         client.register_plugin(plugin)
-        answers = client.run(why_wrong, plan.key)
+        answers = client.run(why_wrong, brought.key)
     except Exception as error:
         words = f"{type(error).__name__}: {(str(error).strip().splitlines() or ['no words'])[-1]}"
         if isinstance(error, (OSError, KilledWorker)):
-            raise HostError(f"A worker has ended or was cut off before it had the study ({words}).") from None
+            raise HostError(f"A worker has ended or was cut off before it had what is run ({words}).") from None
         if isinstance(error, UserError):
-            raise HostError(f"A worker cannot take the study: {error}") from None
+            raise HostError(f"A worker cannot take what is run: {error}") from None
         raise HostError(
-            f"A worker cannot take the study ({words}); it needs ALi3 of this version with its extra: "
+            f"A worker cannot take what is run ({words}); it needs ALi3 of this version with its extra: "
             'python -m pip install "ali3[study]".'
         ) from None
     for address, answer in answers.items():
         if answer:
             raise HostError(f"The worker {address} cannot be used: {answer}.")
-
-
-def take_away(client: Client, plan: Plan) -> None:
-    """Take the study from the workers of a cluster that stays."""
-    client.unregister_worker_plugin(f"ali3-study-{plan.key}")

@@ -1,0 +1,39 @@
+"""The throttle released on a steady circle with the steering fixed, from circles driven faster and faster."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from hosts.catalogue.circle_stop import COMPARED, STEADY, Stop
+from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.standard.braking_in_a_turn import STEP, stop
+
+AFTER = 2.0  # s that are driven after the release
+
+
+def drive(sheet: Sheet) -> None:
+    """Releases at growing lateral acceleration, until the car does not get onto the circle."""
+    car, settings = sheet.with_step_up_to(STEP, "the yaw acceleration"), dict(sheet.settings)
+    levels, released = round(settings["levels"]), list[tuple[float, Stop]]()
+    for k in range(1, levels + 1):
+        asked = settings["lowest"] + (settings["highest"] - settings["lowest"]) * (k - 1) / max(levels - 1, 1)
+        made = stop(car, settings | {"lateral_acceleration": asked, "rise_time": 0.0}, 0.0, AFTER + STEADY)
+        sheet.keep(f"{asked:.3g}_m_s2", made.result)
+        if math.isnan(made.onset):
+            sheet.add("not_there", last=made, asked=asked)
+            break
+        released.append((asked, made))
+        sheet.progress(k / levels)
+    add_releases(sheet, released)
+
+
+def add_releases(sheet: Sheet, released: Sequence[tuple[float, Stop]]) -> None:
+    """The measures of releases, each with the lateral acceleration that was asked for."""
+    known = [
+        {"ay": r.lateral_acceleration_on_circle, "deceleration": r.deceleration, **values}
+        for _, r in released
+        if (values := r.values())
+    ]
+    rows = [{"asked": asked, "r": r} for asked, r in released]
+    sheet.add("releases", compared=COMPARED, released=rows, known=sorted(known, key=lambda v: v["ay"]))

@@ -1,0 +1,154 @@
+"""Runs on workers of Dask, in chunks that grow to seconds of work."""
+
+from __future__ import annotations
+
+import queue
+import time as clock
+from collections import deque
+from collections.abc import Callable, Generator, Iterable
+from concurrent.futures import CancelledError
+from itertools import count, islice
+from typing import Any, Generic, TypeAlias, TypeVar
+
+from distributed import Client, Future, KilledWorker
+
+from ali3.isolated import Lost
+from hosts.common.closing import Closing
+from hosts.experiment.cluster_worker import Brought, WrongWorkerError, run_chunk
+
+WORK = 2.0  # s of a chunk: Dask takes some milliseconds for a task
+_MOST = 5000  # runs of a chunk
+_SMOOTHING = 0.3
+_AHEAD = 2  # chunks that are sent to each worker before the first is done
+_LOOK = 0.5  # s between looks at the scheduler
+_LOST = 10.0  # s without a scheduler
+
+T = TypeVar("T")
+R = TypeVar("R")
+_Chunk: TypeAlias = list[tuple[int, T]]
+"""Tasks with their numbers."""
+
+
+class SchedulerLostError(Exception):
+    """The scheduler has gone."""
+
+
+class ChunkSize:
+    """How many runs make a chunk, from the time they take.
+
+    `seconds`: of a run, as far as is known; `most`: runs of a chunk, by the memory their results need.
+    """
+
+    def __init__(self, seconds: float, workers: int, most: int = _MOST) -> None:
+        self._seconds, self.workers, self._most = max(seconds, 1e-6), max(1, workers), max(1, min(most, _MOST))
+
+    def learn(self, runs: int, seconds: float) -> None:
+        """Take the time of a chunk into account."""
+        if runs:
+            self._seconds += _SMOOTHING * (max(seconds / runs, 1e-6) - self._seconds)
+
+    def size(self, left: int) -> int:
+        """Of the next chunk where so many runs are left; smaller at the end, so that workers end together."""
+        return max(1, min(round(WORK / self._seconds), self._most, -(-left // (2 * self.workers))))
+
+
+class ClusterRuns(Closing, Generic[T, R]):
+    """Makes runs on a cluster that was given them, see `hosts.experiment.cluster.bring`.
+
+    `left`: runs in all; `size`: of chunks.
+    """
+
+    def __init__(self, client: Client, brought: Brought, left: int, size: ChunkSize) -> None:
+        self._client, self._brought, self._size, self._unsent = client, brought, size, left
+        self._flying: dict[Future[Any], tuple[_Chunk[T], bool]] = {}
+        self._arrived: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
+        self._suspects: deque[_Chunk[T]] = deque()
+        self._connected = clock.monotonic()
+        self.chunks = 0
+        """That were sent."""
+
+    @property
+    def left(self) -> int:
+        """Processes that FMUs had started: workers do not tell of them."""
+        return 0
+
+    def close(self) -> None:
+        """Take back what is in hand."""
+        for future in list(self._flying):
+            future.cancel(msg="the experiment ends")
+        self._flying.clear()
+
+    def results(
+        self, tasks: Iterable[T], told: Callable[[int, Any], None] = lambda number, word: None
+    ) -> Generator[tuple[int, R | Lost]]:
+        """Make runs; give each result with the number of its task when its chunk is there; see `Pool.results`.
+
+        Raises `SchedulerLostError`: the scheduler is lost; `WrongWorkerError`: a worker that came later is of another
+        version.
+        """
+        waiting = zip(count(), tasks)
+        ended = False
+        while True:
+            while not ended and len(self._flying) < _AHEAD * self._size.workers:
+                ended = not self._send_next(waiting)
+            if not self._flying:
+                break
+            yield from self._collect()
+        self._client.unregister_worker_plugin(self._brought.name)  # of a cluster that stays
+
+    def _send_next(self, waiting: Iterable[tuple[int, T]]) -> bool:
+        chunk = self._suspects.popleft() if self._suspects else []
+        tried = bool(chunk)
+        if not tried:
+            chunk = list(islice(waiting, self._size.size(self._unsent)))
+            self._unsent -= len(chunk)
+        if chunk:
+            self._send(chunk, tried)
+        return bool(chunk)
+
+    def _send(self, chunk: _Chunk[T], tried: bool) -> None:
+        """`tried`: whether a worker was lost with them."""
+        self.chunks += 1
+        future = self._client.submit(run_chunk, self._brought.key, [task for _, task in chunk], pure=False)
+        self._flying[future] = chunk, tried
+        future.add_done_callback(self._arrived.put)
+
+    def _collect(self) -> Generator[tuple[int, R | Lost]]:
+        """Collect results, or check whether the scheduler still answers."""
+        try:
+            future = self._arrived.get(timeout=_LOOK)
+        except queue.Empty:
+            self._look_at_scheduler()
+            return
+        if future not in self._flying:
+            return
+        chunk, tried = self._flying.pop(future)
+        results: list[R | Lost] = []
+        try:
+            seconds, results = future.result()
+        except KilledWorker:
+            self._suspects.append(chunk)
+        except WrongWorkerError:
+            raise
+        except (CancelledError, OSError) as error:
+            self._flying[future] = chunk, tried
+            raise SchedulerLostError from error
+        except Exception as error:
+            if tried:
+                results = [Lost(f"has failed on its worker: {type(error).__name__}: {error}") for _ in chunk]
+            else:
+                self._suspects.append(chunk)
+        else:
+            self._size.learn(len(chunk), seconds)
+        for (number, _), result in zip(chunk, results, strict=False):
+            yield number, result
+        if self._suspects and not self._flying:
+            self._send(self._suspects.popleft(), True)
+
+    def _look_at_scheduler(self) -> None:
+        now = clock.monotonic()
+        if self._client.status == "running":
+            self._connected = now
+            self._size.workers = max(1, sum(self._client.nthreads().values()))
+        elif now - self._connected > _LOST:
+            raise SchedulerLostError
