@@ -1,4 +1,4 @@
-/* Elements of one System that have the same law, side by side in vectors of four, as lanes are (../lanes/laws.h): each
+/* Elements of one System that have the same law, side by side in vectors of four, as lanes are (laws.h): each
  * has the bits that it has alone. */
 #ifndef ALI3_FOURS_H
 #define ALI3_FOURS_H
