@@ -43,6 +43,7 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
     checkout : Path
         Folder of a working tree.
     scenes : sequence of Scene
+        Of `scene_instructions.SCENES`; those that the other packages cannot make are an error.
     folder : Path
         Empty; program and files are written there.
     steps : int
@@ -85,6 +86,7 @@ def measure(
     other : Path
         Folder of the other checkout.
     scenes : sequence of Scene
+        Of `scene_instructions.SCENES`.
     rounds : int
         Each times both, one after the other; the ratio is the median of theirs.
     repeats : int

@@ -119,16 +119,14 @@ static inline void ali3_take_two(real *restrict y, const real *restrict x, real 
   ALI3_EACH(0, n, ALI3_AT(y) -= ALI3_AT(x) * a + ALI3_AT(z) * b)
 }
 
-/* x y in two sums, by turns, so that additions need not wait for each other */
+/* x y in two sums, by turns, so that additions need not wait for each other. In loops of their own: as a pair of numbers
+ * y[0], which a back substitution has just written alone, would be waited for until it is in the cache. */
 static inline real ali3_product_in_two(const real *restrict x, const real *restrict y, int64_t n) {
   real even = {0}, odd = {0};
-  int64_t i = 0;
   ALI3_SHORT
-  for (; i + 1 < n; i += 2) {
-    even += x[i] * y[i];
-    odd += x[i + 1] * y[i + 1];
-  }
-  if (i < n) even += x[i] * y[i];
+  for (int64_t i = 0; i < n; i += 2) even += x[i] * y[i];
+  ALI3_SHORT
+  for (int64_t i = 1; i < n; i += 2) odd += x[i] * y[i];
   return even + odd;
 }
 
