@@ -303,6 +303,23 @@ def test_a_camera_that_is_not_there_is_told(opened: Callable[..., Opened]) -> No
     assert page.page.get_by_role("img", name="drawing of crank").count() == 1  # its own stands
 
 
+def test_what_cannot_be_drawn_is_one_sentence_in_place_of_an_empty_page(pair: Opened) -> None:
+    """Of another program: a flexible body without the numbers of its mode."""
+    said = pair(
+        """async () => {
+          const data = JSON.parse(document.getElementById('data').textContent);
+          const [scene] = data.scenes;
+          scene.flexible = [{ frame: Object.keys(scene.frames)[0], nodes: [[0, 0, 0]], beams: [], amplitudes: ['angle'], modes: '' }];
+          const place = document.body.appendChild(document.createElement('div'));
+          const made = ALi3Viewer.playPage(place, data);
+          await made.ready;
+          place.remove();
+          return [made.problem, place.textContent];
+        }"""
+    )
+    assert said == ["modes of a flexible body has 0 numbers, not 3.", f"This page cannot be shown: {said[0]}"]
+
+
 def test_without_webgl_there_is_one_sentence_and_the_diagrams(chromium: Any, tmp_path: Path) -> None:
     write_page(tmp_path / "p.html", crank(TIMES), options={"plots": ["fx"]})
     arguments = [a for a in launch_arguments() if "angle" not in a and "swiftshader" not in a]
