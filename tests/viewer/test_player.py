@@ -309,7 +309,8 @@ def test_what_cannot_be_drawn_is_one_sentence_in_place_of_an_empty_page(pair: Op
         """async () => {
           const data = JSON.parse(document.getElementById('data').textContent);
           const [scene] = data.scenes;
-          scene.flexible = [{ frame: Object.keys(scene.frames)[0], nodes: [[0, 0, 0]], beams: [], amplitudes: ['angle'], modes: '' }];
+          const [frame] = Object.keys(scene.frames);
+          scene.flexible = [{ frame, nodes: [[0, 0, 0]], beams: [], amplitudes: ['angle'], modes: '' }];
           const place = document.body.appendChild(document.createElement('div'));
           const made = ALi3Viewer.playPage(place, data);
           await made.ready;
