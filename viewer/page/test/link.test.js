@@ -148,7 +148,7 @@ test("a link that is closed stays closed", () => {
 });
 
 test("what is not understood is said, and the connection tried again", () => {
-  for (const [data, why] of [["{", /JSON/], [frame(TEN, [], { magic: 1 }), /This is no frame of a simulator/]]) {
+  for (const { data, why } of [{ data: "{", why: /JSON/ }, { data: frame(TEN, [], { magic: 1 }), why: /This is no frame of a simulator/ }]) {
     const words = [];
     const { means, socket } = linked({ closed: (text) => words.push(text), event: () => assert.fail() });
     socket.open();

@@ -286,7 +286,9 @@ test("an FMU that could not begin says why again when it is to run, in a sentenc
   assert.equal(told.length, 2);
   assert.match(told[0].text, /^The binary of the FMU Odd for wasm32 cannot be loaded: /);
   assert.deepEqual(told[1], told[0]);
-  runner._load = async (step) => (runner.engine = new Engine([mass()], step));
+  runner._load = async (step) => {
+    runner.engine = new Engine([mass()], step);
+  };
   await runner.take({ do: "restart", start: {}, step: 0.01 });
   await runner.take({ do: "step", count: 2 });
   assert.deepEqual(told.slice(2).map((message) => message.is), ["started", "paused"]);
