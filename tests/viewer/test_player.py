@@ -157,6 +157,37 @@ def test_it_plays_in_time_and_stands_when_it_is_told(pair: Opened) -> None:
     pair("player.speed(1)")
 
 
+def test_where_pictures_take_long_there_are_fewer_and_time_goes_on(pair: Opened) -> None:
+    """Ten pictures of at least 150 ms: the run goes on by the clock, at its speed, within one picture."""
+    pair("player.speed(0.2)")
+    passed, shown, longest = pair(
+        """async () => {
+          const { view } = player;
+          view.render = () => {
+            for (const until = performance.now() + 150; performance.now() < until; );
+            delete view.render;
+            view.render();
+            view.render = slow;
+          };
+          const slow = view.render;
+          const look = (resolve) => requestAnimationFrame((now) => resolve([now / 1000, player.time]));
+          const picture = () => new Promise(look);
+          player.seek(0);
+          player.play();
+          await picture();
+          const seen = [];
+          for (let k = 0; k <= 10; k++) seen.push(await picture());
+          player.pause();
+          delete view.render;
+          const gaps = seen.slice(1).map(([now], k) => now - seen[k][0]);
+          return [seen[10][0] - seen[0][0], seen[10][1] - seen[0][1], Math.max(...gaps)];
+        }"""
+    )
+    pair("player.speed(1)")
+    assert passed > 1.5
+    assert abs(shown - 0.2 * passed) <= 0.2 * longest
+
+
 def test_the_difference_of_runs(pair: Opened) -> None:
     pair.page.locator(".a3-legend button").first.click()
     t, difference = pair("player.plots.charts[0].plot.data.map(column => Array.from(column))")
