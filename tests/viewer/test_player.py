@@ -157,6 +157,37 @@ def test_it_plays_in_time_and_stands_when_it_is_told(pair: Opened) -> None:
     pair("player.speed(1)")
 
 
+def test_where_pictures_take_long_there_are_fewer_and_time_goes_on(pair: Opened) -> None:
+    """Ten pictures of at least 150 ms: the run goes on by the clock, at its speed, within one picture."""
+    pair("player.speed(0.2)")
+    passed, shown, longest = pair(
+        """async () => {
+          const { view } = player;
+          view.render = () => {
+            for (const until = performance.now() + 150; performance.now() < until; );
+            delete view.render;
+            view.render();
+            view.render = slow;
+          };
+          const slow = view.render;
+          const look = (resolve) => requestAnimationFrame((now) => resolve([now / 1000, player.time]));
+          const picture = () => new Promise(look);
+          player.seek(0);
+          player.play();
+          await picture();
+          const seen = [];
+          for (let k = 0; k <= 10; k++) seen.push(await picture());
+          player.pause();
+          delete view.render;
+          const gaps = seen.slice(1).map(([now], k) => now - seen[k][0]);
+          return [seen[10][0] - seen[0][0], seen[10][1] - seen[0][1], Math.max(...gaps)];
+        }"""
+    )
+    pair("player.speed(1)")
+    assert passed > 1.5
+    assert abs(shown - 0.2 * passed) <= 0.2 * longest
+
+
 def test_the_difference_of_runs(pair: Opened) -> None:
     pair.page.locator(".a3-legend button").first.click()
     t, difference = pair("player.plots.charts[0].plot.data.map(column => Array.from(column))")
@@ -301,6 +332,24 @@ def test_a_camera_that_is_not_there_is_told(opened: Callable[..., Opened]) -> No
     page = opened(crank(TIMES), camera="moon")
     assert "There is no camera 'moon'" in page.page.inner_text(".a3-head")
     assert page.page.get_by_role("img", name="drawing of crank").count() == 1  # its own stands
+
+
+def test_what_cannot_be_drawn_is_one_sentence_in_place_of_an_empty_page(pair: Opened) -> None:
+    """Of another program: a flexible body without the numbers of its mode."""
+    said = pair(
+        """async () => {
+          const data = JSON.parse(document.getElementById('data').textContent);
+          const [scene] = data.scenes;
+          const [frame] = Object.keys(scene.frames);
+          scene.flexible = [{ frame, nodes: [[0, 0, 0]], beams: [], amplitudes: ['angle'], modes: '' }];
+          const place = document.body.appendChild(document.createElement('div'));
+          const made = ALi3Viewer.playPage(place, data);
+          await made.ready;
+          place.remove();
+          return [made.problem, place.textContent];
+        }"""
+    )
+    assert said == ["modes of a flexible body has 0 numbers, not 3.", f"This page cannot be shown: {said[0]}"]
 
 
 def test_without_webgl_there_is_one_sentence_and_the_diagrams(chromium: Any, tmp_path: Path) -> None:

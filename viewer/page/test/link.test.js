@@ -146,3 +146,16 @@ test("a link that is closed stays closed", () => {
   other.means.waits[0][0]();
   assert.equal(Socket.all.length, 1);
 });
+
+test("what is not understood is said, and the connection tried again", () => {
+  for (const { data, why } of [{ data: "{", why: /JSON/ }, { data: frame(TEN, [], { magic: 1 }), why: /This is no frame of a simulator/ }]) {
+    const words = [];
+    const { means, socket } = linked({ closed: (text) => words.push(text), event: () => assert.fail() });
+    socket.open();
+    socket.onmessage({ data });
+    assert.equal(words.length, 1);
+    assert.match(words[0], /^The simulator is not there: what it says is not understood: .*\. Trying again in 0\.3 s\.$/);
+    assert.match(words[0], why);
+    assert.equal(means.waits.length, 1);
+  }
+});

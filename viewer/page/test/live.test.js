@@ -275,3 +275,21 @@ test("an FMU that has broken is loaded again when it begins again", async () => 
   await runner.take({ do: "back", k: 1 });
   assert.deepEqual([told.at(-1).is, told.at(-1).k], ["back", 1]);
 });
+
+test("an FMU that could not begin says why again when it is to run, in a sentence, and can be begun again", async () => {
+  const told = [];
+  const runner = new Runner((message) => told.push(message));
+  const description = { modelName: "Odd", guid: "", variables: [] };
+  await runner.take({ do: "open", fmus: [{ wasm: new Uint8Array(4), description }], step: 0.01, start: {} });
+  await runner.take({ do: "want", wants: [["u", 1]] });
+  await runner.take({ do: "run", speed: 1 });
+  assert.equal(told.length, 2);
+  assert.match(told[0].text, /^The binary of the FMU Odd for wasm32 cannot be loaded: /);
+  assert.deepEqual(told[1], told[0]);
+  runner._load = async (step) => {
+    runner.engine = new Engine([mass()], step);
+  };
+  await runner.take({ do: "restart", start: {}, step: 0.01 });
+  await runner.take({ do: "step", count: 2 });
+  assert.deepEqual(told.slice(2).map((message) => message.is), ["started", "paused"]);
+});

@@ -171,7 +171,7 @@ class Drive extends Shell {
       back: () => this._clear(),
       refused: (which, text, alive) => this._refused(which, text, alive),
       message: (which, text) => this._tell(text),
-      error: (at, text) => this._error(at, text),
+      error: (text) => this._tell(text),
     });
     this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep }, { look: this.look, tell: (sentence) => this._tell(sentence), box: this.viewBox });
     this._layOut(fmus[0]);
@@ -275,11 +275,6 @@ class Drive extends Shell {
     const choices = [button("begin again", "Begin again", () => this.reset()), button("go back", "2 s back", () => this.back())];
     const time = this.session.time.toFixed(3);
     this.stage.tell(part, `Stopped at ${time} s. ${text}`, alive ? [] : choices);
-  }
-
-  _error(at, text) {
-    const what = { open: "The FMU could not be started: ", restart: "These values were refused: " }[at] ?? "";
-    this._tell(`${what}${text}`);
   }
 
   tell(sentence) {

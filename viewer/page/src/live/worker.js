@@ -23,15 +23,25 @@ export class Runner {
     this._rows = [];
     this._posted = 0;
     this._cost = 0; // s a step, smoothed
+    /** Why the FMUs could not begin. @type {Data | null} */
+    this._refused = null;
   }
 
   /** @param {Data} message - `{do: "open" | "restart" | ..., ...}` */
   async take(message) {
+    const begins = message.do === "open" || message.do === "restart";
+    if (this._refused && !begins) {
+      if (message.do !== "want") this._post(this._refused); // there is no run
+      return;
+    }
     try {
       await this[`_${message.do}`](message);
+      if (begins) this._refused = null;
     } catch (error) {
+      const told = { is: "error", at: message.do, text: String(error.message ?? error) };
+      if (begins) this._refused = told;
       this._halt();
-      this._post({ is: "error", at: message.do, text: String(error.message ?? error) });
+      this._post(told);
     }
   }
 
@@ -51,7 +61,7 @@ export class Runner {
 
   async _restart({ start, step }) {
     this._halt();
-    if (this.engine.fmus.some((fmu) => fmu.broken)) await this._load(this.engine.step);
+    if (!this.engine || this.engine.fmus.some((fmu) => fmu.broken)) await this._load(step ?? this.engine.step);
     this.engine.step = step ?? this.engine.step;
     this.pacer = new Pacer(this.engine.step);
     this._rows = [];

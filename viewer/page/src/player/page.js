@@ -11,8 +11,8 @@ import { play } from "./play.js";
 export function playPage(container, page) {
   /** @type {Data} */
   const made = { problem: "" };
-  made.ready = decoded(page).then(
-    async (given) => {
+  made.ready = decoded(page)
+    .then((given) => {
       made.player = play(container, given);
       made.set = (look) => made.player.setLook(look);
       for (const name of ["seek", "camera", "play", "pause", "toggle", "speed", "side"]) {
@@ -21,12 +21,11 @@ export function playPage(container, page) {
       for (const name of ["problem", "time", "view", "clock", "runs", "notes", "plots", "cameras"]) {
         Object.defineProperty(made, name, { get: () => made.player[name], configurable: true });
       }
-      await made.player.ready;
-    },
-    (error) => {
+      return made.player.ready;
+    })
+    .catch((error) => {
       made.problem = error.message;
       container.textContent = `This page cannot be shown: ${error.message}`;
-    },
-  );
+    });
   return made;
 }

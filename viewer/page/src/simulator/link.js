@@ -34,6 +34,15 @@ export function readFrame(buffer) {
   return frame;
 }
 
+/** A frame or a message that has come, or what is wrong with it. @param {string | ArrayBuffer} data @returns {Data} */
+function heard(data) {
+  try {
+    return typeof data === "string" ? { message: JSON.parse(data) ?? {} } : { frame: readFrame(data) };
+  } catch (error) {
+    return { wrong: error.message };
+  }
+}
+
 /** A connection that comes back by itself. */
 export class Link {
   /**
@@ -112,13 +121,17 @@ export class Link {
   }
 
   _take(data) {
-    if (typeof data !== "string") {
-      const frame = readFrame(data);
+    const { frame, message, wrong } = heard(data);
+    if (wrong) {
+      this._reason = `what it says is not understood: ${wrong}`;
+      this._socket.close();
+      return;
+    }
+    if (frame) {
       this.send({ type: "seen", count: frame.count });
       this._handlers.frame?.(frame);
       return;
     }
-    const message = JSON.parse(data);
     if (message.type === "hello") [this._tries, this._reason] = [0, ""];
     if (message.type === "refused" && !this._handlers.refused) {
       this._handlers.event?.({ type: "event", kind: "refused message", time: NaN, text: message.text });

@@ -11,6 +11,9 @@ const BEHIND = 0.03;
 /** Points of a curve. */
 const MOST_POINTS = 1000;
 
+/** What an answer begins with, by what was asked. */
+const REFUSED = { open: "The FMU could not be started: ", restart: "These values were refused: ", worker: "The FMU stopped: " };
+
 /** A run as the page sees it. */
 export class Session {
   grows = true;
@@ -289,10 +292,11 @@ export class Session {
 
   _on_error({ at, text }) {
     this.running = false;
+    const sentence = `${REFUSED[at] ?? ""}${text}`;
     const waiting = [...this._waiting.values()].flat();
     this._waiting.clear();
-    waiting.forEach(({ reject }) => reject(new Error(text)));
-    this._hears.error(at, text);
+    waiting.forEach(({ reject }) => reject(new Error(sentence)));
+    this._hears.error(sentence);
   }
 
   /** Which tunable parameters of a row are other than in the row before. */
