@@ -56,10 +56,12 @@ def _however_long() -> Iterator[None]:
 def drawing(figure: Figure, words: str) -> Drawing:
     """Draw a figure as SVG, and close it; the same figure gives the same bytes.
 
-    `words`: what it shows, in a sentence; its title in the file, which tells what each panel shows too.
+    `words`: what it shows, in a sentence; its title in the file, which tells what each panel shows too; empty: as the
+    figure is titled.
     """
     content = io.BytesIO()
-    title, told = (escape(clean(text)) for text in (words, described(figure)))
+    shown = described(figure)
+    title, told = (escape(clean(text)) for text in (words or shown.partition("\n")[0], shown))
     figure.set_dpi(_DOTS)
     with plt.rc_context({"svg.hashsalt": "ali3"}), _however_long():
         # once: savefig draws a figure and its layout twice

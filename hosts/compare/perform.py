@@ -17,7 +17,7 @@ from hosts.compare.plausibility import odd_scale
 from hosts.compare.replay import Replay
 from hosts.compare.results import Outcome, paths_of, write_outcome
 from hosts.compare.task import Task, prepare
-from hosts.compare.turned_inputs import turned_input, turned_signals
+from hosts.compare.tried_mistakes import misread_speed, turned_input, turned_signals
 from hosts.compare.windows import held_words, window_words, windows
 from hosts.compare.words import common_words, table
 from hosts.measures.log_echo import consistent
@@ -112,8 +112,9 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
     cause = turned_input(task, compared, opposite)
     told = {n: s for n, s in compared.signals.items() if not (cause and len(opposite) > 1 and n in opposite)}
     right = consistent(task.echo)  # a factor in one of these would break what holds among them
+    too_fast = misread_speed(task, compared, right)
     odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for n, s in told.items() if n not in right]
-    return compared, problems + [line for line in (*task.echo.warnings(), *odd, cause) if line]
+    return compared, problems + [line for line in (*task.echo.warnings(), too_fast, *odd, cause) if line]
 
 
 def _refuse_odd(problems: list[str], options: argparse.Namespace) -> None:

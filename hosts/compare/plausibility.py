@@ -19,7 +19,8 @@ LONGEST_GAP = 0.2
 """s between samples of an input that is bridged unless the user says otherwise."""
 _MANY = 5.0  # median intervals are a gap
 _CLOSE = 1.12  # of a ratio
-_ALIKE = 0.8  # correlation
+ALIKE = 0.8
+"""Correlation of signals that tell the same."""
 
 
 def check_inputs(fmu: AliasedFmu, inputs: Mapping[str, Signal], longest: float, notes: list[str]) -> None:
@@ -72,7 +73,7 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
             f"{what} has the opposite sign of the simulation (correlation {still:.2f}): factor = -1.0 in the alias "
             "file turns it."
         )
-    if not abs(found.correlation) >= _ALIKE:
+    if not abs(found.correlation) >= ALIKE:
         return ""
     # Of the spreads, not of the regression, which noise makes smaller.
     ratio = float(np.std(y) / np.std(x))
@@ -95,4 +96,4 @@ def turned(signal: Signal, curve: Curve, delay: float = 0.0) -> float | None:
     now = curve(signal.time)
     still = deviations(signal.time, y, now).correlation
     late = deviations(signal.time, y, x).correlation
-    return still if still < -_ALIKE and not late > 0.05 - still and float(y @ now) < 0.0 else None
+    return still if still < -ALIKE and not late > 0.05 - still and float(y @ now) < 0.0 else None

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import json
-import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from ali3.files import whole_file, write_text
 from hosts.common.numbers import or_null
@@ -24,21 +23,14 @@ def write_signals(before: Comparison, after: Comparison | None, file: Path) -> N
     ``NAME.simulated`` and, where parameters were fitted, ``NAME.fitted``, with the unit.
     """
     times = np.unique(np.concatenate([s.measured.time for s in before.signals.values()]))
-    names, columns = ["time [s]"], [times]
+    columns: dict[str, Any] = {}
     for name, s in before.signals.items():
-        measured = np.full(len(times), np.nan)
-        measured[np.searchsorted(times, s.measured.time)] = s.measured.values
-        made = {"measured": measured, "simulated": s.simulated(times)}
+        columns[f"{name}.measured [{s.measured.unit}]"] = pd.Series(s.measured.values, s.measured.time)
+        columns[f"{name}.simulated [{s.measured.unit}]"] = pd.Series(s.simulated(times), times)
         if after is not None:
-            made["fitted"] = after.signals[name].simulated(times)
-        for what, values in made.items():
-            names.append(f"{name}.{what} [{s.measured.unit}]")
-            columns.append(values)
-    with whole_file(file) as path, path.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream)
-        writer.writerow(names)
-        for row in np.column_stack(columns).tolist():
-            writer.writerow(["" if math.isnan(v) else repr(v) for v in row])
+            columns[f"{name}.fitted [{s.measured.unit}]"] = pd.Series(after.signals[name].simulated(times), times)
+    with whole_file(file) as path:
+        pd.DataFrame(columns, times).to_csv(path, index_label="time [s]", lineterminator="\r\n")
 
 
 def measure_records(measures: Sequence[Measure]) -> list[dict[str, Any]]:

@@ -14,12 +14,12 @@ import numpy as np
 
 from ali3.echo import Echo, Mistake, Value, far_values
 from ali3.units import misread, typeset
-from hosts.measures.relations import FINE, PATH, QUANTITIES, RELATIONS, SPEEDS, WHEELS, Signals, log_values
+from hosts.measures.relations import FINE, PATH, QUANTITIES, RELATIONS, SPEEDS, STEERING, WHEELS, Signals, log_values
 from hosts.measures.samples import of_all, of_samples
 from hosts.measures.signal import Signal
 
 LATE = 0.1  # s: of a signal
-RATES = ("chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw", "steering_wheel_angle")
+RATES = ("chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw", STEERING)
 TIMES = (
     (2.0, "time twice as fast"),
     (0.5, "time half as fast"),
@@ -36,7 +36,8 @@ def log_echo(what: str, signals: Signals) -> Echo:
     def values(signals: Signals) -> list[Value]:
         return [*log_values(signals), *of_samples(signals)]
 
-    return _echo(what, signals, values, [*values(signals), *of_all(list(signals.values()))])
+    # A robot may turn the steering wheel alike again, which is no mistake of a log.
+    return _echo(what, signals, values, [*values(signals), *of_all([s for n, s in signals.items() if n != STEERING])])
 
 
 def relations_echo(what: str, signals: Signals) -> Echo:
@@ -56,16 +57,13 @@ def _echo(what: str, signals: Signals, values: Callable[[Signals], list[Value]],
 
 
 def consistent(echo: Echo) -> set[str]:
-    """Names of signals that are in a relation, and all relations of which hold: no factor, no sign is wrong."""
-    inside: dict[str, bool] = {}
-    for value in echo.values:
-        if value.quantity in _RELATIONS:
-            for name in value.keys:
-                inside[name] = inside.get(name, True) and value.inside(echo.kind)
-    return {name for name, holds in inside.items() if holds}
+    """Names of signals that are in a ratio, and all relations of which hold: no factor, no sign is wrong."""
+    told = [v for v in echo.values if v.quantity in (*_RATIOS, *_ALIKE)]
+    wrong = {name for v in told if not v.inside(echo.kind) for name in v.keys}
+    return {name for v in told if v.quantity in _RATIOS for name in v.keys} - wrong
 
 
-_RELATIONS = [QUANTITIES[key + part] for key in RELATIONS for part in ("", "_alike") if key + part in QUANTITIES]
+_RATIOS, _ALIKE = ([QUANTITIES[key + part] for key in RELATIONS if key + part in QUANTITIES] for part in ("", "_alike"))
 
 
 def _undone(signals: Signals, echo: Echo) -> Iterator[tuple[str, set[str], Signals, bool]]:

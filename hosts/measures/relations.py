@@ -32,13 +32,14 @@ QUANTITIES = quantities_of("log")
 SPEEDS = ("speed", "chassis.vx")
 WHEELS = tuple(f"wheel_{w}.omega" for w in wheels.WHEELS)
 PATH = ("chassis.x", "chassis.y")
+STEERING = "steering_wheel_angle"
 RELATIONS: dict[str, dict[str, int]] = {  # exponents of signals and times in the ratio of a relation
     "turn": {"speed": 1, "chassis.wz": 1, "chassis.ay": -1},
     "accelerate": {"speed": 1, "chassis.ax": -1, "time": -1},
     "heading": {"chassis.yaw": 1, "chassis.wz": -1, "time": -1},
     "way": {**dict.fromkeys(PATH, 1), "speed": -1, "time": -1},
     "course": {"chassis.wz": -1, **dict.fromkeys(PATH, 1)},
-    "steer": {"steering_wheel_angle": -1, "chassis.wz": 1},
+    "steer": {STEERING: -1, "chassis.wz": 1},
     "wheel": {"speed": 1, **dict.fromkeys(WHEELS, -1)},
 }
 """How the value of each relation follows from what is in it; "speed" stands for either speed."""
@@ -96,13 +97,13 @@ def speed_of(signals: Signals) -> str | None:
 
 def _steering(signals: Signals) -> Iterator[Value]:
     """Whether the car turns to the side of the steering wheel."""
-    if not {"steering_wheel_angle", "chassis.wz"} <= signals.keys():
+    if not {STEERING, "chassis.wz"} <= signals.keys():
         return
     wz = signals["chassis.wz"]
-    angle = on_times(signals["steering_wheel_angle"], wz.time)
+    angle = on_times(signals[STEERING], wz.time)
     if np.std(wz.values) > LEAST["yaw"] and np.std(angle) > LEAST["yaw"]:
         alike = _alike(angle, wz.values)
-        yield Value(QUANTITIES["steer_alike"], alike, keys_of(signals, "steering_wheel_angle", "chassis.wz"))
+        yield Value(QUANTITIES["steer_alike"], alike, keys_of(signals, STEERING, "chassis.wz"))
 
 
 def _turning(signals: Signals, v: str) -> Iterator[Value]:

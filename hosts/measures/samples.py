@@ -14,15 +14,19 @@ from hosts.measures.signal import Signal
 FEWEST_EQUAL = 10  # samples
 MOVED = {"speed": 1.5, "ay": 1.0, "yaw": 0.15, "way": 5.0}
 """m/s, m/s2, rad, m: of more than that a sensor tells something."""
+CLIPPED = ("chassis.ax", "chassis.ay", "chassis.wz")
+"""What sensors with a range measure."""
 RUN = 30
 """Samples that are alike by chance in no drive."""
 
 
 def of_samples(signals: Signals) -> Iterator[Value]:
-    """Stretches that stand, and values far from all others."""
+    """Stretches that stand, values far from all others, and ranges that a sensor does not leave."""
     v = speed_of(signals)
     for name, s in signals.items():
         yield Value(QUANTITIES["sentinel"], float(far_values(s.values).sum()), keys_of(signals, name), f"'{s.source}',")
+        if name in CLIPPED:
+            yield Value(QUANTITIES["clipped"], float(_clipped(s.values)), keys_of(signals, name), f"'{s.source}',")
         if v is not None:
             yield Value(QUANTITIES["stands"], _stands(s, signals, v), keys_of(signals, name), f"'{s.source}',")
 
@@ -32,6 +36,13 @@ def of_all(signals: Sequence[Signal]) -> Iterator[Value]:
     keys = {"rows": "all rows of the log"}
     yield Value(QUANTITIES["repeats"], float(_repeats(signals)), keys)
     yield Value(QUANTITIES["jumps"], float(_jumps(signals)), keys)
+
+
+def _clipped(values: Array) -> int:
+    """How many samples are at the ends of a range with one size to both sides, which a sensor reaches and stays at."""
+    largest = float(np.abs(values).max(initial=0.0))
+    ends = [int((values == end).sum()) for end in (largest, -largest)]
+    return sum(ends) if largest and min(ends) >= FEWEST_EQUAL else 0
 
 
 def _stands(signal: Signal, signals: Signals, v: str) -> float:

@@ -6,9 +6,12 @@ import re
 from pathlib import Path
 
 import html5lib
+from lxml import etree
+from matplotlib.figure import Figure
 
 from ali3 import html_elements
-from ali3.charts import Drawing
+from ali3.chart_words import description_of
+from ali3.charts import Drawing, drawing
 from ali3.html_elements import element, picture, table
 
 ROOT = Path(__file__).parents[2]
@@ -43,6 +46,19 @@ def test_a_picture_is_in_the_page() -> None:
     (image,) = tree.iter("img")
     assert (image.get("alt"), image.get("src")) == ('a "b"', "data:image/svg+xml;base64,PHN2Zy8+")
     assert (image.get("width"), image.get("height")) == ("3", "2")
+
+
+def test_a_drawing_says_what_it_shows(tmp_path: Path) -> None:
+    for words, title in (("a < b\x07", "a < b\ufffd"), ("", "A drive & more")):
+        figure = Figure()
+        figure.suptitle("A drive & more")
+        axes = figure.subplots()
+        axes.plot([0.0, 1.0], label="measured")
+        axes.set(title="speed", xlabel="time, s")
+        file = drawing(figure, words).write(tmp_path / "a.svg")
+        tree = etree.parse(file)
+        assert (tree.getroot().get("role"), tree.findtext("{*}title")) == ("img", title)
+        assert description_of(file) == "A drive & more\npanel speed; x time, s; curves measured"
 
 
 def test_no_other_room_has_a_frame_or_style_sheet_of_its_own() -> None:

@@ -20,10 +20,10 @@ def variable(unit: str, low: float, high: float) -> Variable:
 @pytest.mark.parametrize(
     ("unit", "low", "high", "values", "words"),
     [
-        ("1", -1.0, 1.0, 45.0 * WAVE, "percent or degrees"),
-        ("1", 0.0, 1.0, 20.0 * np.abs(WAVE), "percent"),
-        ("rad", -0.6, 0.6, 20.0 * WAVE, "degrees"),
-        ("rad/s", -1.0, 1.0, 40.0 * WAVE, "degrees per second"),
+        ("1", -1.0, 1.0, 45.0 * WAVE, "% or deg"),
+        ("1", 0.0, 1.0, 20.0 * np.abs(WAVE), "%"),
+        ("rad", -0.6, 0.6, 20.0 * WAVE, "deg"),
+        ("rad/s", -1.0, 1.0, 40.0 * WAVE, "deg/s"),
         ("m", -0.1, 0.1, 60.0 * WAVE, "mm"),
         ("m/s", 0.0, 70.0, 120.0 + 60.0 * WAVE, "km/h"),
         ("1", -1.0, 1.0, 1.08 * WAVE, "it may be clipped"),

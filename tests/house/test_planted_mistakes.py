@@ -102,6 +102,10 @@ def offset(name: str, by: float) -> Callable[[Drive], Drive]:
     return lambda d: d | {name: replace(d[name], values=d[name].values + by)}
 
 
+def clipped(name: str, at: float) -> Callable[[Drive], Drive]:
+    return lambda d: d | {name: replace(d[name], values=np.clip(d[name].values, -at, at))}
+
+
 def road(heights: float = 1.0, spacing: float = 0.5, origin: tuple[float, float] = (0.0, -5.0), **more: Any) -> Told:
     """A hilly road in other units or elsewhere."""
     x = np.linspace(0.0, 200.0, 401)
@@ -153,6 +157,7 @@ PLANTED: dict[str, tuple[Told, str]] = {
     "a late yaw rate": (log(late("chassis.wz", 0.6)), "s (within 0.02 s) of 'wz'"),
     "a late longitudinal acceleration": (log(late("chassis.ax", 0.9)), "a delay of 0.9"),
     "gravity in ax": (log(offset("chassis.ax", 9.81)), "an offset of 9.8"),
+    "a clipped yaw rate": (log(clipped("chassis.wz", 0.05)), "'wz', samples at both ends of a range"),
     "a frozen heading": (log(frozen("chassis.yaw", 10.0, 14.0)), "'yaw', longest time without a change"),
     "heights in cm": (road(heights=1e2), "cm in place of m in heights"),
     "coordinates in cm": (road(spacing=50.0), "cm in place of m in coordinates"),

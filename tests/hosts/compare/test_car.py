@@ -151,6 +151,23 @@ def test_what_is_turned_is_told_and_not_what_it_moves(
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("unit", "told"), [("m/s", True), ("km/h", False)])
+def test_a_speed_in_another_unit_is_told_where_the_log_alone_does_not_show_it(
+    car: Path, tmp_path: Path, unit: str, told: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log = logged(car, tmp_path, {"initial.speed": 15.0})
+    file = log.with_suffix(".toml")
+    lines = file.read_text("utf-8").splitlines()
+    kept = [n for n in lines if not n.startswith(('"chassis.ay', '"chassis.v', '"chassis.x', '"chassis.y'))]
+    named = "\n".join(kept).replace('speed = "v"', f'speed = {{ name = "v", unit = "{unit}" }}')
+    file.write_text(named, encoding="utf-8")
+    status, record = compared(car, log, signals="speed,chassis.wz")
+    assert status == told
+    assert ("'v' (speed) looks like km/h in place of m/s" in "".join(record["problems"])) == told
+    assert (values(record)["chassis.wz.correlation"] < 0.8) == told
+
+
+@pytest.mark.slow
 def test_a_delay_of_the_log_is_found_with_its_sign(car: Path, tmp_path: Path) -> None:
     _, record = compared(car, logged(car, tmp_path, {"initial.speed": 15.0}, delay=0.06))
     assert values(record)["chassis.wz.delay"] == pytest.approx(0.06, abs=2e-3)

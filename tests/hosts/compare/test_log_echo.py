@@ -181,3 +181,16 @@ def test_a_speed_of_0_is_told_unless_all_others_stand_too() -> None:
         told = log_echo("log.csv", still | {name: dead[name]}).warnings()
         assert any(words in sentence for sentence in told), name
     assert any(words in sentence for sentence in log_echo("log.csv", {"speed": dead["speed"]}).warnings())
+
+
+def test_the_steering_wheel_tells_the_sign_of_the_yaw_rate_and_no_factor() -> None:
+    made = {n: s for n, s in drive().items() if n in ("speed", "chassis.wz")}
+    wz = made["chassis.wz"]
+    turn = replace(wz, name="steering_wheel_angle", source="wheel", unit="rad", values=12.0 * wz.values)
+    echo = log_echo("log.csv", made | {turn.name: turn})
+    assert (echo.warnings(), consistent(echo)) == ([], set())
+    (told,) = log_echo("log.csv", made | {turn.name: replace(turn, values=-turn.values)}).warnings()
+    assert "the other sign of 'wheel' (steering_wheel_angle)" in told
+    alike = np.tile(np.sin(np.linspace(0.0, 2.0 * np.pi, 250, endpoint=False)), len(wz.time) // 250)
+    robot = replace(turn, values=alike)
+    assert not any("come again" in sentence for sentence in log_echo("log.csv", made | {turn.name: robot}).warnings())
