@@ -27,7 +27,6 @@ MOST_COST = 48.0
 GOAL_ERROR = AGREED * WRONG_ERROR  # what a step that is tried as a remedy aims at
 MET = 2.0 * GOAL_ERROR  # what it must meet to be named
 SMOOTH_MISS = 0.04  # `summed_miss` of what is plainly smooth
-STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
 FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
 COARSER, FINER = "coarser", "finer"
 
@@ -101,7 +100,7 @@ def summed_miss(report: Report) -> float:
     """Changes of velocity that ``v + h a`` does not see, over the largest velocity."""
     # what a vehicle has at constant speed is no motion that steps could miss
     speed = min(report.speed_peak, report.velocity_path) or math.inf
-    return report.predictor_path / speed if report.predictor_path > STILL_MISS else 0.0
+    return report.predictor_path / speed
 
 
 def drift(report: Report) -> float:

@@ -37,14 +37,10 @@ from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 
 Array = NDArray[np.float64]
-SHORTER = 0.5
-"""Longest steps of a third run where both others made only these."""
 COARSE = 20.0
 """Tolerance of the first run in those of the last; it is at most what would be wrong."""
 FINER = 4.0
-"""How much finer the second run is at least: two of the same tolerance show no error."""
-AGAIN, MOST_AT_ONCE = 0.5, 1e-3
-"""What a further run aims at in parts of the tolerance, and by how much it may be finer than the last."""
+"""How much finer a further run is at least: two of the same tolerance show no error."""
 FAR = 0.1
 """Distance of two runs beyond which it says nothing of the finer one. A guess of the error that is reported is at least
 `AGREED` of the tolerance, as smaller ones are too small more often than not; of a single pair of runs none above that
@@ -175,16 +171,15 @@ def _by(
         guess = apart * _fall(run, before)
         error = apart if far > FAR else guess
         if error == 0.0 and longest == 1.0:
-            # the longest steps were fine enough both times, so the runs are the same and show no error
-            before, longest = run, SHORTER
+            # the longest steps were fine enough both times, so the runs are the same and show no error: half of them
+            before, longest = run, 0.5
             continue
         unsure = number == 1 and run.simulation.branch_change  # two runs may have jumped alike
         grows = number == 1 and far > before.fields.error_sum
         if (error <= (AGREED if grows else 1.0) * wanted and not unsure) or aim <= ROUND_OFF:
             break
         before = run
-        finer = min(AGREED if unsure else 1.0 / FINER, AGAIN * wanted / max(guess, wanted))
-        aim = max(ROUND_OFF, aim * max(MOST_AT_ONCE, finer))
+        aim = max(ROUND_OFF, aim * min(AGREED if unsure else 1.0 / FINER, wanted / max(guess, wanted)))
     assert run is not None
     c, told = run.fields, 0.0
     if error > 0.0:  # what stands still errs by no more than it moves

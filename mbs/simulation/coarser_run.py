@@ -23,7 +23,7 @@ from mbs.simulation.march import WATCHED
 from mbs.simulation.refined_run import RefinedRuns, TooDearError, Watch
 
 COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
-LONG = 8  # the first step over that of the run where one iteration or a high order shows enough; else, and then, twice
+LONG = 8  # the first step over that of the run where one iteration or a high order shows enough, of that half as well
 ALONE = 0.03  # of the range: by order one the error behind which twice the step differs so much
 
 
@@ -43,8 +43,10 @@ def coarser_steps(
     """By what the step is multiplied in turn, as far as it resolves the motion: up to a missed share `unresolved`,
     which `unresolved_share` makes larger where errors have a high order.
     """
-    asked = [LONG, 2] if one_iteration(settings, compared, states) or unresolved > UNRESOLVED else [2]
-    return [times for times in asked if times * missed_share(run, settings.method) <= unresolved]
+    one = one_iteration(settings, compared, states)
+    longer = [LONG, LONG // 2] if unresolved > UNRESOLVED else [LONG] if one else []
+    fit = [times for times in [*longer, 2] if times * missed_share(run, settings.method) <= unresolved]
+    return [times for times in fit if times in (fit[0], 2)]
 
 
 def difference_from(known: Accuracy, method: str, h: float) -> float:

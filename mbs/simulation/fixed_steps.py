@@ -129,6 +129,8 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
     if len(run[0].t) < 2 or not (always or refined.divisor or doubt):
         return known
     if not always and refined.before is None and doubt == accuracy.COARSER:
+        if refined.rests:
+            return known
         screened = CoarserRuns(refined).verdict()
         if screened is not None:
             return screened

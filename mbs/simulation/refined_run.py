@@ -86,6 +86,8 @@ class RefinedRuns:
         Whether only the first run changed the assembly mode of a loop.
     compared : dict of str to Compared
         What is compared, by name.
+    rests : bool
+        Whether nothing moves that could be compared.
     parts : int
         By what the step is divided for the refined run with half of what was really made.
     unresolved : float
@@ -127,6 +129,7 @@ class RefinedRuns:
         self.compared = compared_in(
             self.run[0], compared_sensors(self.system), self.length, self.before, stands, guided
         )
+        self.rests = stands and not self.compared
         if shows_motion(self.compared):
             self.run = self.run[0], []
         elif self.run[1]:

@@ -203,6 +203,7 @@ class TestRepeats:
             run = simulate(compile(m), 5.0, 0.05, method=method, estimate_error=True, **QUIET)
             assert run.accuracy.units == {}
             assert run.accuracy.message == ""
+            assert simulate(compile(m), 5.0, 0.05, method=method, **QUIET).accuracy.check_cost == 0.0
 
     def test_the_braked_car_stands_without_a_word(self):
         run = simulate(compile(prototype_car.build()), 5.0, 0.05, {"brake": 1.0}, estimate_error=True, **QUIET)
