@@ -96,7 +96,7 @@ class Experiment(Generic[T, R]):
                 now = min(max(part, done), self.size(task))
                 flying[number] = task, now
                 bar.set_description_str(self.label(task), refresh=False)
-                bar.update(now - done)
+                bar.update(min(now - done, bar.total - bar.n))  # a sum of parts rounds
                 return now
 
             for number, result in runner.results(sent(), lambda number, part: told(number, shown(number, part))):
