@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
@@ -30,9 +31,9 @@ from ali3.processes import module_command
 from ali3.temporary import temporary_folder
 from ali3.words import shortened
 
-DONE, TOLD, ERROR, READY = 0, 1, 2, 3
+DONE, TOLD, ERROR, READY, ALIVE = 0, 1, 2, 3, 4
 """Kinds of frames: a result, what is told before it, an error as its sentence and exit code, that work has come and may
-begin."""
+begin, that it goes on."""
 _START = 600.0  # s in which Python and its packages have begun, on a busy machine
 _LONGEST = 1e7  # s that a timer can wait on all platforms
 _END = 10.0  # s in which a guard ends all that is left
@@ -209,7 +210,7 @@ class Isolated(Generic[T, R]):
     ) -> None:
         self._work, self._environment = work, environment
         self._reads, self._writes = [file.absolute() for file in reads], list(writes)
-        self._types = {DONE: answer, TOLD: told, ERROR: tuple[str, int], READY: int}
+        self._types = {DONE: answer, TOLD: told, ERROR: tuple[str, int], READY: int, ALIVE: int}
         self._process: _Process | None = None
         self._lock, self._closed = threading.Lock(), False
         self.left = 0
@@ -221,13 +222,15 @@ class Isolated(Generic[T, R]):
         tell: Tell = lambda word: None,
         limit: float | None = None,
         finish: Callable[[R | None, Path], Any] = lambda result, store: result,
+        in_all: bool = False,
     ) -> R | Lost:
         """Do a task and wait for it.
 
-        `tell`: called with what the work tells meanwhile; `limit`: in s without a word, after which the process is
-        ended; `finish`: makes the result out of that of the work and of what is in the store of the process, see
-        `ali3.processes.store`; where the process has ended it is given None, and makes what is kept. Raises
-        `UserError`: the work has raised one, or another error that `run_command` would show.
+        `tell`: called with what the work tells meanwhile; `limit`: in s without a word, see `ali3.processes.alive`,
+        after which the process is ended, or with `in_all` in s of the whole task; `finish`: makes the result out of
+        that of the work and of what is in the store of the process, see `ali3.processes.store`; where the process has
+        ended it is given None, and makes what is kept. Raises `UserError`: the work has raised one, or another error
+        that `run_command` would show.
         """
         data, late = pickle.dumps(task), threading.Event()
         process, is_new = self._started()
@@ -237,14 +240,16 @@ class Isolated(Generic[T, R]):
             process.kill()
 
         process.send(data)
-        seconds = _START if is_new else limit
+        begin, seconds = time.monotonic(), _START if is_new else limit
         try:
-            while (answer := self._answer(process, seconds, end)) is not None and answer[0] in (TOLD, READY):
+            while (answer := self._answer(process, seconds, end)) is not None and answer[0] in (TOLD, READY, ALIVE):
                 if answer[0] == TOLD:
                     tell(answer[1])
-                else:
-                    process.number = answer[1]
+                elif answer[0] == READY:
+                    process.number, begin = answer[1], time.monotonic()
                 seconds = limit
+                if in_all and limit is not None:
+                    seconds = max(limit - (time.monotonic() - begin), 0.0)
         except BaseException:  # of `tell`, or Ctrl-C: what the process still says belongs to no other task
             process.kill()
             self._end()
@@ -252,7 +257,8 @@ class Isolated(Generic[T, R]):
         if answer is None:
             how, call, kept = self._end(finish)
             if late.is_set():
-                how = f"{'took more than' if process.number else 'had not begun after'} {seconds:g} s{call}"
+                how = f"took more than {limit:g} s" if process.number else f"had not begun after {_START:g} s"
+                how += call
             return Lost(how, late.is_set(), kept)
         kind, content = answer
         result: R | None = finish(content, process.store) if kind == DONE else None

@@ -13,6 +13,7 @@ _prefix: str | None = None
 _began: Path | None = None
 _store: Path | None = None
 _next_word: Callable[[], Any] | None = None
+_tell: Callable[[], None] | None = None
 
 
 def is_memory_short() -> bool:
@@ -33,10 +34,19 @@ def cause_words(error: Exception) -> str:
     return ""
 
 
-def begin_for(folder: Path, place: Path, next_word: Callable[[], Any]) -> None:
-    """This process works for one that is in another folder, has a store at a place, and hears more by a function."""
-    global _began, _store, _next_word
-    _began, _store, _next_word = folder, place, next_word
+def begin_for(folder: Path, place: Path, next_word: Callable[[], Any], tell: Callable[[], None]) -> None:
+    """This process works for one that is in another folder, has a store at a place, and hears more by a function.
+
+    `tell`: tells that it is alive.
+    """
+    global _began, _store, _next_word, _tell
+    _began, _store, _next_word, _tell = folder, place, next_word, tell
+
+
+def alive() -> None:
+    """Tell the process that asks, if there is one, that the task goes on; it ends one that says nothing for long."""
+    if _tell is not None:
+        _tell()
 
 
 def received() -> Any:

@@ -22,7 +22,7 @@ _SHARE = 0.75  # of the memory of the machine that a process may take
 def _serve(folder: Path) -> None:
     from ali3.call_mark import begin_marks
     from ali3.frames import write_frame
-    from ali3.isolated import DONE, ERROR, READY, TOLD
+    from ali3.isolated import ALIVE, DONE, ERROR, READY, TOLD
     from ali3.processes import begin_for
     from ali3.running import WRONG_USE, sentence
 
@@ -31,7 +31,7 @@ def _serve(folder: Path) -> None:
     os.dup2(2, 1)  # what an FMU prints must not get between the answers
     arrived: queue.SimpleQueue[Any] = queue.SimpleQueue()
     threading.Thread(target=_receive, args=(os.fdopen(os.dup(0), "rb"), arrived), daemon=True).start()
-    begin_for(Path(sys.argv[3]), Path(sys.argv[4]), arrived.get)
+    begin_for(Path(sys.argv[3]), Path(sys.argv[4]), arrived.get, lambda: write_frame(sink, ALIVE, 0))
     work = arrived.get()
     write_frame(sink, READY, os.getpid())
     while True:

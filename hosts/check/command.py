@@ -217,7 +217,7 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     without: list[str] = []
     steps = options.steps or (_THOROUGH if options.thorough else _STEPS)
     checker = Checker(fmu.absolute(), steps, start)
-    with Pool(checker, Finding, reads=(fmu, *files_of(start)), limit=limit) as process:
+    with Pool(checker, Finding, reads=(fmu, *files_of(start)), limit=limit, in_all=True) as process:
         for place, check in enumerate(CHECKS):
             if check.name in without:
                 cases.append(Case(fmu.stem, check.name, "skipped", "functions of the FMU cannot be called"))

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.processes import alive
 from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
 from hosts.driving.derived_columns import derive_columns
@@ -170,6 +171,7 @@ def run(
         if (now := clock.perf_counter()) >= due:
             due = now + _BETWEEN
             progress(rows.done)
+            alive()
         if until is not None and until(rows.done * step, senses):
             break
     wall = clock.perf_counter() - begin

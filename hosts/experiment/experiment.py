@@ -58,13 +58,14 @@ class Experiment(Generic[T, R]):
     size: Callable[[T], float] = lambda task: 1.0
     """By which a task counts among the others."""
     limit: float = PATIENCE
-    """s without a word, after which a run is ended."""
+    in_all: bool = False
+    """`limit`, `in_all`: s after which a run is ended, see `Isolated.do`."""
     finish: Callable[[T, R | None, Path], Any] = lambda task, result, store: result
     """See `Pool`."""
 
     def pool(self, jobs: int = 1) -> Pool[T, R]:
         """So many processes of this machine that make the runs."""
-        return Pool(self.work, self.answer, jobs, self.reads, self.limit, self.finish)
+        return Pool(self.work, self.answer, jobs, self.reads, self.limit, self.finish, self.in_all)
 
     def results(
         self,
@@ -96,7 +97,7 @@ class Experiment(Generic[T, R]):
                 now = min(max(part, done), self.size(task))
                 flying[number] = task, now
                 bar.set_description_str(self.label(task), refresh=False)
-                bar.update(now - done)
+                bar.update(min(now - done, bar.total - bar.n))  # a sum of parts rounds
                 return now
 
             for number, result in runner.results(sent(), lambda number, part: told(number, shown(number, part))):

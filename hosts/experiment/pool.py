@@ -25,9 +25,9 @@ R = TypeVar("R")
 class Pool(Closing, Generic[T, R]):
     """Processes that make runs, one at a time each; one that a run takes down is replaced.
 
-    `work`, `answer`, `reads`: see `Isolated`; `jobs`: how many; `limit`: in s without a word, after which the process
-    of a run is ended; `finish`: see `Isolated.do`, with the task before. An iteration that is left early, as by Ctrl-C
-    or an error, closes the pool.
+    `work`, `answer`, `reads`: see `Isolated`; `jobs`: how many; `limit`, `in_all`: after which the process of a run is
+    ended, see `Isolated.do`; `finish`: the same, with the task before. An iteration that is left early, as by Ctrl-C or
+    an error, closes the pool.
     """
 
     def __init__(
@@ -38,8 +38,9 @@ class Pool(Closing, Generic[T, R]):
         reads: Iterable[Path] = (),
         limit: float = PATIENCE,
         finish: Callable[[T, R | None, Path], Any] = lambda task, result, store: result,
+        in_all: bool = False,
     ) -> None:
-        reads, self._limit, self._finish = list(reads), limit, finish
+        reads, self._limit, self._finish, self._in_all = list(reads), limit, finish, in_all
         self._workers: list[Isolated[T, R]] = [
             Isolated(work, answer, reads=reads, environment=_ONE_THREAD) for _ in range(max(1, jobs))
         ]
@@ -104,4 +105,4 @@ class Pool(Closing, Generic[T, R]):
                 raise
 
     def _done(self, worker: Isolated[T, R], task: T, tell: Tell = lambda word: None) -> R | Lost:
-        return worker.do(task, tell, self._limit, partial(self._finish, task))
+        return worker.do(task, tell, self._limit, partial(self._finish, task), self._in_all)

@@ -23,6 +23,7 @@ from ali3.reading import is_file, is_folder
 from hosts.common.errors import HostError
 from hosts.experiment.experiment import Runner
 from hosts.measures.limits import limits_record
+from hosts.study.counts import Counts, duration
 from hosts.study.folder import (
     begin_study,
     check_no_link,
@@ -36,7 +37,6 @@ from hosts.study.one_run import experiment_of, outcome_of, tell_start
 from hosts.study.outcome_store import OutcomeStore
 from hosts.study.parts import forget_rows, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
-from hosts.study.progress import Counts, duration
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.trial import Trial, bytes_of, try_out, with_columns
 from hosts.study.work import FAILED, Outcome, Run

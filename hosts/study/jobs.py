@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -86,12 +86,11 @@ def performed(
     name: str,
     names: Aliases,
     values: Mapping[str, Value],
-    progress: Callable[[float], None] = lambda done: None,
 ) -> TestRecord:
-    """What the test of a job has yielded. `name`: of the FMU in messages; `progress`: see `StandardTest.perform`."""
+    """What the test of a job has yielded. `name`: of the FMU in messages."""
     step = None if math.isnan(job.step) else job.step
     car = TestedCar(name, path, names, {**job.start, **values}, step)
-    return perform(standard_test(job.test), car, job.settings, progress)
+    return perform(standard_test(job.test), car, job.settings)
 
 
 def jobs_of(study: StudyFile, file: Path, fmu: SimulatedFmu, parameters: Sequence[str]) -> list[Job]:

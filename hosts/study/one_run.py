@@ -25,7 +25,7 @@ from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.result import Result
 from hosts.experiment.experiment import Experiment
 from hosts.fmu.fmu_source import FmuSource, LoadedFmu
-from hosts.fmu.own_process import PATIENCE, files_of
+from hosts.fmu.own_process import files_of
 from hosts.measures.measure import Measure
 from hosts.study.jobs import Job, performed
 from hosts.study.work import DONE, FAILED, INCOMPLETE, Outcome, Run, Work, seed_of
@@ -38,27 +38,20 @@ _MOST_MESSAGES = 5
 _LONGEST = 300  # characters of a message
 
 
-def _quiet(done: float) -> None:
-    """Tell nothing."""
-
-
 class Bench:
     """An FMU on which runs are made one after the other, in one instance where that gives the same bits."""
 
     def __init__(self, work: Work, path: Path) -> None:
         self._work, self._path = work, path
         self._fmu = LoadedFmu(FmuSource(path, work.names))
-        self._progress: Callable[[float], None] = _quiet
 
     def close(self) -> None:
         """Free the instance."""
         self._fmu.close()
 
     def __call__(self, run: Run, tell: Callable[[Any], None]) -> Outcome:
-        """See `run`; as work for a process, which tells that it goes on unless the whole run has its time."""
+        """See `run`; as work for a process."""
         work = self._work
-        if work.time_limit is None:
-            self._progress = tell
         point, number = divmod(run.index, len(work.jobs))
         return self.run(work.jobs[number], run.values, seed_of(work.seed, point))
 
@@ -84,7 +77,7 @@ class Bench:
         driver: Driver | None = None
         if manoeuvre.driver:
             driver = driver_of(fmu, manoeuvre)
-        result = run(fmu, manoeuvre, job.step, driver, self._progress)
+        result = run(fmu, manoeuvre, job.step, driver)
         outcome = _of_result(result, job)
         if job.every:
             outcome.signals = sampled(result, work.signals, job)
@@ -95,7 +88,7 @@ class Bench:
         return outcome
 
     def _test(self, job: Job, values: Mapping[str, Value]) -> Outcome:
-        record = performed(job, self._path, self._work.fmu, self._work.names, values, self._progress)
+        record = performed(job, self._path, self._work.fmu, self._work.names, values)
         outcome = Outcome(simulated=sum(result.simulated for result in record.runs.values()))
         outcome.messages = said(record.notes)
         named = [(column(job, m), m) for m in record.measures if not job.measures or m.name in job.measures]
@@ -152,8 +145,8 @@ def _take(outcome: Outcome, measures: Sequence[tuple[str, Measure]]) -> None:
 def experiment_of(work: Work, path: Path) -> Experiment[Run, Outcome]:
     """Runs of a study as an experiment, with a `Bench` in each process. `path`: of the FMU."""
     reads = [path, *(file for start in _starts(work) for file in files_of(start))]
-    limit = PATIENCE if work.time_limit is None else work.time_limit
-    return Experiment("study", Bench(work, path.absolute()), Outcome, partial(_label, work), reads, limit=limit)
+    made = Experiment("study", Bench(work, path.absolute()), Outcome, partial(_label, work), reads)
+    return made if work.time_limit is None else replace(made, limit=work.time_limit, in_all=True)
 
 
 def _label(work: Work, run: Run) -> str:

@@ -161,5 +161,7 @@ def test_the_limit_is_a_time_without_a_word() -> None:
         assert worker.do(0.2, heard.append, limit=1.0) == 8
         assert heard == list(range(8))
         assert worker.do(1000.0, heard.append, limit=0.2) == Lost("took more than 0.2 s", late=True)
+        assert worker.do(0.5, heard.append, limit=2.0, in_all=True) == Lost("took more than 2 s", late=True)
+        assert 8 < len(heard) < 14
     finally:
         worker.close()

@@ -106,3 +106,14 @@ def test_a_recording_is_repeated_in_another_process(faults: Path, tmp_path: Path
 def test_the_catalogue_drives_in_another_process(prototype_fmu: Path, tmp_path: Path) -> None:
     done = run(catalogue, prototype_fmu, "--tests", "drop", "--jobs", 1, "--out", tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_tables_of_a_folder_are_compared_up_to_a_crash_and_the_others_whole(faults: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "tables"
+    for fault in (0, CRASH):
+        table(folder, fault)
+    done = run(check, faults, "--reference", folder, "--bound", "y=1", "--jobs", 2)
+    assert done.returncode == 1
+    assert f"{folder / 'log_0.csv'}, 1 signals up to 2 s in steps of 0.01 s: all within their bounds" in done.stdout
+    assert f"{folder / f'log_{CRASH}.csv'}, 1 signals up to 0.04 s" in done.stdout
+    assert f"The reference goes on to 2 s, but the process of the FMU {_WORDS[CRASH]}; 5 rows were kept." in done.stdout

@@ -37,6 +37,20 @@ def test_what_is_done_is_told_and_what_is_lost_has_its_part() -> None:
     assert [done for number, done in told if number == 1] == [1.5]
 
 
+def tenths(task: float, tell: Callable[[Any], None]) -> float:
+    for k in range(10):
+        tell(0.1 * k)
+    return task
+
+
+def test_parts_that_are_rounded_are_no_more_than_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The bar warns of more, which is an error here."""
+    monkeypatch.setattr("ali3.bars._DELAY", 0.0)
+    experiment: Experiment[float, float] = Experiment("tenths", tenths, float, str, size=lambda task: 60.3)
+    with closing(experiment.results(9 * [0.0], experiment.pool())) as results:
+        assert len(list(results)) == 9
+
+
 def stored(task: float, tell: Callable[[Any], None]) -> float:
     """Leaves its task in the store; the third is lost."""
     place = store()

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 import psutil
 import pytest
 
 from ali3.errors import UserError
 from ali3.isolated import Lost
+from hosts.driving.co_simulation import run
+from hosts.driving.manoeuvre import Manoeuvre
 from hosts.experiment.pool import Pool
+from hosts.fmu.fmu_source import FmuSource
 from tests.commands.test_isolated import Counter
 
 Tell = Callable[[Any], None]
@@ -41,6 +46,32 @@ def test_processes_that_stay_are_the_same_in_the_next_round_and_end_where_it_is_
     with pytest.raises(UserError, match="The value is 3"):
         list(pool.results(["wrong", "hang"]))
     assert not psutil.pid_exists(ids[0])
+
+
+class Slow:
+    """A driver that takes a tenth of a second for each step."""
+
+    def act(self, time_: float, senses: Mapping[str, float]) -> dict[str, float]:
+        time.sleep(0.1)
+        return {"pull": 0.0}
+
+
+def driven(task: Path, tell: Tell) -> int:
+    """A run of 3 s, which tells nothing itself."""
+    with FmuSource(task).opened() as fmu:
+        return len(run(fmu, Manoeuvre("slow", np.zeros(0), {}, 0.3), 0.01, Slow()).time)
+
+
+def test_a_run_that_goes_on_is_alive_however_long_it_takes(scene_fmu: Callable[..., Path]) -> None:
+    """A test of a slow FMU was ended, because it told its progress after each of its runs alone."""
+    fmu = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:tuned")
+    pool: Pool[Path, int] = Pool(driven, int, reads=[fmu], limit=1.5)
+    with pool:
+        assert pool.run(fmu) == 31
+    with Pool(driven, int, reads=[fmu], limit=1.5, in_all=True) as short:
+        lost = short.run(fmu)
+    assert isinstance(lost, Lost)
+    assert lost.how.startswith("took more than 1.5 s")
 
 
 def threads(task: int, tell: Tell) -> int:
