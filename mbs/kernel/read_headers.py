@@ -22,7 +22,7 @@ ARRAYS, ELEMENTS = "src/system_arrays.h", "src/elements/element_types.h"
 MAGIC = "src/elements/magic_formula.h"
 
 ENUMERATIONS = {
-    "Status": (PUBLIC, "ALI3_OK", "ALI3_", "Codes of `ali3_status`: how a call of the kernel ended."),
+    "Cause": (PUBLIC, "ALI3_CAUSE_CALL", "ALI3_CAUSE_", "`ali3_cause`: what a refusal comes from."),
     "SolverValue": (PUBLIC, "ALI3_SOLVER_ITERATIONS", "ALI3_SOLVER_", "What the solver says about itself."),
     "ParameterTarget": (SYSTEM, "ALI3_TARGET_ELEMENT", "ALI3_TARGET_", "What a parameter writes to."),
     "GuideType": ("src/rows/guides.h", "ALI3_GUIDE_OF_TIME", "ALI3_GUIDE_", "Types of guides."),
@@ -226,6 +226,13 @@ def size_table() -> str:
     return "\n".join(["| size | number of | is |", "| --- | --- | --- |", *rows])
 
 
+def status_table() -> str:
+    """The table of statuses, as a page shows it on the site."""
+    statuses = enumerate(table(PUBLIC, "ALI3_STATUSES"))
+    rows = (f"| {number} | {name} | {words} | {remedy} |" for number, (name, _, words, remedy) in statuses)
+    return "\n".join(["| status | name | words | remedy |", "| --- | --- | --- | --- |", *rows])
+
+
 def structure(name: str) -> list[tuple[str, str]]:
     """Fields of ``ali3_name`` and their ctypes."""
     found = re.search(rf"typedef struct \{{([^{{}}]*)\}} ali3_{name};", text_of(PUBLIC))
@@ -350,6 +357,8 @@ def _sensor_reads() -> Iterator[str]:
 
 
 def _enumerations() -> Iterator[str]:
+    statuses = (f"{name} = {number}" for number, (name, *_) in enumerate(table(PUBLIC, "ALI3_STATUSES")))
+    yield _class("Status", "IntEnum", "Codes of `ali3_status`: how a call of the kernel ended.", statuses)
     yield from _classes(ENUMERATIONS)
     types = (f"{t.name} = {t.number}" for t in sensor_types())
     yield _class("SensorType", "IntEnum", "Types of sensors.", types)

@@ -147,7 +147,7 @@ class _Run:
         failure = None
         if self.error is not None:
             what = f"The step from t = {time_now:g} s with h = {self.h:g} s failed"
-            failure = refusal(self.simulation, what, self.error, recorded)
+            failure = refusal(self.simulation, what, self.error, recorded, step_given=True)
         told = self._checked(recorded) if checked and failure is None else self._told(recorded)
         return _Found(recorded, failure, self.alone, told)
 

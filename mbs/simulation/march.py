@@ -95,7 +95,7 @@ def march(
                 record.take(row, places)
                 recorded = trajectory_of(simulation, t0, h * every, values[:good], wall, before, record, left_out)
                 what = f"The step from t = {simulation.time:g} s with h = {h:g} s failed"
-                raise refusal(simulation, what, error, recorded) from error
+                raise refusal(simulation, what, error, recorded, step_given=True) from error
             spent = time.perf_counter() - begin
             wall += spent
             record.take(row, places)

@@ -7,6 +7,8 @@ import math
 import numpy as np
 
 from mbs.kernel.binding import KernelError, Status, open_row
+from mbs.kernel.binding.errors import status_cause, status_remedy
+from mbs.kernel.header.enumerations import Cause
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import unit_text
@@ -23,48 +25,43 @@ STIFF_STEP = 1.0  # fastest rate times step that an explicit method follows well
 
 
 def refusal(
-    simulation: SteppedSystem, what: str, error: KernelError, trajectory: Trajectory | None = None, ahead: float = 0.0
+    simulation: SteppedSystem,
+    what: str,
+    error: KernelError,
+    trajectory: Trajectory | None = None,
+    ahead: float = 0.0,
+    *,
+    step_given: bool = False,
 ) -> SimulationError:
-    """An error of the kernel as a SimulationError.
+    """An error of the kernel as a SimulationError: status, reason, its numbers and remedy.
 
     `simulation`: in the last good state; `what`: the beginning of the sentence: what was tried; `trajectory`: what was
-    recorded until then; `ahead`: how far drives are followed, s, if not over the step that was tried. Result: status,
-    reason and remedy; of a step that did not converge also the worst row and the worst balance.
+    recorded until then; `ahead`: how far drives are followed, s, if not over the step that was tried; `step_given`:
+    a step was refused whose length is the caller's choice. Equations that are not met are named with the worst one.
     """
-    beyond = beyond_reach(simulation, ahead or simulation.step_tried) if error.status in NEAR_AN_END else ""
-    message = f"{what}: {error.message}{beyond or _remedy(simulation, error.status)}"
-    report = simulation.instance.report()
-    # neither row nor balance is at fault where nothing was solved yet, or all was but did work
-    unsolved = not report["factorizations"]
-    if not (unsolved or beyond) and error.status not in (
-        Status.WRONG_METHOD,
-        Status.NO_TREE,
-        Status.START_REFUSED,
-        Status.UNRESOLVED,
-        Status.TURNS_TOO_FAR,
-        Status.TOO_DEAR,
-        Status.TOO_STIFF,
-        Status.TOO_FAR,
-        Status.ROAD_LOST,
-        Status.WHEEL_IN_ROAD,
-        Status.BAD_NORMAL,
-        Status.BEYOND_TABLE,
-    ):
-        message += _worst_equations(simulation, report)
-    refused = SimulationError(message, simulation.time, error.status, trajectory)
+    status, cause = error.status, status_cause(error.status)
+    beyond = beyond_reach(simulation, ahead or simulation.step_tried) if status in NEAR_AN_END else ""
+    message = f"{what}: {error.message}{beyond}"
+    if not beyond:
+        message += _numbers(simulation, status)
+        if step_given or cause not in (Cause.STEP, Cause.EQUATIONS):
+            message += f" {status_remedy(status)}"
+        report = simulation.instance.report()
+        # neither row nor balance is at fault where nothing was solved yet, or all was but did work
+        if cause in (Cause.START, Cause.EQUATIONS) and report["factorizations"]:
+            message += _worst_equations(simulation, report)
+    refused = SimulationError(message, simulation.time, status, trajectory)
     refused.final = bool(beyond)
     return refused
 
 
-def _remedy(simulation: SteppedSystem, status: int) -> str:
-    """The remedy that follows from the status alone."""
+def _numbers(simulation: SteppedSystem, status: int) -> str:
+    """The names and numbers of a status, in sentences."""
     if status in (Status.WRONG_METHOD, Status.NO_TREE):
         method, words = simulation.settings.method, simulation.instance.method_excludes()
         if status == Status.NO_TREE:
-            why = f"Here {prepared(simulation.system)[1]['report']['no_tree']}. The method is {method!r}"
-        else:
-            why = f"{method!r} takes no {words}"
-        return f" {why}; 'ali3p' takes every System."
+            return f" Here {prepared(simulation.system)[1]['report']['no_tree']}. The method is {method!r}."
+        return f" {method!r} takes no {words}."
     if status == Status.START_REFUSED:
         height, element, words = simulation.instance.start_excess()
         name = prepared(simulation.system)[1]["elements"][element]["name"]
@@ -75,18 +72,19 @@ def _remedy(simulation: SteppedSystem, status: int) -> str:
         element, words = simulation.instance.wheel_in_road()
         return f" '{prepared(simulation.system)[1]['elements'][element]['name']}': {words}."
     if status == Status.BEYOND_TABLE:
-        return _beyond_table(simulation)
+        column, value, first, last = simulation.instance.beyond_table()
+        name = prepared(simulation.system)[1]["coordinates"][column]
+        return f" {name!r} is {value:.4g}; its table goes from {first:.4g} to {last:.4g}."
     if status == Status.NO_EQUILIBRIUM:
         return _farthest_changed(simulation)
+    rate = simulation.instance.report()["fastest_rate"]
     if status == Status.TURNS_TOO_FAR:
-        rate = simulation.instance.report()["fastest_rate"]
-        return f" Its rate is {rate:.3g} rad/s; a step of {0.49 / rate:.2g} s follows it, so do more `max_halvings`."
-    rate = simulation.instance.report()["fastest_rate"] if status == Status.TOO_STIFF else 0.0
-    if rate > 0.0:
+        return f" Its rate is {rate:.3g} rad/s; a step of {0.49 / rate:.2g} s follows it."
+    if status == Status.TOO_STIFF and rate > 0.0:
         h = simulation.step_tried
         return (
             f" Its rate here is {rate:.3g} 1/s, which times the step of {h:g} s is {rate * h:.3g}; that should be "
-            f"below about {STIFF_STEP:g}. Implicit methods ('ali3p', 'radau_5') need not follow it."
+            f"below about {STIFF_STEP:g}."
         )
     return ""
 
@@ -128,16 +126,6 @@ def _closes(evaluator: Evaluator, ahead: float) -> bool:
     return left <= CLOSED * most
 
 
-def _beyond_table(simulation: SteppedSystem) -> str:
-    """The coordinate that is farthest beyond its table."""
-    column, value, first, last = simulation.instance.beyond_table()
-    name = prepared(simulation.system)[1]["coordinates"][column]
-    return (
-        f" {name!r} is {value:.4g}; its table goes from {first:.4g} to {last:.4g}: give it one that covers what the "
-        "run can reach."
-    )
-
-
 def _farthest_changed(simulation: SteppedSystem) -> str:
     """The parameters that were changed by most of their ranges."""
     changed = []
@@ -149,7 +137,7 @@ def _farthest_changed(simulation: SteppedSystem) -> str:
     changed.sort(key=lambda item: -item[0])
     said = "; ".join(words for _, words in changed[:MOST_NAMED])
     more = f" (and {len(changed) - MOST_NAMED} others)" if len(changed) > MOST_NAMED else ""
-    return f" {said}{more}: set them nearer to the values that the model was compiled with." if said else ""
+    return f" {said}{more}." if said else ""
 
 
 def _worst_equations(simulation: SteppedSystem, report: dict[str, float]) -> str:

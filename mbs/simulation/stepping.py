@@ -324,7 +324,7 @@ class Simulation(SteppedSystem):
         try:
             return self.instance.settle(lasting, length)
         except KernelError as error:
-            failed = refusal(self, "The start did not settle", error)
+            failed = refusal(self, "The start did not settle", error, step_given=True)
             self.instance.restore(state)
             raise failed from error
 
@@ -357,7 +357,8 @@ class Simulation(SteppedSystem):
         check_resolution(self.time, h)
         self.step_tried, self._refined = h, None
         for _ in range(int(n)):
-            self._call(f"The step from t = {self.time:g} s with h = {h:g} s failed", lambda: self.instance.step(h))
+            what = f"The step from t = {self.time:g} s with h = {h:g} s failed"
+            self._call(what, lambda: self.instance.step(h), step_given=True)
         self._warn_once()
 
     def run(
@@ -520,8 +521,8 @@ class Simulation(SteppedSystem):
             raise ValueError(f"There is no {SINGULAR.get(kind, kind[:-1])} {shown(name)}; the System has: {known}.")
         return names.index(name)
 
-    def _call(self, what: str, action: Callable[[], object]) -> None:
+    def _call(self, what: str, action: Callable[[], object], *, step_given: bool = False) -> None:
         try:
             action()
         except KernelError as error:
-            raise refusal(self, what, error) from error
+            raise refusal(self, what, error, step_given=step_given) from error

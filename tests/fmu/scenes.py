@@ -332,6 +332,22 @@ def carried_off() -> mbs.Model:
     return m
 
 
+def led_crank() -> mbs.Model:
+    """A crank at an angle that is asked for, before bars that do not reach all of them; beside it a light ball."""
+    m = mbs.Model("led_crank", dimension=2, gravity=(0.0, 0.0))
+    ends = [np.zeros(2), np.array([0.0, 1.0]), np.array([1.1, 1.0]), np.array([2.0, 0.0])]
+    bars = [m.body(f"bar {k}", mass=1.0, com=0.5 * (ends[k] + ends[k + 1]), inertia=0.1) for k in range(3)]
+    for k, (one, other) in enumerate(zip([m.ground, *bars], [*bars, m.ground], strict=True)):
+        m.revolute(f"hinge {k}", one, other, point=ends[k])
+    asked = m.input("angle", min=-4.0, max=4.0, unit="rad")
+    turn = m.guide_input("turn", input=asked, frequency=5.0, unit="rad")
+    m.drive("motor", m.relative_angle("turned", m.ground, bars[0]), turn)
+    ball = m.point_mass("ball", mass=1e-10, position=(0.0, 5.0))
+    m.force("push", ball, inputs=[m.input("push", unit="N"), None])
+    m.sense_position("ball.x", ball, component="x")
+    return m
+
+
 def contradicting_arm() -> mbs.Model:
     """A rod on a pin whose velocities do not fit together, beside a truss that cannot move."""
     m = mbs.Model("arm", dimension=2)

@@ -58,7 +58,7 @@ def test_a_start_without_an_equilibrium_names_the_parameter(
     driven.slave.enterInitializationMode()
     assert driven.call("exitInitializationMode") == ERROR
     assert "no static equilibrium near the drawing" in driven.messages[-1]
-    assert "'stiffness' is 0 N/m, farthest from its start value 100; set it nearer to that." in driven.messages[-1]
+    assert "'stiffness' is 0 N/m, farthest from its start value 100. Set parameters nearer to" in driven.messages[-1]
     assert driven.set("stiffness", 50.0) == OK
     assert driven.call("exitInitializationMode") == OK
     assert abs(driven.get("y") + 0.9 + 9.81 / 50.0) < 1e-9

@@ -14,7 +14,7 @@ from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import SensorType, SolverValue
 from mbs.kernel.read_headers import SensorEntry, sensor_types
-from mbs.scenes import bricard, spatial_chain
+from mbs.scenes import bricard, prototype_car, spatial_chain
 from mbs.settings.settings import METHODS
 from mbs.vehicle import load
 from tests.methods.models import hinge
@@ -323,6 +323,17 @@ def test_a_map_of_ports_that_points_elsewhere_is_refused(changes: dict[str, list
 )
 def test_a_velocity_row_that_is_more_or_less_is_refused(changes: dict[str, list[float]], said: str) -> None:
     assert said in refused(pack(sleigh().arrays() | changes))
+
+
+def test_a_wheel_on_a_table_that_is_not_named_is_refused() -> None:
+    """Its signals are dependents, for which the mass matrix has no rows to look into."""
+    arrays = dict(compile(prototype_car.build(fidelity=10)).arrays) | {"meta": b""}
+    assert min(arrays["axis_table"]) >= 0
+    said = "a wheel whose axis has no table is on a tabled body"
+    for k in range(len(arrays["axis_table"])):
+        table = np.array(arrays["axis_table"])
+        table[k] = -1
+        assert said in refused(pack(arrays | {"axis_table": table}))
 
 
 @pytest.mark.slow

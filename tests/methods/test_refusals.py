@@ -14,6 +14,7 @@ from benchmarks.references.cases import system_of
 from mbs import Model, Pose, Settings, Simulation, SimulationError, compile, simulate
 from mbs.kernel.binding import FARTHEST, KernelError, LoadedSystem, Status, open_row
 from mbs.kernel.binding.instance import Instance
+from mbs.model.body import Body
 from mbs.scenes import cart_pole, prototype_car, spatial_chain
 
 DAMPING = 5000.0  # 1/s, of 1 kg
@@ -134,8 +135,8 @@ def test_an_iteration_that_ran_away_is_no_singular_tangent():
     assert refused.value.status == Status.NOT_CONVERGED
 
 
-def driven_four_bar(rate: float, turn: float = 3.0) -> Model:
-    """A crank of 1 m, driven from 1 rad on, before two bars of 1.2 m whose hinge on the ground is 2 m away."""
+def four_bar_with_crank() -> tuple[Model, Body]:
+    """A crank of 1 m at 1 rad before two bars of 1.2 m whose hinge on the ground is 2 m away."""
     m, crank, far = Model("four-bar", dimension=2), np.array([np.cos(1.0), np.sin(1.0)]), np.array([2.0, 0.0])
     half = 0.5 * (far - crank)
     top = crank + half + np.sqrt(1.44 - half @ half) * np.array([-half[1], half[0]]) / np.linalg.norm(half)
@@ -147,9 +148,15 @@ def driven_four_bar(rate: float, turn: float = 3.0) -> Model:
     joined = [m.ground, *bars, m.ground]
     for i, point in enumerate(ends):
         m.revolute(f"hinge {i}", joined[i], joined[i + 1], point=point)
-    guide = m.guide_time("turn", PPoly(np.array([[rate], [0.0]]), [0.0, turn]), unit="rad")
-    m.drive("motor", m.relative_angle("angle", m.ground, bars[0]), guide)
     m.sense_position("top", bars[1], top, "y")
+    return m, bars[0]
+
+
+def driven_four_bar(rate: float, turn: float = 3.0) -> Model:
+    """Its crank is driven from 1 rad on."""
+    m, crank = four_bar_with_crank()
+    guide = m.guide_time("turn", PPoly(np.array([[rate], [0.0]]), [0.0, turn]), unit="rad")
+    m.drive("motor", m.relative_angle("angle", m.ground, crank), guide)
     return m
 
 

@@ -134,8 +134,8 @@ def test_what_has_no_equilibrium_says_so() -> None:
         Simulation(system, parameters={"k": 0.0, "payload": 1.0})
     assert refusal.value.time == 0.0
     assert (
-        "'k' is 0 N/m in place of 1000; 'payload' is 1 N in place of 0: set them nearer to the values that the model "
-        "was compiled with." in str(refusal.value)
+        "'k' is 0 N/m in place of 1000; 'payload' is 1 N in place of 0. Set parameters nearer to the values that the "
+        "model was compiled with." in str(refusal.value)
     )
 
 

@@ -68,8 +68,8 @@ static const char *most_changed(const slave *s, const char *unit, char *text, si
     const double share = fabs(s->value[i] - v->start) / (v->max - v->min);
     if (v->source != SLAVE_PARAMETER || !(share > most) || (unit != NULL && strcmp(v->unit, unit) != 0)) continue;
     most = share;
-    snprintf(text, size, " '%.64s' is %g%s, farthest from its start value %g; set it nearer to that.", v->name,
-             s->value[i], v->unit, v->start);
+    snprintf(text, size, " '%.64s' is %g%s, farthest from its start value %g.", v->name, s->value[i], v->unit,
+             v->start);
   }
   return text;
 }
@@ -81,7 +81,9 @@ static const char *hint(slave *s, ali3_status status, char *text, size_t size) {
   if (status == ALI3_BAD_INERTIA) return most_changed(s, " kg.m2", text, size);
   if (status == ALI3_ROAD_LOST) snprintf(text, size, " Of the road %s.", ali3_road_lost(s->fidelity.kernel));
   if (status == ALI3_ROAD_LOST) return text;
-  return status == ALI3_START_REFUSED ? refused(s, text, size) : slave_worst_row(s, text, size);
+  if (status == ALI3_START_REFUSED) return refused(s, text, size);
+  text[0] = 0;
+  return ali3_status_cause(status) == ALI3_CAUSE_CALL ? text : slave_worst_row(s, text, size);
 }
 
 /* The limit of the iterations of a step; the other settings are the kernel's. */
@@ -151,8 +153,9 @@ bool slave_initialise(slave *s) {
     return false;
   }
   if (status != ALI3_OK) {
-    slave_say(s, SLAVE_ERROR, "The initial state could not be found: %s.%s", ali3_status_text(status),
-              hint(s, status, text, sizeof text));
+    slave_say(s, SLAVE_ERROR, "The initial state could not be found: %s.%s%s%s", ali3_status_text(status),
+              hint(s, status, text, sizeof text), slave_is_of_step(status) ? "" : " ",
+              slave_is_of_step(status) ? "" : ali3_status_remedy(status));
     return false;
   }
   memset(s->pending, 0, slave_the_table.n_known);

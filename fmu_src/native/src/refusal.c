@@ -4,24 +4,21 @@
 
 #include "slave.h"
 
+bool slave_is_of_step(ali3_status status) {
+  const ali3_cause cause = ali3_status_cause(status);
+  return cause == ALI3_CAUSE_STEP || cause == ALI3_CAUSE_EQUATIONS;
+}
+
 void slave_forget_refusal(slave *s) { s->refusal.count = 0; }
 
 bool slave_wants_end(const slave *s) { return s->refusal.count > 1; }
 
-/* Where no step_size helps: what does. */
+/* Where no step_size helps: what does. A bad normal came up within the step: at its start the last one is held. */
 static const char *remedy(const slave *s, ali3_status status, bool jumped) {
   if (status == ALI3_TOO_DEAR && s->work_left <= 0) return "Take shorter communication steps.";
-  switch (status) {
-  case ALI3_ROAD_LOST:
-    return "The file of the road must be whole again, whatever the step_size.";
-  case ALI3_BAD_NORMAL: /* within the step: at its start the last one is held */
-    return "A shorter communication step may pass, or one whose derivatives turn the normal less, whatever the "
-           "step_size.";
-  default:
-    break;
-  }
-  if (jumped) return "Set one that goes on from the last one, whatever the step_size.";
-  return status == ALI3_WHEEL_IN_ROAD || status == ALI3_BEYOND_TABLE ? "Go on from another state." : NULL;
+  if (jumped && status != ALI3_ROAD_LOST && status != ALI3_BAD_NORMAL)
+    return "Set one that goes on from the last one, whatever the step_size.";
+  return slave_is_of_step(status) ? NULL : ali3_status_remedy(status);
 }
 
 slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst,
@@ -42,10 +39,11 @@ slave_status slave_refuse_step(slave *s, ali3_status status, double time, double
                      "The step from %.6g s over %.6g s was refused%s, the state at %.6g s is kept: %s.%s%s %s", time,
                      step, r->count > 1 ? " again" : "", time, slave_reason(s, status), worst, jump, instead);
   if (r->count == 1)
-    return slave_say(s, SLAVE_DISCARD,
-                     "The step from %.6g s over %.6g s was refused, the state at %.6g s is kept: %s.%s A smaller "
-                     "step_size may pass: it is %g s and can be set before initialisation.",
-                     time, step, time, slave_reason(s, status), worst, h);
+    return slave_say(
+        s, SLAVE_DISCARD,
+        "The step from %.6g s over %.6g s was refused, the state at %.6g s is kept: %s.%s %s The step_size "
+        "is %g s and can be set before initialisation.",
+        time, step, time, slave_reason(s, status), worst, ali3_status_remedy(status), h);
   if (r->count == 2)
     return slave_say(
         s, SLAVE_DISCARD,

@@ -371,6 +371,7 @@ slave_status slave_refuse_step(slave *s, ali3_status status, double time, double
                                const slave_variable *jumped);
 void slave_forget_refusal(slave *s);
 bool slave_wants_end(const slave *s);
+bool slave_is_of_step(ali3_status status); /* a smaller step_size may pass */
 
 /* watch.c: what a run says about itself, once */
 slave_status slave_watch(slave *s);

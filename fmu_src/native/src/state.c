@@ -167,7 +167,8 @@ static bool restore_kernel(slave *s, const header *head, const unsigned char *te
   if (status == ALI3_OK) memcpy(other.start, bytes, start);
   if (status != ALI3_OK) {
     if (!same) slave_fidelity_free(s, &other);
-    slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s.", ali3_status_text(status));
+    slave_say(s, SLAVE_ERROR, "These bytes are not a state of this FMU: %s. %s", ali3_status_text(status),
+              ali3_status_remedy(status));
     return false;
   }
   if (!same) slave_fidelity_take(s, &other);

@@ -147,7 +147,8 @@ static slave_status try_step(slave *s, double time, double step) {
                      s->fidelity.snapshot); /* inputs, parameters and inner steps go back together */
   const ali3_status status = advance(s, &n, h, &left);
   if (status != ALI3_OK) {
-    slave_worst_row(s, worst, sizeof worst);
+    worst[0] = 0;
+    if (ali3_status_cause(status) == ALI3_CAUSE_EQUATIONS) slave_worst_row(s, worst, sizeof worst);
     if (status == ALI3_ROAD_LOST) snprintf(worst, sizeof worst, " Of the road %s.", ali3_road_lost(s->fidelity.kernel));
     if (status == ALI3_BEYOND_TABLE) slave_beyond_table(s, worst, sizeof worst);
     if (status == ALI3_BAD_NORMAL) slave_bad_normal(s, worst, sizeof worst);

@@ -6,7 +6,9 @@ import ctypes
 import math
 from collections.abc import Mapping, Sequence
 
+from ..header.enumerations import Cause
 from ..header.limits import OPEN
+from .library import load_library
 
 
 class KernelError(RuntimeError):
@@ -37,3 +39,14 @@ def open_row(report: Mapping[str, float], names: Sequence[str]) -> str:
 def status_text(library: ctypes.CDLL, status: int) -> str:
     """The kernel's sentence for a status."""
     return f"{library.ali3_status_text(status).decode()}."
+
+
+def status_remedy(status: int) -> str:
+    """The kernel's sentence of what helps against a status."""
+    remedy: bytes = load_library().ali3_status_remedy(status)
+    return remedy.decode()
+
+
+def status_cause(status: int) -> Cause:
+    """What a refusal with a status comes from."""
+    return Cause(load_library().ali3_status_cause(status))

@@ -24,6 +24,8 @@ from ..header.structures import (
 _DOUBLES = POINTER(c_double)
 _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_status_text": (c_char_p, [c_int32]),
+    "ali3_status_remedy": (c_char_p, [c_int32]),
+    "ali3_status_cause": (c_int32, [c_int32]),
     "ali3_version": (c_uint32, []),
     "ali3_structure_size": (c_size_t, [c_char_p]),
     "ali3_system_load": (c_int32, [c_char_p, c_size_t, POINTER(c_void_p), c_char_p, c_size_t]),

@@ -35,6 +35,15 @@ class Status(IntEnum):
     TURNS_TOO_FAR = 26
 
 
+class Cause(IntEnum):
+    """`ali3_cause`: what a refusal comes from."""
+
+    CALL = 0
+    START = 1
+    STEP = 2
+    EQUATIONS = 3
+
+
 class SolverValue(IntEnum):
     """What the solver says about itself."""
 

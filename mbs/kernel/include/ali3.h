@@ -19,36 +19,75 @@
 #define ALI3_SYSTEM_VERSION 1
 #define ALI3_STATE_VERSION 10
 
+/* How calls end, numbers in this order: X(NAME, cause, words, remedy). Cause of a refusal: CALL, what was given; START,
+ * whose worst row is named; STEP: too long a step; EQUATIONS: their worst row is named, and a shorter step may pass. */
+/* clang-format off */
+#define ALI3_STATUSES(X) \
+  X(OK, CALL, "ok", "") \
+  X(BAD_ARGUMENT, CALL, \
+    "an argument is missing, not finite or out of range", \
+    "Give every argument as a finite number within its range.") \
+  X(BAD_FILE, CALL, "the bytes are not a valid System file", "Compile the model again and write its System anew.") \
+  X(BAD_STATE, CALL, \
+    "the bytes are not a state of this System", \
+    "Restore a state that was saved of this System by this version.") \
+  X(NO_MEMORY, CALL, "there is not enough memory", "Make fewer instances at a time, or end other programs.") \
+  X(NOT_INITIALISED, CALL, "the instance must be initialised first", "Initialise it, then call again.") \
+  X(NOT_ASSEMBLED, START, \
+    "the position problem does not close", \
+    "Start nearer to a position in which all joints close.") \
+  X(NOT_CONVERGED, EQUATIONS, "the iteration did not converge, also not in smaller steps", "A shorter step may pass.") \
+  X(SINGULAR, EQUATIONS, "the tangent is singular", "A shorter step may pass.") \
+  X(NOT_FINITE, EQUATIONS, "the motion or a force became infinite", "A shorter step may pass.") \
+  X(WRONG_METHOD, CALL, "the method does not take this System", "'ali3p' takes every System.") \
+  X(START_REFUSED, CALL, "an element refuses the start", "Start where it is clear.") \
+  X(UNRESOLVED, STEP, \
+    "the motion is too fast for the step: the energy balance is violated, also in smaller steps", \
+    "A shorter step may pass.") \
+  X(NO_TREE, CALL, \
+    "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground", \
+    "'ali3p' takes every System.") \
+  X(TOO_STIFF, CALL, \
+    "the step is too long for an explicit method, which must follow the fastest motion", \
+    "Implicit methods ('ali3p', 'radau_5') need not follow it.") \
+  X(TOO_FAR, CALL, \
+    "the start is too far away or too fast: positions must stay within 1e8 m, speeds and yaw within 1e6 m/s, rad", \
+    "Start nearer to the origin, or slower.") \
+  X(NO_EQUILIBRIUM, START, \
+    "with these parameters there is no static equilibrium near the drawing to start from", \
+    "Set parameters nearer to the values that the model was compiled with.") \
+  X(BRANCH_CHANGED, STEP, "a closed loop changed its assembly mode", "A shorter step may stay in the mode.") \
+  X(FIXED_PARAMETER, CALL, "a fixed parameter can be set before the start only", "Set it before the start.") \
+  X(BAD_ROAD, CALL, "the file is not a valid road", "Write the file of the road again.") \
+  X(ROAD_LOST, CALL, \
+    "a part of the road cannot be read from its file", \
+    "The file of the road must be whole again, whatever the step.") \
+  X(TOO_DEAR, STEP, \
+    "the step and its parts took more than 1000 iterations, as many as a step may cost", \
+    "A shorter step may pass.") \
+  X(WHEEL_IN_ROAD, CALL, \
+    "the centre of a wheel is below the road, where its contact is lost", \
+    "Go on from another state.") \
+  X(BAD_NORMAL, CALL, \
+    "the normal of a road at a port must be a unit vector that points up", \
+    "A shorter communication step may pass, or one whose derivatives turn the normal less, whatever the inner step.") \
+  X(BEYOND_TABLE, CALL, \
+    "a coordinate has left the table of what it moves", \
+    "Go on from another state, or give the coordinate a table that covers what the run can reach.") \
+  X(BAD_INERTIA, CALL, \
+    "the parameters give a body moments of inertia that are not positive, or one above the other two", \
+    "Set the moments nearer to those that the model was compiled with.") \
+  X(TURNS_TOO_FAR, STEP, \
+    "what has a gear or an armature turns by more than 0.52 rad in the step, also in its parts", \
+    "A shorter step passes, and so do more halvings.")
+/* clang-format on */
 typedef enum {
-  ALI3_OK = 0,
-  ALI3_BAD_ARGUMENT,      /* a null pointer, a non-finite number, an index or size out of range */
-  ALI3_BAD_FILE,          /* the bytes are not a valid System file; the message says where */
-  ALI3_BAD_STATE,         /* the bytes are not a state of this System */
-  ALI3_NO_MEMORY,
-  ALI3_NOT_INITIALISED,   /* step or sensors before ali3_initialise */
-  ALI3_NOT_ASSEMBLED,     /* the position problem did not close */
-  ALI3_NOT_CONVERGED,     /* Newton iterations exhausted, also after halving the step */
-  ALI3_SINGULAR,          /* the tangent could not be factorised */
-  ALI3_NOT_FINITE,        /* a NaN or infinity appeared in the step */
-  ALI3_WRONG_METHOD,      /* the method of the settings is not for this System */
-  ALI3_START_REFUSED,     /* a start that an element refuses; see ali3_start_excess */
-  ALI3_UNRESOLVED, /* the motion is too fast for the step: the energy balance is violated, also in halves */
-  ALI3_NO_TREE,           /* relative coordinates need rigid bodies on revolute and prismatic joints */
-  ALI3_TOO_STIFF,         /* the step is too long for an explicit rule; see report.fastest_rate */
-  ALI3_TOO_FAR,           /* a start so far away or so fast that its digits no longer resolve lengths */
-  ALI3_NO_EQUILIBRIUM,    /* a scene that starts in static equilibrium has none with the parameters it was given */
-  ALI3_BRANCH_CHANGED,    /* reported by ali3_run_status only: a closed loop changed its assembly mode */
-  ALI3_FIXED_PARAMETER,   /* a parameter that is fixed was set after the start */
-  ALI3_BAD_ROAD,          /* the file of a road is refused; the message says why */
-  ALI3_ROAD_LOST,         /* a part of a road's file cannot be read or was altered; see ali3_road_lost */
-  ALI3_TOO_DEAR,          /* a step whose parts took more iterations than a step may cost */
-  ALI3_WHEEL_IN_ROAD,     /* the centre of a wheel is deep in a grid road; see ali3_wheel_in_road */
-  ALI3_BAD_NORMAL,        /* the inputs of a road at a port give no normal; see ali3_is_road_normal */
-  ALI3_BEYOND_TABLE,      /* a coordinate is beyond a table of it by more than the spacing of its points */
-  ALI3_BAD_INERTIA,       /* parameters give a body an inertia that no distribution of mass has */
-  ALI3_TURNS_TOO_FAR,     /* what is geared turns too far in a step, also in halves; see report.fastest_rate */
-  ALI3_STATUS_COUNT
+#define ALI3_STATUS(NAME, cause, words, remedy) ALI3_##NAME,
+  ALI3_STATUSES(ALI3_STATUS)
+#undef ALI3_STATUS
+      ALI3_STATUS_COUNT
 } ali3_status;
+typedef enum { ALI3_CAUSE_CALL = 0, ALI3_CAUSE_START, ALI3_CAUSE_STEP, ALI3_CAUSE_EQUATIONS } ali3_cause;
 
 /* How the processor rounds, whether it takes denormal numbers for 0, and which exceptions trap: MXCSR without its flags,
  * FPCR. ali3_float_control_set: to the nearest, denormal numbers kept, no trap; the result is what was before, 0 where
@@ -167,7 +206,10 @@ typedef struct {
   int32_t nq, nc, nu, ng, ne, ny, ns, np, nout, nf, front_size, nnz_mass, nnz_rows, nsig, has_pose, n_switch;
 } ali3_sizes;
 
-ALI3_API const char *ali3_status_text(ali3_status s); /* one sentence per code */
+/* Words of a status, a sentence without its point; its remedy, a sentence; its cause. */
+ALI3_API const char *ali3_status_text(ali3_status s);
+ALI3_API const char *ali3_status_remedy(ali3_status s);
+ALI3_API ali3_cause ali3_status_cause(ali3_status s);
 ALI3_API uint32_t ali3_version(void);
 /* Bytes of a structure of this header by its name, for callers in other languages; 0: there is none of that name. */
 ALI3_API size_t ali3_structure_size(const char *name);

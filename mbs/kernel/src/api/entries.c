@@ -27,6 +27,8 @@ static ali3_float_control set_for(ali3_instance *in) {
   }
 
 ENTRY(const char *, ali3_status_text, (ali3_status s), (s), NULL)
+ENTRY(const char *, ali3_status_remedy, (ali3_status s), (s), NULL)
+ENTRY(ali3_cause, ali3_status_cause, (ali3_status s), (s), NULL)
 ENTRY(uint32_t, ali3_version, (void), (), NULL)
 ENTRY(size_t, ali3_structure_size, (const char *name), (name), NULL)
 ENTRY(ali3_status, ali3_system_load, (const void *bytes, size_t size, ali3_system **out, char *message, size_t message_size), (bytes, size, out, message, message_size), NULL)

@@ -14,43 +14,6 @@
 #include "vectors.h"
 #include "workspace.h"
 
-const char *ali3_status_text(ali3_status s) {
-  static const char *const text[ALI3_STATUS_COUNT] = {
-      [ALI3_OK] = "ok",
-      [ALI3_BAD_ARGUMENT] = "an argument is missing, not finite or out of range",
-      [ALI3_BAD_FILE] = "the bytes are not a valid System file",
-      [ALI3_BAD_STATE] = "the bytes are not a state of this System",
-      [ALI3_NO_MEMORY] = "there is not enough memory",
-      [ALI3_NOT_INITIALISED] = "the instance must be initialised first",
-      [ALI3_NOT_ASSEMBLED] = "the position problem does not close",
-      [ALI3_NOT_CONVERGED] = "the iteration did not converge, also not in smaller steps",
-      [ALI3_SINGULAR] = "the tangent is singular",
-      [ALI3_NOT_FINITE] = "the motion or a force became infinite",
-      [ALI3_WRONG_METHOD] = "the method does not take this System",
-      [ALI3_START_REFUSED] = "an element refuses the start",
-      [ALI3_UNRESOLVED] = "the motion is too fast for the step: the energy balance is violated, also in smaller steps",
-      [ALI3_NO_TREE] =
-          "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground",
-      [ALI3_TOO_STIFF] = "the step is too long for an explicit method, which must follow the fastest motion",
-      [ALI3_TOO_FAR] =
-          "the start is too far away or too fast: positions must stay within 1e8 m, speeds and yaw within 1e6 m/s, rad",
-      [ALI3_NO_EQUILIBRIUM] = "with these parameters there is no static equilibrium near the drawing to start from",
-      [ALI3_BRANCH_CHANGED] = "a closed loop changed its assembly mode",
-      [ALI3_FIXED_PARAMETER] = "a fixed parameter can be set before the start only",
-      [ALI3_BAD_ROAD] = "the file is not a valid road",
-      [ALI3_TOO_DEAR] = "the step and its parts took more than 1000 iterations, as many as a step may cost",
-      [ALI3_ROAD_LOST] = "a part of the road cannot be read from its file",
-      [ALI3_BAD_NORMAL] = "the normal of a road at a port must be a unit vector that points up",
-      [ALI3_WHEEL_IN_ROAD] = "the centre of a wheel is below the road, where its contact is lost",
-      [ALI3_BEYOND_TABLE] = "a coordinate has left the table of what it moves",
-      [ALI3_TURNS_TOO_FAR] =
-          "what has a gear or an armature turns by more than 0.52 rad in the step, also in its parts",
-      [ALI3_BAD_INERTIA] =
-          "the parameters give a body moments of inertia that are not positive, or one above the other two",
-  };
-  return (unsigned)s < ALI3_STATUS_COUNT ? text[s] : "unknown status";
-}
-
 uint32_t ali3_version(void) { return ALI3_SYSTEM_VERSION; }
 
 size_t ali3_instance_size(const ali3_system *s) {

@@ -29,6 +29,10 @@ static bool has_all(const ali3_system *s, int32_t to, int32_t from) {
 /* The arrays of signals, tables and of the mass matrix are checked. */
 ali3_status ali3_check_axes(const ali3_system *s, ali3_message m) {
   const int64_t n = s->n_axis_inertia;
+  for (int64_t k = 0; k < n; k++)
+    if (s->axis_table[k] < 0)
+      for (int64_t i = 0; i < FRAME; i++)
+        CHECK(ali3_check_independent(s, s->axis_frame[FRAME * k + i], "a wheel whose axis has no table", m));
   for (int64_t i = 0; i < FRAME * n; i++)
     for (int64_t j = 0; j < FRAME; j += 3) {
       const int32_t own = s->axis_frame[i], axis = s->axis_frame[i / FRAME * FRAME + i % 3 + j];
@@ -37,10 +41,6 @@ ali3_status ali3_check_axes(const ali3_system *s, ali3_message m) {
       if (s->axis_table[i / FRAME] < 0 && !ali3_mass_has_room(s, own, axis))
         return ali3_bad(m, "the mass matrix has no entry for the wheel of axis %d", (int)(i / FRAME));
     }
-  for (int64_t k = 0; k < n; k++)
-    if (s->axis_table[k] < 0)
-      for (int64_t i = 0; i < FRAME; i++)
-        CHECK(ali3_check_independent(s, s->axis_frame[FRAME * k + i], "a wheel whose axis has no table", m));
   if (n > 0 && s->n_tree_parent > 0) return ali3_bad(m, "a parameter writes the axis of a wheel of a tree");
   return ALI3_OK;
 }
