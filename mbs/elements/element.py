@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from mbs.common.affine import Affine
-from mbs.elements.reals import reals_of
+from mbs.elements.reals import Reals, reals_of
 from mbs.elements.record import ElementRecord, Output, columns
 from mbs.kernel.header.enumerations import ElementType
 
 
 class Element:
-    """A force element whose numbers are all fields; a subclass is a frozen dataclass in a file of its type's name.
+    """A force element whose numbers are fields; a subclass is a frozen dataclass in a file of its type's name.
 
     A field is a number of the kernel, in the order of the kernel: its check stands in its type, its unit and meaning
     below it (`reals`).
@@ -26,13 +26,15 @@ class Element:
     """Initial values of its slots; None: `record` has them."""
     _outputs: ClassVar[tuple[Output, ...]] = ()
     """What it computes beside its force."""
+    _open: ClassVar[bool] = False
+    """Whether other numbers follow its fields."""
     _tangent: ClassVar[bool] = True
     """Whether its force depends on the signals or their rates."""
     _elastic: ClassVar[bool] = False
     """Whether a spring in it holds the bodies it acts on."""
 
     @classmethod
-    def kernel_type(cls) -> ElementType:
+    def _type(cls) -> ElementType:
         """Its type, by the name of its file."""
         return ElementType[cls.__module__.rpartition(".")[2].upper()]
 
@@ -48,13 +50,14 @@ class Element:
         integer: Sequence[int] = (),
         states: Sequence[float] = (),
         outputs: Sequence[Output] = (),
+        more: Reals | None = None,
     ) -> ElementRecord:
-        """The record. `states`, `outputs`: in place of those that are declared."""
+        """The record. `states`, `outputs`: in place of those that are declared; `more`: numbers behind its fields."""
         return ElementRecord(
             name,
-            self.kernel_type(),
+            self._type(),
             signals,
-            *columns(reals_of(self, self._what(name))),
+            *columns(reals_of(self, self._what(name)) | (more or {})),
             integer,
             states or self._states or (),
             outputs or self._outputs,

@@ -45,10 +45,13 @@ def texts(kind: type) -> dict[str, str]:
 
 def header(kind: type[Element]) -> str:
     """The header of an element."""
-    name = kind.kernel_type().name.lower()
+    name = kind._type().name.lower()
     upper, reals, said = name.upper(), declared(kind), texts(kind)
     components = [n for _, n in kind._signals]
-    sizes = {"nsig": str(sum(components)) if all(components) else "-1", "nreal": f"{upper}_REALS"}
+    sizes = {
+        "nsig": str(sum(components)) if all(components) else "-1",
+        "nreal": "-1" if kind._open else f"{upper}_REALS",
+    }
     sizes |= {"nstate": str(len(kind._states)) if kind._states is not None else "-1", "nout": str(len(kind._outputs))}
     lines = [
         "/* clang-format off */",

@@ -337,7 +337,7 @@ def test_unsymmetric_damping_costs_few_iterations() -> None:
     """
     b = SystemBuilder(np.eye(2), [0.5, 0.0], [0.0, 2.0], [0.0, -GRAVITY])
     signals = [b.signal({0: 1.0}), b.signal({1: 1.0})]
-    b.elements = [Element(1, signals, [50.0, 60.0, 0.5, 0.0, 0.0, 1e9, 0.0], outputs=4)]
+    b.elements = [Element(1, signals, [50.0, 60.0, 0.5, 1.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4)]
     instance = start(b, tolerance_r=1e-12, max_iterations=100)
     for _ in range(20):
         instance.step(0.1)

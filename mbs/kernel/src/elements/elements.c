@@ -32,7 +32,7 @@ static bool lies_in(ali3_range range, double x) {
 
 const char *ali3_element_check(const ali3_element_type *type, int32_t nsig, const double *real, int32_t nreal,
                                const int32_t *integer, int32_t nint, int32_t n_inputs, int32_t n_roads) {
-  for (int32_t i = 0; i < type->nfields; i++)
+  for (int32_t i = 0; i < type->nfields && i < nreal; i++)
     if (!lies_in(type->fields[i].range, real[i])) return type->fields[i].text;
   return type->check == NULL ? NULL : type->check(nsig, real, nreal, integer, nint, n_inputs, n_roads);
 }
