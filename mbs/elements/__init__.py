@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from mbs.common.lazy_modules import lazy_modules
+from mbs.kernel.header.enumerations import ElementType as _ElementType
 
 if TYPE_CHECKING:
     from mbs.elements.automatic_drive import AutomaticDrive as AutomaticDrive
@@ -48,44 +49,23 @@ if TYPE_CHECKING:
     from mbs.kernel.header.enumerations import ElementType as ElementType
 
 # imported when they are first asked for: who reads one element needs no other
-_LAZY = {
-    "AutomaticDrive": "mbs.elements.automatic_drive",
-    "BodyForce": "mbs.elements.body_force",
-    "BodyTorque": "mbs.elements.body_torque",
-    "Brake": "mbs.elements.brake",
-    "ContactPoints": "mbs.elements.contact_points",
-    "CoordinateFriction": "mbs.elements.coordinate_friction",
-    "Drag": "mbs.elements.drag",
-    "ElectricDrive": "mbs.elements.electric_drive",
+_LAZY = {kind.name.title().replace("_", ""): f"mbs.elements.{kind.name.lower()}" for kind in _ElementType} | {
     "ElementRecord": "mbs.elements.record",
     "ElementType": "mbs.kernel.header.enumerations",
     "EndStops": "mbs.elements.spring_damper",
     "GridRoad": "mbs.elements.road",
-    "GyroscopicSpin": "mbs.elements.gyroscopic_spin",
-    "HubWrench": "mbs.elements.hub_wrench",
-    "InputForce": "mbs.elements.input_force",
     "KerbRoad": "mbs.elements.road",
-    "Lift": "mbs.elements.lift",
-    "MagicTyre": "mbs.elements.magic_tyre",
     "Output": "mbs.elements.record",
     "PlaneRoad": "mbs.elements.road",
     "PortRoad": "mbs.elements.road",
     "Road": "mbs.elements.road",
-    "ScalarSpringDamper": "mbs.elements.scalar_spring_damper",
-    "SpinAngle": "mbs.elements.spin_angle",
-    "SpinTorque": "mbs.elements.spin_torque",
-    "SpringDamper": "mbs.elements.spring_damper",
-    "SpringDamperTable": "mbs.elements.spring_damper_table",
-    "TorsionBar": "mbs.elements.torsion_bar",
-    "Tyre": "mbs.elements.tyre",
     "TyreBore": "mbs.elements.tyre_bore",
     "TyreCurve": "mbs.elements.tyre",
     "Wind": "mbs.elements.wind",
-    "WindDrag": "mbs.elements.wind_drag",
 }
 __getattr__ = lazy_modules(__name__, (), _LAZY)
 
-__all__ = [*_LAZY]
+__all__ = sorted(_LAZY)
 
 
 def __dir__() -> list[str]:

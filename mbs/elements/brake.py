@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import flag
-from mbs.elements.reals import NotNegative, Positive, reals_of
-from mbs.elements.record import ElementRecord, Output, columns
+from mbs.elements.element import Element
+from mbs.elements.reals import NotNegative, Positive
+from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import index
 from mbs.elements.wheel_signals import carrier_signals
-from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)
-class Brake:
+class Brake(Element):
     """Elastoplastic friction torque between a wheel and its carrier."""
 
     max_torque: NotNegative
@@ -29,6 +29,16 @@ class Brake:
     """Torque at full hand brake, N m; that of the pedal is added to it."""
     side: NotNegative = 1.0
     """Factor on the share, so that brakes that differ from left to right may be a parameter."""
+
+    _words = "a brake"
+    _signals = (("f", 3), ("g", 3), ("spin", 1))
+    _states = (0.0, 0.0)
+    _outputs = (
+        Output("torque", "N m", "torque of the brake on the wheel about the axis"),
+        Output("sticking", "1", "1 while the brake sticks, else 0"),
+        Output("rate", "rad/s", "spin of the wheel relative to its carrier"),
+        Output("power", "W", "power of the torque on wheel and carrier together"),
+    )
 
     def record(
         self,
@@ -52,22 +62,8 @@ class Brake:
         by_size : bool
             Whether `input` is no pedal but any number from 0 on, and `max_torque` the torque per unit of it.
         """
-        what = f"the brake '{name}'"
-        return ElementRecord(
-            name,
-            ElementType.BRAKE,
-            (*carrier_signals(f, g, what), spin),
-            *columns(reals_of(self, what)),
-            (
-                index(input, f"The input of {what}"),
-                -1 if hand is None else index(hand, f"The hand brake of {what}"),
-                *((1,) if flag(by_size, f"The by_size of {what}") else ()),
-            ),
-            (0.0, 0.0),
-            (
-                Output("torque", "N m", "torque of the brake on the wheel about the axis"),
-                Output("sticking", "1", "1 while the brake sticks, else 0"),
-                Output("rate", "rad/s", "spin of the wheel relative to its carrier"),
-                Output("power", "W", "power of the torque on wheel and carrier together"),
-            ),
-        )
+        what = self._what(name)
+        pedal = index(input, f"The input of {what}")
+        lever = -1 if hand is None else index(hand, f"The hand brake of {what}")
+        more = (1,) if flag(by_size, f"The by_size of {what}") else ()
+        return self._record(name, (*carrier_signals(f, g, what), spin), (pedal, lever, *more))

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 from mbs.common.affine import Affine
 from mbs.common.checks import not_negative, text
-from mbs.elements.reals import Positive, Real, reals_of
-from mbs.elements.record import ElementRecord, Output, columns
-from mbs.kernel.header.enumerations import ElementType
+from mbs.elements.element import Element
+from mbs.elements.reals import Positive, Real
+from mbs.elements.record import ElementRecord, Output
 
 LargestForce = Annotated[float, Real(not_negative, words="largest force")]
 
 
 @dataclass(frozen=True)
-class CoordinateFriction:
+class CoordinateFriction(Element):
     """Elastoplastic friction on a coordinate: it holds below its largest force and slides at it."""
 
     largest: LargestForce
@@ -27,18 +27,16 @@ class CoordinateFriction:
     unit: str = "N m"
     """Unit of the force, "N m" or "N"."""
 
+    _words = "a friction"
+    _signals = (("coordinate", 1),)
+    _states = (0.0, 0.0)
+    _outputs = (
+        Output("force", "N m", "friction on the coordinate"),
+        Output("sticking", "1", "1 while it sticks, else 0"),
+    )
+
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
         """The force element."""
-        what = f"the friction '{name}'"
-        return ElementRecord(
-            name,
-            ElementType.COORDINATE_FRICTION,
-            (coordinate,),
-            *columns(reals_of(self, what)),
-            (),
-            (0.0, 0.0),
-            (
-                Output("force", text(self.unit, f"The unit of {what}"), "friction on the coordinate"),
-                Output("sticking", "1", "1 while it sticks, else 0"),
-            ),
-        )
+        force, sticking = self._outputs
+        force = replace(force, unit=text(self.unit, f"The unit of {self._what(name)}"))
+        return self._record(name, (coordinate,), outputs=(force, sticking))

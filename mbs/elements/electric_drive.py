@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.elements.reals import NotNegative, Positive, Share, reals_of
-from mbs.elements.record import ElementRecord, Output, columns
+from mbs.elements.element import Element
+from mbs.elements.reals import NotNegative, Positive, Share
+from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import index
 from mbs.elements.wheel_signals import carrier_signals
-from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)
-class ElectricDrive:
+class ElectricDrive(Element):
     """Drive of two wheels by an electric motor: constant torque, then constant power, then the limit speed.
 
     Speeds and torques are those of the motor where nothing else is said. The throttle sets its part of the largest
@@ -51,6 +51,19 @@ class ElectricDrive:
     engage_time: Positive = 0.3
     """Time in which the torque fades out and in when the selector moves, s."""
 
+    _words = "a drive"
+    _signals = (("left", 1), ("right", 1), ("f", 3), ("g", 3))
+    _states = None
+    _outputs = (
+        Output("motor_speed", "rad/s", "speed of the motor", display_unit="rpm"),
+        Output("motor_torque", "N m", "torque of the motor"),
+        Output("wheel_torque", "N m", "torque on each of the two wheels"),
+        Output("electric_power", "W", "power from the battery, negative in regeneration"),
+        Output("gear", "1", "direction engaged: -1 reverse, 0 neutral, 1 drive", whole=True),
+        Output("left_power", "W", "power on the left wheel"),
+        Output("right_power", "W", "power on the right wheel"),
+    )
+
     def record(
         self,
         name: str,
@@ -70,23 +83,9 @@ class ElectricDrive:
         selector : int, optional
             Number of an input: -1 reverse, 0 neutral, 1 drive; without one the drive is in drive.
         """
-        what = f"the drive '{name}'"
+        what = self._what(name)
         inputs = [index(throttle, f"The input of {what}")]
         if selector is not None:
             inputs.append(index(selector, f"The selector of {what}"))
-        return ElementRecord(
-            name,
-            ElementType.ELECTRIC_DRIVE,
-            (left, right, *carrier_signals(f, g, what)),
-            *columns(reals_of(self, what)),
-            inputs,
-            () if selector is None else (1.0, 1.0),
-            (
-                Output("motor_speed", "rad/s", "speed of the motor", display_unit="rpm"),
-                Output("motor_torque", "N m", "torque of the motor"),
-                Output("wheel_torque", "N m", "torque on each of the two wheels"),
-                Output("electric_power", "W", "power from the battery, negative in regeneration"),
-                Output("gear", "1", "direction engaged: -1 reverse, 0 neutral, 1 drive", whole=True),
-                *(Output(f"{side}_power", "W", f"power on the {side} wheel") for side in ("left", "right")),
-            ),
-        )
+        signals = (left, right, *carrier_signals(f, g, what))
+        return self._record(name, signals, inputs, () if selector is None else (1.0, 1.0))

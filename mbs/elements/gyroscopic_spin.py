@@ -5,26 +5,22 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.elements.reals import Positive, reals_of
-from mbs.elements.record import ElementRecord, columns
+from mbs.elements.element import Element
+from mbs.elements.reals import Positive
+from mbs.elements.record import ElementRecord
 from mbs.elements.wheel_signals import carrier_signals
-from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)
-class GyroscopicSpin:
+class GyroscopicSpin(Element):
     """Moment -I Omega d(f x g)/dt on the carrier of an axisymmetric wheel."""
 
     spin_inertia: Positive
     """Moment of inertia about the axis, kg m^2."""
 
+    _words = "a spinning wheel"
+    _signals = (("f", 3), ("g", 3), ("spin", 1))
+
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
         """The force element."""
-        what = f"the spinning wheel '{name}'"
-        signals = (*carrier_signals(f, g, what), spin)
-        return ElementRecord(
-            name,
-            ElementType.GYROSCOPIC_SPIN,
-            signals,
-            *columns(reals_of(self, what)),
-        )
+        return self._record(name, (*carrier_signals(f, g, self._what(name)), spin))

@@ -7,21 +7,25 @@ from dataclasses import dataclass
 from mbs.common.affine import AffineVector
 from mbs.common.checks import instance_of
 from mbs.common.errors import ModelError
-from mbs.elements.reals import NotNegative, Number, reals_of
-from mbs.elements.record import ElementRecord, Output, columns
+from mbs.elements.element import Element
+from mbs.elements.reals import NotNegative, Number
+from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import size
 from mbs.elements.wind import Wind
-from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)
-class Lift:
+class Lift(Element):
     """Lift rho A v^2 / 2 of a body in the air; several, one per axle, make a pitching moment too."""
 
     lift_area: Number
     """Lift coefficient times frontal area, m^2; a negative one gives downforce."""
     air_density: NotNegative = 1.225
     """kg/m^3."""
+
+    _words = "a lift"
+    _signals = (("point", 0), ("forward", 0), ("up", 0))
+    _outputs = (Output("force", "N", "lift, positive along the upward axis"),)
 
     def record(
         self, name: str, point: AffineVector, forward: AffineVector, up: AffineVector, wind: Wind | None = None
@@ -38,7 +42,7 @@ class Lift:
         wind : Wind, optional
             How the air moves; by default it is still.
         """
-        what = f"the lift '{name}'"
+        what = self._what(name)
         size(point, (2, 3), f"The point of {what}")
         for axis, words in ((forward, "forward axis"), (up, "upward axis")):
             size(axis, (2, 3), f"The {words} of {what}")
@@ -50,11 +54,4 @@ class Lift:
         if wind is not None:
             air = instance_of(Wind, wind, f"The wind of {what}", "a Wind or None").integers(what)
             size(point, (3,), f"The point in wind of {what}")
-        return ElementRecord(
-            name,
-            ElementType.LIFT,
-            (*point.components, *forward.components, *up.components),
-            *columns(reals_of(self, what, ("air_density", "lift_area"))),
-            air,
-            outputs=(Output("force", "N", "lift, positive along the upward axis"),),
-        )
+        return self._record(name, (*point.components, *forward.components, *up.components), air)

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 from mbs.common.affine import Affine
 from mbs.common.checks import number, text
-from mbs.elements.reals import NotNegative, Number, Real, reals_of
-from mbs.elements.record import ElementRecord, Output, columns
-from mbs.kernel.header.enumerations import ElementType
+from mbs.elements.element import Element
+from mbs.elements.reals import NotNegative, Number, Real
+from mbs.elements.record import ElementRecord, Output
 
 ConstantForce = Annotated[float, Real(number, words="constant force")]
 
 
 @dataclass(frozen=True)
-class ScalarSpringDamper:
+class ScalarSpringDamper(Element):
     """Spring and damper on one coordinate: force = constant - k (u - u0) - c du/dt."""
 
     stiffness: NotNegative
@@ -33,14 +33,13 @@ class ScalarSpringDamper:
     damping_factor: NotNegative = 1.0
     """Factor on the damping, for parameters."""
 
+    _words = "a spring-damper"
+    _signals = (("coordinate", 1),)
+    _outputs = (Output("force", "N m", "generalised force on the coordinate"),)
+    _elastic = True
+
     def record(self, name: str, coordinate: Affine) -> ElementRecord:
         """The force element."""
-        what = f"the spring-damper '{name}'"
-        return ElementRecord(
-            name,
-            ElementType.SCALAR_SPRING_DAMPER,
-            (coordinate,),
-            *columns(reals_of(self, what)),
-            outputs=(Output("force", text(self.unit, f"The unit of {what}"), "generalised force on the coordinate"),),
-            elastic=True,
-        )
+        (force,) = self._outputs
+        force = replace(force, unit=text(self.unit, f"The unit of {self._what(name)}"))
+        return self._record(name, (coordinate,), outputs=(force,))

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from mbs.common.affine import AffineVector
 from mbs.common.checks import instance_of, positive
 from mbs.common.errors import ModelError
+from mbs.elements.element import Element
 from mbs.elements.reals import NotNegative, Reals, reals_of
-from mbs.elements.record import ElementRecord, Output, columns
+from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import size
-from mbs.kernel.header.enumerations import ElementType
 
 LINE_OUTPUTS = (
     Output("length", "m", "distance of the two points"),
@@ -94,7 +94,7 @@ def given_stops(stops: EndStops | None, what: str) -> EndStops:
 
 
 @dataclass(frozen=True)
-class SpringDamper:
+class SpringDamper(Element):
     """Linear spring and damper along the line between two points; force = k (L - L0) + c dL/dt, tension positive.
 
     For a spring or a damper by points see `SpringDamperTable`.
@@ -113,6 +113,12 @@ class SpringDamper:
     damping_factor: NotNegative = 1.0
     """Factor on the damping, for a parameter; not on the stops."""
 
+    _words = "a spring-damper"
+    _signals = (("difference", 0),)
+    _outputs = LINE_OUTPUTS
+    _open = True
+    _elastic = True
+
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
         """The force element.
 
@@ -121,17 +127,7 @@ class SpringDamper:
         ModelError
             The bump length is not below the rebound length.
         """
-        what = f"the spring-damper '{name}'"
+        what = self._what(name)
         size(difference, (2, 3), f"The distance of {what}")
-        stops = given_stops(self.stops, what)
-        lengths, more = stops.reals(what)
-        own = reals_of(self, what)
-        factors: Reals = {name: own.pop(name) for name in ("stiffness_factor", "damping_factor")}
-        return ElementRecord(
-            name,
-            ElementType.SPRING_DAMPER,
-            difference.components,
-            *columns({**own, **lengths, **({} if stops.linear else more), **factors}),
-            outputs=LINE_OUTPUTS,
-            elastic=True,
-        )
+        lengths, more = (stops := given_stops(self.stops, what)).reals(what)
+        return self._record(name, difference.components, more=lengths if stops.linear else lengths | more)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine
-from mbs.elements.reals import NotNegative, Positive, reals_of
-from mbs.elements.record import ElementRecord, Output, columns
-from mbs.kernel.header.enumerations import ElementType
+from mbs.elements.element import Element
+from mbs.elements.reals import NotNegative, Positive
+from mbs.elements.record import ElementRecord, Output
 
 
 @dataclass(frozen=True)
-class TorsionBar:
+class TorsionBar(Element):
     """Spring and damper between steering wheel and pinion, whose torque T controls an assistance on the pinion.
 
     The assistance is ``a T / sqrt(1 + (a T / limit)^2)`` with the factor a; there is none with a limit of 0.
@@ -27,6 +27,14 @@ class TorsionBar:
     assistance_limit: NotNegative = 0.0
     """Largest torque of the power assistance on the pinion, N m."""
 
+    _words = "a torsion bar"
+    _signals = (("wheel", 1), ("pinion", 1))
+    _outputs = (
+        Output("torque", "N m", "torque of the bar on the pinion"),
+        Output("assistance", "N m", "torque of the assistance on the pinion"),
+    )
+    _elastic = True
+
     def record(self, name: str, wheel: Affine, pinion: Affine) -> ElementRecord:
         """The force element.
 
@@ -35,15 +43,4 @@ class TorsionBar:
         wheel, pinion : Affine
             Angles of the steering wheel and of the pinion, rad.
         """
-        what = f"the torsion bar '{name}'"
-        return ElementRecord(
-            name,
-            ElementType.TORSION_BAR,
-            (wheel, pinion),
-            *columns(reals_of(self, what)),
-            outputs=(
-                Output("torque", "N m", "torque of the bar on the pinion"),
-                Output("assistance", "N m", "torque of the assistance on the pinion"),
-            ),
-            elastic=True,
-        )
+        return self._record(name, (wheel, pinion))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from mbs.common.affine import AffineVector
 from mbs.common.checks import instance_of
@@ -10,7 +10,6 @@ from mbs.elements.drag import Drag
 from mbs.elements.record import ElementRecord
 from mbs.elements.record_checks import size
 from mbs.elements.wind import Wind
-from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,6 +19,8 @@ class WindDrag(Drag):
     wind: Wind
     """How the air moves."""
 
+    _signals = (("point", 3),)
+
     def record(self, name: str, point: AffineVector) -> ElementRecord:
         """The force element.
 
@@ -28,7 +29,7 @@ class WindDrag(Drag):
         point : AffineVector
             Where the force acts, three components.
         """
-        what = f"the drag '{name}'"
+        what = self._what(name)
         size(point, (3,), f"The point in wind of {what}")
         air = instance_of(Wind, self.wind, f"The wind of {what}", "a Wind").integers(what)
-        return replace(super().record(name, point), type=ElementType.WIND_DRAG, integer=air)
+        return self._record(name, point.components, air)

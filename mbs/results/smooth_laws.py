@@ -26,7 +26,7 @@ SMOOTH = {
 """Elements whose forces are smooth; a spring-damper is where it has no stops."""
 UNRESOLVED, SMOOTH_UNRESOLVED = 0.5, 1.0
 """Missed shares: h w is twice as much, so that a period has six steps, and three."""
-STOPS = (4, 6)  # of the numbers of a spring-damper: the stiffnesses of its stops
+STOPS = (6, 8)  # of the numbers of a spring-damper: the stiffnesses of its stops
 
 
 def unresolved_share(

@@ -131,6 +131,6 @@ class Axle(Section):
             return spin
         made = self.tyre.tyre(corner.side.name)
         tyre = b.m.add(made.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.wheel_roads.get(w, b.road)))
-        b.tie_numbers(self.tyre, made, tyre)
+        b.tie_numbers(self.tyre, tyre)
         b.tie(self.tyre, "grip", tyre, "friction_factor")
         return spin

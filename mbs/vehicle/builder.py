@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from mbs.elements.reals import declared
+from mbs.elements.record import ElementRecord
 from mbs.model.coordinate import Coordinate
 from mbs.model.mechanism import Mechanism
 from mbs.model.parameters import Owner
@@ -105,15 +105,12 @@ class CarBuilder:
         tied = self._tied.setdefault(path, _Tied(section, name, quantity, start, part))
         tied.targets.append((owner, real, scale, offset, inverse))
 
-    def tie_numbers(self, section: Section, made: object, owner: Owner) -> None:
-        """`tie` each number that may change and that has the same name in the element and in the file.
-
-        `made`: the element, whose values are in the model; `owner`: as in `Model.parameter`.
-        """
-        for name in declared(type(made)):
+    def tie_numbers(self, section: Section, element: ElementRecord) -> None:
+        """`tie` each number that may change and that has the same name in an element and in the file."""
+        for name, value in zip(element.real_names, element.real, strict=False):
             quantity = section.quantity(name) if name in type(section).model_fields else None
             if quantity is not None and quantity.change is not None:
-                self.tie(section, name, owner, name, value=getattr(made, name))
+                self.tie(section, name, element, name, value=value)
 
     def parameters(self, order: Callable[[str], int], works: Mapping[str, tuple[float, float]]) -> None:
         """Write what was tied into the model.

@@ -270,12 +270,9 @@ def _on_line(
         law = SpringDamperTable(stiffness, damping, length, ends, *factors)
     element = b.m.add(law.record(name, difference))
     if spring is not None:
-        b.tie(spring, "free_length", element, "free_length")
+        b.tie_numbers(spring, element)
         b.tie(spring, "factor", element, "stiffness_factor")
-        if spring.stiffness is not None:
-            b.tie(spring, "stiffness", element, "stiffness")
     if damper is not None:
+        b.tie_numbers(damper, element)
         b.tie(damper, "factor", element, "damping_factor")
-        if damper.damping is not None:
-            b.tie(damper, "damping", element, "damping")
     return element

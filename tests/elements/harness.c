@@ -25,7 +25,7 @@ EXPORT int32_t harness_sizes_match(int32_t type, const int32_t sizes[5]) {
 EXPORT const char *harness_check(int32_t type, const int32_t sizes[5], const double *real, const int32_t *integer,
                                  int32_t n_inputs, int32_t n_roads) {
   const ali3_element_type *t = ali3_element_type_get(type);
-  return t->check ? t->check(sizes[0], real, sizes[1], integer, sizes[2], n_inputs, n_roads) : 0;
+  return ali3_element_check(t, sizes[0], real, sizes[1], integer, sizes[2], n_inputs, n_roads);
 }
 
 EXPORT int32_t harness_conservative(int32_t type, const double *real, int32_t nreal, const int32_t *integer) {

@@ -326,5 +326,5 @@ def test_bad_drives_are_refused_with_a_sentence(change: dict[str, float], senten
 def test_kernel_checks_the_drive() -> None:
     element = drive_element(selector=True)
     assert "input that does not exist" in (element.check(n_inputs=1) or "")
-    for place, value, words in ((0, -1.0, "negative"), (3, 0.0, "speeds"), (4, 1.5, "efficiencies"), (2, 0.0, "ratio")):
+    for place, value, words in ((0, -1.0, "negative"), (3, 0.0, "speed"), (4, 1.5, "efficiency"), (2, 0.0, "ratio")):
         assert words in (drive_element().with_reals({place: value}).check() or "")

@@ -9,10 +9,13 @@ import pytest
 
 from mbs import ModelError
 from mbs.common.checks import not_negative, positive
-from mbs.elements import AutomaticDrive, EndStops, KerbRoad, PlaneRoad, SpringDamper, Tyre
+from mbs.elements import AutomaticDrive, EndStops, KerbRoad, PlaneRoad, SpringDamper, Tyre, fields_in_c
+from mbs.elements.element import Element
 from mbs.elements.reals import NotNegative, Pair, Real, declared, reals_of
 from mbs.elements.record import ElementRecord, columns
+from mbs.kernel.header.enumerations import ElementType
 from tests.arguments.elements import TYRE, USES
+from tests.elements import harness
 from tests.elements.harness import vectors
 
 NUMBERS = USES | {"Tyre that leans": (replace(TYRE, camber_slip=0.05), USES["Tyre"][1])}
@@ -79,3 +82,40 @@ def test_names_of_roads_are_those_of_the_kernel():
     kerb = KerbRoad(1.0, 0.1, upper="after")
     assert kerb.real_names == ("position", "lower_height", "step", "side", "friction", "friction_factor")
     assert kerb.real == (1.0, 0.0, 0.1, -1.0, 0.9, 1.0)
+
+
+def declaring() -> list[type[Element]]:
+    """The classes from which headers in C are written."""
+    return [kind for kind in map(fields_in_c.class_of, ElementType) if issubclass(kind, Element)]
+
+
+def test_the_headers_in_c_are_what_the_classes_say():
+    there = {file: file.read_text(encoding="utf-8") for file in fields_in_c.FOLDER.glob("*_fields.h")}
+    assert dict(fields_in_c.headers()) == there, "run: python -m mbs.elements.fields_in_c"
+    assert len(there) >= 10
+
+
+@pytest.mark.parametrize("name", [name for name, (thing, _) in USES.items() if isinstance(thing, Element)])
+def test_the_kernel_refuses_what_the_class_refuses(name: str):
+    thing, use = USES[name]
+    record = use(thing)
+    assert harness.Element(record).check() is None
+    own = [real for real in record.real_names if real in declared(type(thing))]
+    assert list(record.real_names[: len(own)]) == own == list(declared(type(thing)))
+    for k, (real, check) in enumerate(zip(own, record.real_checks, strict=False)):
+        for value in (-1.0, 0.0, 0.5, 1.0, 2.0):
+            try:
+                refused = check(value, "it") != value
+            except ModelError:
+                refused = True
+            said = harness.Element(record).with_reals({k: value}).check()
+            assert (said is not None) is refused, f"{real} = {value:g}: {said}"
+            words = declared(type(thing))[real].words or real.replace("_", " ")
+            assert said is None or f"the {words} of {type(thing)._words} must" in said
+
+
+def test_every_number_and_every_output_has_a_unit_and_a_sentence():
+    for kind in declaring():
+        said = fields_in_c.texts(kind)
+        assert all(said[field] for field in declared(kind))
+        assert all(output.unit and output.description for output in kind._outputs)

@@ -92,7 +92,9 @@ def everything() -> SystemBuilder:
         (GuideType.OF_TIME, -1, [2.0, 0.0, 1.0, 2.0, *quintic, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
     ]
     dx, dy = b.signal({0: -1.0, 2: 1.0}), b.signal({1: -1.0, 3: 1.0}, 0.5)
-    b.elements = [Element(ElementType.SPRING_DAMPER, [dx, dy], [400.0, 20.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4)]
+    b.elements = [
+        Element(ElementType.SPRING_DAMPER, [dx, dy], [400.0, 20.0, 1.0, 1.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4)
+    ]
     b.parameters = [(400.0, 0.0, 1000.0, [(0, 0, 1.0)])]
     b.sensors = [
         (SensorType.SIGNAL, [dx], [1.0]),

@@ -178,7 +178,7 @@ def chain(n: int, groups: list[int]) -> SystemBuilder:
     gravity = -9.81 * np.diag(mass) * np.tile([0.0, 1.0], n)
     b = SystemBuilder(mass, q0, None, gravity, rows, groups)
     signals = [b.signal({2 * n - 2: 1.0}, 0.5), b.signal({2 * n - 1: 1.0}, -0.5)]
-    b.elements = [Element(1, signals, [300.0, 8.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4)]
+    b.elements = [Element(1, signals, [300.0, 8.0, 1.0, 1.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4)]
     return b
 
 
@@ -187,7 +187,7 @@ def woven(n: int, groups: list[int]) -> SystemBuilder:
     b = chain(n, groups)
     for ends in ((0, 11), (1, 7, 10), (2, 6, 9), (3, 8), (4, 11)):
         signal = b.signal({i: 0.3 + 0.1 * i for i in ends}, 0.2)
-        b.elements.append(Element(1, [signal, signal], [300.0, 8.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4))
+        b.elements.append(Element(1, [signal, signal], [300.0, 8.0, 1.0, 1.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4))
     return b
 
 
@@ -235,12 +235,12 @@ def net(order: np.ndarray, groups: list[int]) -> SystemBuilder:
         signals = [
             b.signal({p[i]: s for p, s in zip(points, share, strict=True) if s != 0.0}, 0.2 * i) for i in range(3)
         ]
-        b.elements.append(Element(1, signals, [300.0, 8.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4))
+        b.elements.append(Element(1, signals, [300.0, 8.0, 1.0, 1.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4))
     b.elements.append(
         Element(
             1,
             [b.signal({int(place[18]): 1.0, points[5][2]: 0.5}), b.signal({points[0][0]: 1.0}, 0.4)],
-            [90.0, 3.0, 0.1, 0.0, 0.0, 1e9, 0.0],
+            [90.0, 3.0, 0.1, 1.0, 1.0, 0.0, 0.0, 1e9, 0.0],
             outputs=4,
         )
     )
@@ -309,7 +309,9 @@ def test_a_spring_acts_on_its_own_signals_in_any_order(signals: list[int], colum
     b = SystemBuilder(np.eye(4), q)
     for column in columns:
         b.signal({column: 1.0})
-    b.elements = [Element(ElementType.SPRING_DAMPER, signals, [stiffness, 0.0, free, 0.0, 0.0, 1e9, 0.0], outputs=4)]
+    b.elements = [
+        Element(ElementType.SPRING_DAMPER, signals, [stiffness, 0.0, free, 1.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4)
+    ]
     instance = Instance(LoadedSystem(b.to_bytes()))
     own = np.isin(np.arange(4), np.array(columns)[signals])
     length = np.linalg.norm(q[own])

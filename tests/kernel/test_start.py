@@ -141,7 +141,7 @@ def test_a_pendulum_comes_to_hang() -> None:
 def test_a_mass_on_a_spring_sags_by_its_weight_and_keeps_its_free_direction() -> None:
     """A spring along y only (one signal): x is free and must stay."""
     b = SystemBuilder(np.diag([2.0, 2.0]), [0.3, 0.0], gravity=[0.0, -2.0 * GRAVITY])
-    b.elements = [Element(2, [b.signal({1: 1.0})], [500.0, 10.0, 0.0, 0.0], outputs=1)]
+    b.elements = [Element(2, [b.signal({1: 1.0})], [500.0, 10.0, 0.0, 0.0, 1.0, 1.0], outputs=1)]
     instance = instance_of(b)
     instance.static_equilibrium(0.0, 1e-9, 100)
     np.testing.assert_allclose(instance.get_state()[0], [0.3, -2.0 * GRAVITY / 500.0], atol=1e-11)
@@ -163,8 +163,8 @@ def test_a_torque_on_a_free_spin_does_not_spoil_the_equilibrium_of_the_rest() ->
     torque, inertia = 3.0, 2.0
     b = SystemBuilder(np.diag([2.0, inertia]), [0.0, 0.7], gravity=[-2.0 * GRAVITY, 0.0])
     b.elements = [
-        Element(2, [b.signal({0: 1.0})], [500.0, 10.0, 0.0, 0.0], outputs=1),
-        Element(2, [b.signal({1: 1.0})], [0.0, 0.0, 0.0, torque], outputs=1),
+        Element(2, [b.signal({0: 1.0})], [500.0, 10.0, 0.0, 0.0, 1.0, 1.0], outputs=1),
+        Element(2, [b.signal({1: 1.0})], [0.0, 0.0, 0.0, torque, 1.0, 1.0], outputs=1),
     ]
     instance = instance_of(b)
     instance.static_equilibrium(0.0, 1e-9, 100)

@@ -211,7 +211,9 @@ def test_numbers_that_overflow_are_refused_before_they_reach_the_state() -> None
 def test_an_energy_that_overflows_is_refused_and_the_state_stays() -> None:
     """Positions, velocities and forces are finite after the step; the energy of the spring, k x^2 / 2, is not."""
     b = SystemBuilder(np.array([[1.0]]), [0.0], [1e153])
-    b.elements = [Element(ElementType.SCALAR_SPRING_DAMPER, [b.signal({0: 1.0})], [1e-4, 0.0, 0.0, 0.0], outputs=1)]
+    b.elements = [
+        Element(ElementType.SCALAR_SPRING_DAMPER, [b.signal({0: 1.0})], [1e-4, 0.0, 0.0, 0.0, 1.0, 1.0], outputs=1)
+    ]
     instance = start(b, tolerance_r=1e150)
     before = [bytes(part) for part in instance.get_state()]
     with pytest.raises(KernelError) as refusal:
@@ -322,7 +324,7 @@ def test_two_pendulums_in_neighbouring_rows_move_as_each_alone() -> None:
 def test_a_linear_oscillator_takes_one_iteration_a_step() -> None:
     """Its tangent is exact, damping too, and Newton's method solves a linear equation at once."""
     b = SystemBuilder(np.eye(1), [0.5], [1.0])
-    b.elements = [Element(2, [b.signal({0: 1.0})], [300.0, 40.0, 0.0, 0.0], outputs=1)]
+    b.elements = [Element(2, [b.signal({0: 1.0})], [300.0, 40.0, 0.0, 0.0, 1.0, 1.0], outputs=1)]
     instance = start(b, tolerance_r=1e-13)
     run(instance, 0.02, 50)
     assert instance.report()["iterations"] == 50
@@ -335,7 +337,7 @@ def test_unsymmetric_damping_costs_few_iterations() -> None:
     """
     b = SystemBuilder(np.eye(2), [0.5, 0.0], [0.0, 2.0], [0.0, -GRAVITY])
     signals = [b.signal({0: 1.0}), b.signal({1: 1.0})]
-    b.elements = [Element(1, signals, [50.0, 60.0, 0.5, 0.0, 0.0, 1e9, 0.0], outputs=4)]
+    b.elements = [Element(1, signals, [50.0, 60.0, 0.5, 1.0, 1.0, 0.0, 0.0, 1e9, 0.0], outputs=4)]
     instance = start(b, tolerance_r=1e-12, max_iterations=100)
     for _ in range(20):
         instance.step(0.1)

@@ -87,7 +87,7 @@ class Automatic(Section, of=AutomaticDrive):
         if b.ports.clutch is not None:
             clutch = clutch_port(b)
         element = b.m.add(drive.record("drive", left, right, z, x, *inputs, request, clutch))
-        b.tie_numbers(self, drive, element)
+        b.tie_numbers(self, element)
         for k, ratio in enumerate(self.ratios):
             b.tie(self, "ratio_factor", element, f"ratio_{k + 1}", ratio)
         b.tie(self, "ratio_factor", element, "reverse_ratio", self.reverse_ratio)

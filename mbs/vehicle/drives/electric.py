@@ -62,7 +62,7 @@ class Electric(Section, of=ElectricDrive):
         chosen = None if selector is None else selector.index
         element = b.m.add(drive.record("drive", left.coordinate, right.coordinate, z, x, throttle, selector=chosen))
         self.turning_parts(b, spins)
-        b.tie_numbers(self, drive, element)
+        b.tie_numbers(self, element)
 
     def turning_parts(self, b: CarBuilder, spins: Mapping[str, Spin]) -> None:
         """Add the inertia of the rotor to the driven wheels."""

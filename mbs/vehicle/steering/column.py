@@ -151,7 +151,7 @@ class Column(RackSection, of=TorsionBar):
 
     def _bar(self, b: CarBuilder, wheel: Coordinate, pinion: Coordinate) -> None:
         bar = self.element(TorsionBar)
-        b.tie_numbers(self, bar, b.m.add(bar.record("torsion bar", wheel.affine, pinion.affine)))
+        b.tie_numbers(self, b.m.add(bar.record("torsion bar", wheel.affine, pinion.affine)))
         friction = CoordinateFriction(self.friction, *COLUMN_STICK)
         b.m.add(friction.record("steering friction", wheel.affine))
         b.tie(self, "friction", "steering friction", "largest")

@@ -58,7 +58,7 @@ class RollStiffness(Section):
 
     def tie(self, b: CarBuilder, bar: ElementRecord) -> None:
         """Let parameters write them."""
-        b.tie(self, "stiffness", bar, "stiffness")
+        b.tie_numbers(self, bar)
         b.tie(self, "factor", bar, "stiffness_factor")
 
 

@@ -1,21 +1,17 @@
 /* Brake: elastoplastic friction torque between a wheel's spin and its carrier.
- * Signals: f (3), g (3) orthonormal on the carrier with f x g along the axis, chi with chi' = Omega the absolute rate
- * about it.
- * Reals: largest torque N m, stick stiffness N m/rad, stick damping N m s/rad; then the share of the torque that is this
- * wheel's, the largest torque of the hand brake N m and a factor of this side of the car on the share, or none.
- * Integers: input (0..1); that of the hand brake or -1, where there are six reals; then 1 where the input is not a pedal but any size that is not negative, as a torque or a
- * pressure, or none. States: wind-up z rad, z' rad/s.
- * Outputs: torque on the wheel N m, 1 while sticking, relative rate w rad/s, power of the torque W.
+ * f and g are orthonormal on the carrier with f x g along the axis, the rate Omega of the spin is absolute.
+ * Integers: input (0..1); that of the hand brake or -1; then 1 where the input is not a pedal but any size that is not
+ * negative, as a torque or a pressure, or none. States: wind-up z rad, z' rad/s.
  *
  * A spring and damper (k, c) in series with a slider: tau = k z + c z', z' = w while |tau| is below the bound, else
  * tau is at the bound and z' = (tau - k z)/c. With z = a + h z'/2 (trapezoidal rule) and D = c + h k/2:
  * tau = clamp(k a + D w), z' = (tau - k a)/D.
  * Slip power tau (w - z') = tau (k a + D w - tau)/D >= 0, and a sticking brake returns to where it was: it does not
  * creep. */
+#include "brake_fields.h"
 #include "element.h"
 #include "element_math.h"
 
-enum { MAX_TORQUE, STICK_STIFFNESS, STICK_DAMPING, PLAIN, SHARE = PLAIN, HAND_TORQUE, SIDE, BRAKE_REALS };
 enum { PEDAL, HAND, PEDALS, BY_SIZE = PEDALS, BRAKE_INTEGERS };
 
 /* What the pads can hold: both pedals press them. */
@@ -23,7 +19,6 @@ static real capacity(const ali3_element_args *a) {
   const real none = {0}, all = ali3_same(1.0);
   const real most = a->nint == BRAKE_INTEGERS && a->integer[BY_SIZE] ? ali3_same(INFINITY) : all;
   const real *p = a->real, pedal = ali3_clamp(a->input[a->integer[PEDAL]], none, most);
-  if (a->nreal == PLAIN) return p[MAX_TORQUE] * pedal;
   const real hand = ali3_clamp(ali3_input_or_zero(a->input, a->integer[HAND]), none, all);
   return p[MAX_TORQUE] * p[SHARE] * p[SIDE] * pedal + p[HAND_TORQUE] * hand;
 }
@@ -63,29 +58,19 @@ static void evaluate(ali3_element_args *a) {
 #ifndef ALI3_WIDTH
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)n_roads;
-  if (!(nreal == PLAIN && nint == 1) && !(nreal == BRAKE_REALS && (nint == PEDALS || nint == BRAKE_INTEGERS)))
-    return "a brake has 3 numbers and an input, or 6 and two inputs, and may say that the first is no pedal";
-  if (integer[PEDAL] < 0 || integer[PEDAL] >= n_inputs ||
-      (nint > 1 && (integer[HAND] < -1 || integer[HAND] >= n_inputs)))
+  (void)nsig, (void)real, (void)nreal, (void)n_roads;
+  if (nint != PEDALS && nint != BRAKE_INTEGERS) return "a brake has two inputs, and may say that the first is no pedal";
+  if (integer[PEDAL] < 0 || integer[PEDAL] >= n_inputs || integer[HAND] < -1 || integer[HAND] >= n_inputs)
     return "a brake names an input that does not exist";
   if (nint == BRAKE_INTEGERS && integer[BY_SIZE] != 0 && integer[BY_SIZE] != 1)
     return "whether the input of a brake is no pedal must be 0 or 1";
-  if (nreal == BRAKE_REALS && (real[SHARE] < 0.0 || real[HAND_TORQUE] < 0.0 || real[SIDE] < 0.0))
-    return "the share, the torque of the hand brake and the factor of the side of a brake must not be negative";
-  if (real[MAX_TORQUE] < 0.0) return "the largest torque of a brake must not be negative";
-  if (!(real[STICK_STIFFNESS] > 0.0 && real[STICK_DAMPING] > 0.0))
-    return "stick stiffness and damping of a brake must be positive";
   return 0;
 }
 
 const ali3_element_type ali3_brake = {
+    ALI3_BRAKE,
     .evaluate = evaluate,
-    .nsig = 7,
-    .nreal = -1,
     .nint = -1,
-    .nstate = 2,
-    .nout = 4,
     .check = check,
 };
 #endif

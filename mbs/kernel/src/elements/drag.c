@@ -1,11 +1,11 @@
-/* Aerodynamic drag F = -rho CdA |v| v / 2 at a point in still air.
- * Signals: p (2 or 3). Reals: air density kg/m^3, drag area m^2. Outputs: drag N (size of the force). */
+/* Aerodynamic drag F = -rho CdA |v| v / 2 at a point in still air. */
 #include "../algebra/small_vectors.h"
+#include "drag_fields.h"
 #include "element.h"
 
 static void evaluate(ali3_element_args *a) {
   const int32_t n = a->nsig;
-  const real factor = 0.5 * a->real[0] * a->real[1];
+  const real factor = 0.5 * a->real[AIR_DENSITY] * a->real[DRAG_AREA];
   real square = {0};
   for (int32_t i = 0; i < n; i++) square += a->ud[i] * a->ud[i];
   const real speed = ali3_sqrt(square);
@@ -21,17 +21,14 @@ static void evaluate(ali3_element_args *a) {
 #ifndef ALI3_WIDTH
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nreal, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
+  (void)real, (void)nreal, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
   if (nsig != 2 && nsig != 3) return "drag needs the 2 or 3 components of a point";
-  if (real[0] < 0.0 || real[1] < 0.0) return "the air density and the drag area must not be negative";
   return 0;
 }
 
 const ali3_element_type ali3_drag = {
+    ALI3_DRAG,
     .evaluate = evaluate,
-    .nsig = -1,
-    .nreal = 2,
-    .nout = 1,
     .check = check,
 };
 #endif

@@ -1,35 +1,17 @@
 /* Electric motor with a fixed ratio and an open differential: equal torques on two wheels, reaction on the frame that
  * carries the motor.
- * Signals: chi of the left and right wheel (absolute rates about the axis f x g), f (3), g (3) orthonormal on the
- * frame.
- * Reals: see the enum. Integers: throttle input (0..1), and a selector input (-1, 0, 1) or none. States: none, with a
- * selector those of selector.h. Outputs: motor speed rad/s and torque N m, torque per wheel N m, electric power W
- * (negative: into the battery), direction engaged, power on the left and right wheel W.
+ * f and g are orthonormal on the frame, the rates of both wheels absolute about the axis f x g. Integers: throttle input
+ * (0..1), and a selector input (-1, 0, 1) or none. States: none, with a selector those of selector.h.
  *
  * In the direction engaged the torque is the throttle's part of min(max torque, max power / speed), which fades beyond
  * the limit speed, less the other part of the regeneration torque, which follows the sign of the speed and fades to
  * zero around standstill. What gears and motor lose is taken in both directions of the power. The inertia of the rotor
  * is not here: it belongs to the spins. */
 #include "../algebra/small_vectors.h"
+#include "electric_drive_fields.h"
 #include "element.h"
 #include "selector.h"
 
-enum {
-  MAX_TORQUE, /* of the motor */
-  MAX_POWER,
-  RATIO,
-  LIMIT_SPEED, /* of the motor, forwards */
-  EFFICIENCY, /* between battery and shaft */
-  GEAR_EFFICIENCY, /* between shaft and wheels */
-  REGENERATION_TORQUE,
-  REGENERATION_POWER,
-  REGENERATION_SPEED, /* of the motor, below which regeneration fades */
-  REVERSE_TORQUE, /* factor on the largest torque */
-  REVERSE_SPEED, /* limit speed of the motor in reverse */
-  ENGAGE_SPEED, /* of the wheels */
-  ENGAGE_TIME,
-  REALS
-};
 #define LIMITER_WIDTH 0.05 /* of the limit speed */
 /* Bits of the pieces of its law. */
 enum { BY_POWER = 1, LIMITED = 2, CUT_OFF = 4, TAKES_BY_POWER = 8, DRIVES = 16, DIRECTIONS = 32 };
@@ -120,29 +102,13 @@ static int32_t states(int32_t nint) { return nint > 1 ? ALI3_SELECTOR_STATES : 0
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)nreal, (void)n_roads;
+  (void)nsig, (void)real, (void)nreal, (void)n_roads;
   if (nint != 1 && nint != 2) return "an electric drive has one input, two with a selector";
   for (int i = 0; i < nint; i++)
     if (integer[i] < 0 || integer[i] >= n_inputs) return "an electric drive names an input that does not exist";
-  for (int i = 0; i < REALS; i++)
-    if (real[i] < 0.0) return "the numbers of an electric drive must not be negative";
-  if (!(real[LIMIT_SPEED] > 0.0 && real[REVERSE_SPEED] > 0.0 && real[REGENERATION_SPEED] > 0.0))
-    return "the speeds of an electric drive must be positive";
-  if (!(real[RATIO] > 0.0 && real[ENGAGE_TIME] > 0.0))
-    return "ratio and engage time of an electric drive must be positive";
-  for (int i = EFFICIENCY; i <= GEAR_EFFICIENCY; i++)
-    if (!(real[i] > 0.0 && real[i] <= 1.0)) return "the efficiencies of an electric drive must be above 0, at most 1";
   return 0;
 }
 
 const ali3_element_type ali3_electric_drive = {
-    .evaluate = evaluate,
-    .accept = accept,
-    .nsig = 8,
-    .nreal = REALS,
-    .nint = -1,
-    .nstate = -1,
-    .states = states,
-    .nout = 7,
-    .check = check,
+    ALI3_ELECTRIC_DRIVE, .evaluate = evaluate, .accept = accept, .nint = -1, .states = states, .check = check,
 };

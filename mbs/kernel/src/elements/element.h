@@ -47,6 +47,14 @@ typedef struct {
   double pressed; /* above 0: how much deeper than a wheel holds its rim is in the road, m */
 } ali3_start_verdict;
 
+/* What a number of an element must be, and the sentence for one that is not; the tables are written from the classes in
+ * Python, see *_fields.h. */
+typedef enum { ALI3_IS_ANY, ALI3_IS_NOT_NEGATIVE, ALI3_IS_POSITIVE, ALI3_IS_SHARE, ALI3_IS_FRACTION } ali3_range;
+typedef struct {
+  ali3_range range;
+  const char *text;
+} ali3_field;
+
 /* What a type of elements is; what is not named is 0 or NULL: not so, or none. */
 typedef struct ali3_element_type {
   ali3_element_function *evaluate;
@@ -72,10 +80,16 @@ typedef struct ali3_element_type {
   /* sizes that the loader checks; -1: any; nstate = -k, k > 1: k for each of the items that the last integer counts */
   int32_t nsig, nreal, nint, nstate, nout;
   int32_t (*states)(int32_t nint); /* where nstate is -1: how many for so many integers; NULL: any */
-  /* NULL or one sentence for bad data */
+  const ali3_field *fields; /* what its first numbers must be; NULL: check looks at them */
+  int32_t nfields;
+  /* NULL or one sentence for bad data that the fields do not say */
   const char *(*check)(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                        int32_t n_inputs, int32_t n_roads);
 } ali3_element_type;
+
+/* NULL or one sentence for bad data: by the fields, then by the type's own check. */
+const char *ali3_element_check(const ali3_element_type *type, int32_t nsig, const double *real, int32_t nreal,
+                               const int32_t *integer, int32_t nint, int32_t n_inputs, int32_t n_roads);
 
 #define ALI3_DECLARE(number, name) extern const ali3_element_type ali3_##name;
 ALI3_ELEMENT_TYPES(ALI3_DECLARE)

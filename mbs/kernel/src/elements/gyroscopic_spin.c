@@ -1,11 +1,11 @@
 /* Gyroscopic moment -I Omega d(f x g)/dt of an axisymmetric wheel reduced to one coordinate on its carrier.
- * Signals: f (3), g (3) orthonormal on the carrier with f x g along the spin axis, chi with chi' = Omega the absolute
- * axial rate.
- * Reals: axial moment of inertia. Outputs: none. It does no work. */
+ * f and g are orthonormal on the carrier with f x g along the spin axis, the rate of the spin is absolute. It does no
+ * work. */
 #include "element.h"
+#include "gyroscopic_spin_fields.h"
 
 static void evaluate(ali3_element_args *a) {
-  const real inertia = a->real[0], momentum = inertia * a->ud[6];
+  const real inertia = a->real[SPIN_INERTIA], momentum = inertia * a->ud[6];
   for (int i = 0; i < 3; i++) {
     a->f[i] = -momentum * a->ud[3 + i];
     a->f[3 + i] = momentum * a->ud[i];
@@ -18,9 +18,8 @@ static void evaluate(ali3_element_args *a) {
 
 #ifndef ALI3_WIDTH
 const ali3_element_type ali3_gyroscopic_spin = {
+    ALI3_GYROSCOPIC_SPIN,
     .evaluate = evaluate,
     .conservative = true,
-    .nsig = 7,
-    .nreal = 1,
 };
 #endif

@@ -1,12 +1,9 @@
 /* Aerodynamic lift rho A v^2 / 2 of a body in still air, along its axis upwards, at a point; v is the speed of the point
- * along the axis forwards. With integers, see moving_air.h, v is that over moving air.
- * Signals: point, forward and upward axis of the body, 2 or 3 components each. Reals: air density kg/m^3, lift area
- * m^2 (negative: downforce). Outputs: lift N. */
+ * along the axis forwards. With integers, see moving_air.h, v is that over moving air. */
 #include "../algebra/small_vectors.h"
 #include "element.h"
+#include "lift_fields.h"
 #include "moving_air.h"
-
-enum { AIR_DENSITY, LIFT_AREA, REALS };
 
 static void evaluate(ali3_element_args *a) {
   const int32_t n = a->nsig / 3;
@@ -38,19 +35,16 @@ static void evaluate(ali3_element_args *a) {
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nreal, (void)n_roads;
+  (void)real, (void)nreal, (void)n_roads;
   if (nint != 0 && (nint != AIR_INPUTS || nsig != 9)) return "lift in moving air needs space and two inputs";
   const char *text = nint > 0 ? ali3_check_air(integer, n_inputs) : 0;
   if (text != 0) return text;
-  if (nsig != 6 && nsig != 9) return "lift needs the 2 or 3 components of a point and of two axes";
-  return real[AIR_DENSITY] < 0.0 ? "the air density must not be negative" : 0;
+  return nsig != 6 && nsig != 9 ? "lift needs the 2 or 3 components of a point and of two axes" : 0;
 }
 
 const ali3_element_type ali3_lift = {
+    ALI3_LIFT,
     .evaluate = evaluate,
-    .nsig = -1,
-    .nreal = REALS,
     .nint = -1,
-    .nout = 1,
     .check = check,
 };

@@ -1,12 +1,11 @@
 /* Torque from an input between a wheel's spin and its carrier, which takes the reaction.
- * Signals: f (3), g (3) orthonormal on the carrier with f x g along the axis, chi with chi' = Omega the absolute rate
- * about it. Reals: torque on the wheel per unit of the input, N m. Integers: input. Outputs: torque on the wheel N m, its
- * power on wheel and carrier together W. */
+ * f and g are orthonormal on the carrier with f x g along the axis, the rate of the spin is absolute. Integers: input. */
 #include "element.h"
 #include "element_math.h"
+#include "spin_torque_fields.h"
 
 static void evaluate(ali3_element_args *a) {
-  const double torque = a->real[0] * a->input[a->integer[0]];
+  const double torque = a->real[GAIN] * a->input[a->integer[0]];
   for (int i = 0; i < 3; i++) {
     a->f[i] = -0.5 * torque * a->u[3 + i]; /* its tangent is antisymmetric */
     a->f[3 + i] = 0.5 * torque * a->u[i];
@@ -24,11 +23,5 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 }
 
 const ali3_element_type ali3_spin_torque = {
-    .evaluate = evaluate,
-    .conservative = true,
-    .nsig = 7,
-    .nreal = 1,
-    .nint = 1,
-    .nout = 2,
-    .check = check,
+    ALI3_SPIN_TORQUE, .evaluate = evaluate, .conservative = true, .nint = 1, .check = check,
 };

@@ -1,24 +1,18 @@
 /* Linear spring and damper between two points, with optional end stops.
- * Signals: d = p2 - p1 (2 or 3). Reals: as below, then the stops of end_stops.h, linear or not, then two factors or
- * none. Outputs: length m, force N (tension positive), rate m/s, force of the damper alone N. */
+ * d = p2 - p1. Behind its own numbers stand those of its stops (end_stops.h), linear or not. */
 #include "element.h"
 #include "end_stops.h"
 #include "line_force.h"
+#include "spring_damper_fields.h"
 
-enum { STIFFNESS, DAMPING, FREE_LENGTH, STOPS };
-enum { STIFFNESS_FACTOR, DAMPING_FACTOR, FACTORS }; /* the last reals */
-enum { LINEAR = STOPS + ALI3_LINEAR_STOPS, PROGRESSIVE = STOPS + ALI3_STOPS };
+enum { STOPS = SPRING_DAMPER_REALS, LINEAR = STOPS + ALI3_LINEAR_STOPS, PROGRESSIVE = STOPS + ALI3_STOPS };
 
 static int progressive(int32_t nreal) { return nreal >= PROGRESSIVE; }
 
-static real factor(const real *real, int32_t nreal, int which) {
-  return nreal == LINEAR || nreal == PROGRESSIVE ? ali3_same(1.0) : real[nreal - FACTORS + which];
-}
-
 static void evaluate(ali3_element_args *a) {
   const real *p = a->real;
-  const real k = p[STIFFNESS] * factor(p, a->nreal, STIFFNESS_FACTOR);
-  const real c = p[DAMPING] * factor(p, a->nreal, DAMPING_FACTOR);
+  const real k = p[STIFFNESS] * p[STIFFNESS_FACTOR];
+  const real c = p[DAMPING] * p[DAMPING_FACTOR];
   const ali3_line line = ali3_line_at(a);
   const real stretch = line.length - p[FREE_LENGTH];
   ali3_tension t = {.elastic = k * stretch, .stiffness = k, .damping = c, .potential = 0.5 * k * stretch * stretch};
@@ -36,8 +30,8 @@ static void evaluate(ali3_element_args *a) {
 #ifndef ALI3_WIDTH
 static void discrete(ali3_element_args *a) {
   const double *p = a->real;
-  const double k = p[STIFFNESS] * factor(p, a->nreal, STIFFNESS_FACTOR);
-  const double c = p[DAMPING] * factor(p, a->nreal, DAMPING_FACTOR);
+  const double k = p[STIFFNESS] * p[STIFFNESS_FACTOR];
+  const double c = p[DAMPING] * p[DAMPING_FACTOR];
   const ali3_line line = ali3_line_between(a);
   if (line.length <= ALI3_SHORTEST) return;
   ali3_tension t = {.elastic = k * (line.length - p[FREE_LENGTH]), .stiffness = k, .damping = c};
@@ -48,8 +42,7 @@ static void discrete(ali3_element_args *a) {
 static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
   (void)integer;
   const double *loss = real + STOPS + ALI3_STOP_LOSS;
-  return real[DAMPING] * factor(real, nreal, DAMPING_FACTOR) != 0.0 ||
-         (progressive(nreal) && (loss[0] != 0.0 || loss[1] != 0.0));
+  return real[DAMPING] * real[DAMPING_FACTOR] != 0.0 || (progressive(nreal) && (loss[0] != 0.0 || loss[1] != 0.0));
 }
 
 /* Progressive stops have an onset without a kink. */
@@ -62,25 +55,12 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
                          int32_t n_inputs, int32_t n_roads) {
   (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
   if (nsig != 2 && nsig != 3) return "a spring-damper needs the 2 or 3 components of a distance";
-  const int32_t plain = progressive(nreal) ? PROGRESSIVE : LINEAR;
-  if (nreal != plain && nreal != plain + FACTORS)
-    return "a spring-damper has 7 numbers, 15 with progressive stops, and two factors or none";
-  if (real[FREE_LENGTH] < 0.0) return "the free length of a spring-damper must not be negative";
-  for (int i = 0; i < FACTORS; i++)
-    if (factor(real, nreal, i) < 0.0) return "the factors of a spring-damper must not be negative";
+  if (nreal != LINEAR && nreal != PROGRESSIVE) return "a spring-damper has 9 numbers, 17 with progressive stops";
   return ali3_end_stops_check(real + STOPS, progressive(nreal));
 }
 
 const ali3_element_type ali3_spring_damper = {
-    .evaluate = evaluate,
-    .discrete = discrete,
-    .conservative = true,
-    .lossy = lossy,
-    .stops = true,
-    .event = event,
-    .nsig = -1,
-    .nreal = -1,
-    .nout = 4,
-    .check = check,
+    ALI3_SPRING_DAMPER, .evaluate = evaluate, .discrete = discrete, .conservative = true,
+    .lossy = lossy,     .stops = true,        .event = event,       .check = check,
 };
 #endif

@@ -1,12 +1,12 @@
 /* Aerodynamic drag F = -rho CdA |w| w / 2 at a point that moves at w over air that moves over the ground.
- * Signals: p (3). Reals: air density kg/m^3, drag area m^2. Integers: see moving_air.h. Outputs: drag N (size of the
- * force). */
+ * Integers: see moving_air.h. */
 #include "../algebra/small_vectors.h"
 #include "element.h"
 #include "moving_air.h"
+#include "wind_drag_fields.h"
 
 static void evaluate(ali3_element_args *a) {
-  const double factor = 0.5 * a->real[0] * a->real[1];
+  const double factor = 0.5 * a->real[AIR_DENSITY] * a->real[DRAG_AREA];
   double w[3];
   ali3_over_air(a->input, a->integer, a->ud, w);
   const double speed = ali3_norm(w);
@@ -20,16 +20,13 @@ static void evaluate(ali3_element_args *a) {
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)nreal, (void)nint, (void)n_roads;
-  if (real[0] < 0.0 || real[1] < 0.0) return "the air density and the drag area must not be negative";
+  (void)nsig, (void)real, (void)nreal, (void)nint, (void)n_roads;
   return ali3_check_air(integer, n_inputs);
 }
 
 const ali3_element_type ali3_wind_drag = {
+    ALI3_WIND_DRAG,
     .evaluate = evaluate,
-    .nsig = 3,
-    .nreal = 2,
     .nint = AIR_INPUTS,
-    .nout = 1,
     .check = check,
 };

@@ -113,9 +113,8 @@ static ali3_status check_parameters(const ali3_system *s, ali3_message m) {
 static const char *check_element(const ali3_system *s, int32_t e, const double *el_real) {
   const ali3_element_type *type = ali3_element_type_get(s->el_type[e]);
   const int32_t real = s->el_real_ptr[e], integer = s->el_int_ptr[e];
-  if (type->check == NULL) return NULL;
-  return type->check(s->el_sig_ptr[e + 1] - s->el_sig_ptr[e], el_real + real, s->el_real_ptr[e + 1] - real,
-                     s->el_int + integer, s->el_int_ptr[e + 1] - integer, s->size.nu, s->nr);
+  return ali3_element_check(type, s->el_sig_ptr[e + 1] - s->el_sig_ptr[e], el_real + real, s->el_real_ptr[e + 1] - real,
+                            s->el_int + integer, s->el_int_ptr[e + 1] - integer, s->size.nu, s->nr);
 }
 
 static const char *check_guide(const ali3_system *s, int32_t g, const double *guide_real) {

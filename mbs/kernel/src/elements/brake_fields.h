@@ -1,0 +1,38 @@
+/* clang-format off */
+/* Numbers of a brake. Written by `python -m mbs.elements.fields_in_c` from Brake. */
+/* Signals: f (3), g (3), spin (1). */
+/* Outputs: torque (N m), torque of the brake on the wheel about the axis; sticking (1), 1 while the brake sticks,
+ * else 0; rate (rad/s), spin of the wheel relative to its carrier; power (W), power of the torque on wheel and
+ * carrier together */
+#ifndef ALI3_BRAKE_FIELDS_H
+#define ALI3_BRAKE_FIELDS_H
+#include "element.h"
+
+enum {
+  /* Torque at full pedal, N m. */
+  MAX_TORQUE,
+  /* Stiffness of a standing brake about the wheel's axis, N m/rad. */
+  STICK_STIFFNESS,
+  /* Damping of a standing brake, N m s/rad. */
+  STICK_DAMPING,
+  /* Factor on max_torque, so that a total torque and a balance may be parameters. */
+  SHARE,
+  /* Torque at full hand brake, N m; that of the pedal is added to it. */
+  HAND_TORQUE,
+  /* Factor on the share, so that brakes that differ from left to right may be a parameter. */
+  SIDE,
+  BRAKE_REALS
+};
+#ifndef ALI3_WIDTH
+static const ali3_field brake_fields[BRAKE_REALS] = {
+  {ALI3_IS_NOT_NEGATIVE, "the max torque of a brake must not be negative"},
+  {ALI3_IS_POSITIVE, "the stick stiffness of a brake must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the stick damping of a brake must be greater than zero"},
+  {ALI3_IS_NOT_NEGATIVE, "the share of a brake must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the hand torque of a brake must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the side of a brake must not be negative"},
+};
+#define ALI3_BRAKE .fields = brake_fields, .nfields = BRAKE_REALS, \
+  .nsig = 7, .nreal = BRAKE_REALS, .nstate = 2, .nout = 4
+#endif
+#endif

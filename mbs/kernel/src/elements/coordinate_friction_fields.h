@@ -1,0 +1,27 @@
+/* clang-format off */
+/* Numbers of a friction. Written by `python -m mbs.elements.fields_in_c` from CoordinateFriction. */
+/* Signals: coordinate (1). */
+/* Outputs: force (N m), friction on the coordinate; sticking (1), 1 while it sticks, else 0 */
+#ifndef ALI3_COORDINATE_FRICTION_FIELDS_H
+#define ALI3_COORDINATE_FRICTION_FIELDS_H
+#include "element.h"
+
+enum {
+  /* Force at which it slides, N m of an angle, N of a length. */
+  LARGEST,
+  /* While it holds, N m/rad or N/m. */
+  STICK_STIFFNESS,
+  /* While it holds, N m s/rad or N s/m. */
+  STICK_DAMPING,
+  COORDINATE_FRICTION_REALS
+};
+#ifndef ALI3_WIDTH
+static const ali3_field coordinate_friction_fields[COORDINATE_FRICTION_REALS] = {
+  {ALI3_IS_NOT_NEGATIVE, "the largest force of a friction must not be negative"},
+  {ALI3_IS_POSITIVE, "the stick stiffness of a friction must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the stick damping of a friction must be greater than zero"},
+};
+#define ALI3_COORDINATE_FRICTION .fields = coordinate_friction_fields, .nfields = COORDINATE_FRICTION_REALS, \
+  .nsig = 1, .nreal = COORDINATE_FRICTION_REALS, .nstate = 2, .nout = 2
+#endif
+#endif

@@ -1,0 +1,24 @@
+/* clang-format off */
+/* Numbers of a drag. Written by `python -m mbs.elements.fields_in_c` from Drag. */
+/* Signals: point (2 or 3). */
+/* Outputs: force (N), size of the drag */
+#ifndef ALI3_DRAG_FIELDS_H
+#define ALI3_DRAG_FIELDS_H
+#include "element.h"
+
+enum {
+  /* Drag coefficient times frontal area, m^2. */
+  DRAG_AREA,
+  /* kg/m^3. */
+  AIR_DENSITY,
+  DRAG_REALS
+};
+#ifndef ALI3_WIDTH
+static const ali3_field drag_fields[DRAG_REALS] = {
+  {ALI3_IS_NOT_NEGATIVE, "the drag area of a drag must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the air density of a drag must not be negative"},
+};
+#define ALI3_DRAG .fields = drag_fields, .nfields = DRAG_REALS, \
+  .nsig = -1, .nreal = DRAG_REALS, .nstate = 0, .nout = 1
+#endif
+#endif

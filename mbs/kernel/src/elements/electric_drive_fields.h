@@ -1,0 +1,61 @@
+/* clang-format off */
+/* Numbers of a drive. Written by `python -m mbs.elements.fields_in_c` from ElectricDrive. */
+/* Signals: left (1), right (1), f (3), g (3). */
+/* Outputs: motor_speed (rad/s), speed of the motor; motor_torque (N m), torque of the motor; wheel_torque (N m),
+ * torque on each of the two wheels; electric_power (W), power from the battery, negative in regeneration; gear
+ * (1), direction engaged: -1 reverse, 0 neutral, 1 drive; left_power (W), power on the left wheel; right_power
+ * (W), power on the right wheel */
+#ifndef ALI3_ELECTRIC_DRIVE_FIELDS_H
+#define ALI3_ELECTRIC_DRIVE_FIELDS_H
+#include "element.h"
+
+enum {
+  /* Largest torque of the motor, N m. */
+  MAX_TORQUE,
+  /* Largest power of the motor at its shaft, W. */
+  MAX_POWER,
+  /* Speed of the motor over the mean speed of the wheels, a ratio. */
+  RATIO,
+  /* Speed of the motor beyond which its torque fades to zero within 5 %, rad/s. */
+  LIMIT_SPEED,
+  /* Efficiency between battery and shaft of the motor, both ways. */
+  EFFICIENCY,
+  /* Efficiency between shaft and wheels, both ways. */
+  GEAR_EFFICIENCY,
+  /* Torque of the motor that brakes with closed throttle, N m. */
+  REGENERATION_TORQUE,
+  /* Largest power of it, W. */
+  REGENERATION_POWER,
+  /* Speed of the motor below which it fades, so that the car rests, rad/s. */
+  REGENERATION_SPEED,
+  /* Share of the largest torque in reverse. */
+  REVERSE_TORQUE,
+  /* Speed of the motor beyond which its torque fades in reverse, rad/s. */
+  REVERSE_SPEED,
+  /* Mean speed of the wheels up to which a direction against their motion engages, rad/s; beyond, the drive stays in
+   * neutral. */
+  ENGAGE_SPEED,
+  /* Time in which the torque fades out and in when the selector moves, s. */
+  ENGAGE_TIME,
+  ELECTRIC_DRIVE_REALS
+};
+#ifndef ALI3_WIDTH
+static const ali3_field electric_drive_fields[ELECTRIC_DRIVE_REALS] = {
+  {ALI3_IS_NOT_NEGATIVE, "the max torque of a drive must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the max power of a drive must not be negative"},
+  {ALI3_IS_POSITIVE, "the ratio of a drive must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the limit speed of a drive must be greater than zero"},
+  {ALI3_IS_SHARE, "the efficiency of a drive must be above 0 and at most 1"},
+  {ALI3_IS_SHARE, "the gear efficiency of a drive must be above 0 and at most 1"},
+  {ALI3_IS_NOT_NEGATIVE, "the regeneration torque of a drive must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the regeneration power of a drive must not be negative"},
+  {ALI3_IS_POSITIVE, "the regeneration speed of a drive must be greater than zero"},
+  {ALI3_IS_NOT_NEGATIVE, "the reverse torque of a drive must not be negative"},
+  {ALI3_IS_POSITIVE, "the reverse speed of a drive must be greater than zero"},
+  {ALI3_IS_NOT_NEGATIVE, "the engage speed of a drive must not be negative"},
+  {ALI3_IS_POSITIVE, "the engage time of a drive must be greater than zero"},
+};
+#define ALI3_ELECTRIC_DRIVE .fields = electric_drive_fields, .nfields = ELECTRIC_DRIVE_REALS, \
+  .nsig = 8, .nreal = ELECTRIC_DRIVE_REALS, .nstate = -1, .nout = 7
+#endif
+#endif

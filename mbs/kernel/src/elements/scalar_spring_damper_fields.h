@@ -1,0 +1,36 @@
+/* clang-format off */
+/* Numbers of a spring-damper. Written by `python -m mbs.elements.fields_in_c` from ScalarSpringDamper. */
+/* Signals: coordinate (1). */
+/* Outputs: force (N m), generalised force on the coordinate */
+#ifndef ALI3_SCALAR_SPRING_DAMPER_FIELDS_H
+#define ALI3_SCALAR_SPRING_DAMPER_FIELDS_H
+#include "element.h"
+
+enum {
+  /* N m/rad on an angle, N/m on a length. */
+  STIFFNESS,
+  /* N m s/rad or N s/m. */
+  DAMPING,
+  /* Value without spring force, rad or m. */
+  FREE_VALUE,
+  /* Constant generalised force, N m or N. */
+  CONSTANT,
+  /* Factor on the stiffness, for parameters. */
+  STIFFNESS_FACTOR,
+  /* Factor on the damping, for parameters. */
+  DAMPING_FACTOR,
+  SCALAR_SPRING_DAMPER_REALS
+};
+#ifndef ALI3_WIDTH
+static const ali3_field scalar_spring_damper_fields[SCALAR_SPRING_DAMPER_REALS] = {
+  {ALI3_IS_NOT_NEGATIVE, "the stiffness of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the damping of a spring-damper must not be negative"},
+  {ALI3_IS_ANY, ""},
+  {ALI3_IS_ANY, ""},
+  {ALI3_IS_NOT_NEGATIVE, "the stiffness factor of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the damping factor of a spring-damper must not be negative"},
+};
+#define ALI3_SCALAR_SPRING_DAMPER .fields = scalar_spring_damper_fields, .nfields = SCALAR_SPRING_DAMPER_REALS, \
+  .nsig = 1, .nreal = SCALAR_SPRING_DAMPER_REALS, .nstate = 0, .nout = 1
+#endif
+#endif

@@ -1,0 +1,34 @@
+/* clang-format off */
+/* Numbers of a spring-damper. Written by `python -m mbs.elements.fields_in_c` from SpringDamper. */
+/* Signals: difference (2 or 3). */
+/* Outputs: length (m), distance of the two points; force (N), force of spring, damper and stops, tension positive;
+ * rate (m/s), rate of the length; damper_force (N), force of the damper without spring and stops, tension positive */
+#ifndef ALI3_SPRING_DAMPER_FIELDS_H
+#define ALI3_SPRING_DAMPER_FIELDS_H
+#include "element.h"
+
+enum {
+  /* N/m. */
+  STIFFNESS,
+  /* N s/m. */
+  DAMPING,
+  /* Length without spring force, m. */
+  FREE_LENGTH,
+  /* Factor on the stiffness, for a parameter; not on the stops. */
+  STIFFNESS_FACTOR,
+  /* Factor on the damping, for a parameter; not on the stops. */
+  DAMPING_FACTOR,
+  SPRING_DAMPER_REALS
+};
+#ifndef ALI3_WIDTH
+static const ali3_field spring_damper_fields[SPRING_DAMPER_REALS] = {
+  {ALI3_IS_NOT_NEGATIVE, "the stiffness of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the damping of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the free length of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the stiffness factor of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the damping factor of a spring-damper must not be negative"},
+};
+#define ALI3_SPRING_DAMPER .fields = spring_damper_fields, .nfields = SPRING_DAMPER_REALS, \
+  .nsig = -1, .nreal = -1, .nstate = 0, .nout = 4
+#endif
+#endif

@@ -1,0 +1,31 @@
+/* clang-format off */
+/* Numbers of a torsion bar. Written by `python -m mbs.elements.fields_in_c` from TorsionBar. */
+/* Signals: wheel (1), pinion (1). */
+/* Outputs: torque (N m), torque of the bar on the pinion; assistance (N m), torque of the assistance on the pinion */
+#ifndef ALI3_TORSION_BAR_FIELDS_H
+#define ALI3_TORSION_BAR_FIELDS_H
+#include "element.h"
+
+enum {
+  /* Torsional stiffness of column and torsion bar, N m/rad. */
+  STIFFNESS,
+  /* Torsional damping of column and torsion bar, N m s/rad. */
+  DAMPING,
+  /* Torque of the power assistance on the pinion per torque of the torsion bar, a ratio, where it is far below its
+   * limit. */
+  ASSISTANCE,
+  /* Largest torque of the power assistance on the pinion, N m. */
+  ASSISTANCE_LIMIT,
+  TORSION_BAR_REALS
+};
+#ifndef ALI3_WIDTH
+static const ali3_field torsion_bar_fields[TORSION_BAR_REALS] = {
+  {ALI3_IS_POSITIVE, "the stiffness of a torsion bar must be greater than zero"},
+  {ALI3_IS_NOT_NEGATIVE, "the damping of a torsion bar must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the assistance of a torsion bar must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the assistance limit of a torsion bar must not be negative"},
+};
+#define ALI3_TORSION_BAR .fields = torsion_bar_fields, .nfields = TORSION_BAR_REALS, \
+  .nsig = 2, .nreal = TORSION_BAR_REALS, .nstate = 0, .nout = 2
+#endif
+#endif
