@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mbs.kernel.header.enumerations import GuideType
-from mbs.kernel.header.limits import HALVINGS_SUSPECT, WRONG_ERROR
+from mbs.kernel.header.limits import AGREED, HALVINGS_SUSPECT, WRONG_ERROR
 from mbs.results.comparison import COORDINATES, INSTANTS, Compared
 from mbs.results.run_report import Report
 from mbs.results.smooth_laws import is_open_tree
@@ -24,7 +24,7 @@ OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_mome
 ENERGY_KEPT = 1e-3  # of that of the motion: what a free System may gain or lose, and `drift` of what is plainly smooth
 # Of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved.
 MOST_COST = 48.0
-GOAL_ERROR = 0.005  # what a step that is tried as a remedy aims at
+GOAL_ERROR = AGREED * WRONG_ERROR  # what a step that is tried as a remedy aims at
 MET = 2.0 * GOAL_ERROR  # what it must meet to be named
 SMOOTH_MISS = 0.04  # `summed_miss` of what is plainly smooth
 STILL_MISS = 1e-4  # sqrt(kg) m/s: summed predictor differences of what stands
@@ -200,10 +200,11 @@ def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) ->
         if not tried:
             return f"How short steps must be was not tried: {finds}"
         step, off = tried[-1]
-        return f"Steps of {step:g} s were tried too, and are off by about {_percent(off)}: {finds}"
+        nearer = f"are off by about {_percent(off)} at most" if off <= FAR else "do not show what shorter ones tend to"
+        return f"Steps of {step:g} s were tried too, and {nearer}: {finds}"
     better = _higher_orders(system, method)
     others = f"; longer ones may do with a method of higher order ({' or '.join(map(repr, better))})" if better else ""
-    return f"Steps of {found[0]:g} s were tried: they are off by about {_percent(found[1])}{others}."
+    return f"Steps of {found[0]:g} s were tried: they are off by about {_percent(found[1])} at most{others}."
 
 
 def error_text(accuracy: Accuracy, sizes: Mapping[str, float], compared: Mapping[str, Compared]) -> str:

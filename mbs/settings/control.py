@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 from mbs.common.checks import is_finite, shown
 
 LEAST_TOLERANCE, MOST_TOLERANCE = 1e-11, 0.5
-FIRST_SHARE = 1e-3  # of the length: what a run begins with whose tolerance is that of sensors, at most
+DEFAULT_TOLERANCE = 1e-3
+"""Of runs in equal steps that are chosen; at most what a run begins with whose tolerance is that of sensors."""
 ALLOWED = 3.0
 """A guess of the error up to so many tolerances passes without a warning: it may be too small by as much again."""
 
@@ -114,4 +115,4 @@ def _of_sensors(given: Mapping[object, object], units: Mapping[str, str], length
         raise ValueError("The tolerance names no sensor; give one error by name, or a number.")
     allowed = {str(name): float(value) for name, value in given.items()}  # type: ignore[arg-type]
     shares = [value / length for name, value in allowed.items() if units[name] == "m"]
-    return Tolerance(min(max(min(shares, default=FIRST_SHARE), LEAST_TOLERANCE), FIRST_SHARE), allowed)
+    return Tolerance(min(max(min(shares, default=DEFAULT_TOLERANCE), LEAST_TOLERANCE), DEFAULT_TOLERANCE), allowed)

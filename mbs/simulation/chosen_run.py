@@ -13,18 +13,18 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.checks import array, shown
 from mbs.common.progress import Progress, progress_for
 from mbs.kernel.binding import KernelError, Status
-from mbs.kernel.header.limits import STILL, WRONG_ERROR
-from mbs.results.accuracy import AccuracyWarning
-from mbs.results.comparison import COORDINATES, INSTANTS, Compared, compared_sensors
+from mbs.kernel.header.limits import AGREED, STILL, WRONG_ERROR
+from mbs.results.accuracy import GOAL_ERROR, AccuracyWarning
+from mbs.results.comparison import COORDINATES, INSTANTS, WHOLE, Compared, compared_sensors
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
-from mbs.settings.control import ALLOWED, Control, Tolerance, checked_tolerance
+from mbs.settings.control import ALLOWED, DEFAULT_TOLERANCE, Control, Tolerance, checked_tolerance
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.settings import Settings
 from mbs.simulation.arguments import check_end, check_record, count_steps
 from mbs.simulation.branch_warning import BranchWarning
-from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
+from mbs.simulation.controlled_run import ROUND_OFF, ControlledRun, StalledError, Task
 from mbs.simulation.left_out_run import left_out_to_tolerance
 from mbs.simulation.march import notices_of
 from mbs.simulation.method_choice import choose
@@ -39,17 +39,17 @@ from mbs.system.system import System
 Array = NDArray[np.float64]
 SHORTER = 0.5
 """Longest steps of a third run where both others made only these."""
-COARSE, COARSEST = 20.0, 0.05
-"""Tolerance of the first run in those of the last, and at most."""
+COARSE = 20.0
+"""Tolerance of the first run in those of the last; it is at most what would be wrong."""
 FINER = 4.0
 """How much finer the second run is at least: two of the same tolerance show no error."""
 AGAIN, MOST_AT_ONCE = 0.5, 1e-3
 """What a further run aims at in parts of the tolerance, and by how much it may be finer than the last."""
-FAR, LEAST_GUESS = 0.1, 0.1
-"""Distance of two runs beyond which it says nothing of the finer one; in parts of the tolerance the smallest guess that
-is reported, as smaller ones are too small more often than not, and the largest one by a single pair of runs that is
-accepted where errors grow: two coarse runs may be off alike."""
-MOST_RUNS, LEAST = 5, 1e-13
+FAR = 0.1
+"""Distance of two runs beyond which it says nothing of the finer one. A guess of the error that is reported is at least
+`AGREED` of the tolerance, as smaller ones are too small more often than not; of a single pair of runs none above that
+is accepted where errors grow: two coarse runs may be off alike."""
+MOST_RUNS = 5
 HANDED_ON = (
     Status.NOT_CONVERGED,
     Status.TOO_DEAR,
@@ -60,9 +60,6 @@ HANDED_ON = (
     Status.NO_TREE,
 )
 """How a method fails where another one may not."""
-DEFAULT_TOLERANCE = 1e-3
-"""Of runs in equal steps that are chosen."""
-RECORDED = 200  # intervals where none is said
 LOOKED_AHEAD = 1e-3  # of the run: how far behind the place where steps end a drive may lead loops no further
 
 
@@ -76,7 +73,8 @@ def to_tolerance(
     bar: Progress,
 ) -> tuple[Trajectory, SteppedSystem]:
     """Sensor values at `times` (n,), the first of them the start, with an error of about the tolerance, and where it
-    ended. A method that is chosen and cannot hold the tolerance hands on to the next one, at last to 'ali3p'.
+    ended. A method that is chosen and fails hands on to the next one, at last to 'ali3p'. One that does not keep the
+    tolerance hands on to one other, and the better of both is given.
     """
     first = start()
     t0, t_end = float(times[0]), float(times[-1])
@@ -86,22 +84,34 @@ def to_tolerance(
     grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, INSTANTS + 1) / INSTANTS)
     grid[-1] = t_end
     task = Task(t0, t_end, grid, _signals(inputs, first))
-    coarse, made = min(COARSE * tolerance.share, COARSEST), _Made()
+    coarse, made = min(COARSE * tolerance.share, WRONG_ERROR), _Made()
     if method != "auto":
-        return _by(start, first, tolerance, times, task, replace(settings, method=method), coarse, bar, made, "")
+        settings = replace(settings, method=method)
+        return _told(_by(start, first, tolerance, times, task, settings, coarse, bar, made, ""), first, times)
     choice = choose(start, task, settings, min(tolerance.share, coarse / FINER), coarse)
     made = _Made(choice.run, choice.runs, choice.wall)
-    refused: list[SimulationError] = []
-    for name in choice.names:
-        reason = choice.reason + "".join(f", {k} cannot hold it" for k in choice.names[: len(refused)])
+    refused = list[SimulationError]()
+    best: _Ended | None = None
+    for number, name in enumerate(choice.names):
+        reason = choice.reason + "".join(f", {k} cannot hold it" for k in choice.names[:number])
+        by = replace(settings, method=name)
         try:
-            return _by(start, first, tolerance, times, task, replace(settings, method=name), coarse, bar, made, reason)
+            ended = _by(start, first, tolerance, times, task, by, coarse, bar, made, reason)
         except SimulationError as error:
-            if error.status not in HANDED_ON or error.final:
+            if best is None and (error.status not in HANDED_ON or error.final):
                 raise
             refused.append(error)
             made = replace(made, run=None)
-    raise refused[0]
+            continue
+        other, best = best, ended
+        if other is not None and other.control.error < ended.control.error:
+            best = replace(other, control=replace(other.control, runs=ended.control.runs), wall=ended.wall)
+        if other is not None or ended.control.kept:
+            break
+        made = _Made(None, ended.control.runs, ended.wall)
+    if best is None:
+        raise refused[0]
+    return _told(best, first, times)
 
 
 @dataclass
@@ -111,6 +121,17 @@ class _Made:
     run: ControlledRun | None = None
     runs: int = 0
     wall: float = 0.0
+
+
+@dataclass(frozen=True)
+class _Ended:
+    """The last run by a method, the one before it, and what is known of its error."""
+
+    run: ControlledRun
+    before: ControlledRun
+    control: Control
+    guess: float
+    wall: float
 
 
 def _by(
@@ -124,8 +145,8 @@ def _by(
     bar: Progress,
     made: _Made,
     reason: str,
-) -> tuple[Trajectory, SteppedSystem]:
-    """The same by one method.
+) -> _Ended:
+    """Runs by one method.
 
     A coarse run and a finer one give the error of the latter: errors fall about as what their steps err, unless the two
     runs are far apart. Where it is larger than it should be, since the motion lets errors grow, up to three more runs
@@ -159,20 +180,26 @@ def _by(
             continue
         unsure = number == 1 and run.simulation.branch_change  # two runs may have jumped alike
         grows = number == 1 and far > before.fields.error_sum
-        if (error <= (LEAST_GUESS if grows else 1.0) * wanted and not unsure) or aim <= LEAST:
+        if (error <= (AGREED if grows else 1.0) * wanted and not unsure) or aim <= ROUND_OFF:
             break
         before = run
-        finer = min(0.1 if unsure else 1.0 / FINER, AGAIN * wanted / max(guess, wanted))
-        aim = max(LEAST, aim * max(MOST_AT_ONCE, finer))
+        finer = min(AGREED if unsure else 1.0 / FINER, AGAIN * wanted / max(guess, wanted))
+        aim = max(ROUND_OFF, aim * max(MOST_AT_ONCE, finer))
     assert run is not None
     c, told = run.fields, 0.0
     if error > 0.0:  # what stands still errs by no more than it moves
-        told = max(error, min(LEAST_GUESS * wanted, run.moved / run.length))
+        told = max(error, min(AGREED * wanted, run.moved / run.length))
     control = Control(
         wanted, run.length, settings.method, reason, told, None, c.accepted, c.rejected, c.failed, c.forced,
         c.smallest, c.largest, c.side_steps, runs, run.moved, _errors(run, before, tolerance),
     )  # fmt: skip
-    _warn(control, error)
+    return _Ended(run, before, control, error, wall)
+
+
+def _told(ended: _Ended, first: SteppedSystem, times: Array) -> tuple[Trajectory, SteppedSystem]:
+    """The run, with warnings of what is wrong with it."""
+    run, before = ended.run, ended.before
+    _warn(ended.control, ended.guess)
     if run.simulation.branch_change and not before.simulation.branch_change:
         warnings.warn(run.simulation.branch_change, BranchWarning, stacklevel=4)
     if rim := run.simulation.road_text:
@@ -180,10 +207,10 @@ def _by(
     for t, q in zip(run.task.times, run.positions, strict=True):
         run.simulation.bending.look(float(t), np.asarray(q))
     run.simulation.bending.warn(stacklevel=5)
-    recorded = np.searchsorted(task.times, times[1:])
+    recorded = np.searchsorted(run.task.times, times[1:])
     values = np.vstack([list(first.instance.sensors()), run.values[recorded]])
     positions = np.vstack([first.state.q, run.positions[recorded]])
-    trajectory = _trajectory(run.simulation, times, values, control, wall, run.settings, positions)
+    trajectory = _trajectory(run.simulation, times, values, ended.control, ended.wall, run.settings, positions)
     return trajectory, run.simulation
 
 
@@ -213,7 +240,7 @@ def _signals(inputs: Mapping[str, Signal], of: SteppedSystem) -> InputSignals:
 def _errors(run: ControlledRun, before: ControlledRun, tolerance: Tolerance) -> dict[str, float]:
     """The guessed errors of the sensors that have a tolerance of their own."""
     fall, gaps = _fall(run, before), _gaps(run, before, tolerance)
-    return {name: max(fall * gap, LEAST_GUESS * tolerance.sensors[name]) for name, gap in gaps.items()}
+    return {name: max(fall * gap, AGREED * tolerance.sensors[name]) for name, gap in gaps.items()}
 
 
 def asked_tolerance(system: System, tolerance: object) -> Tolerance:
@@ -253,7 +280,7 @@ def equal_steps(
     if method == "auto" and t_end > t0:
         grid = t0 + (t_end - t0) * np.arange(1, INSTANTS + 1) / INSTANTS
         task = Task(t0, t_end, grid, _signals(inputs, start(0.0, settings)))
-        choice = choose(lambda: start(0.0, settings), task, settings, DEFAULT_TOLERANCE, COARSEST)
+        choice = choose(lambda: start(0.0, settings), task, settings, DEFAULT_TOLERANCE, WRONG_ERROR)
         method, reason, wall, runs = choice.method, choice.reason, choice.wall, choice.runs
     settings = replace(settings, method="ali3p" if method == "auto" else method)
     given = h is not None
@@ -283,7 +310,7 @@ def record_times(t0: float, t_end: float, h: float | None, every: int, times: Ar
     if times is None:
         if t_end == t0:
             return np.array([t0])
-        interval = (t_end - t0) / RECORDED if h is None else h * every
+        interval = (t_end - t0) / WHOLE if h is None else h * every
         samples = count_steps(t0, t_end, interval) + 1
         check_record(samples, 1)
         return t0 + interval * np.arange(samples, dtype=float)
@@ -361,7 +388,7 @@ def _warn(control: Control, guess: float) -> None:
             f"The tolerance of {control.tolerance:g} is relative to the model's length of {control.length:.4g} m, and "
             f"what moves farthest moves {moved:.3g} m: the guessed error of {error:.1e} m is "
             f"{100.0 * error / moved:.2g} % of that. Give one for a sensor, in its unit, tolerance={{name: ...}}, or "
-            f"tolerance={0.2 * WRONG_ERROR * moved / control.length:.0e}.",
+            f"tolerance={GOAL_ERROR * moved / control.length:.0e}.",
             AccuracyWarning,
             stacklevel=5,
         )

@@ -15,6 +15,7 @@ from mbs.results.accuracy import Accuracy, missed_share
 from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, is_open
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
+from mbs.results.smooth_laws import UNRESOLVED
 from mbs.results.trajectory import Trajectory
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
@@ -22,7 +23,7 @@ from mbs.simulation.march import WATCHED
 from mbs.simulation.refined_run import RefinedRuns, TooDearError, Watch
 
 COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
-LONG = 8  # the first step with one iteration over that of the run; else, and then, twice the step
+LONG = 8  # the first step over that of the run where one iteration or a high order shows enough, of that half as well
 ALONE = 0.03  # of the range: by order one the error behind which twice the step differs so much
 
 
@@ -39,9 +40,13 @@ def one_iteration(settings: Settings, compared: Mapping[str, Compared], states: 
 def coarser_steps(
     settings: Settings, compared: Mapping[str, Compared], states: bool, unresolved: float, run: Report
 ) -> list[int]:
-    """By what the step is multiplied in turn, as far as it resolves the motion: up to a missed share `unresolved`."""
-    asked = [LONG, 2] if one_iteration(settings, compared, states) else [2]
-    return [times for times in asked if times * missed_share(run, settings.method) <= unresolved]
+    """By what the step is multiplied in turn, as far as it resolves the motion: up to a missed share `unresolved`,
+    which `unresolved_share` makes larger where errors have a high order.
+    """
+    one = one_iteration(settings, compared, states)
+    longer = [LONG, LONG // 2] if unresolved > UNRESOLVED else [LONG] if one else []
+    fit = [times for times in [*longer, 2] if times * missed_share(run, settings.method) <= unresolved]
+    return [times for times in fit if times in (fit[0], 2)]
 
 
 def difference_from(known: Accuracy, method: str, h: float) -> float:

@@ -8,11 +8,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from mbs.kernel.header.limits import EVENT_ORDER
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
-from mbs.results.accuracy import FAR, MOST_COST, WARNED_ERROR, Accuracy
+from mbs.results.accuracy import MOST_COST, WARNED_ERROR, Accuracy
 from mbs.results.comparison import (
     COORDINATES,
     Compared,
@@ -209,8 +210,6 @@ class RefinedRuns:
         By order one where two finer runs have shown what they differ by, by the least order where a single one has.
         """
         pair = parts // 2 in self._finer
-        if not pair and (known.error or 0.0) > FAR:
-            return False
         apart, _ = self._differences(self._finer[parts // 2] if pair else self.run, self._finer[parts])
         more = 1.0 if pair else 1.0 / (2.0**LEAST_ORDER - 1.0)
         return unsure(known, {unit: more * gap for unit, gap in apart.items()})
@@ -225,7 +224,7 @@ class RefinedRuns:
         """
         step, tried = accuracy.needed_step(self.h, known), self._offs()
         parts = 0 if step is None or self.before is not None else math.ceil(self.h / step - 1e-9)
-        if parts > max(self._finer) and tried[-1][1] > accuracy.MET:
+        if parts > max(self._finer) and not any(off <= accuracy.MET for _, off in tried):
             try:
                 self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
             except (SimulationError, TooDearError):
@@ -234,15 +233,17 @@ class RefinedRuns:
         return tried
 
     def _offs(self) -> list[tuple[float, float]]:
-        """Of each finer run by the finest; of that one by the order with which the last two come nearer to it."""
-        *others, finest = [1, *sorted(self._finer)]
-        runs = {1: self.run, **self._finer}
-        apart = {n: max(self._differences(runs[n], runs[finest])[0].values(), default=0.0) for n in others}
-        near, order = others[-1], float(METHOD_TABLE[self.method].order)
-        if near > 1 and min(apart[1], apart[near]) > 0.0:
-            order = min(order, max(math.log(apart[1] / apart[near]) / math.log(near), LEAST_ORDER))
-        apart[finest] = apart[near] / ((finest / near) ** order - 1.0)
-        return [(self.h / n, apart[n]) for n in sorted(self._finer)]
+        """Of each finer run what it and the finest differ by, and what that one is off by with the order that the first
+        run and the last two show; none where there is a single one, which shows none.
+        """
+        if len(self._finer) < 2:
+            return []
+        *_, near, finest = sorted(self._finer)
+        runs, last = {1: self.run, **self._finer}, self._finer[finest]
+        apart = {n: max(self._differences(run, last)[0].values(), default=0.0) for n, run in runs.items()}
+        order = seen_order(apart[1], apart[near], near, finest, float(METHOD_TABLE[self.method].order))
+        left = apart[near] / ((finest / near) ** order - 1.0)
+        return [(self.h / n, apart[n] + left) for n in sorted(self._finer)]
 
     def add_ends(self) -> None:
         """What moved in the first run counts for those after it."""
@@ -316,6 +317,19 @@ class RefinedRuns:
             units={unit: factor * e for unit, e in units.items()},
             sensors={name: factor * e for name, e in sensors.items()},
         )
+
+
+def seen_order(first: float, near: float, parts: int, most_parts: int, most: float) -> float:
+    """Order, from `LEAST_ORDER` to `most`, with which runs come nearer to what they tend to, of which one and that with
+    its step in `parts` differ by `first` and `near` from that with its step in `most_parts`.
+    """
+
+    def more(order: float) -> float:
+        return float(near * (most_parts**order - 1.0) - first * ((most_parts / parts) ** order - 1.0))
+
+    if more(most) <= 0.0:
+        return most
+    return float(brentq(more, LEAST_ORDER, most)) if more(LEAST_ORDER) < 0.0 else LEAST_ORDER
 
 
 def unsure(known: Accuracy, apart: Mapping[str, float]) -> bool:

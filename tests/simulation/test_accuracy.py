@@ -77,7 +77,7 @@ class TestThePrintedModel:
         with pytest.warns(AccuracyWarning, match=r"'piston.x' by 0\.\d+ m of 0.2 m"):
             run = simulate(printed_model(), 2.0, 6.25e-5, TORQUE, estimate_error=True, **QUIET)
         assert run.accuracy.sensors["crank.angle"] == pytest.approx(CRANK_ANGLE - run["crank.angle"][-1], rel=0.3)
-        assert run.accuracy.compared_step == pytest.approx(3.125e-5)
+        assert run.accuracy.compared_step == pytest.approx(1.5625e-5)
         assert 1.5 < run.accuracy.order <= 2.0
         assert "% of the range in rad" in repr(run)
 

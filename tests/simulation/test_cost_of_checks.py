@@ -42,11 +42,18 @@ def test_chains_that_were_silent_are_told(seed: int, number: int, steps: int, me
         mbs.simulate(system, span, span / steps, every=steps // 50, method=method, progress=False)
 
 
-@pytest.mark.parametrize("method", ["semi_recursive_4", "semi_recursive", "runge_kutta_8"])
-def test_a_right_tree_of_high_order_costs_half_of_its_run(method: str) -> None:
+@pytest.mark.parametrize(
+    ("method", "cost"),
+    [
+        pytest.param("semi_recursive_4", 0.5 + 0.6 / 8, id="eight times the step is too far off, and given up"),
+        ("semi_recursive", 0.125),
+        ("runge_kutta_8", 0.125),
+    ],
+)
+def test_a_right_tree_of_high_order_is_compared_with_eight_times_its_step(method: str, cost: float) -> None:
     run = mbs.simulate(swing(), 20.0, 0.2, method=method, progress=False)
     assert run.accuracy is not None
-    assert run.accuracy.check_cost == 0.5
+    assert run.accuracy.check_cost == pytest.approx(cost, abs=0.01)
     assert np.abs(run["x"] - 0.02 * np.sin(run.t)).max() < 0.005 * 0.02
 
 

@@ -488,3 +488,36 @@ def test_a_cam_that_the_default_cannot_hold_is_held_by_another_method() -> None:
     assert run.control.method == "radau_5"
     assert "ali3p cannot hold it" in run.control.reason
     assert np.abs(run["x1"] - fine["x1"]).max() < 1e-3 * run.control.length
+
+
+@pytest.mark.parametrize(("turned", "rate", "tolerance"), [(1.2, 8.5, 1e-5), (0.6, -8.8, 1e-5)])
+def test_a_method_that_does_not_keep_a_tolerance_hands_on_to_another(
+    turned: float, rate: float, tolerance: float
+) -> None:
+    """A parallelogram that turns through its flat positions is a pendulum; runs of a tree that is cut are far apart."""
+    ends, width = 0.3 * np.array([np.cos(turned), np.sin(turned)]), np.array([1.0, 0.0])
+    across = 0.3 * rate * np.array([-np.sin(turned), np.cos(turned)])
+    m = mbs.Model("parallelogram", dimension=2, gravity=(0.0, -9.81))
+    rod = m.body("rod", mass=1.0, com=0.5 * width + ends, inertia=0.5)
+    for i in range(2):
+        crank = m.body(f"crank {i}", mass=1.0, com=i * width + 0.5 * ends, inertia=0.0075)
+        m.revolute(f"foot {i}", m.ground, crank, point=i * width)
+        m.revolute(f"head {i}", crank, rod, point=i * width + ends)
+        m.initial_velocity(crank, linear=0.5 * across, angular=rate)
+    m.initial_velocity(rod, linear=across)
+    for axis in "xy":
+        m.sense_position(axis, rod, None, axis)
+    system, t = mbs.compile(m), np.linspace(0.0, 2.0, 51)
+    inertia, weight = 2.0 * (0.0075 + 0.15**2) + 0.09, 9.81 * (0.3 + 0.3)
+    angle = solve_ivp(
+        lambda _, y: [y[1], -weight * np.cos(y[0]) / inertia], (0.0, 2.0), [turned, rate], t_eval=t, method="DOP853",
+        rtol=1e-11, atol=1e-12,
+    ).y[0]  # fmt: skip
+    with pytest.warns(mbs.AccuracyWarning, match="name another method than 'semi_recursive'"):
+        mbs.simulate(system, 2.0, tolerance=tolerance, method="semi_recursive", progress=False)
+    run = mbs.simulate(system, 2.0, tolerance=tolerance, times=t, progress=False)
+    assert run.control is not None
+    assert run.control.method == "radau_5"
+    assert "semi_recursive cannot hold it" in run.control.reason
+    off = max(np.abs(run["x"] - 0.5 - 0.3 * np.cos(angle)).max(), np.abs(run["y"] - 0.3 * np.sin(angle)).max())
+    assert off < tolerance * run.control.length
