@@ -58,7 +58,7 @@ struct ali3_instance {
   bool parts_at_events; /* it may be parted there at all */
   bool may_divide; /* the present step is halved where a force changes abruptly in it */
   double changed; /* largest change of a judged force in the step, of ali3_divides; below 0: not known */
-  bool halves_left; /* the present step, or part of one, may still be halved */
+  bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
   int64_t count, iterations_before; /* of steps of h_last, and report.iterations where the present step began */
   int64_t *work_left; /* of the caller's call, see ali3_count_work; or NULL */
   int64_t iterations_end; /* report.iterations where the present part must end, with a limit of the step's */

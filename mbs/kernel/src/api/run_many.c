@@ -85,7 +85,7 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   const ali3_sizes *z = &g->system->size;
   ali3_vectors *from = &in->now, *to = &in->next;
   if (ali3_parted(in, step->t, step->h)) return false;
-  in->halves_left = in->settings.max_halvings > 0;
+  in->halves_left = false;
   ali3_events_begin(in, in->settings.max_halvings);
   in->may_divide = ali3_may_divide(in, in->settings.max_halvings);
   if (ali3_divides_ahead(in, step->h) || fastest_turn(in) * step->h > MOST_TURN || !goes_on(in, step->h)) return false;

@@ -44,7 +44,7 @@ static ali3_status advance_part(ali3_instance *in, double t, double h, int32_t d
   const int64_t made_before = in->report.iterations;
   if (made_before - in->iterations_before > MOST_ITERATIONS) return ALI3_TOO_DEAR;
   if (in->work_left != NULL && *in->work_left <= 0) return ALI3_TOO_DEAR;
-  in->halves_left = depth > 0 && !limited;
+  in->halves_left = depth > 0 && depth < in->settings.max_halvings && !limited;
   in->may_divide = ali3_may_divide(in, depth);
   in->changed = -1.0;
   in->event = 1.0;

@@ -6,8 +6,10 @@
 #include "energy_balance.h"
 #include "energy_watch.h"
 
-/* Shares of the kinetic energy: of a step, or part of one, that may still be halved, and of one that cannot. */
-static const double RESOLVED = 0.02, MOST = 0.1;
+/* Shares of the kinetic energy: of a step as asked for, and of a part of one that was halved. A part that cannot be
+ * halved again may have what it might have if it had been asked for: else ten short steps pass where a long one does
+ * not. */
+static const double MOST = 0.1, MOST_OF_A_PART = 0.02;
 static const double MOST_ENERGY = 1e100; /* J */
 
 /* Adds an error of the energy to the balance and, where no row is driven, judges it beside `size`; so also with what the
@@ -18,7 +20,7 @@ ali3_status ali3_energy_judge(ali3_instance *in, double h, double error, double 
   const double coming = fabs(error + 0.5 * h * (open - in->report.open_power)), worse = fmax(fabs(error), coming);
   if (!(size + worse < 1e300)) return ALI3_NOT_FINITE;
   const bool driven = in->system->n_gterm_row > 0; /* a guide whose rate jumps adds energy instantly */
-  const bool resolved = driven || worse <= (in->halves_left ? RESOLVED : MOST) * size;
+  const bool resolved = driven || worse <= (in->halves_left ? MOST_OF_A_PART : MOST) * size;
   if (!resolved && in->settings.step_iterations == 0) return ALI3_UNRESOLVED;
   in->capped |= !resolved; /* no halves: the balance and the count say it */
   ali3_balance_energy(in, error, end, weight);
