@@ -101,6 +101,25 @@ def test_a_wrong_run_without_a_word_is_found(monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(
+    ("family", "number", "verdicts"),
+    [
+        ("machines", 2, ["wrong, told", "right"]),
+        ("switches", 1, ["wrong, told"]),
+        ("jumps", 0, ["right", "right"]),
+        ("boxes", 0, ["right", "right"]),
+    ],
+)
+def test_verdicts_of_a_few_cases_are_as_stored(family, number, verdicts):
+    """Of seed 2, in equal steps and under a tolerance.
+
+    The chain that a pin holds is off by 31 %: with steps halved where they lose a fiftieth of the energy its run and
+    its refined ones have the same parts, and 1 % of 22 was told.
+    """
+    assert [r["verdict"] for r in random_honesty.rows_of(family, seed=2, numbers=[number])] == verdicts
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("family", ["jumps", "switches", "boxes", "gears", "tumbling"])
 def test_the_engine_in_fine_steps_moves_as_the_reference(family):
     """Of the first case of a family that has one."""
