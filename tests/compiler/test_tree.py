@@ -122,7 +122,7 @@ BAD = [
     ("tree_parent", put(2, 3), "'tree_parent' is 3, outside 0..2"),
     ("tree_parent", put(0, -1), "'tree_parent'"),
     ("tree_parent", lambda v: v[:-1], "'tree_slides' has 5 items instead of 4"),
-    ("tree_parent", lambda v: np.arange(65), "the tree has 65 joints"),
+    ("tree_parent", lambda v: np.arange(65), "'tree_slides' has 5 items instead of 65"),
     ("tree_slides", put(0, 2), "'tree_slides'"),
     ("tree_base", lambda v: v[:-1], "'tree_base'"),
     ("tree_base", put(3, np.inf), "is not a finite number"),

@@ -218,7 +218,7 @@ def test_a_start_beyond_the_digits_is_refused_by_its_name(
     assert driven.call("exitInitializationMode") == ERROR
     said = driven.messages[-1]
     assert "too far away or too fast" in said
-    assert said.endswith(f" '{name}' is {value:g} {unit}.")
+    assert f" '{name}' is {value:g} {unit}. Start nearer to the origin, or slower." in said
     assert "wishbone" not in said
     assert driven.set(name, 0.0) == OK
     assert driven.call("exitInitializationMode") == OK

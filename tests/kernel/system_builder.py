@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mbs.kernel.header.arrays import ARRAYS
+from mbs.kernel.header.limits import SYSTEM_VERSION
 
 INT, REAL, BYTES = 1, 2, 3
 REALS = {name for name, (items, _) in ARRAYS.items() if items == "REALS"}
@@ -310,4 +311,4 @@ def pack(arrays: dict[str, object]) -> bytes:
 def seal(data: bytes, count: int) -> bytes:
     """Header with size and checksum for what stands behind it."""
     body = data[32:]
-    return struct.pack("<8sIIQII", b"ALI3SYS\n", 1, count, len(data), zlib.crc32(body), 0) + body
+    return struct.pack("<8sIIQII", b"ALI3SYS\n", SYSTEM_VERSION, count, len(data), zlib.crc32(body), 0) + body
