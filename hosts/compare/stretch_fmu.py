@@ -22,6 +22,9 @@ _GAINS = 4.0, 4.0  # pedal per m/s and per m: the speed is to be as measured, no
 _ACCELERATION_GAIN = 0.1  # pedal per m/s2
 _FINE = 0.01  # s: communication step up to which they hold; with longer ones a car of 10 m/s2 would swing
 
+SLIDING = 0.05
+"""Slip of an axle from which on the driver eases the throttle: no driver holds a speed against wheels that slide."""
+
 _SMOOTHED, _PARABOLA = 0.2, 2  # s; degree
 _UNEVEN = 0.5  # of the time between samples
 
@@ -49,7 +52,7 @@ def _holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
     def wanted(t: float) -> float:
         return float(np.interp(t, speed.time, speed.values))
 
-    return SpeedHolder(wanted, own, integral, _ACCELERATION_GAIN, pedal=pedal)
+    return SpeedHolder(wanted, own, integral, _ACCELERATION_GAIN, pedal=pedal, sliding=SLIDING)
 
 
 Task: TypeAlias = tuple[int, dict[str, Value], bool | None]

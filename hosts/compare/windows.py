@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hosts.compare.comparison import Comparison
 from hosts.compare.deviations import rms
+from hosts.compare.stretch_fmu import SLIDING
 from hosts.compare.stretches import PEDALS, Stretch
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
@@ -118,11 +119,21 @@ def held_words(result: Result, stretches: Sequence[Stretch]) -> list[str]:
     if full.any() and not full.all():
         left = f"{rms(error[~full]):.2g} m/s rms elsewhere"
         text += f", a pedal at its end for {100.0 * np.mean(full):.0f} % of the time and {left}"
+    if (slid := _sliding(result)).any():
+        eased = np.mean(np.interp(time, result.time, slid))
+        text += f", eased the throttle over a sliding axle for {100.0 * eased:.2g} % of the time"
     forces = [_axle(result, axle) for axle in "FR"]
     if any(f is None for f in forces):
         return [f"{text}."]
     front, rear = (rms(f) for f in forces if f is not None)
     return [f"{text}, by forces along the wheels of {front:.3g} N rms in front and {rear:.3g} N behind."]
+
+
+def _sliding(result: Result) -> NDArray[np.bool_]:
+    """Where both wheels of an axle slip by more than a driver holds the speed against."""
+    slips = [[f"wheel_{axle}{side}.slip" for side in "LR"] for axle in "FR"]
+    told = [np.minimum(result[left], result[right]) for left, right in slips if left in result and right in result]
+    return np.any([slip > SLIDING for slip in told], axis=0) if told else np.zeros(len(result.time), dtype=np.bool_)
 
 
 def _axle(result: Result, axle: str) -> NDArray[np.float64] | None:

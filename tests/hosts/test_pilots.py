@@ -48,6 +48,31 @@ def test_without_brakes_a_car_that_is_too_fast_rolls() -> None:
     assert pilot.act(0.0, {"speed": 30.0}) == {"throttle": 0.0}
 
 
+def slipping(left: float, right: float) -> dict[str, float]:
+    return {"speed": 10.0, "wheel_FL.slip": 0.0, "wheel_FR.slip": 0.0, "wheel_RL.slip": left, "wheel_RR.slip": right}
+
+
+def test_throttle_is_eased_where_both_wheels_of_an_axle_slide() -> None:
+    """Not where one of them does, as the lighter one behind an open differential."""
+    acts = [
+        SpeedHolder(20.0, gain=1.0, sliding=0.08).act(0.0, slipping(*s))
+        for s in ((0.08, 0.3), (0.12, 0.12), (0.12, 0.16), (0.2, 0.3), (-0.2, -0.2), (0.3, 0.0))
+    ]
+    assert [act["throttle"] for act in acts] == pytest.approx([1.0, 0.5, 0.5, 0.0, 1.0, 1.0])
+    assert SpeedHolder(20.0, gain=1.0).act(0.0, slipping(0.3, 0.3))["throttle"] == 1.0, "by default never"
+    assert SpeedHolder(20.0, gain=1.0, sliding=0.08).act(0.0, {"speed": 10.0})["throttle"] == 1.0, "no slips are told"
+
+
+def test_the_integral_waits_while_the_throttle_is_eased() -> None:
+    free, slid = (SpeedHolder(10.1, gain=1.0, integral_gain=1.0, sliding=0.08) for _ in range(2))
+    for k in range(100):
+        free.act(0.01 * k, slipping(0.0, 0.0))
+        slid.act(0.01 * k, slipping(0.1, 0.1))
+    after, kept = (pilot.act(1.0, slipping(0.0, 0.0))["throttle"] for pilot in (free, slid))
+    assert after == pytest.approx(0.1 + 0.1, abs=2e-3)
+    assert kept == pytest.approx(0.1, abs=2e-3)
+
+
 def test_tables_are_linear_between_and_step_where_a_time_stands_twice() -> None:
     table = SteeringTable([0.0, 1.0, 1.0, 2.0], [0.0, 0.0, 0.5, 1.5], "steering_wheel_angle_demand")
     values = [table.act(t, {})["steering_wheel_angle_demand"] for t in (-1.0, 0.999, 1.0 - 1e-12, 1.5, 3.0)]

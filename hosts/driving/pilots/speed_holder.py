@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 
 
@@ -23,10 +24,13 @@ class SpeedHolder:
     pedal : float, optional
         Of its first act, at the wanted speed; negative: of the brake. Default, and
         without an integral: what the acceleration asks for.
+    sliding : float, optional
+        Slip of both wheels of an axle from which on the throttle is eased, to none at twice this slip; default: never.
+        A car that does not tell the slips of its wheels is driven as by default.
 
     Notes
     -----
-    The integral waits while a pedal is at its stop. `speed` must be an output of the car.
+    The integral waits while a pedal is at its stop or the throttle is eased. `speed` must be an output of the car.
     """
 
     def __init__(
@@ -37,6 +41,7 @@ class SpeedHolder:
         acceleration_gain: float = 0.1,
         brakes: bool = True,
         pedal: float | None = None,
+        sliding: float = math.inf,
     ) -> None:
         self.speed = speed
         self.gain = gain
@@ -46,6 +51,8 @@ class SpeedHolder:
         self._integral = 0.0
         self._first = pedal if integral_gain else None
         self._time = 0.0
+        self._sliding = sliding
+        self._axles: list[list[str]] | None = None if sliding < math.inf else []
 
     def wanted(self, time: float) -> float:
         """Speed that is wanted at a time, m/s."""
@@ -62,7 +69,17 @@ class SpeedHolder:
         if self._first is not None:
             self._integral, self._first = (self._first - forward) / self.integral_gain, None
         pedal = self.gain * error + self.integral_gain * self._integral + forward
-        if self._lowest < pedal < 1.0:
+        left = self._left(senses)
+        if self._lowest < pedal < 1.0 and left == 1.0:
             self._integral += step * error
-        pedals = {"throttle": min(max(pedal, 0.0), 1.0)}
+        pedals = {"throttle": left * min(max(pedal, 0.0), 1.0)}
         return pedals if self._lowest == 0.0 else pedals | {"brake": min(max(-pedal, 0.0), 1.0)}
+
+    def _left(self, senses: Mapping[str, float]) -> float:
+        """The part of the throttle that an axle which slides leaves."""
+        if self._axles is None:
+            slips = [n for n in senses if n.startswith("wheel_") and n.endswith(("L.slip", "R.slip"))]
+            sides = {n.removesuffix("L.slip").removesuffix("R.slip") for n in slips}
+            self._axles = [[n for n in slips if n in (f"{a}L.slip", f"{a}R.slip")] for a in sorted(sides)]
+        slip = max((min(senses[n] for n in axle) for axle in self._axles), default=0.0)
+        return min(max(2.0 - slip / self._sliding, 0.0), 1.0)

@@ -36,3 +36,14 @@ def test_what_a_driver_could_not_hold_is_told_apart() -> None:
     )
     (words,) = held_words(replace(result, values=values * (1.0, 0.5, 1.0)), [stretch])
     assert words == "The driver held the speed within 0.17 m/s rms (-0.2 on the mean)."
+
+
+def test_how_long_the_driver_eased_the_throttle_is_told() -> None:
+    """Both wheels of the rear axle slide in a tenth of the time, one of them in a fifth."""
+    t = np.linspace(0.0, 4.0, 401)
+    slips = [np.where(t < part * 4.0, 0.12, 0.02) for part in (0.1, 0.2)]
+    values = np.column_stack((20.0 + 0.0 * t, 0.5 + 0.0 * t, 0.0 * t, *slips))
+    result = Result(["speed", "throttle", "brake", "wheel_RL.slip", "wheel_RR.slip"], {}, t, values, 1.0, 4.0, 0, [])
+    stretch = Stretch(Manoeuvre("log", t, {}, 4.0, {}), Signal("speed", "v", "m/s", t, 20.0 + 0.0 * t))
+    (words,) = held_words(result, [stretch])
+    assert words.endswith(", eased the throttle over a sliding axle for 10 % of the time.")
