@@ -42,10 +42,9 @@ def test_an_offset_and_a_fixed_parameter_survive_the_file():
     assert [p.get("fixed", False) for p in system.meta["parameters"]] == [False, True]
 
 
-def test_a_file_without_offsets_is_one_of_tunable_parameters():
-    """As files were before there were any."""
+def test_parameters_are_tunable_where_a_file_does_not_say_which_are_fixed():
     system = compile(balance())
-    arrays = {name: values for name, values in system.arrays.items() if name not in ("par_offset", "par_fixed")}
+    arrays = {name: values for name, values in system.arrays.items() if name != "par_fixed"}
     simulation = Simulation(System(arrays, system.meta))
     simulation.set_parameter("damping", 2.0)
     simulation.step(0.01)
