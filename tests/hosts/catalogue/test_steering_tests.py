@@ -237,7 +237,7 @@ def test_an_fmu_that_refuses_a_step_before_the_steering_is_told() -> None:
         ({"chassis.ay": -1.0}, r"the other sign of 'chassis\.ay'"),
         ({"chassis.wz": -1.0}, r"the other sign of 'chassis\.wz'"),
         ({"chassis.wz": math.degrees(1.0)}, r"deg/s in place of rad/s of 'chassis\.wz'"),
-        ({"chassis.wz": -1.0, "chassis.ay": -1.0}, r"the other sign of 'steering\.angle'"),
+        ({"chassis.wz": -1.0, "chassis.ay": -1.0}, r"the other sign of 'steering_wheel_angle'"),
     ],
 )
 def test_wrong_signs_and_units_are_told(test: str, factors: dict[str, float], words: str) -> None:

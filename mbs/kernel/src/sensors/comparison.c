@@ -1,5 +1,6 @@
 /* Two motions of a System, compared at samples by what they show: ranges, differences, and what a difference is held
  * against. What is compared of a System is said by mbs/results/comparison.py. */
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
@@ -73,8 +74,10 @@ void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared
     const double most = unit == ALI3_JUDGED_M            ? length
                         : unit == ALI3_JUDGED_RAD        ? 1.0
                         : unit == ALI3_JUDGED_COORDINATE ? fmax(length, 1.0)
-                                                         : HUGE_VAL,
-                 rest = (unit == ALI3_JUDGED_COORDINATE ? STANDS : ALI3_STILL) * fmin(largest[group], most);
+                                                         : HUGE_VAL;
+    const double round = most < HUGE_VAL ? DBL_EPSILON * most : 0.0; /* of coordinates: less is no motion */
+    const double rest =
+        fmax((unit == ALI3_JUDGED_COORDINATE ? STANDS : ALI3_STILL) * fmin(largest[group], most), round);
     size[i] = !(moved[group] > rest) || !follows(seen + i) ? 0.0
               : what[i].kind & ALI3_JUDGED_LOAD            ? largest[group]
                                                            : moved[group];
