@@ -160,8 +160,8 @@ class Echo:
             cause = f"{' or '.join(causes)} would explain it: without that it is {value.quantity.shown(value.value)}"
             told.append(self._sentence([v for v in left if v.name in best], cause))
             left = [v for v in left if v.name not in best]
-        for group in _sharing(left):
-            told.append(self._sentence(group, ""))
+        for group in _sharing(left):  # what follows from the fewest names says most of the cause
+            told.append(self._sentence(sorted(group, key=lambda v: len(v.keys)), ""))
         return told
 
     def warn(self, category: type[Warning], stacklevel: int = 2) -> None:
