@@ -119,9 +119,9 @@ def _target(model: ModelCore, what: str, given: Target) -> _Target:
     for target, kind, things, own in _owners(model):
         place = model.place_of(things, owner_name)
         reals = {} if place is None else own(place)
-        if place is not None and real in reals:
+        if place is not None and isinstance(real, str) and real in reals:
             words = f"the {real} of {kind} '{owner_name}'" if real != "on" else f"the {kind} '{owner_name}'"
-            return _Target((target, place, list(reals).index(str(real)), *line), words, reals[str(real)])
+            return _Target((target, place, list(reals).index(real), *line), words, reals[real])
     raise ModelError(
         f"The {what} writes {shown(real)} of {shown(owner_name)}, but the model has no such element, guide, payload, "
         "armature or switch."

@@ -79,7 +79,8 @@ def _numbers(simulation: SteppedSystem, status: int) -> str:
         return _farthest_changed(simulation)
     rate = simulation.instance.report()["fastest_rate"]
     if status == Status.TURNS_TOO_FAR:
-        return f" Its rate is {rate:.3g} rad/s; a step of {0.49 / rate:.2g} s follows it."
+        enough = f"a step of {0.49 / rate:.2g} s follows it, and so do more `max_halvings`"
+        return f" Its rate is {rate:.3g} rad/s; {enough}."
     if status == Status.TOO_STIFF and rate > 0.0:
         h = simulation.step_tried
         return (

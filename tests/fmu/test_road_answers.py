@@ -66,7 +66,7 @@ def test_derivatives_that_lead_a_normal_astray_name_the_port(host, sledge) -> No
         assert h.step(0.0, 0.01) == DISCARD
         assert told in h.messages[-1]
         assert "'road_normal_x' and its neighbours became (0, 0, 0." in h.messages[-1]
-        assert "one whose derivatives turn the normal less" in h.messages[-1]
+        assert "Give it at shorter intervals, or with derivatives that turn it less" in h.messages[-1]
         assert "Worst" not in h.messages[-1]
     assert h.get("x") == before
     assert slope(h, "road_normal_z", 1, 0.0) == OK

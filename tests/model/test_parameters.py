@@ -105,6 +105,15 @@ def test_a_number_takes_its_value_from_one_parameter():
         m.parameter("again", 1.0, 1.0, 2.0, targets=[("one", "damping", 1.0), ("one", "damping", 2.0)])
 
 
+@pytest.mark.parametrize("real", ["mass", ["ratio"], 0])
+def test_what_a_thing_does_not_have_is_refused_in_a_sentence(real):
+    m = Model("geared", dimension=2)
+    rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.1)
+    m.armature("motor", m.relative_angle("angle", m.ground, rod), inertia=0.1)
+    with pytest.raises(ModelError, match="writes .* of 'motor', but the model has no such element"):
+        m.parameter("k", 1.0, 0.5, 2.0, targets=[("motor", real, 1.0)], tunable=False)
+
+
 def test_values_that_only_together_are_wrong_are_refused():
     """Metal that meets metal at once, without a depth over which it sets in, cannot be."""
     m = Model("stops", dimension=2)

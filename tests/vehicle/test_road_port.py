@@ -210,6 +210,7 @@ def test_a_normal_that_ends_within_a_run_is_refused_there(how: dict[str, Any], m
             mbs.simulate(at_ports(), 0.1, inputs={"wheel_FL.road_normal_z": signal}, progress=False, **how)
         assert refused.value.status == Status.BAD_NORMAL
         assert "Worst" not in str(refused.value)
+        assert str(refused.value).count("Give it at shorter intervals") == 1
         assert refused.value.time <= 0.0215
 
 

@@ -1,5 +1,5 @@
 /* Where a force of a tyre, a contact or a spring with end stops changes abruptly, and where a run in long steps starts,
- * what follows is made a second time, until both agree for 0.4 s or its budget is spent, with half of a short step and
+ * what follows is made a second time, until both agree for 0.5 s or its budget is spent, with half of a short step and
  * down to an eighth of a long one: what the outputs of both differ by is the error of the step. Where nothing can touch,
  * it is foretold beyond, by how it grew. A run without either, or that has been told of one, pays nothing. The other
  * motion is a snapshot of the same instance; of short steps it makes the dear ones later, in cheaper calls. */

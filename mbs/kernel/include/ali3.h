@@ -70,7 +70,7 @@
     "Go on from another state.") \
   X(BAD_NORMAL, CALL, \
     "the normal of a road at a port must be a unit vector that points up", \
-    "A shorter communication step may pass, or one whose derivatives turn the normal less, whatever the inner step.") \
+    "Give it at shorter intervals, or with derivatives that turn it less, whatever the inner step.") \
   X(BEYOND_TABLE, CALL, \
     "a coordinate has left the table of what it moves", \
     "Go on from another state, or give the coordinate a table that covers what the run can reach.") \
@@ -79,7 +79,7 @@
     "Set the moments nearer to those that the model was compiled with.") \
   X(TURNS_TOO_FAR, STEP, \
     "what has a gear or an armature turns by more than 0.52 rad in the step, also in its parts", \
-    "A shorter step passes, and so do more halvings.")
+    "A shorter step passes.")
 /* clang-format on */
 typedef enum {
 #define ALI3_STATUS(NAME, cause, words, remedy) ALI3_##NAME,

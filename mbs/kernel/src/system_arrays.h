@@ -140,7 +140,7 @@
   X(REALS, sig_const, MUST, nsig, FINITE, "const") \
   X(INTEGERS, el_type, MUST, ne, RELATED, \
     "element type, numbered in `mbs/kernel/src/elements/element_types.h`; what its signals and data mean stands " \
-    "in the C file of its name") \
+    "in the C file of its name, or in `_fields.h` beside it") \
   X(INTEGERS, el_sig_ptr, MUST, ne + 1, OFFSETS(el_sig), "signals of the element") \
   X(INTEGERS, el_sig, MUST, ANY, BELOW(nsig), "these, in the order its type defines") \
   X(INTEGERS, el_real_ptr, MUST, ne + 1, OFFSETS(el_real), "its data: numbers") \

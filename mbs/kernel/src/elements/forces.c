@@ -98,7 +98,7 @@ void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals do not lie side by side */
   ali3_element_args a = common(in, call);
-  if (!in->discrete) ali3_fours_forces(in, call);
+  if (!in->discrete && S->n_four > 0) ali3_fours_forces(in, call); /* not every processor has its instructions */
   const int32_t n = in->discrete ? S->size.ne : S->n_alone;
   for (int32_t k = 0; k < n; k++) {
     const int32_t e = in->discrete ? k : S->alone[k];

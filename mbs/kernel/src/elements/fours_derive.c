@@ -5,7 +5,7 @@
 #include "fours.h"
 #include "road.h"
 
-/* Laws that read no inputs; as many numbers as fours.c has room for. */
+/* Laws that read no inputs, of which a car has several; as many numbers as fours.c has room for. */
 static bool goes_in_fours(const ali3_system *s, int32_t e) {
   const ali3_element_type *type = s->el_kind[e];
   const ali3_element_size *z = s->el_size + e;

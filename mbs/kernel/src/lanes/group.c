@@ -200,8 +200,7 @@ static void roads(ali3_lane_group *g) {
     ali3_lane_road *road = &g->road[r];
     for (int32_t l = 0; l < g->used; l++) {
       double numbers[ALI3_ROAD_NUMBERS];
-      road->lane[l] = &g->lane[l]->road[r];
-      const int32_t type = ali3_road_numbers(road->lane[l], numbers, &road->friction_factor[l]);
+      const int32_t type = ali3_road_numbers(&g->lane[l]->road[r], numbers, &road->friction_factor[l]);
       road->type = l == 0 || road->type == type ? type : ALI3_ROAD_COUNT;
       for (int32_t i = 0; i < ALI3_ROAD_NUMBERS; i++) road->numbers[i * g->width + l] = numbers[i];
     }
@@ -248,6 +247,8 @@ void ali3_group_from(ali3_lane_group *g) {
     PUT(g, g->now.past_lam, ALI3_PAST * nc, in, in->now.past_lam);
   }
   PUT(g, g->input, S->size.nu, in, in->force_input);
+  for (int32_t r = 0; r < S->nr; r++) /* of the others the instance may be gone, and the place is none on its road */
+    for (int32_t l = 0; l < g->width; l++) g->road[r].lane[l] = g->lanes[l] ? &g->lane[l]->road[r] : NULL;
   for (int32_t e = 0, end; e < S->size.ne; e = end) {
     end = same_way(g, e);
     const int32_t first = S->el_state_ptr[e], n = S->el_state_ptr[end] - first;
