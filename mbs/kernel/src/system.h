@@ -131,7 +131,7 @@ struct ali3_system {
   int32_t *
       mass_alike; /* nq: rows of mass_ptr from this one on that have the same columns; 0: it is the first of a triple */
   int32_t *four, *alone; /* elements that are evaluated four at a time (elements/fours.h), and the others */
-  unsigned char *el_in_four;
+  unsigned char *el_in_four; /* ne: 1: it is one of those */
   int32_t *el_beside; /* ne: the first signal of an element whose signals follow each other, else -1 */
   unsigned char *active_triple, *el_triple,
       *triad_triple; /* n_active, as el_sig, as mode_triad: 1: it is the first of a triple that follows in turn */

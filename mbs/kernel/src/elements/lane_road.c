@@ -3,13 +3,8 @@
 
 #include <stddef.h>
 
+#include "../algebra/finite.h"
 #include "road.h"
-
-static bool finite(const double *v, int32_t n) {
-  bool all = true;
-  for (int32_t i = 0; i < n; i++) all = all && v[i] - v[i] == 0.0;
-  return all;
-}
 
 void ali3_lane_contacts(const ali3_lane_road *road, int32_t width, const real *centre, const real *axis,
                         const real *radius, real *contacts) {
@@ -19,7 +14,7 @@ void ali3_lane_contacts(const ali3_lane_road *road, int32_t width, const real *c
     double disc[7]; /* centre, axis, radius */
     for (int32_t i = 0; i < 3; i++) disc[i] = centre[i * width + l], disc[3 + i] = axis[i * width + l];
     disc[6] = radius[l];
-    const bool asked = road->lane[l] != NULL && finite(disc, 7); /* what failed has no place on a road */
+    const bool asked = road->lane[l] != NULL && ali3_finite(disc, 7); /* what failed has no place on a road */
     const int count = asked ? ali3_road_contacts(road->lane[l], disc, disc + 3, disc[6], found) : 0;
     for (int k = 0; k < 2; k++) {
       if (k >= count) found[k] = ali3_no_contact();

@@ -75,9 +75,9 @@ void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared
                         : unit == ALI3_JUDGED_RAD        ? 1.0
                         : unit == ALI3_JUDGED_COORDINATE ? fmax(length, 1.0)
                                                          : HUGE_VAL;
-    const double round = most < HUGE_VAL ? DBL_EPSILON * most : 0.0; /* of coordinates: less is no motion */
+    const double unseen = most < HUGE_VAL ? DBL_EPSILON * most : 0.0; /* of coordinates: less is no motion */
     const double rest =
-        fmax((unit == ALI3_JUDGED_COORDINATE ? STANDS : ALI3_STILL) * fmin(largest[group], most), round);
+        fmax((unit == ALI3_JUDGED_COORDINATE ? STANDS : ALI3_STILL) * fmin(largest[group], most), unseen);
     size[i] = !(moved[group] > rest) || !follows(seen + i) ? 0.0
               : what[i].kind & ALI3_JUDGED_LOAD            ? largest[group]
                                                            : moved[group];
