@@ -41,9 +41,9 @@ def test_a_lateral_acceleration_that_no_circle_has_is_told() -> None:
     add_releases(sheet, [(6.0, turn(1.0, 1.0, 80.0, 0.0))])
     measured = {m.name: m for m in sheet.measures}
     assert math.isnan(measured["yaw_rate.ratio"].value)
-    assert "5 to 5 m/s2" in measured["yaw_rate.ratio"].note
+    assert "5 to 5 m/s²" in measured["yaw_rate.ratio"].note
     assert measured["worst.yaw_rate.ratio"].value == pytest.approx(1.0)
-    assert "80 m and 5 m/s2 where 100 m and 6 m/s2 were asked for" in sheet.notes[0]
+    assert "80 m and 5 m/s² where 100 m and 6 m/s² were asked for" in sheet.notes[0]
 
 
 def test_prototype_without_power_turns_in_and_slows_down(prototype: TestedCar) -> None:
