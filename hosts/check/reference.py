@@ -17,7 +17,7 @@ from ali3.errors import UserError
 from ali3.tables import TextTable
 from hosts.check.deviations import BOUND, Deviation, deviations, remedies
 from hosts.check.junit import Case
-from hosts.common.errors import FailedFmuError, HostError
+from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
@@ -92,7 +92,8 @@ def check_references(
     ------
     HostError
         There is no table, or no output that a bound fits; or, when all tables have been tried, the first of what a
-        table raises: it has no output of the FMU, or times that are no communication points.
+        table raises: it has no output of the FMU, or times that are no communication points, or the FMU does not start
+        with its values.
     """
     files = sorted(place.glob("*.csv")) if place.is_dir() else [place]
     if not files:
@@ -117,7 +118,7 @@ def check_references(
                 fails(file, error)
         with closing(runs_with_bar(fmu, [reference.drive for reference in references], jobs)) as results:
             for number, result in results:
-                if isinstance(result, FailedFmuError):
+                if isinstance(result, HostError):
                     fails(references[number].file, result)
                 else:
                     cases += _compared(fmu, references[number], result, bounds, manoeuvre is None)
