@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import fnmatch
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,8 @@ _WORST = 10
 _DIAGNOSTICS = "solver."
 # Of a communication step by which the time of a row may miss a communication point.
 _ROUND_OFF = 1e-4
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -107,7 +110,7 @@ def check_references(
         cases.append(Case(file.stem, "comparison", "error", str(error)))
         errors.append(error)
         if len(files) > 1:
-            print(f"BAD   {error}")
+            print(f"BAD   {file.name}: {error}")
 
     with Fmu(path) as fmu:
         references = []
@@ -117,11 +120,11 @@ def check_references(
             except UserError as error:
                 fails(file, error)
         with closing(runs_with_bar(fmu, [reference.drive for reference in references], jobs)) as results:
-            for number, result in results:
+            for reference, result in zip(references, in_order(results), strict=True):
                 if isinstance(result, HostError):
-                    fails(references[number].file, result)
+                    fails(reference.file, result)
                 else:
-                    cases += _compared(fmu, references[number], result, bounds, manoeuvre is None)
+                    cases += _compared(fmu, reference, result, bounds, manoeuvre is None)
     names = [case.name for case in cases if case.name != "run" and case.verdict in ("good", "bad")]
     for pattern, _ in bounds:
         if not errors and not fnmatch.filter(names, pattern):
@@ -129,6 +132,16 @@ def check_references(
     if errors:
         raise errors[0]
     return int(any(case.verdict == "bad" for case in cases))
+
+
+def in_order(results: Iterable[tuple[int, T]]) -> Iterator[T]:
+    """Results with the numbers of their tasks, which come as they are done, in the order of these numbers."""
+    early, turn = dict[int, T](), 0
+    for number, result in results:
+        early[number] = result
+        while turn in early:
+            yield early.pop(turn)
+            turn += 1
 
 
 def _reference(

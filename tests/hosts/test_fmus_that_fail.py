@@ -132,4 +132,4 @@ def test_a_table_with_which_the_fmu_does_not_start_does_not_end_the_others(tmp_p
     done = run(check, fmu, "--reference", folder, "--bound", "y=1", "--jobs", 1)
     assert done.returncode == 2, done.stdout + done.stderr
     assert done.stdout.count("all within their bounds") == 2, done.stdout + done.stderr
-    assert "BAD   The FMU could not be initialised: fmi2SetReal failed" in done.stdout
+    assert "BAD   log_10.csv: The FMU could not be initialised: fmi2SetReal failed" in done.stdout
