@@ -9,7 +9,8 @@ import pytest
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.perform import perform
 from hosts.catalogue.registry import standard_test
-from hosts.catalogue.standard.power_off_in_a_turn import add_releases
+from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.standard.power_off_in_a_turn import add_releases, drive
 from hosts.common.errors import HostError
 from tests.hosts.catalogue.made_turn import turn
 from tests.hosts.catalogue.measured import sheet_of, values
@@ -34,6 +35,14 @@ def test_measures_of_made_turns(side: float) -> None:
     assert measured["ay.largest"] == pytest.approx(5.0, rel=1e-6)
     assert math.isnan(measured["spin.ay"])
     assert [note for note in sheet.notes if "asked for" not in note] == []
+
+
+def test_each_release_has_a_run_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    sheet = sheet_of("power_off_in_a_turn", lowest=10.0, highest=10.5, levels=12.0)
+    monkeypatch.setattr("hosts.catalogue.standard.power_off_in_a_turn.stop", lambda *_: turn(1.0, 1.0, 40.0, 0.0))
+    monkeypatch.setattr(Sheet, "with_step_up_to", lambda *_: None)
+    drive(sheet)
+    assert len(sheet.runs) == 12
 
 
 def test_a_lateral_acceleration_that_no_circle_has_is_told() -> None:
