@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import fnmatch
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,7 @@ from ali3.errors import UserError
 from ali3.tables import TextTable
 from hosts.check.deviations import BOUND, Deviation, deviations, remedies
 from hosts.check.junit import Case
-from hosts.common.errors import FailedFmuError, HostError
+from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
@@ -36,6 +37,8 @@ _WORST = 10
 _DIAGNOSTICS = "solver."
 # Of a communication step by which the time of a row may miss a communication point.
 _ROUND_OFF = 1e-4
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -92,7 +95,8 @@ def check_references(
     ------
     HostError
         There is no table, or no output that a bound fits; or, when all tables have been tried, the first of what a
-        table raises: it has no output of the FMU, or times that are no communication points.
+        table raises: it has no output of the FMU, or times that are no communication points, or the FMU does not start
+        with its values.
     """
     files = sorted(place.glob("*.csv")) if place.is_dir() else [place]
     if not files:
@@ -106,7 +110,7 @@ def check_references(
         cases.append(Case(file.stem, "comparison", "error", str(error)))
         errors.append(error)
         if len(files) > 1:
-            print(f"BAD   {error}")
+            print(f"BAD   {file.name}: {error}")
 
     with Fmu(path) as fmu:
         references = []
@@ -116,11 +120,11 @@ def check_references(
             except UserError as error:
                 fails(file, error)
         with closing(runs_with_bar(fmu, [reference.drive for reference in references], jobs)) as results:
-            for number, result in results:
-                if isinstance(result, FailedFmuError):
-                    fails(references[number].file, result)
+            for reference, result in zip(references, in_order(results), strict=True):
+                if isinstance(result, HostError):
+                    fails(reference.file, result)
                 else:
-                    cases += _compared(fmu, references[number], result, bounds, manoeuvre is None)
+                    cases += _compared(fmu, reference, result, bounds, manoeuvre is None)
     names = [case.name for case in cases if case.name != "run" and case.verdict in ("good", "bad")]
     for pattern, _ in bounds:
         if not errors and not fnmatch.filter(names, pattern):
@@ -128,6 +132,16 @@ def check_references(
     if errors:
         raise errors[0]
     return int(any(case.verdict == "bad" for case in cases))
+
+
+def in_order(results: Iterable[tuple[int, T]]) -> Iterator[T]:
+    """Results with the numbers of their tasks, which come as they are done, in the order of these numbers."""
+    early, turn = dict[int, T](), 0
+    for number, result in results:
+        early[number] = result
+        while turn in early:
+            yield early.pop(turn)
+            turn += 1
 
 
 def _reference(

@@ -44,7 +44,8 @@ def axis_shown(label: str) -> Shown:
     """The label of an axis that ends with its unit, such as ``yaw rate, rad/s``, and the factor of its values."""
     what, comma, unit = label.rpartition(", ")
     shown = shown_in(unit)
-    return Shown(f"{what}{comma}{typeset(shown.unit) if known_unit(shown.unit) else shown.unit}", shown.factor)
+    known = comma and known_unit(shown.unit)
+    return Shown(titled(what, shown.unit) if known else f"{what}{comma}{shown.unit}", shown.factor)
 
 
 def titled(name: str, unit: str) -> str:

@@ -44,10 +44,12 @@ def _hint(variable: Variable, values: NDArray[np.float64]) -> str:
     largest = float(np.max(np.abs(values)))
     if largest <= CLIPPED * limit:
         return "; it may be clipped by a factor or an offset."
+    mistakes = misread(variable.unit or "1")
     found = [
         typeset(m.unit)
-        for m in misread(variable.unit or "1")
-        if low <= m.factor * float(values.min())
+        for m in mistakes
+        if m.taken == mistakes[0].taken  # the unit of the input: values in that are no mistake
+        and low <= m.factor * float(values.min())
         and m.factor * float(values.max()) <= high
         and m.factor * largest >= LEAST * limit
     ]

@@ -16,6 +16,11 @@ MOVED = {"speed": 1.5, "ay": 1.0, "yaw": 0.15, "way": 5.0}
 """m/s, m/s2, rad, m: of more than that a sensor tells something."""
 CLIPPED = ("chassis.ax", "chassis.ay", "chassis.wz")
 """What sensors with a range measure."""
+PEAK = 4.0
+"""Samples at the end of a range beside those of the next value: a peak that is rounded has up to 1 + sqrt(2) times as
+many, and a few more by chance."""
+ENDS = 1e-3
+"""Of a range, by which its ends are unlike: whole numbers of 12 bits go from -2048 to 2047."""
 RUN = 30
 """Samples that are alike by chance in no drive."""
 
@@ -40,9 +45,15 @@ def of_all(signals: Sequence[Signal]) -> Iterator[Value]:
 
 def _clipped(values: Array) -> int:
     """How many samples are at the ends of a range with one size to both sides, which a sensor reaches and stays at."""
-    largest = float(np.abs(values).max(initial=0.0))
-    ends = [int((values == end).sum()) for end in (largest, -largest)]
-    return sum(ends) if largest and min(ends) >= FEWEST_EQUAL else 0
+    found = 0
+    for side in (values, -values):
+        levels, counts = np.unique(side, return_counts=True)
+        if len(levels) < 2 or abs(levels[-1] + levels[0]) > ENDS * levels[-1]:
+            return 0
+        if counts[-1] < max(FEWEST_EQUAL, PEAK * counts[-2]):
+            return 0
+        found += int(counts[-1])
+    return found
 
 
 def _stands(signal: Signal, signals: Signals, v: str) -> float:

@@ -15,6 +15,7 @@ from scipy.integrate import solve_ivp
 
 from hosts.check.command import main
 from hosts.check.deviations import deviations
+from hosts.check.reference import in_order
 from hosts.driving.result import Result
 from hosts.run.command import main as run_main
 from tests.in_process import run
@@ -84,6 +85,11 @@ def test_what_drives_it_in_place_of_the_table_does_so_at_the_step_of_the_table(f
     done = run(main, fmu, "-m", given, "--reference", tmp_path / "tuned_given.csv", "--bound", "*=1e-6")
     assert done.returncode == 0, done.stdout + done.stderr
     assert "in steps of 0.02 s" in done.stdout
+
+
+def test_tables_are_told_in_their_order_whichever_is_done_first() -> None:
+    told = in_order(iter([(2, "c"), (0, "a"), (1, "b"), (3, "d")]))
+    assert [next(told), *told] == ["a", "b", "c", "d"]
 
 
 @pytest.mark.parametrize("at", [0.4, 0.404])

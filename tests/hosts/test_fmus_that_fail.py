@@ -117,3 +117,19 @@ def test_tables_of_a_folder_are_compared_up_to_a_crash_and_the_others_whole(faul
     assert f"{folder / 'log_0.csv'}, 1 signals up to 2 s in steps of 0.01 s: all within their bounds" in done.stdout
     assert f"{folder / f'log_{CRASH}.csv'}, 1 signals up to 0.04 s" in done.stdout
     assert f"The reference goes on to 2 s, but the process of the FMU {_WORDS[CRASH]}; 5 rows were kept." in done.stdout
+
+
+def test_a_table_with_which_the_fmu_does_not_start_does_not_end_the_others(tmp_path: Path) -> None:
+    """Its library takes no value of the parameter, which one of three tables has."""
+    inside, kind = '<ScalarVariable name="y"', 'valueReference="2" causality="parameter" variability="tunable"'
+    parameter = f'<ScalarVariable name="p" {kind}><Real start="0"/></ScalarVariable>'
+    changes = {inside: parameter + inside, 'index="2"': 'index="3"'}
+    fmu, folder = odd_fmu("faults", tmp_path, changes=changes), tmp_path / "tables"
+    for fault in (0, 10, 20):
+        table(folder, fault)
+    refused = folder / "log_10.csv"
+    refused.write_text(refused.read_text().replace(",10,", ",10,1,").replace("time,u,y", "time,u,p,y"))
+    done = run(check, fmu, "--reference", folder, "--bound", "y=1", "--jobs", 1)
+    assert done.returncode == 2, done.stdout + done.stderr
+    assert done.stdout.count("all within their bounds") == 2, done.stdout + done.stderr
+    assert "BAD   log_10.csv: The FMU could not be initialised: fmi2SetReal failed" in done.stdout

@@ -29,6 +29,7 @@ def variable(unit: str, low: float, high: float) -> Variable:
         ("1", -1.0, 1.0, 1.08 * WAVE, "it may be clipped"),
         ("1", 0.0, 1.0, -20.0 * np.abs(WAVE), "is its unit right"),
         ("N", -50.0, 50.0, 1e9 * WAVE, "is its unit right"),
+        ("N", -1000.0, 1000.0, 3e5 * WAVE, "is its unit right"),
         ("1", 0.0, math.inf, -1.0 - WAVE, "range"),
     ],
 )

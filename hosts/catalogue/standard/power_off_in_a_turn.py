@@ -19,7 +19,7 @@ def drive(sheet: Sheet) -> None:
     for k in range(1, levels + 1):
         asked = settings["lowest"] + (settings["highest"] - settings["lowest"]) * (k - 1) / max(levels - 1, 1)
         made = stop(car, settings | {"lateral_acceleration": asked, "rise_time": 0.0}, 0.0, AFTER + STEADY)
-        sheet.keep(f"{asked:.3g}_m_s2", made.result)
+        sheet.keep(f"{asked:.6g}_m_s2", made.result)
         if math.isnan(made.onset):
             sheet.add("not_there", last=made, asked=asked)
             break

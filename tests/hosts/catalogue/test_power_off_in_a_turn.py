@@ -9,7 +9,8 @@ import pytest
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.perform import perform
 from hosts.catalogue.registry import standard_test
-from hosts.catalogue.standard.power_off_in_a_turn import add_releases
+from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.standard.power_off_in_a_turn import add_releases, drive
 from hosts.common.errors import HostError
 from tests.hosts.catalogue.made_turn import turn
 from tests.hosts.catalogue.measured import sheet_of, values
@@ -36,14 +37,22 @@ def test_measures_of_made_turns(side: float) -> None:
     assert [note for note in sheet.notes if "asked for" not in note] == []
 
 
+def test_each_release_has_a_run_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    sheet = sheet_of("power_off_in_a_turn", lowest=10.0, highest=10.5, levels=12.0)
+    monkeypatch.setattr("hosts.catalogue.standard.power_off_in_a_turn.stop", lambda *_: turn(1.0, 1.0, 40.0, 0.0))
+    monkeypatch.setattr(Sheet, "with_step_up_to", lambda *_: None)
+    drive(sheet)
+    assert len(sheet.runs) == 12
+
+
 def test_a_lateral_acceleration_that_no_circle_has_is_told() -> None:
     sheet = sheet_of("power_off_in_a_turn", compared_at=7.0)
     add_releases(sheet, [(6.0, turn(1.0, 1.0, 80.0, 0.0))])
     measured = {m.name: m for m in sheet.measures}
     assert math.isnan(measured["yaw_rate.ratio"].value)
-    assert "5 to 5 m/s2" in measured["yaw_rate.ratio"].note
+    assert "5 to 5 m/s²" in measured["yaw_rate.ratio"].note
     assert measured["worst.yaw_rate.ratio"].value == pytest.approx(1.0)
-    assert "80 m and 5 m/s2 where 100 m and 6 m/s2 were asked for" in sheet.notes[0]
+    assert "80 m and 5 m/s² where 100 m and 6 m/s² were asked for" in sheet.notes[0]
 
 
 def test_prototype_without_power_turns_in_and_slows_down(prototype: TestedCar) -> None:

@@ -183,6 +183,28 @@ def test_a_speed_of_0_is_told_unless_all_others_stand_too() -> None:
     assert any(words in sentence for sentence in log_echo("log.csv", {"speed": dead["speed"]}).warnings())
 
 
+@pytest.mark.parametrize("step", [0.2, 0.1, 0.02, 0.01])
+def test_peaks_that_are_rounded_are_no_range_that_a_sensor_reaches(step: float) -> None:
+    """A robot steers to both sides alike; the sensor tells whole steps."""
+    time = np.asarray(0.01 * np.arange(2000), dtype=np.float64)
+    wave = np.asarray(np.sin(np.pi * time), dtype=np.float64)
+    made = {
+        n: Signal(n, n, unit, time, values)
+        for n, unit, values in (
+            ("speed", "m/s", 20.0 + 0.01 * np.sin(time)),
+            ("chassis.wz", "rad/s", 0.21 * wave),
+            ("chassis.ay", "m/s2", np.asarray(step * np.round(4.2 * wave / step), dtype=np.float64)),
+        )
+    }
+    assert log_echo("log.csv", made).warnings() == []
+    for round_to in (step, 1e-9):
+        ay = np.clip(round_to * np.round(4.2 * wave / round_to), -3.8, 3.8)
+        clipped = replace(made["chassis.ay"], values=ay)
+        (told,) = log_echo("log.csv", made | {clipped.name: clipped}).warnings()
+        assert "'chassis.ay', samples at both ends of a range" in told
+        assert "offset" not in told, "it would make the ends unlike, and mend nothing"
+
+
 def test_the_steering_wheel_tells_the_sign_of_the_yaw_rate_and_no_factor() -> None:
     made = {n: s for n, s in drive().items() if n in ("speed", "chassis.wz")}
     wz = made["chassis.wz"]

@@ -109,4 +109,5 @@ def test_a_number_without_a_unit_has_none() -> None:
     assert titled("mass", "kg") == "mass, kg"
     assert titled("yaw acceleration", "rad/s2") == "yaw acceleration, rad/s²"
     assert axis_shown("yaw acceleration, rad/s2")[0] == "yaw acceleration, deg/s²"
+    assert axis_shown("gain, 1")[0] == "gain"
     assert axis_shown("share of m2") == ("share of m2", 1.0)
