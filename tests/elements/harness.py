@@ -27,6 +27,7 @@ APART = ("forces.c", "fours.c", "fours_derive.c", "road.c")  # these need a Syst
 SOURCES = [f for f in sorted((KERNEL / "elements").glob("*.c")) if f.name not in APART]
 SOURCES += [
     KERNEL / "algebra" / "elementary.c",
+    KERNEL / "algebra" / "finite.c",
     KERNEL / "algebra" / "inverse_tangent.c",
     *(f for room in ("roads", "files") for f in (KERNEL / room).glob("*.c")),
 ]
