@@ -55,8 +55,7 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
         It is no working tree of this project, its kernel does not compile, or its packages do not make the scenes.
     """
     kernel, program = checkout / "mbs" / "kernel", folder / "run_system"
-    rooms = (file for file in sorted((kernel / "src").rglob("*.c")))
-    sources = [file for file in rooms if not {file.parent.name, file.name} & set(build.LANES)]
+    sources = build.sources(lanes=False, kernel=kernel)
     if not sources:
         raise RuntimeError(
             f"{checkout} is no working tree of this project: it has no mbs/kernel/src; git worktree add FOLDER COMMIT "

@@ -52,9 +52,12 @@ LANES = ("lanes", "run_many.c", "entries.c")
 """Of `src/` what an FMU has none of: by which many instances advance together, and the functions that Python calls."""
 
 
-def sources(lanes: bool = True) -> list[Path]:
-    """C files of the kernel, sorted by room and name; without `lanes` what steps one instance."""
-    found = sorted((HERE / "src").rglob("*.c"))
+def sources(lanes: bool = True, kernel: Path = HERE) -> list[Path]:
+    """C files of the kernel, sorted by room and name; without `lanes` what steps one instance.
+
+    `kernel`: folder of it, by default that beside this file.
+    """
+    found = sorted((kernel / "src").rglob("*.c"))
     return [f for f in found if lanes or not (f.parent.name in LANES or f.name in LANES)]
 
 

@@ -3,16 +3,19 @@
 
 #include "element.h"
 #include "fours.h"
+#include "laws.h"
 #include "road.h"
 
-/* Laws that read no inputs, of which a car has several; as many numbers as fours.c has room for. */
+/* It has a law that goes in fours, and no more numbers than fours.c has room for. */
 static bool goes_in_fours(const ali3_system *s, int32_t e) {
   const ali3_element_type *type = s->el_kind[e];
   const ali3_element_size *z = s->el_size + e;
-  return s->has_avx2 && z->nreal <= ALI3_FOUR_REALS && z->nstate <= ALI3_FOUR_STATES && z->nout <= ALI3_FOUR_OUTPUTS &&
-         z->nint <= ALI3_FOUR_INTEGERS &&
-         (type == &ali3_tyre || type == &ali3_spring_damper || type == &ali3_gyroscopic_spin ||
-          type == &ali3_spin_angle);
+  if (!s->has_avx2 || z->nreal > ALI3_FOUR_REALS || z->nstate > ALI3_FOUR_STATES || z->nout > ALI3_FOUR_OUTPUTS ||
+      z->nint > ALI3_FOUR_INTEGERS)
+    return false;
+#define ALI3_IS(name) || type == &ali3_##name
+  return false ALI3_LAWS_OF_SIGNALS(ALI3_IS);
+#undef ALI3_IS
 }
 
 /* The same law, numbers of everything and integers: what a law may ask for to choose what it computes. */

@@ -4,8 +4,9 @@
 #ifndef ALI3_LAWS_H
 #define ALI3_LAWS_H
 
-/* Elements whose laws are computed in vectors. */
-#define ALI3_LAWS(X) X(spring_damper) X(gyroscopic_spin) X(drag) X(tyre) X(brake) X(spin_angle)
+/* Elements whose laws are computed in vectors: those that read no inputs go in fours too. */
+#define ALI3_LAWS_OF_SIGNALS(X) X(spring_damper) X(gyroscopic_spin) X(drag) X(tyre) X(spin_angle)
+#define ALI3_LAWS(X) ALI3_LAWS_OF_SIGNALS(X) X(brake)
 
 #ifdef ALI3_WIDTH
 #include <string.h>
