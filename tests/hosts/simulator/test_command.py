@@ -86,7 +86,8 @@ def test_a_run_without_a_page_that_is_ended_ends_with_its_report(name, fmus, tmp
     command = [sys.executable, "-m", "ali3", "simulator", str(fmus["sledge"]), "--headless", "--stop-time", "600"]
     command += ["--step", "0.005", "--record", str(tmp_path / "drive")]
     pipe = subprocess.PIPE
-    with subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, start_new_session=True) as program:
+    quiet = os.environ | {"TQDM_DISABLE": "1"}  # a busy machine takes more than two seconds to end a recording
+    with subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, start_new_session=True, env=quiet) as program:
         assert any(line.startswith("Ready") for line in program.stdout)
         time.sleep(0.5)
         os.killpg(program.pid, getattr(signal, name))  # as a terminal and `timeout` do
