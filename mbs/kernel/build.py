@@ -52,12 +52,12 @@ LANES = ("lanes", "run_many.c", "entries.c")
 """Of `src/` what an FMU has none of: by which many instances advance together, and the functions that Python calls."""
 
 
-def sources(lanes: bool = True, kernel: Path = HERE) -> list[Path]:
+def sources(lanes: bool = True, kernel: Path | None = None) -> list[Path]:
     """C files of the kernel, sorted by room and name; without `lanes` what steps one instance.
 
     `kernel`: folder of it, by default that beside this file.
     """
-    found = sorted((kernel / "src").rglob("*.c"))
+    found = sorted(((kernel or HERE) / "src").rglob("*.c"))
     return [f for f in found if lanes or not (f.parent.name in LANES or f.name in LANES)]
 
 
