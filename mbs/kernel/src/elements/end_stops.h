@@ -36,6 +36,6 @@ void ali3_end_stops_between(const double *p, int progressive, double l0, double 
 /* When a stop is met or left in a step of size h, as a share of it, from length and rate at both ends; 1: none is. */
 double ali3_end_stops_event(const double *p, const double length[2], const double rate[2], double h);
 
-/* NULL or one sentence. */
-const char *ali3_end_stops_check(const double *p, int progressive);
+/* NULL or one sentence about progressive stops. */
+const char *ali3_end_stops_check(const double *p);
 #endif
