@@ -22,7 +22,7 @@ EVENT_ORDER = 2
 """Order of errors behind abrupt events."""
 HALVINGS_SUSPECT = 0.1
 """Halvings per step above which a run is suspect."""
-SYSTEM_VERSION = 2
+SYSTEM_VERSION = 3
 """Of the System file."""
 ROAD_VERSION = 1
 """Of a road file."""

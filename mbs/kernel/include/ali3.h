@@ -16,7 +16,7 @@
 #define ALI3_API __attribute__((visibility("default")))
 #endif
 
-#define ALI3_SYSTEM_VERSION 2
+#define ALI3_SYSTEM_VERSION 3
 #define ALI3_STATE_VERSION 10
 
 /* How calls end, numbers in this order: X(NAME, cause, words, remedy). Cause of a refusal: CALL, what was given; START,
