@@ -30,8 +30,11 @@ from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, Spans, rea
 from benchmarks.validation.fitting import Fitted, fit
 from benchmarks.validation.multibody import Judged, judge
 from benchmarks.validation.published import full_throttle, published_rows
+from benchmarks.validation.refit import COLUMNS as FIT_COLUMNS
+from benchmarks.validation.refit import problems, refit
 
 ALIASES = Path(__file__).with_name("ferrari_250_lm_log.toml")
+BOUNDS = Path(__file__).with_name("ferrari_250_lm_fit.toml")
 PAGE = "validation.md"
 BODY = Body(
     982.0, 1605.0, 1.33, 1.07, 0.55
@@ -77,9 +80,7 @@ COLUMNS = {
 
 def _drive(options: Namespace) -> list[dict[str, Any]]:
     """Fit and judge; each table of the page by its name."""
-    log, aliases = options.log, options.aliases or ALIASES
-    if log is None:
-        raise UserError("The log of the drive is given by --log FILE.")
+    log, aliases = _log(options)
     page = (DOCS / PAGE).read_text(encoding="utf-8")
     if options.write and options.banked_car is None and f"| {BANKED} |" in page:
         raise UserError(
@@ -114,6 +115,13 @@ def _drive(options: Namespace) -> list[dict[str, Any]]:
         chosen = simple[CHART_MODEL]
         draw(drive, car.time, car.path, chosen.path, chosen.model.name, options.picture)
     return [{"table": name, **row} for name, part in tables.items() for row in part]
+
+
+def _log(options: Namespace) -> tuple[Path, Path]:
+    """The log and its alias file."""
+    if options.log is None:
+        raise UserError("The log of the drive is given by --log FILE.")
+    return options.log, options.aliases or ALIASES
 
 
 def _banked(drive: Drive, seconds: Spans) -> Drive:
@@ -211,20 +219,32 @@ def blocks(rows: Sequence[Row]) -> dict[str, str]:
     return plain | {"curves": table(of["curves"], form), "notes": notes}
 
 
+LOGGED: dict[str, tuple[Any, str]] = {
+    "log": (Path, "CSV, perhaps packed (.csv.gz)"),
+    "car": ("ferrari_250_lm", "FMU or car"),
+    "aliases": (Path, "of the log, for the car; by default those of the Ferrari's"),
+}
 PARTS = {
     "drive": Part(
         "simple models and the multibody car through a measured drive",
         _drive,
         COLUMNS,
-        options={
-            "log": (Path, "CSV, perhaps packed (.csv.gz)"),
-            "car": ("ferrari_250_lm", "FMU or car"),
-            "aliases": (Path, "of the log, for the car; by default those of the Ferrari's"),
+        options=LOGGED
+        | {
             "banked_car": (Path, "FMU of the car with --ports forces=vehicle: driven with the bank of the road too"),
             "picture": (Path, "draw measured and predicted yaw rate (PNG)"),
         },
         pages=(PAGE,),
         blocks=blocks,
+    ),
+    "fit": Part(
+        "fit the multibody car to the drive",
+        lambda options: refit(options.car, *_log(options), options.bounds or BOUNDS, {"step_size": STEP}),
+        FIT_COLUMNS,
+        options=LOGGED | {"bounds": (Path, "what is sought, and between which bounds; default: of the Ferrari")},
+        pages=(PAGE,),
+        blocks=lambda rows: {"fit": table(rows, FIT_COLUMNS)},
+        check=lambda rows, options: problems(rows),
     ),
     "others": Part(
         "figures that others published of cars and tyres, with what the cars here do",

@@ -9,8 +9,8 @@ import numpy as np
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.task import Task, run_file
 from hosts.driving.result import Result
-from hosts.experiment.experiment import Kept
 from hosts.experiment.run_key import run_key
+from hosts.experiment.store import Kept
 from hosts.fmu.own_process import files_of
 
 

@@ -15,6 +15,7 @@ from ali3.near_names import did_you_mean
 from ali3.reading import is_file, read_bytes
 from hosts.common.errors import HostError
 from hosts.common.program import program_digest, versions
+from hosts.driving.manoeuvre import digest as manoeuvre_digest
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.fmu.aliased_fmu import AliasedFmu, seen_through
 from hosts.fmu.aliases.alias import Aliases
@@ -227,14 +228,9 @@ def _job_record(entry: ManoeuvreEntry, job: Job) -> dict[str, Any]:
 
 def job_digest(job: Job) -> str:
     """A hash of all that a manoeuvre does, tables and states included."""
-    manoeuvre = job.manoeuvre
-    parts = [repr((job.test, job.settings, job.start, job.step, job.every, job.samples)).encode()]
-    if manoeuvre is not None:
-        once = manoeuvre.stop_time, manoeuvre.start, manoeuvre.driver, manoeuvre.state_time, manoeuvre.find_throttle
-        parts += [repr(once).encode()]
-        parts += [manoeuvre.time.tobytes(), manoeuvre.state or b""]
-        parts += [part for name, values in manoeuvre.inputs.items() for part in (name.encode(), values.tobytes())]
-    return hashlib.sha256(b"\n".join(parts)).hexdigest()
+    driven = "" if job.manoeuvre is None else manoeuvre_digest(job.manoeuvre)
+    told = job.test, job.settings, job.start, job.step, job.every, job.samples, driven
+    return hashlib.sha256(repr(told).encode()).hexdigest()
 
 
 def _signals(study: StudyFile, file: Path, fmu: SimulatedFmu) -> list[str]:

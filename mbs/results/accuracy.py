@@ -133,15 +133,6 @@ def recorded_every(every: int, steps: int) -> int:
     return next(k for k in range(min(every, least), 0, -1) if every % k == 0) if isinstance(every, int) else every
 
 
-def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:
-    """Order with which errors fall: that of the energy where both runs measured it, at most that of the method."""
-    most = float(METHOD_TABLE[method].order)
-    first, second = abs(coarse.energy_error), abs(fine.energy_error)
-    if not METHOD_TABLE[method].balance_decides or not (second > 0.0 and first > second):
-        return most
-    return min(most, max(1.0, math.log(first / second) / math.log(ratio)))
-
-
 def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
     """What is known without a refined run."""
     known = report.kinetic_peak > 0.0

@@ -13,17 +13,16 @@ from numpy.typing import NDArray
 
 from mbs.common.progress import Progress
 from mbs.results.comparison import INSTANTS
+from mbs.results.convergence import LEAST_ORDER
 from mbs.results.simulation_error import SimulationError
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.march import march
-from mbs.simulation.prepared_system import length_of, prepared
+from mbs.simulation.prepared_system import distance
 from mbs.simulation.stepped_system import SteppedSystem
-from mbs.system.system import System
 
 Array = NDArray[np.float64]
 MOST_STEPS = 3_000_000  # of a run
-LEAST_ORDER = 0.5  # measured: below, differences do not yet show the error
 EXACT = 1e-3  # of the tolerance: below it, twice, differences are round-off of what every step gives right
 
 
@@ -62,7 +61,7 @@ def choose_step(
         if positions is None or previous is None:
             differences.clear()
         else:
-            differences.append(_distance(system, positions, previous))
+            differences.append(distance(system, positions, previous))
         if len(differences) >= 2:
             order = _order(differences, METHOD_TABLE[method].order_of_changing_steps)
             error = differences[-1] / (2.0**order - 1.0)
@@ -107,9 +106,3 @@ def _positions(
             return None
         found.append(simulation.state.q)
     return np.array(found)
-
-
-def _distance(system: System, a: Array, b: Array) -> float:
-    meta = prepared(system)[1]
-    lengths = np.array(meta.get("coordinate_lengths", [1.0] * system.nq), float)
-    return float(np.max(np.abs(a - b) * lengths, initial=0.0)) / length_of(system)

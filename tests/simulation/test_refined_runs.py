@@ -14,8 +14,9 @@ from mbs.kernel.header.enumerations import Status
 from mbs.kernel.header.limits import EVENT_ORDER
 from mbs.results.accuracy import WARNED_ERROR, Accuracy
 from mbs.results.comparison import Compared
+from mbs.results.convergence import extrapolated, seen_order, unsure
 from mbs.simulation.fixed_steps import check
-from mbs.simulation.refined_run import RefinedRuns, Run, extrapolated, seen_order, unsure
+from mbs.simulation.refined_run import RefinedRuns, Run
 
 T = np.linspace(0.0, 1.0, 101)
 FORCE = 1000.0 * np.cos(3.0 * T)

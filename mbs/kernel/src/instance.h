@@ -71,7 +71,7 @@ struct ali3_instance {
   double capped_residual; /* and leaves this, m */
   double call_residual; /* the largest of the steps of a call */
   bool backed_up; /* in->start holds the state before the step */
-  bool discrete, unobserved; /* forces by discrete gradients; the state of this step will not be read */
+  bool unobserved; /* the state of this step will not be read */
   bool sampled; /* only sensors will read it */
   bool controlled; /* steps change from one to the next, and may be discarded */
   size_t n_vector;

@@ -15,7 +15,7 @@ from hosts.catalogue.perform import settings_of_test
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.task import Task, do, write_runs
-from hosts.experiment.experiment import Kept
+from hosts.experiment.store import Kept
 
 SETTINGS = {"height": 0.05, "duration": 4.0}
 

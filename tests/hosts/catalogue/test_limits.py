@@ -19,7 +19,7 @@ from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import TESTS, standard_test
 from hosts.catalogue.task import Outcome, Task
 from hosts.common.errors import HostError
-from hosts.experiment.experiment import Kept
+from hosts.experiment.store import Kept
 from hosts.measures.limits import read_limits
 from hosts.measures.measure import Limit, Measure
 

@@ -63,7 +63,8 @@ typedef struct ali3_element_type {
    * ud = (u1 - u0) / (2 h), its h being half a step. NULL: evaluate is exact there, or as good. */
   ali3_element_function *discrete;
   ali3_element_function *accept; /* once per accepted step, and with h = 0 at a start: discrete changes in y_new */
-  bool stops; /* springs with end stops, whose first outputs are length and force */
+  /* Springs with end stops, whose first outputs are length and force: whether these lie beyond one. */
+  bool (*stops)(const double *real, const double *out);
   /* Of these: the share of a step of size h at which the first of those with a kink is met or left, from
    * the outputs at its start and at its end; 1: none is. */
   double (*event)(const double *real, int32_t nreal, const double *from, const double *to, double h);

@@ -72,6 +72,11 @@ double ali3_end_stops_event(const double *p, const double length[2], const doubl
   return first;
 }
 
+bool ali3_end_stops_beyond(const double *p, double length) {
+  return (p[ALI3_BUMP_STIFFNESS] > 0.0 && length < p[ALI3_BUMP_LENGTH]) ||
+         (p[ALI3_REBOUND_STIFFNESS] > 0.0 && length > p[ALI3_REBOUND_LENGTH]);
+}
+
 const char *ali3_end_stops_check(const double *p, int progressive) {
   if (p[ALI3_BUMP_STIFFNESS] < 0.0 || p[ALI3_REBOUND_STIFFNESS] < 0.0)
     return "the stiffness of a spring's stops must not be negative";

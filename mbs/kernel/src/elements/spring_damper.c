@@ -45,6 +45,8 @@ static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
   return real[DAMPING] * real[DAMPING_FACTOR] != 0.0 || (progressive(nreal) && (loss[0] != 0.0 || loss[1] != 0.0));
 }
 
+static bool stops(const double *real, const double *out) { return ali3_end_stops_beyond(real + STOPS, out[0]); }
+
 /* Progressive stops have an onset without a kink. */
 static double event(const double *real, int32_t nreal, const double *from, const double *to, double h) {
   if (progressive(nreal)) return 1.0;
@@ -61,6 +63,6 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 
 const ali3_element_type ali3_spring_damper = {
     ALI3_SPRING_DAMPER, .evaluate = evaluate, .discrete = discrete, .conservative = true,
-    .lossy = lossy,     .stops = true,        .event = event,       .check = check,
+    .lossy = lossy,     .stops = stops,       .event = event,       .check = check,
 };
 #endif

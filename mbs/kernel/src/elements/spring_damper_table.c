@@ -97,6 +97,8 @@ static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
   return (damped && real[DAMPING_FACTOR] != 0.0) || loss[0] != 0.0 || loss[1] != 0.0;
 }
 
+static bool stops(const double *real, const double *out) { return ali3_end_stops_beyond(real + STOPS, out[0]); }
+
 /* A damper never gives energy: its force rises through nothing at rest. */
 static const char *check_damper(const ali3_cubic_table *t) {
   double slope;
@@ -130,7 +132,7 @@ const ali3_element_type ali3_spring_damper_table = {
     .discrete = discrete,
     .conservative = true,
     .lossy = lossy,
-    .stops = true,
+    .stops = stops,
     .nsig = -1,
     .nreal = -1,
     .nint = INTEGERS,

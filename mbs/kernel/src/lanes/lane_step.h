@@ -98,7 +98,7 @@ static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
   memcpy(Q, in->gravity_force, (size_t)nq * sizeof *Q);
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, q);
-    ali3_flexible_forces(in, q, qd, Q);
+    ali3_flexible_forces(in, q, qd, false, Q);
   }
   elements(in, lanes, tangent);
   ali3_add_forces(in, in->element_force, Q);

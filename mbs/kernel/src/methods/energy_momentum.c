@@ -92,15 +92,14 @@ static void evaluate(ali3_instance *in, double h) {
                                 .wC = 0.5 * h,
                                 .wK = 0.25 * h * h,
                                 .tangent = true,
+                                .discrete = true,
                                 .iterate = true,
                                 .Q = in->Q,
                                 .y_new = to->y,
                                 .out = to->out,
                                 .potential = to->potential};
-  in->discrete = true;
   in->force_input = in->input_middle;
   ali3_forces(in, &call);
-  in->discrete = false;
   in->force_input = in->input;
   ali3_constant_mass_times(in, w, r);
   if (S->n_flexible > 0) {
