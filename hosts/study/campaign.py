@@ -314,7 +314,7 @@ def on_cluster(client: Any, plan: Plan, trial: Trial, left: int) -> ClusterRuns[
     from hosts.experiment.cluster_worker import Brought
 
     work = plan.work
-    brought = Brought(plan.key, work.fmu, work.sha256, work.program, partial(experiment_of, work))
+    brought = Brought(plan.key, work.fmu.path.name, work.sha256, work.program, partial(experiment_of, work))
     bring(client, brought, plan.fmu)
     bytes_a_run = max(8 * job.samples * len(work.signals) for job in work.jobs) + 1
     size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))

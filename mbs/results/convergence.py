@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from mbs.kernel.header.limits import EVENT_ORDER
+from mbs.kernel.header.limits import EVENT_ORDER, WRONG_ERROR
 from mbs.kernel.header.structures import ComparedFields
-from mbs.results.accuracy import WARNED_ERROR, Accuracy
+from mbs.results.accuracy import Accuracy
 from mbs.results.comparison import Compared, differences
 from mbs.results.run_report import Report
 from mbs.settings.methods import METHOD_TABLE
@@ -46,7 +46,7 @@ def unsure(known: Accuracy, apart: Mapping[str, float]) -> bool:
     """Whether a run that is off by `apart` may change the verdict of the error that it gave, both over the range, per
     unit.
     """
-    above = {unit: error - WARNED_ERROR for unit, error in known.units.items()}
+    above = {unit: error - WRONG_ERROR for unit, error in known.units.items()}
     surely_wrong = any(more >= apart[unit] for unit, more in above.items())
     return not surely_wrong and any(-more < apart[unit] for unit, more in above.items())
 

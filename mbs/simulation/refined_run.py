@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from mbs.kernel.header.limits import MOST_PARTS, WRONG_ERROR
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
-from mbs.results.accuracy import MOST_COST, WARNED_ERROR, Accuracy
+from mbs.results.accuracy import MOST_COST, Accuracy
 from mbs.results.comparison import (
     COORDINATES,
     Compared,
@@ -186,7 +187,7 @@ class RefinedRuns:
         """
         parts = self.first
         known = self.finer(parts)
-        while not self.divisor and parts < 8 * self.parts and (self.coarse or self._unsure(known, parts)):
+        while not self.divisor and parts < MOST_PARTS * self.parts and (self.coarse or self._unsure(known, parts)):
             parts *= 2
             known = self.finer(parts)
             if parts > 2 * self.parts:
@@ -194,9 +195,9 @@ class RefinedRuns:
                 known = self.known = extrapolated(
                     known, [self._table(r) for r in runs], self.compared, self.before, self.length
                 )
-            if parts == 4 * self.parts and (known.error or 0.0) > WARNED_ERROR:
+            if parts == MOST_PARTS // 2 * self.parts and (known.error or 0.0) > WRONG_ERROR:
                 break
-        if parts == 8 * self.parts and self._unsure(known, parts):
+        if parts == MOST_PARTS * self.parts and self._unsure(known, parts):
             units, sensors = self._differences(self._finer[parts // 2], self._finer[parts])
             known = replace(
                 known,

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.progress import Progress
+from mbs.kernel.header.limits import AGREED
 from mbs.results.comparison import INSTANTS
 from mbs.results.convergence import LEAST_ORDER
 from mbs.results.simulation_error import SimulationError
@@ -23,7 +24,6 @@ from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
 MOST_STEPS = 3_000_000  # of a run
-EXACT = 1e-3  # of the tolerance: below it, twice, differences are round-off of what every step gives right
 
 
 @dataclass(frozen=True)
@@ -66,8 +66,8 @@ def choose_step(
             order = _order(differences, METHOD_TABLE[method].order_of_changing_steps)
             error = differences[-1] / (2.0**order - 1.0)
             last = error, order
-            exact = max(differences[-2:]) <= EXACT * tolerance
-            if error <= tolerance and (order > LEAST_ORDER or exact):
+            agree = max(differences[-2:]) <= AGREED * tolerance  # round-off of what every step gives right
+            if error <= tolerance and (order > LEAST_ORDER or agree):
                 return StepChoice(h, error, order, len(runs))
         if (t_end - simulation.time) / h > MOST_STEPS / 2:
             break

@@ -27,7 +27,7 @@ class Integrator:
     """What the loop needs of an FMU: y, the integral of u, exact for inputs that go straight."""
 
     def __init__(self, slopes: bool, refused: int = 1000, outputs: Sequence[str] = ("y",)) -> None:
-        self.aliases = None
+        self.derived = ()
         self.path, self.messages, self.follows_slopes = Path("integrator.fmu"), list[str](), slopes
         self.tunable = list[str]()
         self._names = {"input": ["u"], "output": list(outputs), "parameter": []}

@@ -10,10 +10,10 @@
 #include "slave.h"
 
 static const double SPAN = 0.5; /* s after an abrupt step or a difference: a wheel swings five times, or lands */
-static const double BUDGET = 2.0, SHARE = 0.1; /* s from a start on in MOST parts, as a wheel spins; beside them s, and
+static const double BUDGET = 2.0,
+                    SHARE = 0.1; /* s from a start on in ALI3_MOST_PARTS parts, as a wheel spins; beside them s, and
                                                 * of what was driven: how much is made twice at most */
 static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre; a second costs no more than at 2 ms */
-static const int64_t MOST = 8; /* parts of a step */
 /* Iterations of both motions in an inner step of up to 2 SHORT: where it takes more the other one waits. */
 static const int64_t ROOM = 7;
 enum { MOST_LATE = 512 }; /* communication steps that may wait */
@@ -140,12 +140,12 @@ static bool has_road(const slave *s) { return ali3_road_count(s->fidelity.system
 /* In how many parts the other motion makes a step. */
 static int64_t parts_of(const slave *s, double h) {
   int64_t n = 2;
-  while (has_road(s) && n < MOST && h / (double)n > SHORT) n *= 2;
+  while (has_road(s) && n < ALI3_MOST_PARTS && h / (double)n > SHORT) n *= 2;
   return n;
 }
 
-/* s from a start on that are made twice: at the cost of MOST parts. */
-static double start_of(const slave *s, double h) { return BUDGET * (double)MOST / (double)parts_of(s, h); }
+/* s from a start on that are made twice: at the cost of ALI3_MOST_PARTS parts. */
+static double start_of(const slave *s, double h) { return BUDGET * (double)ALI3_MOST_PARTS / (double)parts_of(s, h); }
 
 /* One inner step of the communication step that waits longest, by the other motion, which the kernel has; slopes are
  * those of the present one, which does not wait if it has them. */
@@ -353,7 +353,7 @@ slave_status slave_halve_steps(slave *s) {
   ali3_report report;
   if (s->event_said || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   /* what is let go swings; tyres that are driven from the start on slip at once, which long steps miss */
-  const bool begins = t->begins && (!has_road(s) || 2.0 * s->made.h > (double)MOST * SHORT),
+  const bool begins = t->begins && (!has_road(s) || 2.0 * s->made.h > (double)ALI3_MOST_PARTS * SHORT),
              abrupt = report.abrupt_steps > t->abrupt || begins;
   const int64_t made = report.iterations - t->iterations;
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);

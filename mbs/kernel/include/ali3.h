@@ -16,7 +16,7 @@
 #define ALI3_API __attribute__((visibility("default")))
 #endif
 
-#define ALI3_SYSTEM_VERSION 2
+#define ALI3_SYSTEM_VERSION 3
 #define ALI3_STATE_VERSION 10
 
 /* How calls end, numbers in this order: X(NAME, cause, words, remedy). Cause of a refusal: CALL, what was given; START,
@@ -456,6 +456,7 @@ ALI3_API double ali3_error_of(double apart, double ratio, int32_t order);
 #define ALI3_STILL 1e-4 /* of the largest value, or of the length: a smaller range is rest */
 #define ALI3_WRONG_ERROR 0.05 /* of the size: wrong */
 #define ALI3_AGREED 0.1 /* of what would be wrong: two motions that differ by less agree */
+#define ALI3_MOST_PARTS 8 /* by which the step of a second motion is longer, or half of it shorter, at most */
 #define ALI3_EVENT_ORDER 2 /* behind abrupt events: stops are located, parts of steps shrink with the step */
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
 ALI3_API ali3_status ali3_run_status(const ali3_report *report);

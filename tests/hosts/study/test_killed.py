@@ -279,6 +279,24 @@ def test_ctrl_c_keeps_what_has_come(number: str, name: str, slow_study: Path, tm
     assert 0 < len(rows(out)) < RUNS
 
 
+@pytest.mark.slow
+def test_ctrl_c_leaves_nothing_on_workers_that_stay(slow_study: Path, tmp_path: Path, scheduler: str) -> None:
+    process = command(slow_study, "--out", tmp_path / "out", "--scheduler", scheduler)
+    wait_for_part(tmp_path / "out", process, 1)
+    with Client(scheduler, set_as_default=False) as client:
+
+        def given() -> list[str]:
+            names = client.run_on_scheduler(lambda dask_scheduler: list(dask_scheduler.worker_plugins))
+            names += [name for of in client.run(lambda dask_worker: list(dask_worker.plugins)).values() for name in of]
+            return [name for name in names if name.startswith("ali3-")]
+
+        assert given() != []
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60.0)
+        assert process.returncode == 130
+        assert given() == []
+
+
 def test_a_worker_that_ends_too_early_is_told_as_such() -> None:
     class Lost:
         def register_plugin(self, _: object) -> None:

@@ -40,6 +40,6 @@ double ali3_end_stops_event(const double *p, const double length[2], const doubl
 /* Whether a length lies beyond a stop. */
 bool ali3_end_stops_beyond(const double *p, double length);
 
-/* NULL or one sentence. */
-const char *ali3_end_stops_check(const double *p, int progressive);
+/* NULL or one sentence about progressive stops. */
+const char *ali3_end_stops_check(const double *p);
 #endif

@@ -339,8 +339,12 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   return status == ALI3_OK ? ali3_accept(in) : status;
 }
 
-static ali3_status step(ali3_instance *in, double t, double h) {
-  return ali3_energy_momentum(in, t, h, 0.5, !in->unobserved);
+static void before(ali3_instance *in, const ali3_request *request) {
+  ali3_energy_momentum_restart(in, request->h, request->controlled);
+}
+
+static ali3_status step(ali3_instance *in, const ali3_request *request) {
+  return ali3_energy_momentum(in, request->t, request->h, 0.5, request->reading != ALI3_READ_NOTHING);
 }
 
 /* Of the carried velocities, after steps from `from`. */
@@ -358,7 +362,7 @@ static ali3_status takes(const ali3_instance *in) { return in->system->n_tabled 
 const ali3_method ali3_method_energy_momentum = {.step = step,
                                                  .takes = takes,
                                                  .excludes = "no tabled bodies",
-                                                 .before = ali3_energy_momentum_restart,
+                                                 .before = before,
                                                  .motion = motion,
                                                  .has_guides_work = ali3_always,
                                                  .after_unobserved = ali3_energy_momentum_report,
