@@ -13,11 +13,11 @@ enum {
   ALI3_REBOUND_LENGTH,
   ALI3_REBOUND_STIFFNESS,
   ALI3_LINEAR_STOPS,
-  ALI3_PROGRESSION = ALI3_LINEAR_STOPS, /* progression and travel of bump, then of rebound */
-  ALI3_METAL_STIFFNESS = ALI3_PROGRESSION + 4,
+  ALI3_PROGRESSION = ALI3_LINEAR_STOPS, /* of bump, then of rebound, as travel and loss */
+  ALI3_STOP_TRAVEL = ALI3_PROGRESSION + 2,
+  ALI3_METAL_STIFFNESS = ALI3_STOP_TRAVEL + 2,
   ALI3_METAL_ONSET,
-  ALI3_STOP_LOSS, /* of bump, then of rebound */
-  ALI3_STOPS = ALI3_STOP_LOSS + 2
+  ALI3_STOP_LOSS
 };
 
 /* A tension in its parts, its slopes by length and rate, and the energy. */
