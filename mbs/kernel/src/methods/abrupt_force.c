@@ -14,8 +14,6 @@ static const double STOP_RATE = 50.0, CONTACT_RATE = 5.0;
 enum { DIVISIONS = 2 }; /* how deep a step is halved at such a change */
 enum { ENOUGH = 4 }; /* iterations of a half that is made without trying the whole, where they are limited */
 
-int32_t ali3_contact_count(const ali3_system *s) { return s->nr > 0 ? s->n_contact : 0; }
-
 /* The larger one, of one instruction; a NaN in x counts as nothing. */
 static double more(double most, double x) { return x > most ? x : most; }
 
@@ -88,11 +86,21 @@ bool ali3_divides(ali3_instance *in, const ali3_request *request) {
   return divided(in, request, in->report.last_iterations);
 }
 
-/* Largest change of a judged force in the step. */
+/* Whether a spring lies beyond a stop at the begin or the end of the step. */
+static bool beyond(const ali3_instance *in, const ali3_contact_forces_of *contact) {
+  const ali3_system *S = in->system;
+  const ali3_element_size *at = S->el_size + contact->element;
+  const ali3_element_type *kind = S->el_kind[contact->element];
+  return kind->stops(in->el_real + at->real, in->next.out + at->out) ||
+         kind->stops(in->el_real + at->real, in->now.out + at->out);
+}
+
+/* Largest change of a judged force in the step; without roads of springs beyond their stops alone. */
 static double changed(const ali3_instance *in) {
   double most = 0.0, largest = 0.0;
   for (int32_t c = 0; c < in->system->n_contact; c++)
-    most = more(most, change_of(in->system->contact + c, in->next.out, in->now.out, &largest));
+    if (in->system->nr > 0 || beyond(in, in->system->contact + c))
+      most = more(most, change_of(in->system->contact + c, in->next.out, in->now.out, &largest));
   return most;
 }
 
