@@ -29,7 +29,7 @@ typedef struct {
 } ali3_tension;
 
 /* Adds the stops at a length and its rate. */
-void ali3_end_stops_at(const real *p, int progressive, real length, real rate, ali3_tension *t);
+ALI3_PER_WIDTH void ali3_end_stops_at(const real *p, int progressive, real length, real rate, ali3_tension *t);
 
 /* Adds their mean over a step from length l0 to l1, with the slopes by the length and rate of its middle. */
 void ali3_end_stops_between(const double *p, int progressive, double l0, double l1, double rate, ali3_tension *t);
