@@ -145,7 +145,9 @@ def _cluster(workers: int) -> Iterator[str]:
 def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, folder: Path) -> Row:
     """A study on a cluster of Dask, without its start: time beside the runs, memory, disk."""
     from hosts.experiment.cluster import connected
-    from hosts.study.outcome_store import OutcomeStore
+    from hosts.experiment.store import Kept
+    from hosts.study.outcome_table import OutcomeTable
+    from hosts.study.outcome_table import Row as StudyRow
     from hosts.study.parts import part_files
     from hosts.study.store import read_study
 
@@ -157,17 +159,18 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     with (
         _cluster(workers) as address,
         connected(address) as client,
-        OutcomeStore(folder, plan.record, plan) as store,
+        Kept[StudyRow](folder, StudyRow, "measures a study") as kept,
     ):
+        kept.into(OutcomeTable(folder, plan.record, plan))
         runner = on_cluster(client, plan, trial, plan.runs)
         before, processor, started = me.memory_info().rss, sum(me.cpu_times()[:2]), time.perf_counter()
         made = experiment_of(plan.work, plan.fmu).results(
             missing(plan, np.zeros(plan.runs, np.bool_)), runner, whole=plan.runs
         )
         for _, run, result in made:
-            store.add(run, outcome_of(plan.work, result))
+            kept.add(str(run.index), "", (run, outcome_of(plan.work, result)))
             memory.append(me.memory_info().rss)
-        store.flush()
+        kept.write()
         elapsed, processor = time.perf_counter() - started, sum(me.cpu_times()[:2]) - processor
         of_worker = max(p.memory_info().rss for p in me.children(recursive=True))
     frame = read_study(folder)

@@ -15,6 +15,7 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.perform import settings_of_test
 from hosts.catalogue.registry import standard_test
 from hosts.fmu.fmu_file import fmu_file
+from hosts.fmu.fmu_source import FmuSource
 
 CAR = "hatchback"
 SETTINGS = {"course": 2.0, "lowest": 50.0, "highest": 90.0}
@@ -26,6 +27,8 @@ FASTEST = Published(
 def compared(car: str = CAR) -> list[tuple[Published, float]]:
     """What was published, and the entry speed of the hatchback as the catalogue finds it."""
     test = standard_test("double_lane_change")
-    record = test.perform(TestedCar(car, fmu_file(Path(car))), settings_of_test(test, SETTINGS), lambda done: None)
+    record = test.perform(
+        TestedCar(car, FmuSource(fmu_file(Path(car)))), settings_of_test(test, SETTINGS), lambda done: None
+    )
     (speed,) = (m for m in record.measures if m.name == "iso_3888_2.entry_speed")
     return [(FASTEST, 3.6 * speed.value)]

@@ -15,7 +15,6 @@ from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.result import Result
 from hosts.driving.run_checks import communication_step
-from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.variables import default_step
 
@@ -47,9 +46,7 @@ class TestedCar:
     __test__ = False  # no test of pytest's
 
     label: str
-    path: Path
-    aliases: Aliases = field(default_factory=Aliases)
-    """Our names for its variables."""
+    fmu: FmuSource
     start: Mapping[str, Value] = field(default_factory=dict)
     """Start values by our names."""
     step: float | None = None
@@ -86,7 +83,7 @@ class TestedCar:
             If the FMU cannot be loaded or started, a name is none of its variables, or a value is out of its range;
             or an output is no number.
         """
-        with FmuSource(self.path, self.aliases).opened() as fmu:
+        with self.fmu.opened() as fmu:
             manoeuvre = with_names_of(manoeuvre, fmu.variables)
             start = {**manoeuvre.start, **{n: x for n, x in self.start.items() if n not in manoeuvre.start}}
             step = communication_step(fmu, manoeuvre, self.step)
@@ -100,7 +97,7 @@ class TestedCar:
     @cached_property
     def facts(self) -> CarFacts:
         """What the FMU tells of its car; it is loaded once."""
-        with FmuSource(self.path, self.aliases).opened() as fmu:
+        with self.fmu.opened() as fmu:
             return CarFacts(
                 tuple(fmu.names("input")),
                 tuple(fmu.names("output")),
@@ -110,6 +107,11 @@ class TestedCar:
                 default_step(fmu.description) if self.step is None else self.step,
                 str(fmu.description.guid or fmu.description.instantiationToken or ""),
             )
+
+    @property
+    def path(self) -> Path:
+        """Of the FMU."""
+        return self.fmu.path
 
     @property
     def inputs(self) -> tuple[str, ...]:

@@ -10,9 +10,8 @@ from hosts.catalogue.car import TestedCar
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.options import Wishes
-from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.settings import settings_of
 
 AS_IS = "as-is"
@@ -71,25 +70,25 @@ def _cars_of_one(
     cars = []
     with Fmu(path) as fmu:
         file = None if alias_file is None or str(alias_file) == NO_ALIASES else alias_file
-        aliases = aliases_of(file, fmu.table)
+        source = FmuSource.named(path, fmu.table, file)
         for one in sets:
             wishes = Wishes([] if str(one) == AS_IS else [one], list(values))
             start = settings_of(fmu.table, wishes).start
             label = path.stem if str(one) == AS_IS else f"{path.stem}, {one.stem}"
-            cars.append(TestedCar(label, path, aliases, _ours(start, aliases, path), step))
+            cars.append(TestedCar(label, source, _ours(start, source), step))
     for car in cars:
         assert car.facts
     return cars
 
 
-def _ours(start: Mapping[str, Value], aliases: Aliases, path: Path) -> dict[str, Value]:
+def _ours(start: Mapping[str, Value], source: FmuSource) -> dict[str, Value]:
     """Start values under our names, in our units."""
-    made = aliases.own_values(start)
+    made = source.ours(start)
     for ours in made:
         if ours in _OF_THE_TESTS:
             raise HostError(
-                f"'{ours}' of {path.name} cannot be given: the tests themselves say where a car starts and how fast; "
-                "--test-setting sets what may be changed (--list shows it)."
+                f"'{ours}' of {source.path.name} cannot be given: the tests themselves say where a car starts and how "
+                "fast; --test-setting sets what may be changed (--list shows it)."
             )
     return made
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from hosts.catalogue.limits import GivenLimits
     from hosts.catalogue.record import StandardTest, TestRecord
     from hosts.catalogue.task import Outcome, Task
-    from hosts.experiment.experiment import Kept
+    from hosts.experiment.store import Kept
 
 _PENDING = "Not done yet: the command is at work, or was stopped."
 
@@ -96,7 +96,7 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     from hosts.catalogue.perform import settings_of_test
     from hosts.catalogue.record import TestRecord
     from hosts.catalogue.registry import TESTS, standard_test
-    from hosts.experiment.experiment import Kept
+    from hosts.experiment.store import Kept
     from hosts.measures.limits import read_limits
 
     if not options.fmus:
@@ -133,7 +133,7 @@ def _do(
     from hosts.catalogue.perform import missing_for
     from hosts.catalogue.report import write_report
     from hosts.catalogue.task import Task
-    from hosts.experiment.experiment import tell_kept
+    from hosts.experiment.store import tell_kept
 
     outcomes: dict[str, dict[str, Outcome]] = {test.name: {} for test in tests}
     tasks = []

@@ -9,15 +9,15 @@ import numpy as np
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.task import Task, run_file
 from hosts.driving.result import Result
-from hosts.experiment.experiment import Kept
 from hosts.experiment.run_key import run_key
+from hosts.experiment.store import Kept
 from hosts.fmu.own_process import files_of
 
 
 def digest(task: Task) -> str:
     """A hash of all that the outcome of a task depends on."""
     car = task.car
-    told = task.test, car.aliases, sorted(car.start.items()), car.step, sorted(task.settings.items())
+    told = task.test, car.fmu.digest, sorted(car.start.items()), car.step, sorted(task.settings.items())
     return run_key(car.path, *told, files=files_of(car.start))
 
 

@@ -47,7 +47,7 @@ def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float
     if not missing:
         return test.why_not(car, settings)
     words = " and no ".join(" or ".join(_names(need)) for need in missing)
-    told = [car.aliases.why_missing(name) for need in missing for name in _names(need)]
+    told = [car.fmu.why_missing(name) for need in missing for name in _names(need)]
     hint = "where it has another name, an alias file says which (--aliases)."
     return f"The FMU {car.path.name} has no {words}; {' '.join(dict.fromkeys(filter(None, told))) or hint}"
 

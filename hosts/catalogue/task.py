@@ -69,13 +69,13 @@ def write_runs(task: Task, record: TestRecord) -> None:
     for name, result in record.runs.items():
         file = task.folder / run_file(task.test, task.car.label, name)
         write_csv(result, file)
-        told = [{"name": variable, "new": value} for variable, value in task.car.aliases.values(result.start).items()]
+        told = [{"name": variable, "new": value} for variable, value in task.car.fmu.theirs(result.start).items()]
         seen = {
             "fmu": str(task.car.path),
             "token": task.car.facts.token,
             "set": told,
             "marks": result.marks,
-            "names": task.car.aliases.of_record,
+            "names": task.car.fmu.of_record,
         }
         write_text(file.with_suffix(".json"), json.dumps(seen, ensure_ascii=False) + "\n")
 

@@ -38,9 +38,9 @@ _THOROUGH = 500
 _TIME_LIMIT = 20.0  # s for a check
 _OF_CHECK = ("steps", "time_limit", "thorough")
 _OF_PARAMETERS = ("show_parameters", "save_parameters", "diff")
-_OF_SOAK = ("drives", "seed", "stop_time", "world", "again", "out", "json")
+_OF_SOAK = ("drives", "seed", "stop_time", "world", "json")
 _OF_REFERENCE = ("manoeuvre", "bound")
-_OF_BOTH = ("fidelity", "step", "jobs")
+_OF_BOTH = ("fidelity", "step", "jobs", "again", "out")
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 check") -> int:
@@ -106,8 +106,10 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(soak, "--step", "0.002; with --reference that of the FMU, or what divides its times")
     add_option(soak, "--world", "roads with ramps, and those in the FMU", action="append")
     add_option(soak, "--jobs", "as there are cores that it may use")
-    add_option(soak, "--again", "drives that are done already in the folder are kept")
-    add_option(soak, "--out", "out/soak")
+    add_option(
+        soak, "--again", "drives that are done already in the folder are kept, and tables of a call that was stopped"
+    )
+    add_option(soak, "--out", "out/soak; with --reference out/reference")
     add_option(soak, "--json")
     return parser
 
@@ -173,14 +175,15 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
-    from hosts.check.reference import check_references
+    from hosts.check.reference import OUT, check_references
 
     if len(options.fidelity) > 1:
         raise HostError("--fidelity is given twice; a reference is of one.")
     fidelity = options.fidelity[0] if options.fidelity else None
     jobs = options.jobs or available_cores()
     driven = options.manoeuvre, options.step, fidelity, wishes(options), jobs
-    return check_references(fmu, options.reference, cases, options.bound, *driven)
+    kept = options.out or OUT, options.again
+    return check_references(fmu, options.reference, cases, options.bound, *driven, *kept)
 
 
 def _settings(fmu: Path, given: Wishes) -> Settings:

@@ -14,6 +14,7 @@ from ali3.columns import some_of
 from ali3.units import misread
 from hosts.check.junit import Case
 from hosts.common.angles import angle_difference
+from hosts.common.display_units import number_in
 from hosts.driving.result import Result
 
 BOUND = 0.01
@@ -55,11 +56,12 @@ class Deviation:
     @property
     def words(self) -> tuple[str, str, str, str, str]:
         """The error, its time, the range, the share of it and the bound."""
-        unit = "" if self.unit == "1" else f" {self.unit}"
-        size = f"{self.range:.3g}{unit}" + (f", taken as {self.size:.3g}" if self.size != self.range else "")
+        size = number_in(self.range, self.unit, ".3g") + (
+            f", taken as {self.size:.3g}" if self.size != self.range else ""
+        )
         part = 100.0 * self.share
         share = f"{part:.2g} %" if part < 99.5 else f"{part:.0f} %" if part < 1000.0 else f"{self.share:.0f} times"
-        return f"{self.error:.3g}{unit}", f"{self.at:g} s", size, share, f"{100.0 * self.bound:g} %"
+        return number_in(self.error, self.unit, ".3g"), f"{self.at:g} s", size, share, f"{100.0 * self.bound:g} %"
 
     def case(self, reference: str) -> Case:
         """The result as a case of a JUnit file."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ali3.columns import in_columns
 from ali3.files import check_writable
+from ali3.units import typeset
 from ali3.words import shortened
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.options import Wishes
@@ -54,7 +55,7 @@ def _print_table(variables: Variables, settings: Settings) -> None:
     rows = [("name", "value", "unit", "range", "", "description")]
     for v in variables.parameters:
         value = settings.start.get(v.name, v.start)
-        unit = "" if v.unit == "1" or v.kind != "Real" else v.unit
+        unit = typeset(v.unit) if v.kind == "Real" else ""
         bounds = v.range.removesuffix(f" {unit}") if unit else v.range
         rows.append((v.name, v.text(value), unit, bounds, v.variability, v.description))
     _print_rows(settings.rows())

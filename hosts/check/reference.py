@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import fnmatch
 import math
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import closing
+from collections.abc import Generator, Iterable, Iterator, Sequence
+from contextlib import ExitStack, closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
@@ -21,18 +21,22 @@ from hosts.check.junit import Case
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
 from hosts.driving.driver import driver_of
-from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.manoeuvre import Manoeuvre, digest, with_names_of
 from hosts.driving.manoeuvre_settings import set_in
 from hosts.driving.manoeuvre_table import check_begin, read_table
 from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.driving.run_record import record_of
 from hosts.driving.run_with_bar import Drive, runs_with_bar
+from hosts.experiment.run_key import run_key
+from hosts.experiment.store import Kept, tell_kept
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.own_process import files_of
 from hosts.fmu.settings import Settings
 from hosts.fmu.variables import default_step
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
+OUT = Path("out", "reference")
 _WORST = 10
 _DIAGNOSTICS = "solver."
 # Of a communication step by which the time of a row may miss a communication point.
@@ -55,6 +59,14 @@ class _Reference:
     settings: Settings
 
 
+@dataclass(frozen=True)
+class _Compared:
+    """What is said of a table."""
+
+    lines: list[str]
+    cases: list[Case]
+
+
 def check_references(
     path: Path,
     place: Path,
@@ -65,8 +77,13 @@ def check_references(
     fidelity: float | None,
     wishes: Wishes,
     jobs: int,
+    out: Path,
+    again: bool = False,
 ) -> int:
     """Run an FMU as its references were, and print how far its outputs are from them.
+
+    Of several tables each is kept when it is done, until all are: where that is stopped, the same goes on with the
+    others.
 
     Parameters
     ----------
@@ -85,6 +102,10 @@ def check_references(
         distance of the rows.
     jobs : int
         Tables at a time.
+    out : Path
+        Folder in which they are kept.
+    again : bool
+        Whether those that are kept are compared again.
 
     Returns
     -------
@@ -112,19 +133,24 @@ def check_references(
         if len(files) > 1:
             print(f"BAD   {file.name}: {error}")
 
-    with Fmu(path) as fmu:
+    with ExitStack() as held:
+        fmu = held.enter_context(Fmu(path))
+        kept = held.enter_context(Kept[_Compared](out, _Compared, "checks an FMU", again)) if len(files) > 1 else None
         references = []
         for file in files:
             try:
                 references.append(_reference(fmu, file, manoeuvre, step, fidelity, wishes))
             except UserError as error:
                 fails(file, error)
-        with closing(runs_with_bar(fmu, [reference.drive for reference in references], jobs)) as results:
-            for reference, result in zip(references, in_order(results), strict=True):
-                if isinstance(result, HostError):
-                    fails(reference.file, result)
-                else:
-                    cases += _compared(fmu, reference, result, bounds, manoeuvre is None)
+        compared = held.enter_context(closing(_done(fmu, references, kept, bounds, manoeuvre is None, jobs)))
+        for reference, found in zip(references, in_order(compared), strict=True):
+            if isinstance(found, HostError):
+                fails(reference.file, found)
+            else:
+                print("\n".join(found.lines), flush=True)
+                cases += found.cases
+        if kept is not None:
+            kept.clear()
     names = [case.name for case in cases if case.name != "run" and case.verdict in ("good", "bad")]
     for pattern, _ in bounds:
         if not errors and not fnmatch.filter(names, pattern):
@@ -132,6 +158,40 @@ def check_references(
     if errors:
         raise errors[0]
     return int(any(case.verdict == "bad" for case in cases))
+
+
+def _done(
+    fmu: Fmu,
+    references: Sequence[_Reference],
+    kept: Kept[_Compared] | None,
+    bounds: Sequence[tuple[str, float]],
+    by_table: bool,
+    jobs: int,
+) -> Generator[tuple[int, _Compared | HostError]]:
+    """What is said of each table, with its number: first of those that are kept, then as they are done."""
+    keys = [_key(fmu, reference, bounds) for reference in references]
+    names = [reference.file.name for reference in references]
+    before = [None if kept is None else kept.find(*name_and_key) for name_and_key in zip(names, keys, strict=True)]
+    there = [(number, found) for number, found in enumerate(before) if found is not None]
+    tell_kept(len(there), len(keys), "tables")
+    yield from there
+    left = [number for number, found in enumerate(before) if found is None]
+    with closing(runs_with_bar(fmu, [references[number].drive for number in left], jobs)) as results:
+        for place, result in results:
+            number = left[place]
+            if isinstance(result, HostError):
+                yield number, result
+                continue
+            found = _compared(fmu, references[number], result, bounds, by_table)
+            if kept is not None:
+                kept.add(names[number], keys[number], found)
+            yield number, found
+
+
+def _key(fmu: Fmu, reference: _Reference, bounds: Sequence[tuple[str, float]]) -> str:
+    drive = reference.drive
+    told = digest(drive.manoeuvre), drive.step, bounds
+    return run_key(fmu.path, *told, files=[reference.file, *files_of(drive.manoeuvre.start)])
 
 
 def in_order(results: Iterable[tuple[int, T]]) -> Iterator[T]:
@@ -160,51 +220,47 @@ def _reference(
 
 def _compared(
     fmu: Fmu, reference: _Reference, result: Result, bounds: Sequence[tuple[str, float]], by_table: bool
-) -> list[Case]:
-    """Print how far a run is from its reference; the run, and each signal. `by_table`: whether that drove it."""
+) -> _Compared:
+    """How far a run is from its reference; the run, and each signal. `by_table`: whether that drove it."""
     file, times, columns = reference.file, reference.times, reference.columns
     driven, step = reference.drive.manoeuvre, reference.drive.step
     if not any(pattern.startswith(_DIAGNOSTICS) for pattern, _ in bounds):  # of steps, not of the car
         columns = {n: values for n, values in columns.items() if not n.startswith(_DIAGNOSTICS)} or columns
     nominals = {n: abs(float(fmu.variables[n].nominal or 1.0)) for n in columns}
     found = deviations(nominals, result, times, columns, bounds)
-    for name, words in reference.settings.rows():
-        print(f"{name}  {words}")
-    _print_table(found[:_WORST])
+    lines = [f"{name}  {words}" for name, words in reference.settings.rows()]
+    lines += _table(found[:_WORST])
     bad = [d for d in found if not d.good]
-    for words in remedies(result, times, columns, bad):
-        print(words)
+    lines += remedies(result, times, columns, bad)
     if still := [n for n in fmu.names("input") if n not in {*driven.inputs, *driven.start} and by_table]:
-        print(f"inputs without a column, which keep their start values: {some_of(still)}")
+        lines.append(f"inputs without a column, which keep their start values: {some_of(still)}")
     apart = float(np.diff(times).max(initial=0.0))
     if bad and by_table and driven.inputs and apart > (1.0 + _ROUND_OFF) * step:
-        print(f"between rows, up to {apart:g} s apart, inputs go straight: did those of the reference do so?")
+        lines.append(f"between rows, up to {apart:g} s apart, inputs go straight: did those of the reference do so?")
     if reference.left:
-        print(f"not compared, for {fmu.path.name} has no such output: {', '.join(reference.left)}")
+        lines.append(f"not compared, for {fmu.path.name} has no such output: {', '.join(reference.left)}")
     if times[0] > 0.0 and by_table:
-        print(f"{file} begins at {times[0]:g} s and is compared from there")
+        lines.append(f"{file} begins at {times[0]:g} s and is compared from there")
     if result.late:
-        print(f"inputs that were held, and late by {500.0 * step:.3g} ms on average: {', '.join(result.late)}")
-    for missed in result.missed:
-        print(": ".join(missed))
-    for message in dict.fromkeys(result.messages):
-        print(f"FMU: {message}")
+        lines.append(f"inputs that were held, and late by {500.0 * step:.3g} ms on average: {', '.join(result.late)}")
+    lines += [": ".join(missed) for missed in result.missed]
+    lines += [f"FMU: {message}" for message in dict.fromkeys(result.messages)]
     if wrong := result.not_finite():
-        print(wrong)
+        lines.append(wrong)
     share = "" if bounds else f"; the bound is {100.0 * BOUND:g} % of the range of each, --bound NAME=SHARE sets others"
-    print(
+    lines.append(
         f"\n{fmu.path} against {file}, {len(found)} signals up to {result.time[-1]:g} s in steps of {step:g} s: "
         f"{'all within their bounds' if not bad else f'{len(bad)} beyond their bounds'}{share}"
     )
     ended = f"up to {result.time[-1]:g} s in steps of {step:g} s"
     if result.refusal:
         ended = f"The reference goes on to {times[-1]:g} s, but {result.refusal}."
-        print(ended)
+        lines.append(ended)
     elif wrong:
         ended = wrong
     run = Case(file.stem, "run", "good" if result.is_good else "bad", ended, result.wall)
     missing = [Case(file.stem, name, "skipped", f"{fmu.path.name} has no such output") for name in reference.left]
-    return [run, *(deviation.case(file.stem) for deviation in found), *missing]
+    return _Compared(lines, [run, *(deviation.case(file.stem) for deviation in found), *missing])
 
 
 def _read(
@@ -247,8 +303,8 @@ def _check_times(times: NDArray[np.float64], step: float, file: Path) -> None:
         )
 
 
-def _print_table(found: Sequence[Deviation]) -> None:
+def _table(found: Sequence[Deviation]) -> list[str]:
     rows = [("", "signal", "largest error", "at", "its range", "share of it", "bound")]
     for d in found:
         rows.append((" ok " if d.good else "BAD ", d.name, *d.words))
-    print("\n".join(in_columns(rows)))
+    return in_columns(rows)

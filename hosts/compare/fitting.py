@@ -7,7 +7,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ali3.bars import bar
 from ali3.words import sentence_of
 from hosts.common.display_units import shown_number
 from hosts.common.numbers import Value
@@ -59,10 +58,9 @@ def fitted(
     guesses = _delays(before, wanted.nuisances)
     outputs = overlapping(outputs, task.end, options.skip, guesses)
     unknowns = [*wanted.parameters, *nuisances(wanted.nuisances, outputs, guesses, options.longest_delay)]
-    with bar(desc="fit", unit="run") as shown:
+    with replay.searching("fit"):
 
         def simulate(values: Mapping[str, float]) -> Result | str:
-            shown.update()
             try:
                 result = replay.run(wanted.coarse | dict(values))
             except StartRefusedError as error:

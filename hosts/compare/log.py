@@ -26,7 +26,7 @@ from hosts.compare.spikes import spike_words, spikes
 from hosts.driving.missed_inputs import counted
 from hosts.driving.recorded_rows import ROUND_OFF
 from hosts.driving.run_record import record_of
-from hosts.fmu.aliased_fmu import AliasedFmu
+from hosts.fmu.named_fmu import NamedFmu
 from hosts.measures.log_echo import log_echo
 from hosts.measures.signal import Signal
 
@@ -52,7 +52,7 @@ class Log(Understood):
 
 
 def log_for(
-    fmu: AliasedFmu,
+    fmu: NamedFmu,
     raw: RawLog,
     aliases: LogAliases,
     chosen: Collection[str] = (),
@@ -103,7 +103,7 @@ def log_for(
 def _columns(
     raw: RawLog,
     aliases: LogAliases,
-    fmu: AliasedFmu,
+    fmu: NamedFmu,
     inputs: Collection[str],
     outputs: Collection[str],
 ) -> Mapping[str, Column]:
@@ -240,7 +240,7 @@ def _clock_times(raw: RawLog, name: str, texts: pd.Series[str]) -> NDArray[np.fl
 
 
 def _signal(
-    fmu: AliasedFmu,
+    fmu: NamedFmu,
     raw: RawLog,
     ours: str,
     column: Column,
@@ -286,7 +286,7 @@ def _of_each_time(signal: Signal, jumps: bool) -> Signal:
     return replace(signal, time=signal.time[kept], values=signal.values[kept])
 
 
-def _as_measured(fmu: AliasedFmu, signal: Signal, notes: list[str]) -> Signal:
+def _as_measured(fmu: NamedFmu, signal: Signal, notes: list[str]) -> Signal:
     """Without rows in which a logger repeats what it has, which is told; whole numbers and switches stay."""
     rows = rows_of_a_value(signal.values)
     if fmu.variables[signal.name].type != "Real" or rows == 1:
@@ -299,7 +299,7 @@ def _as_measured(fmu: AliasedFmu, signal: Signal, notes: list[str]) -> Signal:
     return replace(signal, time=signal.time[new], values=signal.values[new])
 
 
-def _without_spikes(fmu: AliasedFmu, signal: Signal, notes: list[str]) -> Signal:
+def _without_spikes(fmu: NamedFmu, signal: Signal, notes: list[str]) -> Signal:
     """Without single samples that no neighbour supports, which are told; whole numbers and switches may jump."""
     wrong = spikes(signal.time, signal.values) & ~np.isin(signal.time, signal.jumps)
     if fmu.variables[signal.name].type != "Real" or not wrong.any():

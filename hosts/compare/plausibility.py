@@ -11,8 +11,8 @@ from ali3.units import misread
 from hosts.common.errors import HostError
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import deviations
-from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.input_ranges import beyond_range
+from hosts.fmu.named_fmu import NamedFmu
 from hosts.measures.signal import Signal
 
 LONGEST_GAP = 0.2
@@ -23,7 +23,7 @@ ALIKE = 0.8
 """Correlation of signals that tell the same."""
 
 
-def check_inputs(fmu: AliasedFmu, inputs: Mapping[str, Signal], longest: float, notes: list[str]) -> None:
+def check_inputs(fmu: NamedFmu, inputs: Mapping[str, Signal], longest: float, notes: list[str]) -> None:
     """Refuse inputs with gaps and values that the FMU cannot take.
 
     `longest`: gap that is bridged by a straight line, s; `notes`: gains a sentence for each gap that is bridged. Raises

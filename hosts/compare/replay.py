@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +18,7 @@ from hosts.compare.stretch_fmu import StretchFmu, Task
 from hosts.compare.stretches import Stretch, joined
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 from hosts.driving.result import Result
-from hosts.experiment.pool import Pool
+from hosts.experiment.experiment import Experiment, Progress
 from hosts.fmu.fmu import StartRefusedError
 from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.own_process import files_of_drives
@@ -117,7 +118,12 @@ class Replay(Closing):
         self.stretches, self.step = list(stretches), step
         reads = files_of_drives(fmu.path, (stretch.manoeuvre.start for stretch in stretches))
         work = StretchFmu(fmu, step, stretches)
-        self._pool: Pool[Task, Result | str] = Pool(work, Result | str, min(jobs, len(stretches)), reads)
+        self._does = "compare"
+        self._experiment: Experiment[Task, Result | str] = Experiment(
+            self._does, work, Result | str, lambda task: self._does, reads, lambda task: 1.0 / len(self.stretches)
+        )
+        self._pool = self._experiment.pool(min(jobs, len(stretches)))
+        self._shown: Progress[Task, Result | str] | None = None
         self._can_reset: bool | None = None
         self.said: dict[str, int] = {}
         self.runs = 0
@@ -126,13 +132,22 @@ class Replay(Closing):
         """End all processes."""
         self._pool.close()
 
+    @contextmanager
+    def searching(self, does: str) -> Iterator[None]:
+        """Runs of the block stand under one bar, which counts them. `does`: what they are for, on the bar."""
+        self._does = does
+        with Progress(self._experiment) as self._shown:
+            yield
+        self._shown = None
+
     def run(self, values: Mapping[str, Value] | None = None) -> Result:
         """Drive all stretches with other start values than those of their manoeuvres. `values`: by our names.
 
         Result: under our names; several stretches as `joined` puts them. Raises `FailedFmuError`: a process has ended.
         """
         tasks: list[Task] = [(k, dict(values or {}), self._can_reset) for k in range(len(self.stretches))]
-        made = dict(self._pool.results(tasks))
+        with Progress(self._experiment, 1.0) if self._shown is None else nullcontext(self._shown) as shown:
+            made = {k: result for k, _, result in shown.results(tasks, self._pool)}
         results = [self._result(k, made[k]) for k in range(len(tasks))]
         self.runs += 1
         for message in dict.fromkeys(m for result in results for m in result.messages):

@@ -8,8 +8,8 @@ from collections.abc import Callable, Collection, Mapping
 import numpy as np
 
 from hosts.common.numbers import Value
-from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.fmu_source import FmuSource
+from hosts.fmu.named_fmu import NamedFmu
 from hosts.measures.signal import Signal
 
 _AVERAGED = 0.1  # s at the beginning of a log
@@ -19,13 +19,13 @@ _SETTLING, _SETTLED = "initial.settling", 2.0  # s: roll of a car on soft spring
 
 
 def measured_start(
-    fmu: AliasedFmu, signals: Mapping[str, Signal], given: Mapping[str, Value], begun: Mapping[str, Value] | None = None
+    fmu: NamedFmu, signals: Mapping[str, Signal], given: Mapping[str, Value], begun: Mapping[str, Value] | None = None
 ) -> tuple[dict[str, Value], list[str]]:
     """Start values of speeds and pose as they are measured, where the FMU has such parameters.
 
     Parameters
     ----------
-    fmu : AliasedFmu
+    fmu : NamedFmu
         Not initialised.
     signals : mapping of str to Signal
         Of the log, which begins at time 0.

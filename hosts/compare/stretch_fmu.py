@@ -75,7 +75,8 @@ class StretchFmu(LoadedFmu):
         """The result, or why the FMU does not start with these values: no error, which would end the others."""
         number, values, self.can_reset = task
         try:
-            return self.drive(self._stretches[number], values, tell)
+            whole = len(self._stretches) * self._stretches[number].end / self._step
+            return self.drive(self._stretches[number], values, lambda done: tell(done / whole))
         except StartRefusedError as error:
             return str(error)
 

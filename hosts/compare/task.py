@@ -28,10 +28,10 @@ from hosts.compare.windows import scales_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.missed_inputs import missed_inputs
 from hosts.driving.run_checks import check_columns, communication_step
-from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.input_ranges import beyond_range
+from hosts.fmu.named_fmu import NamedFmu
 from hosts.fmu.settings import settings_of
 from hosts.fmu.steering_ratios import RATIOS
 from hosts.fmu.variables import Variable, default_step
@@ -82,11 +82,11 @@ def prepare(options: argparse.Namespace) -> Task:
         refuse_log_aliases(options.aliases)
     raw = read_log(options.log, log_aliases.dialect)
     with Fmu(options.fmu) as opened:
-        source = FmuSource.named(opened, options.aliases)
-        fmu, names = AliasedFmu(opened, source.names), source.names
+        source = FmuSource.named(opened.path, opened.table, options.aliases)
+        fmu = source.around(opened)
         set_values = settings_of(opened.table, wishes_with_road(options, options.out)).start
-        given = names.own_values(set_values)
-        sought = {names.names([t.partition("=")[0].strip()])[0] for t in options.fit}
+        given = source.ours(set_values)
+        sought = {source.called([t.partition("=")[0].strip()])[0] for t in options.fit}
         used = {*options.signals, "speed"} if options.signals else ()  # the start and --hold-speed need it too
         log = log_for(fmu, raw, log_aliases, {*given, *sought}, used)
         notes = log.notes
@@ -197,7 +197,7 @@ def log_at(log: Log, options: argparse.Namespace) -> dict[str, Signal]:
     return {n: s for n, s in _shifted(log.outputs, options).items() if len(s.time) >= FEWEST_SAMPLES}
 
 
-def _held_speed(fmu: AliasedFmu, log: Log, inputs: dict[str, Signal], notes: list[str]) -> Signal:
+def _held_speed(fmu: NamedFmu, log: Log, inputs: dict[str, Signal], notes: list[str]) -> Signal:
     """The measured speed that a driver is to hold; the pedals of the log are left out."""
     name = next((n for n in ("speed", "chassis.vx") if n in log.outputs), None)
     if name is None:
@@ -211,7 +211,7 @@ def _held_speed(fmu: AliasedFmu, log: Log, inputs: dict[str, Signal], notes: lis
     return log.outputs[name]
 
 
-def _step(fmu: AliasedFmu, inputs: Mapping[str, Signal], options: argparse.Namespace) -> float | None:
+def _step(fmu: NamedFmu, inputs: Mapping[str, Signal], options: argparse.Namespace) -> float | None:
     """The step that was asked for; else that of the FMU, or of the log where that is longer, up to 10 ms."""
     if options.step is not None:
         return float(options.step)
@@ -220,7 +220,7 @@ def _step(fmu: AliasedFmu, inputs: Mapping[str, Signal], options: argparse.Names
     return own * max(1, math.floor(min(finest, 0.01) / own + 1e-6))
 
 
-def _chosen(log: Log, fmu: AliasedFmu, options: argparse.Namespace) -> tuple[dict[str, Signal], dict[str, Signal]]:
+def _chosen(log: Log, fmu: NamedFmu, options: argparse.Namespace) -> tuple[dict[str, Signal], dict[str, Signal]]:
     outputs, inputs = dict(log.outputs), dict(log.inputs)
     if options.signals is not None:
         for name in options.signals:
@@ -242,7 +242,7 @@ def _chosen(log: Log, fmu: AliasedFmu, options: argparse.Namespace) -> tuple[dic
 
 
 def _add_steering(
-    fmu: AliasedFmu,
+    fmu: NamedFmu,
     log: Log,
     inputs: dict[str, Signal],
     outputs: dict[str, Signal],

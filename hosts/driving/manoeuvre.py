@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections.abc import Collection
 from dataclasses import dataclass, field, replace
@@ -92,6 +93,14 @@ class Manoeuvre:
 def _between(one: float, other: float, part: float) -> float:
     value = one + part * (other - one)
     return value if math.isfinite(value) else (1.0 - part) * one + part * other  # the difference may overflow
+
+
+def digest(manoeuvre: Manoeuvre) -> str:
+    """A hash of all that a manoeuvre does, its table and its state included; its name does not count."""
+    m = manoeuvre
+    told = m.stop_time, m.start, m.driver, m.state_time, m.find_throttle, sorted(m.held), list(m.inputs)
+    parts = repr(told).encode(), m.time.tobytes(), m.state or b"", *(values.tobytes() for values in m.inputs.values())
+    return hashlib.sha256(b"\n".join(parts)).hexdigest()
 
 
 def with_names_of(manoeuvre: Manoeuvre, names: Collection[str]) -> Manoeuvre:

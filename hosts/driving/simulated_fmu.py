@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 from fmpy.model_description import ModelDescription, ScalarVariable
@@ -12,9 +12,6 @@ from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
 from hosts.fmu.variables import Variable
-
-if TYPE_CHECKING:
-    from hosts.fmu.aliases.alias import Aliases
 
 
 class VariableTable(Protocol):
@@ -30,11 +27,14 @@ class SimulatedFmu(Protocol):
     description: ModelDescription
     variables: dict[str, ScalarVariable]
     messages: list[str]
-    aliases: Aliases | None
-    """Through which it is seen."""
 
     @property
     def table(self) -> VariableTable: ...
+    @property
+    def derived(self) -> tuple[str, ...]: ...
+    def derive(
+        self, names: Sequence[str], time: NDArray[np.float64], values: NDArray[np.float64]
+    ) -> Mapping[str, NDArray[np.float64]]: ...
     @property
     def tunable(self) -> list[str]: ...
     def names(self, causality: str) -> list[str]: ...

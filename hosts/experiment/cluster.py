@@ -15,6 +15,7 @@ from ali3.errors import UserError
 from ali3.reading import read_bytes
 from ali3.words import shortened
 from hosts.common.errors import HostError
+from hosts.experiment.cluster_runs import take_back
 from hosts.experiment.cluster_worker import Brought, ExperimentPlugin, why_wrong
 
 _PATIENCE = 20.0  # s for an answer
@@ -84,10 +85,17 @@ def bring(client: Client, brought: Brought, fmu: Path) -> None:
 
     Raises `HostError`: a worker has another version of ALi3, or cannot load it.
     """
-    plugin = ExperimentPlugin(brought, read_bytes(fmu, LARGEST_ARCHIVE, HostError))
+    try:
+        _bring(client, ExperimentPlugin(brought, read_bytes(fmu, LARGEST_ARCHIVE, HostError)), brought.key)
+    except BaseException:
+        take_back(client, brought)
+        raise
+
+
+def _bring(client: Client, plugin: ExperimentPlugin, key: str) -> None:
     try:
         client.register_plugin(plugin)
-        answers = client.run(why_wrong, brought.key)
+        answers = client.run(why_wrong, key)
     except Exception as error:
         words = f"{type(error).__name__}: {(str(error).strip().splitlines() or ['no words'])[-1]}"
         if isinstance(error, (OSError, KilledWorker)):

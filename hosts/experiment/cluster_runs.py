@@ -7,6 +7,7 @@ import time as clock
 from collections import deque
 from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import CancelledError
+from contextlib import suppress
 from itertools import count, islice
 from typing import Any, Generic, TypeAlias, TypeVar
 
@@ -27,6 +28,12 @@ T = TypeVar("T")
 R = TypeVar("R")
 _Chunk: TypeAlias = list[tuple[int, T]]
 """Tasks with their numbers."""
+_Tried: TypeAlias = int | None
+"""How many workers have ended with a chunk that is sent once more; None: it is sent for the first time."""
+_LOST_WITH_WORKERS = (
+    "was lost with its worker {} times, the last ones with no other run beside it: it may need more memory than a "
+    "worker has (--memory-limit and --nthreads of dask worker); --again makes it again"
+)
 
 
 class SchedulerLostError(Exception):
@@ -52,6 +59,13 @@ class ChunkSize:
         return max(1, min(round(WORK / self._seconds), self._most, -(-left // (2 * self.workers))))
 
 
+def take_back(client: Client, brought: Brought) -> None:
+    """Take from all workers what they were given; where the scheduler has gone, nothing."""
+    with suppress(Exception):  # of many kinds, where processes were killed
+        if client.status == "running":
+            client.unregister_worker_plugin(brought.name)
+
+
 class ClusterRuns(Closing, Generic[T, R]):
     """Makes runs on a cluster that was given them, see `hosts.experiment.cluster.bring`.
 
@@ -60,9 +74,9 @@ class ClusterRuns(Closing, Generic[T, R]):
 
     def __init__(self, client: Client, brought: Brought, left: int, size: ChunkSize) -> None:
         self._client, self._brought, self._size, self._unsent = client, brought, size, left
-        self._flying: dict[Future[Any], tuple[_Chunk[T], bool]] = {}
+        self._flying: dict[Future[Any], tuple[_Chunk[T], _Tried]] = {}
         self._arrived: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
-        self._suspects: deque[_Chunk[T]] = deque()
+        self._suspects: deque[tuple[_Chunk[T], _Tried]] = deque()
         self._connected = clock.monotonic()
         self.chunks = 0
         """That were sent."""
@@ -73,10 +87,11 @@ class ClusterRuns(Closing, Generic[T, R]):
         return 0
 
     def close(self) -> None:
-        """Take back what is in hand."""
+        """Take back what is in hand, and from a cluster that stays what its workers were given."""
         for future in list(self._flying):
             future.cancel(msg="the experiment ends")
         self._flying.clear()
+        take_back(self._client, self._brought)
 
     def results(
         self, tasks: Iterable[T], told: Callable[[int, Any], None] = lambda number, word: None
@@ -89,25 +104,22 @@ class ClusterRuns(Closing, Generic[T, R]):
         waiting = zip(count(), tasks)
         ended = False
         while True:
-            while not ended and len(self._flying) < _AHEAD * self._size.workers:
+            while not (ended or self._suspects) and len(self._flying) < _AHEAD * self._size.workers:
                 ended = not self._send_next(waiting)
+            if self._suspects and not self._flying:  # alone, so that no other run is to blame
+                self._send(*self._suspects.popleft())
             if not self._flying:
                 break
             yield from self._collect()
-        self._client.unregister_worker_plugin(self._brought.name)  # of a cluster that stays
 
     def _send_next(self, waiting: Iterable[tuple[int, T]]) -> bool:
-        chunk = self._suspects.popleft() if self._suspects else []
-        tried = bool(chunk)
-        if not tried:
-            chunk = list(islice(waiting, self._size.size(self._unsent)))
-            self._unsent -= len(chunk)
+        chunk = list(islice(waiting, self._size.size(self._unsent)))
+        self._unsent -= len(chunk)
         if chunk:
-            self._send(chunk, tried)
+            self._send(chunk, None)
         return bool(chunk)
 
-    def _send(self, chunk: _Chunk[T], tried: bool) -> None:
-        """`tried`: whether a worker was lost with them."""
+    def _send(self, chunk: _Chunk[T], tried: _Tried) -> None:
         self.chunks += 1
         future = self._client.submit(run_chunk, self._brought.key, [task for _, task in chunk], pure=False)
         self._flying[future] = chunk, tried
@@ -126,24 +138,26 @@ class ClusterRuns(Closing, Generic[T, R]):
         results: list[R | Lost] = []
         try:
             seconds, results = future.result()
-        except KilledWorker:
-            self._suspects.append(chunk)
+        except KilledWorker as error:
+            killed = (tried or 0) + error.allowed_failures + 1
+            if tried is None:
+                self._suspects.extend(([one], killed) for one in chunk)
+            else:
+                results = [Lost(_LOST_WITH_WORKERS.format(killed))]
         except WrongWorkerError:
             raise
         except (CancelledError, OSError) as error:
             self._flying[future] = chunk, tried
             raise SchedulerLostError from error
         except Exception as error:
-            if tried:
-                results = [Lost(f"has failed on its worker: {type(error).__name__}: {error}") for _ in chunk]
+            if tried is None:
+                self._suspects.append((chunk, 0))
             else:
-                self._suspects.append(chunk)
+                results = [Lost(f"has failed on its worker: {type(error).__name__}: {error}") for _ in chunk]
         else:
             self._size.learn(len(chunk), seconds)
         for (number, _), result in zip(chunk, results, strict=False):
             yield number, result
-        if self._suspects and not self._flying:
-            self._send(self._suspects.popleft(), True)
 
     def _look_at_scheduler(self) -> None:
         now = clock.monotonic()

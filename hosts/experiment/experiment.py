@@ -1,24 +1,23 @@
-"""Runs of an experiment: made in processes under one bar, each kept in a folder from the moment it is there."""
+"""Runs of an experiment, made by processes under one bar."""
 
 from __future__ import annotations
 
 import math
 import sys
 from collections.abc import Callable, Generator, Iterable
-from contextlib import ExitStack, closing
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
 from ali3.bars import bar as bar_of
 from ali3.isolated import Lost, Tell
-from ali3.locks import locked
 from hosts.common.closing import Closing
-from hosts.experiment.journal import Journal
 from hosts.experiment.pool import Pool
 from hosts.fmu.own_process import PATIENCE
 
 _FORM = "{desc} {percentage:3.0f} % {bar} {elapsed} so far, {remaining} to go"
+_COUNTED = "{desc} {n:.0f} done, {elapsed} so far"
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -83,6 +82,35 @@ class Experiment(Generic[T, R]):
         if whole is None:
             tasks = list(tasks)
             whole = sum(map(self.size, tasks))
+        with closing(runner), Progress(self, whole, before) as progress:
+            yield from progress.results(tasks, runner, told)
+        if runner.left:
+            print(f"note: {runner.left} processes that an FMU had started were ended with it.", file=sys.stderr)
+
+
+class Progress(Closing, Generic[T, R]):
+    """The bar of an experiment, over one list of runs or over several of which each depends on results of the last.
+
+    `whole`: size of all tasks; None: nobody knows it, as of a search, and the bar counts; `before`: of those that are
+    done already.
+    """
+
+    def __init__(self, experiment: Experiment[T, R], whole: float | None = None, before: float = 0.0) -> None:
+        self._experiment = experiment
+        form = _COUNTED if whole is None else _FORM
+        self._bar = bar_of(total=whole, initial=before, bar_format=form, desc=experiment.name)
+
+    def close(self) -> None:
+        """End the bar."""
+        self._bar.close()
+
+    def results(
+        self,
+        tasks: Iterable[T],
+        runner: Runner[T, R],
+        told: Callable[[int, float], None] = lambda number, done: None,
+    ) -> Generator[tuple[int, T, R | Lost]]:
+        """See `Experiment.results`; the runner stays."""
         flying: dict[int, tuple[T, float]] = {}
 
         def sent() -> Generator[T]:
@@ -90,54 +118,15 @@ class Experiment(Generic[T, R]):
                 flying[number] = task, 0.0
                 yield task
 
-        with closing(runner), bar_of(total=whole, initial=before, bar_format=_FORM, desc=self.name) as bar:
+        def shown(number: int, part: float) -> float:
+            task, done = flying[number]
+            now = min(max(part, done), self._experiment.size(task))
+            flying[number] = task, now
+            self._bar.set_description_str(self._experiment.label(task), refresh=False)
+            more = now - done
+            self._bar.update(more if self._bar.total is None else min(more, self._bar.total - self._bar.n))
+            return now
 
-            def shown(number: int, part: float) -> float:
-                task, done = flying[number]
-                now = min(max(part, done), self.size(task))
-                flying[number] = task, now
-                bar.set_description_str(self.label(task), refresh=False)
-                bar.update(min(now - done, bar.total - bar.n))  # a sum of parts rounds
-                return now
-
-            for number, result in runner.results(sent(), lambda number, part: told(number, shown(number, part))):
-                shown(number, math.inf)
-                yield number, flying.pop(number)[0], result
-        if runner.left:
-            print(f"note: {runner.left} processes that an FMU had started were ended with it.", file=sys.stderr)
-
-
-class Kept(Closing, Generic[R]):
-    """Results that stay in a folder, so that the same command goes on with the others; the folder is locked.
-
-    `kind`: type of the results, see `Journal`; `does`: what the command does, in the sentence for another one that
-    finds the folder in use; `again`: whether none of them is found.
-    """
-
-    def __init__(self, folder: Path, kind: Any, does: str, again: bool = False) -> None:
-        busy = f"Another program {does} in {folder}; wait for it, or give another --out."
-        with ExitStack() as held:
-            held.enter_context(locked(folder, busy))
-            self._journal: Journal[tuple[str, R]] = held.enter_context(Journal(folder / "done", tuple[str, kind]))
-            there = self._journal.read()
-            self._found = {} if again else there
-            self._held = held.pop_all()
-
-    def find(self, name: str, key: str) -> R | None:
-        """The result of a name, if what it depends on has the same key (`run_key`) as then."""
-        was, result = self._found.get(name, ("", None))
-        return result if was == key else None
-
-    def add(self, name: str, key: str, result: R) -> None:
-        """Keep a result; it takes the place of that of the same name."""
-        self._journal.add(name, (key, result))
-
-    def close(self) -> None:
-        """Close the file, and free the folder."""
-        self._held.close()
-
-
-def tell_kept(there: int, of: int, what: str) -> None:
-    """Say how many results need not be made again; `what`: they are, such as ``tests``."""
-    if there:
-        print(f"{there} of {of} {what} are there; --again makes them again.", flush=True)
+        for number, result in runner.results(sent(), lambda number, part: told(number, shown(number, part))):
+            shown(number, math.inf)
+            yield number, flying.pop(number)[0], result

@@ -30,7 +30,7 @@ from hosts.fmu.scalars import TEXTS, NamedScalars, Place, constants_of
 from hosts.fmu.variables import Variables, check_co_simulation
 
 if TYPE_CHECKING:
-    from hosts.fmu.aliases.alias import Aliases
+    pass
 
 
 _MOST_MESSAGES = 10_000  # between two calls that clear them
@@ -78,7 +78,6 @@ class Fmu(Closing, NamedScalars):
         self.variables: dict[str, ScalarVariable] = {v.name: v for v in description.modelVariables}
         self.table = Variables(description)
         self.messages: list[str] = []
-        self.aliases: Aliases | None = None
         self._loaded: Instance | None = None
         self._begin = 0.0
         self._remove: weakref.finalize[..., Fmu] | None = None

@@ -7,7 +7,9 @@ import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from fmpy.model_description import ModelDescription, ScalarVariable
+from numpy.typing import NDArray
 
 from ali3.unit_definition import KINDS
 
@@ -34,6 +36,17 @@ class NamedScalars:
     """What has scalars by name."""
 
     variables: dict[str, ScalarVariable]
+
+    @property
+    def derived(self) -> tuple[str, ...]:
+        """Names of those that are computed from others."""
+        return ()
+
+    def derive(
+        self, names: Sequence[str], time: NDArray[np.float64], values: NDArray[np.float64]
+    ) -> Mapping[str, NDArray[np.float64]]:
+        """Columns of these of a whole run, by name."""
+        return {}
 
     def names(self, causality: str) -> list[str]:
         """Names of the real and whole variables of a causality."""

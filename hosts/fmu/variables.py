@@ -13,7 +13,7 @@ from ali3.decimal_number import parse_number
 from ali3.near_names import MOST, did_you_mean
 from ali3.processes import command_name
 from ali3.unit_definition import BASE_UNITS, KINDS, UnitDefinition
-from ali3.units import number_with_unit
+from ali3.units import number_with_unit, typeset
 from ali3.words import brief, range_words
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
@@ -62,8 +62,8 @@ class Variable:
 
     def with_unit(self, value: Value | None) -> str:
         """A value with its unit."""
-        unit = "" if self.unit == "1" or self.kind != "Real" else f" {self.unit}"
-        return f"{self.text(value)}{unit}"
+        unit = typeset(self.unit) if self.kind == "Real" else ""
+        return f"{self.text(value)} {unit}".rstrip()
 
     @property
     def may_be_set(self) -> bool:
@@ -75,7 +75,7 @@ class Variable:
         """The range in words; empty where it is open."""
         if self.items:
             return ", ".join(f"{number} {name}" for name, number in self.items.items())
-        return range_words(self.low, self.high, self.unit if self.kind == "Real" else "1")
+        return range_words(self.low, self.high, typeset(self.unit) or "1" if self.kind == "Real" else "1")
 
     def read(self, text: str, source: str, with_unit: bool = False) -> Value:
         """The value that a person has written, checked.

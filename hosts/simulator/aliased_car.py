@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-import numpy as np
-
 from hosts.common.numbers import Value
-from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.aliases.derivation import Derivation
+from hosts.fmu.fmu_source import FmuSource
 from hosts.simulator.car import Car, Event, Moment
 from hosts.simulator.step_times import StepTimes
 
@@ -29,37 +26,28 @@ class AliasedCar:
         s.
     """
 
-    def __init__(self, car: Car, aliases: Aliases) -> None:
-        self._car = car
-        self._aliases = aliases
-        ours = aliases.names(car.names)
-        self._derivation = Derivation(aliases.derived, ours)
-        self.names = (*ours, *self._derivation.names)
-        self.inputs = aliases.names(car.inputs)
+    def __init__(self, car: Car, source: FmuSource) -> None:
+        self._car, self._source = car, source
+        self._row = source.row(car.names)
+        self.names = self._row.names
+        self.inputs = source.called(car.inputs)
         self.step = car.step
-        self._factors, self._offsets = aliases.scales(car.names)
-        self._plain = bool((self._factors == 1.0).all() and (self._offsets == 0.0).all())
-        scaled = (self._factors != 1.0) | (self._offsets != 0.0)
-        self.units = {
-            ours: "" if changed else car.units[theirs]
-            for ours, theirs, changed in zip(ours, car.names, scaled, strict=True)
-        } | dict.fromkeys(self._derivation.names, "")
-        self.constants = {**car.constants, **aliases.constants}
+        theirs = dict(zip(self.names, car.names, strict=False))
+        self.units = {n: "" if n in self._row.changed else car.units[theirs[n]] for n in self.names}
+        self.constants = {**car.constants, **source.constants}
 
     def want(self, values: Mapping[str, tuple[float, float]]) -> None:
-        self._car.want(self._aliases.inputs(values))
+        self._car.want(self._source.inputs(values))
 
     def command(self, name: str, value: float = 0.0) -> None:
         self._car.command(name, value)
 
     def restart(self, changes: Mapping[str, Value]) -> None:
-        self._car.restart(self._aliases.values(changes))
+        self._car.restart(self._source.theirs(changes))
 
     def latest(self) -> Moment:
         moment = self._car.latest()
-        values = moment.values if self._plain else (moment.values - self._offsets) / self._factors
-        if self._derivation.names:
-            values = np.append(values, self._derivation.live(moment.time, values))
+        values = self._row.of(moment.time, moment.values)
         return moment if values is moment.values else replace(moment, values=values)
 
     def events(self) -> list[Event]:

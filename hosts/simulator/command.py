@@ -189,7 +189,7 @@ def _alone(options: argparse.Namespace, begin: float) -> int:
     report.prepared(prepared, options.step)
     seconds = options.stop_time if options.stop_time is not None else manoeuvre.stop_time if manoeuvre else 0.0
     with _started(options, prepared) as started:
-        car = AliasedCar(started, prepared.aliases)
+        car = AliasedCar(started, prepared.source)
         driver = headless_driver(car, manoeuvre, options.seed)
         report.ready()
         with _reported(started, options, report):
@@ -220,7 +220,7 @@ def _with_pages(options: argparse.Namespace, begin: float) -> int:
         prepared = prepare(_asked(options), report.tell)
         report.prepared(prepared, options.step)
         with _started(options, prepared) as started:
-            car = AliasedCar(started, prepared.aliases)
+            car = AliasedCar(started, prepared.source)
             record = "" if options.record is None else str(options.record)
             hello = prepared.hello(car.constants, car.names, car.step, record)
             content = Content(page.result(), prepared.world.content, hello, prepared.places())

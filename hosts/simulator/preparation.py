@@ -16,11 +16,10 @@ from hosts.common.numbers import Value
 from hosts.common.options import ROAD, Wishes
 from hosts.common.package_names import check_world
 from hosts.common.world_files import DEFAULT_WORLD, World, make_world, no_world
-from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.description_record import description_record
 from hosts.fmu.fmu import described
 from hosts.fmu.fmu_file import FoundFmu, find_fmu
+from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.settings import START_OF, Settings
 from hosts.fmu.variables import Variables, check_co_simulation
@@ -59,7 +58,7 @@ class Prepared:
     fmu: FoundFmu
     description: ModelDescription
     variables: Variables
-    aliases: Aliases
+    source: FmuSource
     settings: Settings
     """What is set in it, the road and the place among it."""
     world: World
@@ -71,7 +70,7 @@ class Prepared:
     ) -> dict[str, Any]:
         """The first message to a page, under our names."""
         record_of_fmu = description_record(self.description, self.variables)
-        ours = self.aliases.names([v["name"] for v in record_of_fmu["variables"]])
+        ours = self.source.called([v["name"] for v in record_of_fmu["variables"]])
         for variable, name in zip(record_of_fmu["variables"], ours, strict=True):
             variable["name"] = name
         return {
@@ -86,7 +85,7 @@ class Prepared:
 
     def places(self) -> dict[str, dict[str, Value]]:
         """Start values by name of those places where this FMU can be put."""
-        known = set(self.aliases.names(self.variables.names))
+        known = set(self.source.called(self.variables.names))
         return {n: values for n, values in self.world.places().items() if set(values) <= known}
 
 
@@ -105,32 +104,31 @@ def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
         description = described(fmu.path)
         check_co_simulation(fmu.path, description)
         variables = Variables(description)
-        aliases = aliases_of(asked.aliases, variables)
+        source = FmuSource.named(fmu.path, variables, asked.aliases)
         drawing = pool.submit(scene_of, fmu.path)
-        _check_road(asked, fmu.path, ROAD in aliases.names(variables.names))
-        if ROAD not in aliases.names(variables.names):
+        _check_road(asked, fmu.path, ROAD in source.called(variables.names))
+        if ROAD not in source.called(variables.names):
             world = None
         else:
             world = _wanted_world(asked, tell) if ahead is None else ahead.result()
         scene = drawing.result()
     if world is None:
         world = no_world([] if scene is None else scene["roads"])
-    settings = _settings(asked, aliases, variables, world)
-    inputs, outputs = _names(variables, aliases, "input"), _names(variables, aliases, "output")
+    settings = _settings(asked, source, variables, world)
+    inputs = source.called(_names(variables, "input"))
+    outputs = source.outputs(_names(variables, "output"))
     words = not_drivable(fmu.path, inputs, outputs, scene is not None)
     if words:
         tell(words)
     for item in [] if scene is None else scene["missing"]:
         tell(f"{item['name']} is not drawn: {item['why'].rstrip('.')}.")
     return Prepared(
-        fmu, description, variables, aliases, settings, world, None if scene is None else scene | {"roads": []}
+        fmu, description, variables, source, settings, world, None if scene is None else scene | {"roads": []}
     )
 
 
-def _names(variables: Variables, aliases: Aliases, causality: str) -> tuple[str, ...]:
-    """Our names of the variables of a causality."""
-    names = aliases.names([name for name in variables.names if variables[name].causality == causality])
-    return (*names, *(d.ours for d in aliases.derived)) if causality == "output" else names
+def _names(variables: Variables, causality: str) -> list[str]:
+    return [name for name in variables.names if variables[name].causality == causality]
 
 
 def _check_road(asked: Asked, path: Path, reads: bool) -> None:
@@ -159,7 +157,7 @@ def _wanted_world(asked: Asked, tell: Callable[[str], None]) -> World | None:
         return None
 
 
-def _settings(asked: Asked, aliases: Aliases, variables: Variables, world: World) -> Settings:
+def _settings(asked: Asked, source: FmuSource, variables: Variables, world: World) -> Settings:
     """What is set: the world, the place, the manoeuvre, then what the user says."""
     start: dict[str, Value] = {} if world.road is None else {ROAD: str(world.road)}
     places = world.places()
@@ -169,7 +167,7 @@ def _settings(asked: Asked, aliases: Aliases, variables: Variables, world: World
     place = asked.place if asked.place is not None else next(iter(places), None)
     if place is not None:
         start |= places[place]
-    start = {name: value for name, value in aliases.values(start).items() if name in variables.names}
+    start = {name: value for name, value in source.theirs(start).items() if name in variables.names}
     settings = Settings(variables)
     if ITERATIONS in variables.names:
         settings.add_numbers({ITERATIONS: _MOST_ITERATIONS}, "real time")

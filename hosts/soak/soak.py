@@ -19,8 +19,9 @@ from ali3.files import check_writable, make_folder, write_text
 from ali3.isolated import Lost
 from hosts.common.errors import HostError
 from hosts.common.options import wishes
-from hosts.experiment.experiment import Experiment, Kept, tell_kept
+from hosts.experiment.experiment import Experiment
 from hosts.experiment.run_key import run_key
+from hosts.experiment.store import Kept, tell_kept
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_file import fmu_file
 from hosts.fmu.own_process import files_of

@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 from ali3.columns import some_of
 from ali3.cores import available_cores
 from ali3.errors import FileError
-from ali3.locks import locked
+from ali3.isolated import Lost
 from ali3.reading import is_file, is_folder
 from hosts.common.errors import HostError
 from hosts.experiment.experiment import Runner
+from hosts.experiment.store import Kept
 from hosts.measures.limits import limits_record
 from hosts.study.counts import Counts, duration
 from hosts.study.folder import (
@@ -34,7 +35,7 @@ from hosts.study.folder import (
     read_record,
 )
 from hosts.study.one_run import experiment_of, outcome_of, tell_start
-from hosts.study.outcome_store import OutcomeStore
+from hosts.study.outcome_table import OutcomeTable, Row
 from hosts.study.parts import forget_rows, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.study_file import StudyFile, read_study_file
@@ -84,8 +85,7 @@ def run_study(
         plan = with_columns(plan, {n: u for n, u in before["measures"].items() if n not in plan.work.columns})
         check_same(folder, before, plan.record)
         plan = _with_limits(plan, study)
-    busy = f"Another program runs a study in {folder}; wait for it, or give another --out."
-    with nullcontext() if dry else locked(folder, busy):
+    with nullcontext() if dry else Kept[Row](folder, Row, "runs a study") as kept:
         if before is not None and not dry:
             from hosts.study.damage import set_damaged_aside
 
@@ -101,7 +101,7 @@ def run_study(
         plan = _with_limits(with_columns(plan, trial.columns), study)
         plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
         _print_plan(plan, trial, folder, scheduler, workers)
-        return None if dry else _run(plan, trial, folder, content, scheduler, workers, again)
+        return None if kept is None else _run(plan, trial, folder, content, scheduler, workers, again, kept)
 
 
 def _before(folder: Path) -> dict[str, Any] | None:
@@ -179,7 +179,14 @@ def _size(count: float) -> str:
 
 
 def _run(
-    plan: Plan, trial: Trial, folder: Path, content: bytes, scheduler: str | None, workers: int | None, again: bool
+    plan: Plan,
+    trial: Trial,
+    folder: Path,
+    content: bytes,
+    scheduler: str | None,
+    workers: int | None,
+    again: bool,
+    kept: Kept[Row],
 ) -> Ended:
     record = read_record(folder)
     if record is None:
@@ -189,19 +196,18 @@ def _run(
     else:
         check_same(folder, record, plan.record)
         record = keep_limits(folder, record, plan.record["limits"], content)
-    with OutcomeStore(folder, record, plan) as store:
-        store.recover()
-        if again:
-            failed = forget_rows(folder, record, _has_not_failed)
-            print(f"{failed} failed runs are made again")
-        done = runs_done(folder, record)
-        before = int(np.count_nonzero(done))
-        if before:
-            print(f"{before} of {plan.runs} runs are there", flush=True)
-            _check_space(bytes_of(plan) * (plan.runs - before) / plan.runs, folder)
-        if before == plan.runs:
-            return Ended(folder, True, 0)
-        return _make(folder, record, store, _outcomes(plan, trial, done, scheduler, workers), scheduler)
+    kept.into(OutcomeTable(folder, record, plan))
+    if again:
+        failed = forget_rows(folder, record, _has_not_failed)
+        print(f"{failed} failed runs are made again")
+    done = runs_done(folder, record)
+    before = int(np.count_nonzero(done))
+    if before:
+        print(f"{before} of {plan.runs} runs are there", flush=True)
+        _check_space(bytes_of(plan) * (plan.runs - before) / plan.runs, folder)
+    if before == plan.runs:
+        return Ended(folder, True, 0)
+    return _make(folder, record, kept, _outcomes(plan, trial, done, scheduler, workers), scheduler)
 
 
 def _has_not_failed(table: Any) -> list[bool]:
@@ -220,8 +226,8 @@ def _check_space(needed: float, folder: Path) -> None:
 def _make(
     folder: Path,
     record: dict[str, Any],
-    store: OutcomeStore,
-    outcomes: Generator[tuple[Run, Outcome]],
+    kept: Kept[Row],
+    outcomes: Generator[Row],
     scheduler: str | None,
 ) -> Ended:
     begin, lost, counts = clock.monotonic(), False, Counts()
@@ -229,14 +235,14 @@ def _make(
         with closing(outcomes):
             try:
                 for run, outcome in outcomes:
-                    store.add(run, outcome)
+                    kept.add(str(run.index), "", (run, outcome))
                     counts.add(outcome)
             except FileError:
                 raise
             except BaseException:
-                store.flush()
+                kept.write()
                 raise
-        store.flush()
+        kept.write()
     except KeyboardInterrupt:
         print(_kept(folder, record), file=sys.stderr)
         raise
@@ -271,7 +277,7 @@ def _make(
 
 def _outcomes(
     plan: Plan, trial: Trial, done: NDArray[np.bool_], scheduler: str | None, workers: int | None
-) -> Generator[tuple[Run, Outcome]]:
+) -> Generator[Row]:
     """Make the runs that are not done, on a cluster or in processes of this machine."""
     work, before = plan.work, int(np.count_nonzero(done))
     experiment, runs = experiment_of(work, plan.fmu), missing(plan, done)
@@ -282,10 +288,14 @@ def _outcomes(
         else:
             from hosts.experiment.cluster import connected
 
-            runner = on_cluster(held.enter_context(connected(scheduler)), plan, trial, plan.runs - before)
+            client = held.enter_context(connected(scheduler))
+            runner = held.enter_context(on_cluster(client, plan, trial, plan.runs - before))
         made = held.enter_context(closing(experiment.results(runs, runner, whole=plan.runs, before=before)))
         for _, run, result in made:
-            yield run, outcome_of(work, result)
+            outcome = outcome_of(work, result)
+            if scheduler is not None and isinstance(result, Lost):
+                print(f"note: Run {run.index} failed. {outcome.reason}", file=sys.stderr)
+            yield run, outcome
 
 
 def missing(plan: Plan, done: NDArray[np.bool_]) -> Generator[Run]:
@@ -304,7 +314,7 @@ def on_cluster(client: Any, plan: Plan, trial: Trial, left: int) -> ClusterRuns[
     from hosts.experiment.cluster_worker import Brought
 
     work = plan.work
-    brought = Brought(plan.key, work.fmu, work.sha256, work.program, partial(experiment_of, work))
+    brought = Brought(plan.key, work.fmu.path.name, work.sha256, work.program, partial(experiment_of, work))
     bring(client, brought, plan.fmu)
     bytes_a_run = max(8 * job.samples * len(work.signals) for job in work.jobs) + 1
     size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))

@@ -24,7 +24,7 @@ from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.driving.pilots.pilot import ACTS
 from hosts.driving.run_checks import check_columns, communication_step, steps_of
 from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.fmu_source import FmuSource
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.study.study_file import ManoeuvreEntry, StudyFile
 
@@ -82,14 +82,13 @@ def checked_test(name: str, given: Mapping[str, float], fmu: SimulatedFmu, where
 
 def performed(
     job: Job,
-    path: Path,
     name: str,
-    names: Aliases,
+    fmu: FmuSource,
     values: Mapping[str, Value],
 ) -> TestRecord:
     """What the test of a job has yielded. `name`: of the FMU in messages."""
     step = None if math.isnan(job.step) else job.step
-    car = TestedCar(name, path, names, {**job.start, **values}, step)
+    car = TestedCar(name, fmu, {**job.start, **values}, step)
     return perform(standard_test(job.test), car, job.settings)
 
 

@@ -24,7 +24,7 @@ from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.result import Result
 from hosts.experiment.experiment import Experiment
-from hosts.fmu.fmu_source import FmuSource, LoadedFmu
+from hosts.fmu.fmu_source import LoadedFmu
 from hosts.fmu.own_process import files_of
 from hosts.measures.measure import Measure
 from hosts.study.jobs import Job, performed
@@ -42,8 +42,8 @@ class Bench:
     """An FMU on which runs are made one after the other, in one instance where that gives the same bits."""
 
     def __init__(self, work: Work, path: Path) -> None:
-        self._work, self._path = work, path
-        self._fmu = LoadedFmu(FmuSource(path, work.names))
+        self._work, self._source = work, work.fmu.at(path)
+        self._fmu = LoadedFmu(self._source)
 
     def close(self) -> None:
         """Free the instance."""
@@ -88,7 +88,7 @@ class Bench:
         return outcome
 
     def _test(self, job: Job, values: Mapping[str, Value]) -> Outcome:
-        record = performed(job, self._path, self._work.fmu, self._work.names, values)
+        record = performed(job, self._work.fmu.path.name, self._source, values)
         outcome = Outcome(simulated=sum(result.simulated for result in record.runs.values()))
         outcome.messages = said(record.notes)
         named = [(column(job, m), m) for m in record.measures if not job.measures or m.name in job.measures]

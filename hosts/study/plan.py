@@ -15,11 +15,11 @@ from ali3.near_names import did_you_mean
 from ali3.reading import is_file, read_bytes
 from hosts.common.errors import HostError
 from hosts.common.program import program_digest, versions
+from hosts.driving.manoeuvre import digest as manoeuvre_digest
 from hosts.driving.simulated_fmu import SimulatedFmu
-from hosts.fmu.aliased_fmu import AliasedFmu, seen_through
-from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.aliases.of_file import aliases_of
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.fmu_source import FmuSource
+from hosts.fmu.named_fmu import NamedFmu
 from hosts.fmu.variables import Variable
 from hosts.study.folder import fmu_of_folder
 from hosts.study.jobs import Job, jobs_of
@@ -35,13 +35,13 @@ OWN_COLUMNS = (
 )
 
 
-def aliases_beside(name: str, file: Path, fmu: Fmu) -> Aliases:
-    """The aliases that a study file names: a file beside it, else one of the package.
+def source_beside(name: str | None, file: Path, fmu: Fmu) -> FmuSource:
+    """The FMU under the names that a study file asks for: of an alias file beside it, else of one of the package.
 
     Raises `HostError`: the file is not right, or is none for this FMU.
     """
-    beside = file.parent / name
-    return aliases_of(beside if is_file(beside) else name, fmu.table)
+    beside = None if name is None else file.parent / name
+    return FmuSource.named(fmu.path, fmu.table, beside if beside is not None and is_file(beside) else name)
 
 
 def renamed_variable(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:
@@ -49,7 +49,7 @@ def renamed_variable(fmu: SimulatedFmu, name: str, where: str) -> Variable | Non
 
     Raises `HostError`: it is no parameter or input.
     """
-    if not isinstance(fmu, AliasedFmu) or name not in fmu.table:
+    if not isinstance(fmu, NamedFmu) or name not in fmu.table:
         return None
     found = fmu.table[name]
     if found.may_be_set:
@@ -63,8 +63,7 @@ class PlannedRuns:
 
     fmu: SimulatedFmu
     """Under our names, where there is an alias file."""
-    names: Aliases
-    """Ours for its variables."""
+    source: FmuSource
     points: Points
     parameters: dict[str, Any]
     """A record of each parameter by its name."""
@@ -78,10 +77,10 @@ def planned_runs(study: StudyFile, file: Path, opened: Fmu) -> PlannedRuns:
     Raises `HostError`: an unknown parameter, a value out of range with its row, an empty grid, a manoeuvre that
     overwrites a parameter.
     """
-    names = Aliases() if study.aliases is None else aliases_beside(study.aliases, file, opened)
-    fmu: SimulatedFmu = seen_through(opened, names)
+    source = source_beside(study.aliases, file, opened)
+    fmu: SimulatedFmu = source.seen(opened)
     points, parameters = _points(study, file, opened, fmu)
-    return PlannedRuns(fmu, names, points, parameters, jobs_of(study, file, fmu, list(parameters)))
+    return PlannedRuns(fmu, source, points, parameters, jobs_of(study, file, fmu, list(parameters)))
 
 
 def runs_of_folder(folder: Path, record: dict[str, Any]) -> tuple[StudyFile, PlannedRuns]:
@@ -175,7 +174,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         guid, model = opened.description.guid, opened.description.modelName
     _check_names(file, [*parameters, *columns])
     work = Work(
-        fmu_path.name,
+        runs.source,
         guid,
         hashlib.sha256(content).hexdigest(),
         program_digest(),
@@ -185,7 +184,6 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         tuple(columns),
         tuple(signals),
         study.sampling.seed,
-        runs.names,
         time_limit=study.time_limit,
     )
     known = {name: units[name] for name in (*parameters, *signals)}
@@ -206,7 +204,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         "measures": dict(columns),
         "measured": {m.name: m.digest for m in measures},
         "signals": study.signals.model_dump() if study.signals else None,
-        "aliases": hashlib.sha256(repr(runs.names).encode()).hexdigest() if study.aliases else None,
+        "aliases": runs.source.digest if study.aliases else None,
         "points": points.count,
         "runs": points.count * len(jobs),
         "points_sha256": digest(points),
@@ -227,14 +225,9 @@ def _job_record(entry: ManoeuvreEntry, job: Job) -> dict[str, Any]:
 
 def job_digest(job: Job) -> str:
     """A hash of all that a manoeuvre does, tables and states included."""
-    manoeuvre = job.manoeuvre
-    parts = [repr((job.test, job.settings, job.start, job.step, job.every, job.samples)).encode()]
-    if manoeuvre is not None:
-        once = manoeuvre.stop_time, manoeuvre.start, manoeuvre.driver, manoeuvre.state_time, manoeuvre.find_throttle
-        parts += [repr(once).encode()]
-        parts += [manoeuvre.time.tobytes(), manoeuvre.state or b""]
-        parts += [part for name, values in manoeuvre.inputs.items() for part in (name.encode(), values.tobytes())]
-    return hashlib.sha256(b"\n".join(parts)).hexdigest()
+    driven = "" if job.manoeuvre is None else manoeuvre_digest(job.manoeuvre)
+    told = job.test, job.settings, job.start, job.step, job.every, job.samples, driven
+    return hashlib.sha256(repr(told).encode()).hexdigest()
 
 
 def _signals(study: StudyFile, file: Path, fmu: SimulatedFmu) -> list[str]:

@@ -332,7 +332,7 @@ def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Pa
     Without entries there is no file. Returned is what is no parameter.
     """
     values: dict[str, Any] = {**study.start, by: value}
-    values = plan.work.names.values(values)
+    values = plan.work.fmu.theirs(values)
     description = described(plan.fmu)
     whole = parameter_set_of(Variables(description), description.modelName, values)
     entries = [entry for entry in whole.entries if entry.name in values]

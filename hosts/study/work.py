@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
-from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.fmu_source import FmuSource
 from hosts.study.jobs import Job
 
 if TYPE_CHECKING:
@@ -28,8 +28,8 @@ MISSING = ", "
 class Work:
     """A study for a worker."""
 
-    fmu: str
-    """File name of the FMU."""
+    fmu: FmuSource
+    """Workers have a copy of it."""
     guid: str
     sha256: str
     program: str
@@ -42,8 +42,6 @@ class Work:
     signals: tuple[str, ...]
     seed: int = 0
     """Of the study."""
-    names: Aliases = field(default_factory=Aliases)
-    """Ours for the variables of the FMU."""
     reuse: bool = False
     """Whether an instance of the FMU is used again after a reset."""
     time_limit: float | None = None

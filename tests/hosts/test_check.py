@@ -117,7 +117,7 @@ def test_it_checks_with_what_is_set(
         seen.append(Instance(subject).start().run(5))
     assert seen[0] != seen[1]
     assert main([*command, "--set", "spring.damping=90"]) == 2
-    assert "--set: 'spring.damping' is 90 N.s/m; its range is 0 to 20 N.s/m." in capfd.readouterr().err
+    assert "--set: 'spring.damping' is 90 N·s/m; its range is 0 to 20 N·s/m." in capfd.readouterr().err
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no limit of memory")

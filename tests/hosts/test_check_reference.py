@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import math
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,7 @@ from hosts.check.command import main
 from hosts.check.deviations import deviations
 from hosts.check.reference import in_order
 from hosts.driving.result import Result
+from hosts.driving.run_with_bar import runs_with_bar
 from hosts.run.command import main as run_main
 from tests.in_process import run
 
@@ -85,6 +86,35 @@ def test_what_drives_it_in_place_of_the_table_does_so_at_the_step_of_the_table(f
     done = run(main, fmu, "-m", given, "--reference", tmp_path / "tuned_given.csv", "--bound", "*=1e-6")
     assert done.returncode == 0, done.stdout + done.stderr
     assert "in steps of 0.02 s" in done.stdout
+
+
+def test_a_stopped_check_of_a_folder_goes_on_with_the_tables_that_are_left(
+    fmu: Path, result: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "tables"
+    folder.mkdir()
+    for name in "abc":
+        for suffix in (".csv", ".json"):
+            shutil.copyfile(result.with_suffix(suffix), folder / f"{name}{suffix}")
+    command = main, fmu, "--reference", folder, "--out", tmp_path / "out", "--jobs", 1
+    driven = list[int]()
+
+    def stopped(fmu: object, drives: Sequence[object], jobs: int) -> Generator[object]:
+        driven.append(len(drives))
+        for made in runs_with_bar(fmu, drives, jobs):  # type: ignore[arg-type]
+            yield made
+            if len(driven) == 1:
+                raise KeyboardInterrupt
+
+    monkeypatch.setattr("hosts.check.reference.runs_with_bar", stopped)
+    assert run(*command).returncode == 130
+    done = run(*command)
+    assert (done.returncode, driven) == (0, [3, 2])
+    assert done.stdout.startswith("1 of 3 tables are there; --again makes them again.\n")
+    told = [line for line in done.stdout.splitlines() if " against " in line]
+    assert [Path(line.split(" against ")[1].split(", ")[0]).name for line in told] == ["a.csv", "b.csv", "c.csv"]
+    assert "are there" not in run(*command).stdout  # a check that came to its end is made anew
+    assert driven == [3, 2, 3]
 
 
 def test_tables_are_told_in_their_order_whichever_is_done_first() -> None:

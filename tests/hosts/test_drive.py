@@ -139,8 +139,8 @@ def test_messages_of_the_fmu_are_shown(fmus: dict[str, Path], tmp_path: Path) ->
     (tmp_path / "hard.csv").write_text('"time","torque"\n0,0\n1,90\n')
     done = drive(fmus["motor_pendulum"], "-m", tmp_path / "hard.csv", "--out", tmp_path)
     assert done.returncode == 2
-    assert "that reaches 90 N.m in row 2" in done.stderr
-    assert "the range of the FMU's input is -20 to 20 N.m" in done.stderr
+    assert "that reaches 90 N·m in row 2" in done.stderr
+    assert "the range of the FMU's input is -20 to 20 N·m" in done.stderr
 
 
 def test_no_fmu_tells_how_to_build_it(turn: Path, tmp_path: Path) -> None:

@@ -25,6 +25,7 @@ from hosts.driving.pilots.fixed_steering import FixedSteering
 from hosts.driving.result import Result
 from hosts.driving.run_with_bar import run_with_bar
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.fmu_source import FmuSource
 from hosts.view.view_sources import _with_marks
 
 TIME = np.arange(0.0, 15.01, 0.01)
@@ -69,7 +70,7 @@ def test_runs_that_are_looked_at_have_their_marks(prototype_fmu: Path) -> None:
         fmu.reset()
         assert run(fmu, replace(turn, stop_time=0.1), 0.01).marks == []
     assert [mark["kind"] for mark in shown.marks] == ["circle"]
-    tested = TestedCar("prototype", prototype_fmu, step=0.01).drive(replace(turn, stop_time=0.1), pilot)
+    tested = TestedCar("prototype", FmuSource(prototype_fmu), step=0.01).drive(replace(turn, stop_time=0.1), pilot)
     assert tested.marks == pilot.marks != []
 
 

@@ -272,7 +272,7 @@ def test_wrong_wishes(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture
     fmu = changed(tuned, tmp_path, same)
     for more, words in (
         (("--set", "spring.mass=1"), "'spring.mass' is a constant"),
-        (("--set", "spring.damping=50"), "its range is 0 to 20 N.s/m"),
+        (("--set", "spring.damping=50"), "its range is 0 to 20 N·s/m"),
         (("--set", "spring.dumping=5"), "did you mean 'spring.damping'"),
         (("--step", "0"), "The step is 0 s; it must be positive"),
         (("--plot", "bob.z"), "'bob.z' is no input or output of Tuned"),

@@ -354,7 +354,7 @@ def test_the_command_line_wins_over_the_set_and_the_set_over_the_manoeuvre(
     printed = capsys.readouterr().out
     assert "set.ssv           3 values, 2 of them other than in the FMU" in printed
     assert "--set replaces 200 N/m of set.ssv" in printed
-    assert "set.ssv replaces 5 N.s/m of start of pull" in printed
+    assert "set.ssv replaces 5 N·s/m of start of pull" in printed
     assert "4 N of --set has no effect: it is a column of the manoeuvre pull" in printed
     assert "100 -> 300 N/m (--set)" in printed
     record = json.loads((tmp_path / "tuned_pull.json").read_text())
@@ -374,7 +374,7 @@ def test_what_does_nothing_is_told(tuned: Path, file: Path, tmp_path: Path, caps
         assert run([str(tuned), "--parameters", str(file), "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
         assert words in capsys.readouterr().out
     assert run([str(tuned), "--set", "spring.damping=1", "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
-    assert "1 N.s/m as in the FMU (--set)" in capsys.readouterr().out
+    assert "1 N·s/m as in the FMU (--set)" in capsys.readouterr().out
     twice = ["--set", "spring.damping=1", "--set", "spring.damping=2"]
     assert run([str(tuned), *twice, "--out", str(tmp_path)]) == 2
     assert "--set: 'spring.damping' is given as 1 and as 2; give it once" in capsys.readouterr().err
@@ -439,7 +439,7 @@ def test_every_host_says_the_same_of_a_wrong_set(
     command = check if "--show-parameters" in more else run
     assert command([str(tuned), *more, "--parameters", str(file)]) == 2
     said = capsys.readouterr().err
-    assert said == "error: set.ssv: 'spring.damping' is 200 N.s/m; its range is 0 to 20 N.s/m.\n"
+    assert said == "error: set.ssv: 'spring.damping' is 200 N·s/m; its range is 0 to 20 N·s/m.\n"
 
 
 @pytest.mark.parametrize(

@@ -33,7 +33,7 @@ class Slider:
     """v' = push throttle - rolling - drag v2 - turn steering2, what the loop needs of an FMU; engines lag by 0.2 s."""
 
     def __init__(self, push: float = PUSH, refused: float = 1e9) -> None:
-        self.aliases = None
+        self.derived = ()
         self.path, self.messages, self.follows_slopes = Path("slider.fmu"), list[str](), False
         self.tunable, self.push, self.refused, self.resets, self.starts = list[str](), push, refused, 0, 0
         self._names = {"input": ["steering", "throttle"], "output": ["speed"], "parameter": ["initial.speed"]}

@@ -44,7 +44,7 @@ def _facts(car: TestedCar) -> dict[str, Content]:
         model, guid = told.modelName or NONE, told.guid or NONE
         tool = ", ".join(filter(None, (told.generationTool, told.generationDateAndTime))) or NONE
         step = f"{with_unit(default_step(told) if car.step is None else car.step, 's')}"
-    names = len(car.aliases.aliases) + len(car.aliases.derived)
+    names = car.fmu.count
     return {
         "file": car.path.name,
         "model": model,
@@ -66,7 +66,7 @@ def _changed(cars: Sequence[TestedCar]) -> list[list[Content]]:
             continue
         texts = {}
         for ours, value in car.start.items():
-            theirs, number = next(iter(car.aliases.values({ours: value}).items()))
+            theirs, number = next(iter(car.fmu.theirs({ours: value}).items()))
             texts[ours] = _as_set(variables, theirs, number)
         by_car.append(texts)
     names = list(dict.fromkeys(n for texts in by_car for n in texts))

@@ -18,6 +18,7 @@ from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import find_aliases
 from hosts.fmu.fmu import described
+from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.variables import Variables
 from hosts.run.command import main as run
@@ -47,7 +48,7 @@ def driven(fmu: Path, names: str | None) -> dict[str, np.ndarray]:
         "brake": 0.2 * np.maximum(time - 2.0, 0.0),
     }
     turn = Manoeuvre("turn", time=time, inputs=inputs, start={"initial.speed": 15.0}, stop_time=3.0)
-    record = TestedCar("a car", fmu, aliases, step=0.01).drive(turn)
+    record = TestedCar("a car", FmuSource(fmu, aliases), step=0.01).drive(turn)
     return {name: record[name] for name in NAMES}
 
 
@@ -83,7 +84,7 @@ def ported(fmu: Path, names: str | None) -> Result:
             f"wheel_{w}.road_height": 0.01 * (1.0 - np.cos(4.0 * time + k)),
         }
     turn = Manoeuvre("turn", time=time, inputs=inputs, start={"initial.speed": 12.0}, stop_time=2.0)
-    return TestedCar("a car", fmu, aliases, step=0.01).drive(turn)
+    return TestedCar("a car", FmuSource(fmu, aliases), step=0.01).drive(turn)
 
 
 @pytest.mark.slow
@@ -135,7 +136,7 @@ def test_runs_of_the_catalogue_are_drawn_as_those_of_other_names(
 ) -> None:
     theirs = renamed_fmu("carsim")
     aliases = find_aliases("carsim", Variables(described(theirs)))
-    car = TestedCar("a car", theirs, aliases, start={"initial.speed": 0.0, "steering": 0.5})
+    car = TestedCar("a car", FmuSource(theirs, aliases), start={"initial.speed": 0.0, "steering": 0.5})
     task = Task("drop", car, {}, tmp_path)
     record = do(task, lambda part: None)
     assert isinstance(record, TestRecord)

@@ -14,6 +14,7 @@ from hosts.common.errors import HostError
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import find_aliases
 from hosts.fmu.fmu import described
+from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.variables import Variables
 
 CONSTANTS = {
@@ -36,7 +37,7 @@ def step_steer(foreign_fmu):
         fmu = foreign_fmu(style)
         told = Variables(described(fmu))
         aliases = Aliases(constants=CONSTANTS) if file is None else find_aliases(file, told)
-        car = TestedCar(style, fmu, aliases, step=0.01)
+        car = TestedCar(style, FmuSource(fmu, aliases), step=0.01)
         assert missing_for(test, car, {s.name: s.value for s in test.settings}) is None
         return {m.name: m.value for m in perform(test, car).measures}
 

@@ -18,6 +18,7 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import find_aliases
 from hosts.fmu.fmu import described
+from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.variables import Variables
 
 CONSTANTS = """
@@ -64,7 +65,7 @@ def manoeuvre():
 
 @pytest.fixture(scope="module")
 def ours(foreign_fmu):
-    return TestedCar("ours", foreign_fmu("ours"), step=0.01).drive(manoeuvre())
+    return TestedCar("ours", FmuSource(foreign_fmu("ours")), step=0.01).drive(manoeuvre())
 
 
 @pytest.fixture
@@ -79,7 +80,7 @@ def alias_file(tmp_path):
 
 def car_of(fmu, file):
     aliases = Aliases() if file is None else find_aliases(file, Variables(described(fmu)))
-    return TestedCar(fmu.stem, fmu, aliases, step=0.01)
+    return TestedCar(fmu.stem, FmuSource(fmu, aliases), step=0.01)
 
 
 def largest_errors(ours, theirs):

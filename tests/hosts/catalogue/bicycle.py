@@ -15,6 +15,7 @@ from hosts.catalogue.car import CarFacts, TestedCar
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.result import Result
+from hosts.fmu.fmu_source import FmuSource
 
 MASS, INERTIA, FRONT, REAR = 1500.0, 2500.0, 1.2, 1.5
 STIFF_FRONT, STIFF_REAR, RATIO = 90e3, 110e3, 16.0
@@ -41,7 +42,7 @@ class BicycleCar(TestedCar):
     """The car."""
 
     label: str = "bicycle"
-    path: Path = Path("bicycle.fmu")
+    fmu: FmuSource = field(default_factory=lambda: FmuSource(Path("bicycle.fmu")))
     """None is read."""
     step: float | None = 0.01
     steered_by: str = "steering_wheel_angle_demand"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from hosts.catalogue.car import CarFacts, Pilot, TestedCar
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
+from hosts.fmu.fmu_source import FmuSource
 
 INPUTS = ("steering_wheel_angle_demand", "throttle", "brake")
 OUTPUTS = (
@@ -28,7 +29,7 @@ class BicycleCar(TestedCar):
     """
 
     label: str = "bicycle"
-    path: Path = Path("bicycle.fmu")
+    fmu: FmuSource = field(default_factory=lambda: FmuSource(Path("bicycle.fmu")))
     step: float = 0.01
     mass: float = 1200.0
     inertia: float = 1600.0

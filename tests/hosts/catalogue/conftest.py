@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from hosts.catalogue.car import TestedCar
+from hosts.fmu.fmu_source import FmuSource
 
 
 @pytest.fixture(scope="session")
 def prototype(prototype_fmu: Path) -> TestedCar:
-    return TestedCar("prototype", prototype_fmu)
+    return TestedCar("prototype", FmuSource(prototype_fmu))

@@ -8,6 +8,7 @@ import numpy as np
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import Clause, Line, Plot, Setting, Standard, StandardTest, TestRecord
+from hosts.fmu.fmu_source import FmuSource
 from hosts.measures.measure import Limit, Measure
 
 EVIL = '<script>alert("x")</script> & "Ä"'
@@ -61,7 +62,7 @@ def synthetic(fmu: Path, cars: int = 3, tests: int = 10, points: int = 20_000):
     """Arguments of a report."""
     labels = ["as built", EVIL, "with $stiff$ springs", "fourth", "fifth"][:cars]
     starts = [{}, {"front.spring.stiffness": 15_000.0}, {"initial.x": 0.0}, {}, {}]
-    the_cars = [TestedCar(label, fmu, start=start) for label, start in zip(labels, starts, strict=False)]
+    the_cars = [TestedCar(label, FmuSource(fmu), start=start) for label, start in zip(labels, starts, strict=False)]
     the_tests = [synthetic_test(f"test_{k}", f"Test {k} of steering", (standard(),)) for k in range(tests)]
     records = {t.name: {label: record(k, points) for k, label in enumerate(labels)} for t in the_tests}
     if tests > 1:

@@ -15,7 +15,8 @@ from hosts.catalogue.perform import settings_of_test
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.task import Task, do, write_runs
-from hosts.experiment.experiment import Kept
+from hosts.experiment.store import Kept
+from hosts.fmu.fmu_source import FmuSource
 
 SETTINGS = {"height": 0.05, "duration": 4.0}
 
@@ -30,7 +31,9 @@ def test_what_is_kept_is_what_was_done(
     prototype_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     drop = standard_test("drop")
-    task = Task("drop", TestedCar(prototype_fmu.stem, prototype_fmu), settings_of_test(drop, SETTINGS), tmp_path)
+    task = Task(
+        "drop", TestedCar(prototype_fmu.stem, FmuSource(prototype_fmu)), settings_of_test(drop, SETTINGS), tmp_path
+    )
     assert kept(task, tmp_path) is None
     record = do(task, lambda part: None)
     assert isinstance(record, TestRecord)

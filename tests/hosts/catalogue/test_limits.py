@@ -19,7 +19,8 @@ from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import TESTS, standard_test
 from hosts.catalogue.task import Outcome, Task
 from hosts.common.errors import HostError
-from hosts.experiment.experiment import Kept
+from hosts.experiment.store import Kept
+from hosts.fmu.fmu_source import FmuSource
 from hosts.measures.limits import read_limits
 from hosts.measures.measure import Limit, Measure
 
@@ -107,7 +108,9 @@ def test_a_file_without_limits_is_one_sentence(tmp_path: Path, text: str, words:
 def test_the_command_says_which_measure_is_outside(
     prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    task = Task("drop", TestedCar(prototype_fmu.stem, prototype_fmu), settings_of_test(standard_test("drop"), {}))
+    task = Task(
+        "drop", TestedCar(prototype_fmu.stem, FmuSource(prototype_fmu)), settings_of_test(standard_test("drop"), {})
+    )
     with Kept[TestRecord](tmp_path, TestRecord, "does tests") as kept:
         keep(kept, task, record(2001.0))
     file = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}\n"kerb.peak" = {max = 1}').file

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from hosts.catalogue.record import Setting, StandardTest, TestRecord
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.fmu_source import FmuSource
 from tests.hosts.catalogue.bicycle_car import BicycleCar
 
 
@@ -45,7 +47,9 @@ def test_one_of_several_names_suffices() -> None:
     test = replace(TALKING, needs=("speed", "nothing | nowhere"))
     assert "has no nothing or nowhere; where it has" in str(missing_for(test, BicycleCar(), {}))
     aliases = Aliases(missing={"nothing": "The file takes it from X."})
-    assert str(missing_for(test, BicycleCar(aliases=aliases), {})).endswith("; The file takes it from X.")
+    assert str(missing_for(test, BicycleCar(fmu=FmuSource(Path(), aliases)), {})).endswith(
+        "; The file takes it from X."
+    )
 
 
 def test_settings_are_completed_and_checked() -> None:

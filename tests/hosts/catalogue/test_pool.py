@@ -15,6 +15,7 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.task import Task, do, write_runs
 from hosts.experiment.pool import Pool
+from hosts.fmu.fmu_source import FmuSource
 from tests.hosts.catalogue.bicycle_car import BicycleCar
 from tests.hosts.catalogue.crashing_car import CrashingCar, FaultyCar
 
@@ -50,7 +51,7 @@ def test_processes_and_what_they_unpacked_go_with_the_iteration(
 ) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     others = psutil.Process().children()
-    slow = Task("steady_circle", TestedCar("slow", prototype_fmu), {"speed_rise": 0.02})
+    slow = Task("steady_circle", TestedCar("slow", FmuSource(prototype_fmu)), {"speed_rise": 0.02})
     tasks = [slow, Task("steady_circle", FaultyCar(), FAST)]  # type: ignore[arg-type]
     iteration = Pool(do, TestRecord | str, 2).results(tasks)
     assert next(iteration)[0] == 1

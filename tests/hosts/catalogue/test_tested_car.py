@@ -17,6 +17,7 @@ from hosts.driving.pilots.steering import SteeringTable
 from hosts.driving.pilots.together import Together
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Alias, Aliases
+from hosts.fmu.fmu_source import FmuSource
 
 NAMES = {
     "steering": "Driver.Steer",
@@ -45,7 +46,7 @@ def foreign(prototype_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Te
                 content = text.encode()
             new.writestr(item, content)
     aliases = tuple(Alias(ours, theirs, SCALES.get(ours, 1.0)) for ours, theirs in NAMES.items())
-    return TestedCar("foreign", path, Aliases(aliases, {"vehicle.length": 9.0}))
+    return TestedCar("foreign", FmuSource(path, Aliases(aliases, {"vehicle.length": 9.0})))
 
 
 def drive(car: TestedCar, sign: float = 1.0, record_step: float | None = None) -> Result:
@@ -115,7 +116,7 @@ def test_a_pilot_that_asks_for_nothing_is_told(prototype: TestedCar) -> None:
 
 
 def test_start_values_of_the_car_are_set_but_the_test_has_the_last_word(prototype_fmu: Path) -> None:
-    car = TestedCar("slow", prototype_fmu, start={"initial.speed": 3.0, "initial.yaw": 0.5})
+    car = TestedCar("slow", FmuSource(prototype_fmu), start={"initial.speed": 3.0, "initial.yaw": 0.5})
     rest = Manoeuvre("rest", np.zeros(0), {}, 0.01)
     result = car.drive(rest)
     assert result["chassis.yaw"][0] == pytest.approx(0.5)

@@ -17,20 +17,20 @@ from hosts.common.units import unit_definition
 from hosts.compare.log import Log, log_for
 from hosts.compare.log_aliases import Dialect, LogAliases, read_log_aliases
 from hosts.compare.log_file import read_log
-from hosts.fmu.aliased_fmu import AliasedFmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.fmu import Fmu
+from hosts.fmu.named_fmu import NamedFmu
 
 ROWS = 40
 
 
 @pytest.fixture(scope="module")
-def fmu(tuned: Path) -> Iterator[AliasedFmu]:
+def fmu(tuned: Path) -> Iterator[NamedFmu]:
     with Fmu(tuned) as opened:
-        yield AliasedFmu(opened, Aliases())
+        yield NamedFmu(opened, Aliases())
 
 
-def read(fmu: AliasedFmu, folder: Path, text: str, aliases: str = "", encoding: str = "utf-8") -> Log:
+def read(fmu: NamedFmu, folder: Path, text: str, aliases: str = "", encoding: str = "utf-8") -> Log:
     (folder / "log.csv").write_text(text, encoding=encoding)
     (folder / "log.toml").write_text(aliases, encoding="utf-8")
     named = read_log_aliases(folder / "log.toml") if aliases else LogAliases()
@@ -47,13 +47,13 @@ def assert_read(log: Log) -> None:
     assert log.outputs["bob.x"].time == pytest.approx(0.01 * np.arange(ROWS))
 
 
-def test_names_of_the_fmu_need_no_aliases(fmu: AliasedFmu, tmp_path: Path) -> None:
+def test_names_of_the_fmu_need_no_aliases(fmu: NamedFmu, tmp_path: Path) -> None:
     assert_read(read(fmu, tmp_path, "time,pull,bob.x\n" + rows("{t},{f},{x}")))
 
 
 @pytest.mark.parametrize(("used", "told"), [((), 1), (("bob.x",), 1), (("speed",), 0)])
 def test_a_sample_left_out_is_told_of_what_is_used(
-    fmu: AliasedFmu, tmp_path: Path, used: tuple[str, ...], told: int
+    fmu: NamedFmu, tmp_path: Path, used: tuple[str, ...], told: int
 ) -> None:
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012", "0.12,6.0,9.9")
     (tmp_path / "log.csv").write_text(text)
@@ -63,7 +63,7 @@ def test_a_sample_left_out_is_told_of_what_is_used(
 
 
 @pytest.mark.parametrize("second", [0.5 * 12, 30.0])
-def test_an_input_jumps_between_two_rows_of_one_time(fmu: AliasedFmu, tmp_path: Path, second: float) -> None:
+def test_an_input_jumps_between_two_rows_of_one_time(fmu: NamedFmu, tmp_path: Path, second: float) -> None:
     """An output has the first of them; the same value twice is no jump, and one that is no spike."""
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012\n", f"0.12,6.0,0.012\n0.12,{second},0.5\n")
     log = read(fmu, tmp_path, text)
@@ -76,7 +76,7 @@ def test_an_input_jumps_between_two_rows_of_one_time(fmu: AliasedFmu, tmp_path: 
     assert log.inputs["pull"].interval == pytest.approx(0.01)
 
 
-def test_a_sample_that_no_neighbour_supports_is_left_out_and_told(fmu: AliasedFmu, tmp_path: Path) -> None:
+def test_a_sample_that_no_neighbour_supports_is_left_out_and_told(fmu: NamedFmu, tmp_path: Path) -> None:
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.2,10.0,", "0.2,99.0,")
     log = read(fmu, tmp_path, text)
     assert log.inputs["pull"].values == pytest.approx(0.5 * np.delete(np.arange(ROWS), 20))
@@ -84,7 +84,7 @@ def test_a_sample_that_no_neighbour_supports_is_left_out_and_told(fmu: AliasedFm
     assert [note for note in log.notes if "99 N at 0.2 s" in note and note.startswith("1 sample of 'pull' (pull)")]
 
 
-def test_times_of_a_clock_and_over_midnight(fmu: AliasedFmu, tmp_path: Path) -> None:
+def test_times_of_a_clock_and_over_midnight(fmu: NamedFmu, tmp_path: Path) -> None:
     begin, text = 86399.95, "time,pull,bob.x\n"
     for k in range(ROWS):
         t = (begin + 0.01 * k) % 86400.0
@@ -97,7 +97,7 @@ def test_times_of_a_clock_and_over_midnight(fmu: AliasedFmu, tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize(("time", "unit"), [("{t}", ""), ("{ms}", " [ms]")])
-def test_a_heading_that_is_repeated_is_told_by_its_line(fmu: AliasedFmu, tmp_path: Path, time: str, unit: str) -> None:
+def test_a_heading_that_is_repeated_is_told_by_its_line(fmu: NamedFmu, tmp_path: Path, time: str, unit: str) -> None:
     """Empty lines are counted; a word among numbers is told as what it is."""
     heading = f"time{unit},pull,bob.x\n"
     lines = (heading + rows(time + ",{f},{x}")).splitlines()
@@ -116,14 +116,14 @@ def test_a_heading_that_is_repeated_is_told_by_its_line(fmu: AliasedFmu, tmp_pat
 
 
 @pytest.mark.parametrize("form", ["{t} s,{f} N,{x} m", "{t}s;{f}N;{x}m", "{t},{f} N,{x} m"])
-def test_units_behind_numbers_are_told(fmu: AliasedFmu, tmp_path: Path, form: str) -> None:
+def test_units_behind_numbers_are_told(fmu: NamedFmu, tmp_path: Path, form: str) -> None:
     mark = ";" if ";" in form else ","
     text = mark.join(("time", "pull", "bob.x")) + "\n" + rows(form)
     with pytest.raises(HostError, match=r"line 2.*: '0\.0 ?[sN]' has its unit behind its number; .* 'name \[[sN]\]'"):
         read(fmu, tmp_path, text)
 
 
-def test_german_logger(fmu: AliasedFmu, tmp_path: Path) -> None:
+def test_german_logger(fmu: NamedFmu, tmp_path: Path) -> None:
     text = rows("{ms};{f};{x}").replace(".", ",")
     text = text.replace("\n", ";\n")  # many loggers end a row with a delimiter
     aliases = '[time]\nname = "Zeit"\nunit = "ms"\n[signals]\npull = { name = "Kräft" }\n"bob.x" = { name = "Weg" }'
@@ -131,7 +131,7 @@ def test_german_logger(fmu: AliasedFmu, tmp_path: Path) -> None:
     assert_read(read(fmu, tmp_path, heading + text, aliases, "latin-1"))
 
 
-def test_units_of_the_heading_and_of_the_aliases(fmu: AliasedFmu, tmp_path: Path) -> None:
+def test_units_of_the_heading_and_of_the_aliases(fmu: NamedFmu, tmp_path: Path) -> None:
     text = "t [ms]\tF [kN]\tx\n" + rows("{ms}\t{f}\t{x}")
     log = read(fmu, tmp_path, text, '[signals]\npull = "F"\n"bob.x" = { name = "x", unit = "mm" }')
     assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
@@ -139,20 +139,20 @@ def test_units_of_the_heading_and_of_the_aliases(fmu: AliasedFmu, tmp_path: Path
     assert log.outputs["bob.x"].time[-1] == pytest.approx(0.01 * (ROWS - 1))
 
 
-def test_the_line_of_units_may_stand_above_that_of_the_names(fmu: AliasedFmu, tmp_path: Path) -> None:
+def test_the_line_of_units_may_stand_above_that_of_the_names(fmu: NamedFmu, tmp_path: Path) -> None:
     log = read(fmu, tmp_path, "ms,kN,m\ntime,pull,bob.x\n" + rows("{ms},{f},{x}"), "[file]\nunits = 1")
     assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
 
 
 @pytest.mark.parametrize("head", ["# time,pull,bob.x\n# s,kN,m\n", "time,pull,bob.x\n#s,kN,m\n"])
-def test_names_and_units_may_be_comments(fmu: AliasedFmu, tmp_path: Path, head: str) -> None:
+def test_names_and_units_may_be_comments(fmu: NamedFmu, tmp_path: Path, head: str) -> None:
     log = read(fmu, tmp_path, head + rows("{t},{f},{x}"))
     assert log.inputs["pull"].values == pytest.approx(500.0 * np.arange(ROWS))
     remark = read(fmu, tmp_path, "#by,A.,Smith\ntime,pull,bob.x\n" + rows("{t},{f},{x}"))
     assert remark.inputs["pull"].values == pytest.approx(0.5 * np.arange(ROWS))
 
 
-def test_factor_and_offset_are_those_of_other_alias_files(fmu: AliasedFmu, tmp_path: Path) -> None:
+def test_factor_and_offset_are_those_of_other_alias_files(fmu: NamedFmu, tmp_path: Path) -> None:
     """The number in the log is factor * ours + offset, as in the alias file of an FMU."""
     log = read(
         fmu,
@@ -163,7 +163,7 @@ def test_factor_and_offset_are_those_of_other_alias_files(fmu: AliasedFmu, tmp_p
     assert log.outputs["bob.x"].values == pytest.approx((0.001 * np.arange(ROWS) - 1.0) / -2.0 / 100.0)
 
 
-def test_clock_with_factor_offset_and_its_own_column(fmu: AliasedFmu, tmp_path: Path) -> None:
+def test_clock_with_factor_offset_and_its_own_column(fmu: NamedFmu, tmp_path: Path) -> None:
     text = "clock,imu,pull,bob.x\n" + rows("{ms},{t},{f},{x}")
     aliases = (
         '[time]\nname = "clock"\nunit = "s"\nfactor = 1000.0\noffset = -50.0\n'
@@ -173,7 +173,7 @@ def test_clock_with_factor_offset_and_its_own_column(fmu: AliasedFmu, tmp_path: 
 
 
 @pytest.mark.parametrize(("unit", "form"), [("epoch_ms", "{}"), ("iso", "{}")])
-def test_moments(fmu: AliasedFmu, tmp_path: Path, unit: str, form: str) -> None:
+def test_moments(fmu: NamedFmu, tmp_path: Path, unit: str, form: str) -> None:
     moments = pd.Timestamp("2024-05-03T12:00:00") + pd.to_timedelta(10.0 * np.arange(ROWS), unit="ms")
     texts = [str(int(m.timestamp() * 1000)) if unit == "epoch_ms" else m.isoformat() for m in moments]
     lines = [f"{t},{0.5 * k},{0.001 * k}" for k, t in enumerate(texts)]
@@ -181,7 +181,7 @@ def test_moments(fmu: AliasedFmu, tmp_path: Path, unit: str, form: str) -> None:
     assert_read(read(fmu, tmp_path, text, f'[time]\nname = "time"\nunit = "{unit}"\n[signals]\npull = "pull"'))
 
 
-def test_several_rates_leave_cells_empty(fmu: AliasedFmu, tmp_path: Path) -> None:
+def test_several_rates_leave_cells_empty(fmu: NamedFmu, tmp_path: Path) -> None:
     lines = [f"{0.01 * k:.2f},{0.5 * k},{0.001 * k if k % 4 == 0 else ''}" for k in range(ROWS)]
     log = read(fmu, tmp_path, "time,pull,bob.x\n" + "\n".join(lines))
     assert log.outputs["bob.x"].interval == pytest.approx(0.04)
@@ -189,7 +189,7 @@ def test_several_rates_leave_cells_empty(fmu: AliasedFmu, tmp_path: Path) -> Non
     assert len(log.outputs["bob.x"].values) == ROWS // 4
 
 
-def test_parquet_with_units(fmu: AliasedFmu, tmp_path: Path) -> None:
+def test_parquet_with_units(fmu: NamedFmu, tmp_path: Path) -> None:
     k = np.arange(ROWS)
     table = pd.DataFrame({"time": 0.01 * k, "pull": 0.5 * k, "bob.x": 0.001 * k})
     table.to_parquet(tmp_path / "log.parquet")
@@ -228,7 +228,7 @@ def stamped(form: str, shift: float = 0.0) -> str:
     return "\n".join(form.format(stamp.isoformat(timespec="milliseconds"), 0.001 * k) for k, stamp in enumerate(stamps))
 
 
-def test_stamps_with_a_decimal_comma_and_of_two_zones(fmu: AliasedFmu, tmp_path: Path) -> None:
+def test_stamps_with_a_decimal_comma_and_of_two_zones(fmu: NamedFmu, tmp_path: Path) -> None:
     alias = '[signals]\n"bob.x" = "x"\n[time]\nname = "stamp"'
     with_comma = "stamp;x\n" + stamped("{0};{1}").replace("+00:00", "").replace(".", ",").replace("T", " ")
     lines = stamped("{0};{1}").splitlines()
@@ -241,7 +241,7 @@ def test_stamps_with_a_decimal_comma_and_of_two_zones(fmu: AliasedFmu, tmp_path:
 
 @pytest.mark.parametrize(("rate", "jitter"), [(10, 0), (10, 1), (5, 0), (100, 3)])
 def test_a_signal_that_is_repeated_row_by_row_counts_where_it_is_new(
-    fmu: AliasedFmu, tmp_path: Path, rate: int, jitter: int
+    fmu: NamedFmu, tmp_path: Path, rate: int, jitter: int
 ) -> None:
     count, chance = 20 * rate, np.random.default_rng(3)
     new = np.clip(rate * np.arange(20) + chance.integers(-jitter, jitter + 1, 20), 0, None)
@@ -307,7 +307,7 @@ BAD = [
 
 
 @pytest.mark.parametrize(("text", "aliases", "words"), BAD)
-def test_bad_logs_are_told_in_a_sentence(fmu: AliasedFmu, tmp_path: Path, text: str, aliases: str, words: str) -> None:
+def test_bad_logs_are_told_in_a_sentence(fmu: NamedFmu, tmp_path: Path, text: str, aliases: str, words: str) -> None:
     with pytest.raises(HostError) as told:
         read(fmu, tmp_path, text, aliases)
     assert words in str(told.value)
@@ -328,7 +328,7 @@ def test_what_pandas_has_written_besides_does_not_matter(tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("value", ["1e308", "-2e100"])
-def test_what_squares_to_no_number_is_refused_with_its_line(fmu: AliasedFmu, tmp_path: Path, value: str) -> None:
+def test_what_squares_to_no_number_is_refused_with_its_line(fmu: NamedFmu, tmp_path: Path, value: str) -> None:
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}")
     read(fmu, tmp_path, text.replace("0.12,6.0", "0.12,9e99"))
     with pytest.raises(HostError, match=r"line 14, column 'pull': -?[12]e\+\d+ is too large; numbers up to 1e\+100"):

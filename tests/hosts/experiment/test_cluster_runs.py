@@ -2,32 +2,44 @@
 
 from __future__ import annotations
 
+import math
 from concurrent.futures import Future
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from distributed import KilledWorker
 
 from ali3.isolated import Lost
 from hosts.experiment.cluster_runs import WORK, ChunkSize, ClusterRuns
 from hosts.experiment.cluster_worker import Brought
 
 
+class Given(Future[Any]):
+    def cancel(self, msg: str = "") -> bool:
+        return super().cancel()
+
+
 class Client:
-    """Makes each chunk at once; a chunk with an odd task breaks so often. It takes the negative."""
+    """Makes each chunk at once; a chunk with an odd task breaks so often by an error. It takes the negative."""
 
     status = "running"
 
-    def __init__(self, breaks: int = 0) -> None:
-        self.breaks, self.chunks, self.taken = breaks, list[list[int]](), list[str]()
+    def __init__(self, breaks: float = 0, error: Exception | None = None) -> None:
+        self.breaks, self.error, self.chunks, self.taken = (
+            breaks,
+            error or KeyError("gone"),
+            list[list[int]](),
+            list[str](),
+        )
 
     def submit(self, _: object, key: str, tasks: list[int], pure: bool) -> Future[Any]:
         assert (key, pure) == ("key", False)
         self.chunks.append(tasks)
-        future: Future[Any] = Future()
+        future = Given()
         if self.breaks and any(task % 2 for task in tasks):
             self.breaks -= 1
-            future.set_exception(KeyError("gone"))
+            future.set_exception(self.error)
         else:
             future.set_result((0.001 * len(tasks), [-task for task in tasks]))
         return future
@@ -43,8 +55,8 @@ def runs_on(client: Client, count: int, size: ChunkSize) -> ClusterRuns[int, int
 
 def test_every_run_is_sent_once_and_in_order_and_chunks_end_small() -> None:
     client = Client()
-    found = dict(runs_on(client, 25_000, ChunkSize(1e-3, 4)).results(range(25_000)))
-    assert found == {k: -k for k in range(25_000)}
+    with runs_on(client, 25_000, ChunkSize(1e-3, 4)) as runs:
+        assert dict(runs.results(range(25_000))) == {k: -k for k in range(25_000)}
     assert [task for chunk in client.chunks for task in chunk] == list(range(25_000))
     assert [len(client.chunks[0]), len(client.chunks[-1])] == [2000, 1]
     assert client.taken == ["ali3-key"]
@@ -60,6 +72,25 @@ def test_a_chunk_that_breaks_is_sent_once_more(breaks: int) -> None:
         assert found[1] == -1
     else:
         assert found[1] == Lost("has failed on its worker: KeyError: 'gone'")
+
+
+def test_a_run_that_ends_its_workers_is_given_up_and_the_others_of_its_chunk_are_made() -> None:
+    """Dask sends a chunk to four workers before it gives it back; alone the run ends four more."""
+    client = Client(math.inf, KilledWorker("task", None, 3))  # type: ignore[arg-type]
+    found = dict(runs_on(client, 4, ChunkSize(0.1, 1)).results([2, 1, 4, 6]))
+    assert client.chunks == [[2, 1], [4], [2], [1], [6]]
+    lost = found.pop(1)
+    assert found == {0: -2, 2: -4, 3: -6}
+    assert isinstance(lost, Lost)
+    assert "was lost with its worker 8 times" in lost.how
+
+
+def test_what_workers_were_given_is_taken_back_where_runs_are_left_early() -> None:
+    client = Client()
+    with runs_on(client, 9, ChunkSize(1.0, 1)) as runs:
+        next(runs.results(range(9)))
+        assert client.taken == []
+    assert client.taken == ["ali3-key"]
 
 
 @pytest.mark.parametrize("seconds", [0.002, 0.1, 30.0])

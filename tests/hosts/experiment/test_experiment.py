@@ -13,7 +13,8 @@ import pytest
 from ali3.errors import FileError
 from ali3.isolated import Lost
 from ali3.processes import store
-from hosts.experiment.experiment import Experiment, Kept, tell_kept
+from hosts.experiment.experiment import Experiment
+from hosts.experiment.store import Kept, tell_kept
 
 
 def half(task: float, tell: Callable[[Any], None]) -> float:

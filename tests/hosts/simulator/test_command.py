@@ -27,6 +27,7 @@ from hosts.driving.wild_driver import WildDriver
 from hosts.fmu import built_fmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import read_aliases
+from hosts.fmu.fmu_source import FmuSource
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.written_tables import ParquetTable
@@ -159,7 +160,7 @@ def test_a_recording_that_cannot_be_finished_is_said_in_the_report(fmus, told, t
 @contextmanager
 def started(fmu, aliases=None, **start):
     with Car(CarSettings(fmu, start, 0.005, priority=False)) as car:
-        yield AliasedCar(car, aliases or Aliases())
+        yield AliasedCar(car, FmuSource(fmu, aliases or Aliases()))
 
 
 def value(car, name):

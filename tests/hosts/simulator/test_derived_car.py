@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.aliases.parse_derived import parse_derived
+from hosts.fmu.fmu_source import FmuSource
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.moments import Moment
 
@@ -38,7 +40,7 @@ class Sledge:
 
 def test_derived_values_come_after_those_of_the_car():
     sledge = Sledge()
-    car = AliasedCar(sledge, ALIASES)
+    car = AliasedCar(sledge, FmuSource(Path(), ALIASES))
     assert car.names == ("steering", "chassis.x", "chassis.vx", "speed")
     assert car.inputs == ("steering",)
     assert set(car.units) == set(car.names)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.fmu.aliases.alias import Aliases
+from hosts.fmu.fmu_source import FmuSource
 from hosts.study.campaign import run_study
 from hosts.study.jobs import Job
 from hosts.study.one_run import Bench
@@ -87,7 +87,7 @@ def test_a_refused_step_is_a_reason(scene_fmu: Callable[..., Path]) -> None:
     fmu = scene_fmu(f"{TESTS / 'fmu' / 'scenes.py'}:reach")
     manoeuvre = Manoeuvre("pull", np.array([0.0, 1.0]), {"pull": np.array([0.0, 10.0])}, 1.0)
     job = Job("pull", manoeuvre, step=0.01, every=10, samples=11)
-    work = Work(fmu.name, "", "", "", (job,), (), (), (), ("bob.x",), Aliases(), reuse=True)
+    work = Work(FmuSource(fmu), "", "", "", (job,), (), (), (), ("bob.x",), reuse=True)
     bench = Bench(work, fmu)
     outcome = bench.run(job, {}, 0)
     assert outcome.status == "failed"

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
 from types import SimpleNamespace
+from typing import TypeAlias
 
 import numpy as np
 import psutil
@@ -26,12 +27,14 @@ from hosts.experiment.cluster_runs import ClusterRuns
 from hosts.experiment.cluster_worker import Brought
 from hosts.experiment.journal import Journal
 from hosts.study.command import main
+from hosts.study.outcome_table import Row
 from hosts.study.parts import part_files
 from hosts.study.store import read_study
 from hosts.study.work import Outcome, Run
 
 ROOT = Path(__file__).parents[3]
 RUNS = 140
+Kept: TypeAlias = tuple[str, Row]
 SLOW = """
 import time
 
@@ -107,7 +110,7 @@ def test_the_command_is_killed(slow_study: Path, tmp_path: Path) -> None:
     process.send_signal(signal.SIGKILL)
     process.communicate()
     before = rows(out)
-    made = len(before) + len(Journal[Outcome](out / "runs" / "journal", Outcome).read())
+    made = len(before) + len(Journal[Kept](out / "done", Kept).read())
     assert 0 < len(before) < RUNS
     assert psutil.wait_procs(children, timeout=30.0)[1] == []  # the workers end with the command
     process = command(slow_study, "--out", out, "--jobs", 2)
@@ -124,14 +127,14 @@ def test_a_kill_loses_only_the_runs_in_hand(
     slow_study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """The command is killed before a part is written: the journal has the runs, which are not made again."""
-    out, journal = tmp_path / "out", tmp_path / "out" / "runs" / "journal"
+    out, journal = tmp_path / "out", tmp_path / "out" / "done"
     process = command(slow_study, "--out", out, "--jobs", 2)
     while not journal.is_file() or journal.stat().st_size < 1000:
         assert process.poll() is None, process.communicate()
         time.sleep(0.01)
     process.kill()
     process.communicate()
-    made = len(Journal[Outcome](journal, Outcome).read()) + len(rows(out))
+    made = len(Journal[Kept](journal, Kept).read()) + len(rows(out))
     assert made > 0
     assert main([str(slow_study), "--out", str(out), "--jobs", "2", "--no-report"]) == 0
     told = capsys.readouterr().out
@@ -274,6 +277,24 @@ def test_ctrl_c_keeps_what_has_come(number: str, name: str, slow_study: Path, tm
     words = f"{len(rows(out))} of {RUNS} runs are written and stay; the same command makes the others."
     assert error.strip().splitlines()[-2:] == [words, f"stopped by {name}"]
     assert 0 < len(rows(out)) < RUNS
+
+
+@pytest.mark.slow
+def test_ctrl_c_leaves_nothing_on_workers_that_stay(slow_study: Path, tmp_path: Path, scheduler: str) -> None:
+    process = command(slow_study, "--out", tmp_path / "out", "--scheduler", scheduler)
+    wait_for_part(tmp_path / "out", process, 1)
+    with Client(scheduler, set_as_default=False) as client:
+
+        def given() -> list[str]:
+            names = client.run_on_scheduler(lambda dask_scheduler: list(dask_scheduler.worker_plugins))
+            names += [name for of in client.run(lambda dask_worker: list(dask_worker.plugins)).values() for name in of]
+            return [name for name in names if name.startswith("ali3-")]
+
+        assert given() != []
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60.0)
+        assert process.returncode == 130
+        assert given() == []
 
 
 def test_a_worker_that_ends_too_early_is_told_as_such() -> None:

@@ -134,7 +134,8 @@ def test_a_full_disk_keeps_what_is_written(finished: Path, half: Path, scheduler
     start = """
 import resource, signal, sys
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-from hosts.study import campaign, outcome_store
+from hosts.experiment import store
+from hosts.study import campaign
 from hosts.study.parts import PartWriter
 written = PartWriter.flush
 def flush(self):
@@ -143,7 +144,7 @@ def flush(self):
     if rows:  # full from now on
         resource.setrlimit(resource.RLIMIT_FSIZE, (2000, resource.RLIM_INFINITY))
 PartWriter.flush = flush
-outcome_store._FLUSH = (0.0, 0.0)
+store._WRITE = (0.0, 0.0)
 from hosts.study.command import main
 sys.exit(main())
 """
@@ -157,7 +158,8 @@ sys.exit(main())
         f"error: {new}/runs/part-000002.parquet cannot be written: file too large. {len(table)} of 32 runs are written "
         "and stay; the same command makes the others."
     )
-    assert sorted(file.name for file in (new / "runs").iterdir()) == ["journal", "part-000001.parquet"]
+    assert [file.name for file in (new / "runs").iterdir()] == ["part-000001.parquet"]
+    assert (new / "done").is_file()
     ended = run_study(half / "study.toml", new, scheduler, None)
     assert ended is not None
     assert len(read_study(new)) == 32

@@ -20,7 +20,7 @@ from hosts.fmu.scalars import NamedScalars
 from hosts.fmu.variables import Variable
 
 
-class AliasedFmu(NamedScalars):
+class NamedFmu(NamedScalars):
     """An `Fmu` seen through aliases; with none of them it is the FMU as it is, to the last bit.
 
     `fmu`: its variables that have no alias keep their names and units.
@@ -36,8 +36,7 @@ class AliasedFmu(NamedScalars):
 
     def __init__(self, fmu: Fmu, aliases: Aliases) -> None:
         self._fmu = fmu
-        self._aliases = aliases
-        self.aliases: Aliases | None = aliases
+        self.aliases = aliases
         by_name = {alias.theirs: alias for alias in aliases.aliases}
         self._alias = {a.ours: a for a in (by_name.get(n, Alias(n, n)) for n in fmu.variables)}
         self.path: Path = fmu.path
@@ -56,7 +55,7 @@ class AliasedFmu(NamedScalars):
 
     def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
         """See `Fmu.initialise`; `start` is in our names and units."""
-        self._fmu.initialise(self._aliases.values(start), start_time)
+        self._fmu.initialise(self.aliases.values(start), start_time)
         self._hold({name: float(x) for name, x in start.items() if name in self._held})
         self._time = start_time
 
@@ -146,13 +145,25 @@ class AliasedFmu(NamedScalars):
 
     def constants(self) -> dict[str, float]:
         """See `Fmu.constants`; with those of the aliases, which win."""
-        theirs = {self._aliases.names([n])[0]: x for n, x in self._fmu.constants().items()}
+        theirs = {self.aliases.names([n])[0]: x for n, x in self._fmu.constants().items()}
         ours = {n: (x - self._alias[n].offset) / self._alias[n].factor for n, x in theirs.items()}
-        return {**ours, **self._aliases.constants}
+        return {**ours, **self.aliases.constants}
+
+    @property
+    def derived(self) -> tuple[str, ...]:
+        return tuple(d.ours for d in self.aliases.derived)
+
+    def derive(
+        self, names: Sequence[str], time: NDArray[np.float64], values: NDArray[np.float64]
+    ) -> Mapping[str, NDArray[np.float64]]:
+        """Derived columns of a whole run, in which rates know the next row. `values`: shape (n, len(names))."""
+        there = [k for k, name in enumerate(names) if name not in self.derived]
+        derivation = Derivation(self.aliases.derived, [names[k] for k in there])
+        return dict(zip(derivation.names, derivation.record(time, values[:, there]).T, strict=True))
 
     def why_missing(self, name: str) -> str:
         """Why there is no variable of one of our names, in a sentence; empty where nothing is known."""
-        return self._aliases.why_missing(name)
+        return self.aliases.why_missing(name)
 
     def _chosen(self, names: Iterable[str]) -> list[Alias]:
         return [self._alias[n] for n in names]
@@ -189,6 +200,6 @@ def _scaled(variable: Variable, alias: Alias) -> Variable:
     return replace(variable, name=alias.ours, low=low, high=high, start=start)
 
 
-def seen_through(fmu: Fmu, aliases: Aliases) -> Fmu | AliasedFmu:
+def seen_through(fmu: Fmu, aliases: Aliases) -> Fmu | NamedFmu:
     """The FMU under our names; itself where there are none."""
-    return AliasedFmu(fmu, aliases) if aliases.aliases or aliases.derived or aliases.constants else fmu
+    return NamedFmu(fmu, aliases) if aliases.aliases or aliases.derived or aliases.constants else fmu
