@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 
 from ali3.files import make_folder
-from benchmarks.pictures import simulator
+from benchmarks.pictures import pages, simulator
 from benchmarks.pictures.animations import ANIMATIONS, film
 from benchmarks.shared.command import Part, run
 
@@ -44,6 +44,12 @@ PARTS = {
         names=tuple(simulator.SHOTS),
         options=OUT,
         rows=False,
+    ),
+    "pages": Part(
+        "pages of all kinds at one instant; with another checkout, how many pixels differ when its script draws them",
+        pages.compare,
+        names=tuple(pages.PAGES),
+        options=OUT | {"other": (Path, "folder of another checkout")},
     ),
 }
 

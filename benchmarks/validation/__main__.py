@@ -21,7 +21,7 @@ import numpy as np
 from ali3.errors import UserError
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import DOCS, Row, table
-from benchmarks.validation import others, two_track
+from benchmarks.validation import kinds, margins, others, two_track
 from benchmarks.validation.bank import bank_of, write_banked
 from benchmarks.validation.bicycle import MODELS, Body
 from benchmarks.validation.chart import draw
@@ -30,6 +30,8 @@ from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, Spans, rea
 from benchmarks.validation.fitting import Fitted, fit
 from benchmarks.validation.multibody import Judged, judge
 from benchmarks.validation.published import full_throttle, published_rows
+from benchmarks.validation.refit import BOUNDS, problems, refit
+from benchmarks.validation.refit import COLUMNS as FIT_COLUMNS
 
 ALIASES = Path(__file__).with_name("ferrari_250_lm_log.toml")
 PAGE = "validation.md"
@@ -61,7 +63,8 @@ PARTS_LEFT_OUT = (
 LACKING = {k: f for k, f in MODEL_COLUMNS.items() if k in ("model", "windows", "lateral", "departed")}
 PUBLISHED = {"test": "", "published": "", "read within": "g", "car": ".2f", "verdict": ""}
 FOLDS = {"number": "", "fitted seconds": ".4g", "others": ".4g"}
-STEP = 0.005  # s, inner one of the car
+STEP, COARSE = 0.005, 0.01  # s, inner one of the car; of many runs
+LEFT_OUT = "linear bicycle", "saturating bicycle, tanh", "x/sqrt(1 + x2), two grips, yaw inertia"
 BANKED = "multibody car, bank by place"
 CHART_MODEL = 3  # of MODELS: the saturating bicycle with four numbers
 COLUMNS = {
@@ -77,9 +80,7 @@ COLUMNS = {
 
 def _drive(options: Namespace) -> list[dict[str, Any]]:
     """Fit and judge; each table of the page by its name."""
-    log, aliases = options.log, options.aliases or ALIASES
-    if log is None:
-        raise UserError("The log of the drive is given by --log FILE.")
+    log, aliases = _log(options)
     page = (DOCS / PAGE).read_text(encoding="utf-8")
     if options.write and options.banked_car is None and f"| {BANKED} |" in page:
         raise UserError(
@@ -114,6 +115,20 @@ def _drive(options: Namespace) -> list[dict[str, Any]]:
         chosen = simple[CHART_MODEL]
         draw(drive, car.time, car.path, chosen.path, chosen.model.name, options.picture)
     return [{"table": name, **row} for name, part in tables.items() for row in part]
+
+
+def _kinds(options: Namespace) -> list[dict[str, Any]]:
+    log, aliases = _log(options)
+    models = [*(m for m in MODELS if m.name in LEFT_OUT), two_track.MODELS[1]]
+    car = options.car, log, aliases, {"step_size": COARSE}, options.bounds or BOUNDS
+    return kinds.rows_of(models, BODY, read_drive(log, aliases), car)
+
+
+def _log(options: Namespace) -> tuple[Path, Path]:
+    """The log and its alias file."""
+    if options.log is None:
+        raise UserError("The log of the drive is given by --log FILE.")
+    return options.log, options.aliases or ALIASES
 
 
 def _banked(drive: Drive, seconds: Spans) -> Drive:
@@ -211,20 +226,48 @@ def blocks(rows: Sequence[Row]) -> dict[str, str]:
     return plain | {"curves": table(of["curves"], form), "notes": notes}
 
 
+LOGGED: dict[str, tuple[Any, str]] = {
+    "log": (Path, "CSV, perhaps packed (.csv.gz)"),
+    "car": ("ferrari_250_lm", "FMU or car"),
+    "aliases": (Path, "of the log, for the car; by default those of the Ferrari's"),
+}
+SOUGHT: dict[str, tuple[Any, str]] = {
+    "bounds": (Path, "what is sought, and between which bounds; by default that of the Ferrari"),
+}
 PARTS = {
     "drive": Part(
         "simple models and the multibody car through a measured drive",
         _drive,
         COLUMNS,
-        options={
-            "log": (Path, "CSV, perhaps packed (.csv.gz)"),
-            "car": ("ferrari_250_lm", "FMU or car"),
-            "aliases": (Path, "of the log, for the car; by default those of the Ferrari's"),
+        options=LOGGED
+        | {
             "banked_car": (Path, "FMU of the car with --ports forces=vehicle: driven with the bank of the road too"),
             "picture": (Path, "draw measured and predicted yaw rate (PNG)"),
         },
         pages=(PAGE,),
         blocks=blocks,
+    ),
+    "fit": Part(
+        "fit the multibody car to the drive",
+        lambda options: refit(options.car, *_log(options), options.bounds or BOUNDS),
+        options=LOGGED | SOUGHT,
+        pages=(PAGE,),
+        blocks=lambda rows: {"fit": table(rows, FIT_COLUMNS)},
+        check=lambda rows, options: problems(rows),
+    ),
+    "margins": Part(
+        "how near the multibody car is to a spin: starts beside the measured state, more speed",
+        lambda options: margins.margins(options.car, *_log(options), {"step_size": COARSE}),
+        options=LOGGED,
+        pages=(PAGE,),
+        blocks=lambda rows: {"margins": table(rows, margins.COLUMNS)},
+    ),
+    "kinds": Part(
+        "what models predict for kinds of seconds that are left out: corners, speeds, accelerations",
+        _kinds,
+        options=LOGGED | SOUGHT,
+        pages=(PAGE,),
+        blocks=lambda rows: {"kinds": table(rows, kinds.COLUMNS)},
     ),
     "others": Part(
         "figures that others published of cars and tyres, with what the cars here do",

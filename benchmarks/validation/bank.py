@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
 
 from benchmarks.validation.drive import FITTED, Array, Drive, Spans
@@ -20,6 +21,7 @@ PORT = "point_reference.Fy"
 CUT_OFF = 1.0  # Hz, of what is taken as the road
 PIECE = 10.0  # m of the track, over which the map is a mean
 _SHORTEST, _LONGEST = 1000.0, 6000.0  # m, of a lap
+_SLOWEST = 5.0  # m/s, of a curvature
 _LIKE, _NEARLY = 0.9, 0.02  # correlation of curvatures of the same place, and below the best
 
 
@@ -58,10 +60,9 @@ def bank_of(drive: Drive, seconds: Spans = FITTED) -> Bank:
     columns = np.column_stack([moved, np.ones_like(moved)])
     share = np.linalg.lstsq(columns[inside], (felt - moved)[inside], rcond=None)[0]
     by_sensor = -(felt - moved - columns @ share)
-    way = drive.interval * np.concatenate([[0.0], np.cumsum(0.5 * (drive.vx[1:] + drive.vx[:-1]))])
-    lap = _lap(way, drive.yaw_rate / np.maximum(drive.vx, 5.0))
+    way, lap = way_of(drive)
     count = round(lap / PIECE)
-    piece = ((way % lap) / lap * count).astype(np.intp) % count
+    piece = pieces(way, lap)
     passed = np.bincount(piece[inside], minlength=count)
     seen = np.flatnonzero(passed)
     means = np.bincount(piece[inside], by_sensor[inside], count)[seen] / passed[seen]
@@ -71,6 +72,18 @@ def bank_of(drive: Drive, seconds: Spans = FITTED) -> Bank:
     both = np.isfinite(later)
     repeated = float(np.corrcoef(by_sensor[both], later[both])[0, 1])
     return Bank(by_sensor, by_place, float(share[0]), lap, repeated, 1.0 - len(seen) / count)
+
+
+def way_of(drive: Drive) -> tuple[Array, float]:
+    """Way along the track at each sample, of shape (n,), and the length of a lap, m. Raises `ValueError`: no laps."""
+    way = drive.interval * np.concatenate([[0.0], np.cumsum(0.5 * (drive.vx[1:] + drive.vx[:-1]))])
+    return way, _lap(way, drive.yaw_rate / np.maximum(drive.vx, _SLOWEST))
+
+
+def pieces(way: Array, lap: float) -> NDArray[np.intp]:
+    """In which piece of the lap each sample lies, from 0 on, of shape (n,). `way`, `lap`: of `way_of`."""
+    count = round(lap / PIECE)
+    return np.asarray(((way % lap) / lap * count).astype(np.intp) % count)
 
 
 def _lap(way: Array, curvature: Array) -> float:

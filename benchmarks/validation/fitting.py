@@ -42,9 +42,9 @@ class Fitted:
     """Each of shape (w, m): lateral velocity and yaw rate in the windows that were not fitted, m/s and rad/s."""
 
 
-def begins(drive: Drive, seconds: Spans) -> NDArray[np.intp]:
-    """First samples of the windows that lie in stretches of seconds."""
-    times = [t for a, b in seconds for t in np.arange(a, b - LENGTH + 1e-9, EVERY)]
+def begins(drive: Drive, seconds: Spans, every: float = EVERY) -> NDArray[np.intp]:
+    """First samples of the windows that lie in stretches of seconds. `every`: from one to the next, s."""
+    times = [t for a, b in seconds for t in np.arange(a, b - LENGTH + 1e-9, every)]
     return np.array([round((t - drive.time[0]) / drive.interval) for t in times], dtype=np.intp)
 
 
@@ -53,55 +53,85 @@ def drive_of(model: Model, *given: Any) -> tuple[Array, Array]:
     return (model.simulate or simulate)(model, *given)
 
 
+class Windows:
+    """A model in the windows of some seconds, from the measured state.
+
+    Attributes
+    ----------
+    samples : array of int
+        Of the drive, shape (w, m).
+    low, high : array
+        Bounds of the numbers of the model, shape (p,).
+    """
+
+    def __init__(self, model: Model, body: Body, drive: Drive, seconds: Spans, every: float = EVERY) -> None:
+        self._given = model, body, drive
+        self._steps = round(LENGTH / drive.interval)
+        self._begins = begins(drive, seconds, every)
+        self.samples = self._begins[:, None] + np.arange(self._steps + 1)
+        self.low, self.high = (np.array([getattr(u, end) for u in model.unknowns]) for end in ("low", "high"))
+
+    def driven(self, numbers: Array) -> tuple[Array, Array]:
+        """Lateral velocity and yaw rate of sets of numbers, shape (k, p): each of shape (k, w, m)."""
+        model, body, drive = self._given
+        return drive_of(model, body, drive, self._begins, self._steps, numbers)
+
+    def deviations(self, numbers: Array) -> tuple[Array, Array]:
+        """`driven` less what was measured."""
+        vy, rate = self.driven(numbers)
+        return vy - self._given[2].vy[self.samples], rate - self._given[2].yaw_rate[self.samples]
+
+    def errors(self, numbers: Array) -> Array:
+        """Deviations in `SCALES`, of shape (k, n): of the yaw rate, then of the lateral velocity if there is one."""
+        across, turning = (e.reshape(len(e), -1) for e in self.deviations(numbers))
+        turning = turning / SCALES[0]
+        return np.asarray(np.hstack([turning, across / SCALES[1]]) if self._given[0].moves_across else turning)
+
+    def residuals(self, p: Array) -> Array:
+        """`errors` of one set of numbers, of shape (n,), large where the model has none."""
+        return np.nan_to_num(self.errors(p[None])[0], nan=1e3)
+
+    def jacobian(self, p: Array) -> Array:
+        """Derivatives of `errors` by the numbers, of shape (n, p)."""
+        step = STEP * (self.high - self.low)
+        side = np.where(p + step > self.high, -1.0, 1.0) * step
+        e = self.errors(np.vstack([p, p + np.diag(side)]))
+        return np.asarray(((e[1:] - e[0]) / side[:, None]).T)
+
+
 def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others: Spans = JUDGED) -> Fitted:
     """Fit a model in the windows of some seconds, and judge it in those of others.
 
     What is fitted is yaw rate and lateral velocity, of a model without lateral velocity the yaw rate alone.
     """
-    steps = round(LENGTH / drive.interval)
-    low, high = (np.array([getattr(u, end) for u in model.unknowns]) for end in ("low", "high"))
-
-    def both(numbers: Array, rows: NDArray[np.intp]) -> tuple[Array, Array]:
-        samples = rows[:, None] + np.arange(steps + 1)
-        vy, rate = drive_of(model, body, drive, rows, steps, numbers)
-        return vy - drive.vy[samples], rate - drive.yaw_rate[samples]
-
-    rows = begins(drive, seconds)
-
-    def errors(numbers: Array) -> Array:
-        """Of shape (k, n); a model without lateral velocity has that of its yaw rate alone."""
-        across, turning = (e.reshape(len(e), -1) for e in both(numbers, rows))
-        turning = turning / SCALES[0]
-        return np.asarray(np.hstack([turning, across / SCALES[1]]) if model.moves_across else turning)
-
-    def residuals(p: Array) -> Array:
-        return np.nan_to_num(errors(p[None])[0], nan=1e3)
-
-    def jacobian(p: Array) -> Array:
-        side = np.where(p + STEP * (high - low) > high, -1.0, 1.0) * STEP * (high - low)
-        e = errors(np.vstack([p, p + np.diag(side)]))
-        return np.asarray(((e[1:] - e[0]) / side[:, None]).T)
-
+    windows, judged = (Windows(model, body, drive, given) for given in (seconds, others))
+    low, high = windows.low, windows.high
     random, results = np.random.default_rng(SEED), []
     for _ in range(STARTS if len(low) else 0):
         start = low + (high - low) * random.uniform(0.2, 0.8, len(low))
         results.append(
-            least_squares(residuals, start, jacobian, bounds=(low, high), x_scale=high - low, ftol=1e-6, max_nfev=60)
+            least_squares(
+                windows.residuals,
+                start,
+                windows.jacobian,
+                bounds=(low, high),
+                x_scale=high - low,
+                ftol=1e-6,
+                max_nfev=60,
+            )
         )
     numbers = min(results, key=lambda r: float(r.cost)).x if results else np.zeros(0)
-    judged = begins(drive, others)
-    samples = judged[:, None] + np.arange(steps + 1)
-    vy, rate = (found[0] for found in drive_of(model, body, drive, judged, steps, numbers[None]))
+    vy, rate = (found[0] for found in judged.driven(numbers[None]))
     path = drive_of(model, body, drive, np.array([0]), len(drive.time) - 1, numbers[None])[1][0, 0]
-    turning = rate - drive.yaw_rate[samples]
+    turning = rate - drive.yaw_rate[judged.samples]
     return Fitted(
         model,
         numbers,
         [_rms(r.fun) for r in results],
-        _rms(both(numbers[None], rows)[1]),
+        _rms(windows.deviations(numbers[None])[1]),
         _rms(turning),
         _rms((path - drive.yaw_rate)[drive.inside(others)]),
-        _rms(vy - drive.vy[samples]),
+        _rms(vy - drive.vy[judged.samples]),
         int((np.abs(turning).max(axis=1) > np.ptp(drive.yaw_rate)).sum()),
         path,
         (vy, rate),

@@ -14,7 +14,10 @@ import numpy as np
 
 from benchmarks.validation.drive import EVERY, FITTED, JUDGED, LENGTH, Array, Spans, text_of
 from hosts.compare.command import main as compare
+from hosts.compare.command import parser_of
 from hosts.compare.stretches import GAP
+from hosts.compare.task import Task, prepare
+from hosts.fmu.fmu_file import fmu_file
 
 YAW, LATERAL = "chassis.wz", "chassis.vy"
 INTERVAL = 0.01  # s, of the samples in `Judged.predicted`
@@ -51,15 +54,14 @@ def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief:
 
         def run(name: str, *options: str) -> tuple[dict[str, Any], Path]:
             out = Path(folder, name)
-            given = [part for key, value in settings.items() for part in ("--set", f"{key}={value!r}")]
             record = out / "record.json"
-            arguments = [car, str(log), "--log-aliases", str(aliases), "--hold-speed", *options, *given]
-            status = compare([*arguments, "--signals", f"{YAW},{LATERAL}", "--out", str(out), "--json", str(record)])
+            arguments = arguments_of(car, log, aliases, settings)
+            status = compare([*arguments, *options, "--out", str(out), "--json", str(record)])
             assert status in (0, 1), "the command has said why"
             return json.loads(record.read_text(encoding="utf-8")), out / f"{log.stem}.csv"
 
         others, file = run("others", *windows, "--seconds", text_of(JUDGED))
-        across, turning = (_in_windows(*_signal(file, name), len(others["windows"])) for name in _COLUMNS)
+        across, turning = (in_windows(*_signal(file, name), len(others["windows"])) for name in _COLUMNS)
         predicted = across, turning
         departed = [f"{w['begin']:g} s ({w['departed']})" for w in others["windows"] if w["departed"]]
         told = _rms(others, YAW), _rms(others, LATERAL), departed
@@ -73,8 +75,26 @@ def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief:
     return Judged(first, error, *told, whole["notes"] + whole["problems"], time, path, predicted)
 
 
-def _in_windows(time: Array, values: Array, count: int) -> Array:
-    """A signal of windows that stand one after the other, of shape (windows, samples)."""
+def task_of(car: str, log: Path, aliases: Path, settings: dict[str, float], seconds: Spans) -> Task:
+    """What ``ali3 compare`` drives in windows of some seconds, end to end. `car`, `settings`: as of `judge`."""
+    windows = ["--windows", f"{LENGTH:g}", "--seconds", text_of(seconds)]
+    options = parser_of().parse_args([*arguments_of(car, log, aliases, settings), *windows])
+    options.fmu = fmu_file(options.fmu)
+    return prepare(options)
+
+
+def arguments_of(car: str, log: Path, aliases: Path, settings: dict[str, float]) -> list[str]:
+    """Of ``ali3 compare`` for the signals that are judged. `car`, `settings`: as of `judge`."""
+    given = [part for key, value in settings.items() for part in ("--set", f"{key}={value!r}")]
+    signals = ["--signals", f"{YAW},{LATERAL}"]
+    return [car, str(log), "--log-aliases", str(aliases), "--hold-speed", *signals, *given]
+
+
+def in_windows(time: Array, values: Array, count: int) -> Array:
+    """A signal of windows that stand one after the other, of shape (windows, samples).
+
+    `time`, `values`: shape (n,), s; `count`: of the windows.
+    """
     at = INTERVAL * np.arange(round(LENGTH / INTERVAL) + 1)
     return np.array([np.interp(k * (LENGTH + GAP) + at, time, values) for k in range(count)])
 

@@ -1,4 +1,4 @@
-"""The pages of `docs/drive.md` that run FMUs, made when the site is built, and the list of them."""
+"""The pages of `docs/driving.md` that run FMUs, made when the site is built, and the list of them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Makes pages of `docs/drive.md`: ``python docs/_site/make_live_page.py NAME... OUT``."""
+"""Makes pages of `docs/driving.md`: ``python docs/_site/make_live_page.py NAME... OUT``."""
 
 from __future__ import annotations
 

@@ -22,6 +22,12 @@ _SECONDS = quantity("s")
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> int:
     """Run the command, which the user typed as `prog`; 1 if the comparison or the fit is not good."""
+    options = parser_of(prog).parse_args(arguments)
+    return run_command(lambda: _compare(options), is_confined=options.confined)
+
+
+def parser_of(prog: str = "ali3 compare") -> Parser:
+    """Of the options of the command."""
     parser = Parser(prog=prog, description=__doc__)
     add_fmu(parser)
     parser.add_argument("log", type=Path, metavar="LOG", help="CSV as data loggers write it, or Parquet")
@@ -81,8 +87,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> 
     add_setting_options(parser)
     add_option(parser, "--confined")
     add_option(parser, "--road")
-    options = parser.parse_args(arguments)
-    return run_command(lambda: _compare(options), is_confined=options.confined)
+    return parser
 
 
 def _names(text: str) -> list[str]:

@@ -8,7 +8,6 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ali3.processes import alive
 from hosts.common.errors import FailedFmuError
@@ -99,10 +98,10 @@ def run(
     until : callable, optional
         Of the time and the outputs; the run ends with the first step after which it is true.
     every : int
-        Steps from one recorded row to the next. Those outputs that are `hosts.driving.senses.COSTLY` are read in
-        the others where the driver uses one.
+        Steps from one recorded row to the next. In the others those outputs are read that the driver uses.
     last : bool
-        Whether the last step has a row in any case, which then comes sooner than the others.
+        Whether the last step of a run that is not refused has a row in any case, which then comes sooner than the
+        others. (What an FMU that has refused a step answers need not be that of a time.)
     kept : Path, optional
         See `RecordedRows`.
 
@@ -118,13 +117,12 @@ def run(
         return with_change_of_speed(run(fmu, manoeuvre, step, driver, progress, until, every, last, kept))
     inputs, outputs = columns_of(fmu, manoeuvre)
     whole = {n for n in manoeuvre.inputs if (v := fmu.variables[n]).variability == "discrete" or v.type == "Integer"}
-    senses = Senses(fmu, outputs, every == 1)
+    senses = Senses(fmu, outputs)
 
     start = {**manoeuvre.start, **manoeuvre.initial(whole)}
     fmu.initialise(start)
     if manoeuvre.state is not None:
         fmu.restore_bytes(manoeuvre.state)
-    senses.read()
     acts = driver.act(0.0, senses) if driver is not None else {}
     refuse_missing([n for n in acts if n not in inputs], fmu.path.name)
     used = list(dict.fromkeys([*manoeuvre.inputs, *acts]))
@@ -138,7 +136,7 @@ def run(
         _at_start(fmu, inputs, start),
         [inputs.index(n) for n in used],
         [inputs.index(n) for n in straight],
-        np.array([np.abs(manoeuvre.inputs[n]).max() for n in straight]),
+        [float(np.abs(manoeuvre.inputs[n]).max()) for n in straight],
         every,
         steps,
         kept,
@@ -164,9 +162,9 @@ def run(
         try:
             fmu.step(manoeuvre.state_time + t, step)
         except StepRefusedError:
-            rows.refuse([wanted[n] for n in straight])
+            rows.refused = True
             break
-        senses.read()
+        senses.stepped()
         rows.end()
         if (now := clock.perf_counter()) >= due:
             due = now + _BETWEEN
@@ -191,7 +189,7 @@ def run(
         [n for n in inputs if n not in straight],
         [n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
         rows.jumps,
-        lost=[n for n, gone in zip(inputs, rows.lost.tolist(), strict=True) if gone],
+        lost=[n for k, n in enumerate(inputs) if k in rows.lost],
         missed=[told for told in (manoeuvre.late_begin(acts), lost, end) if told is not None],
         start=dict(manoeuvre.start),
     )
@@ -200,9 +198,9 @@ def run(
     return result
 
 
-def _at_start(fmu: SimulatedFmu, inputs: Sequence[str], start: Mapping[str, Value]) -> NDArray[np.float64]:
+def _at_start(fmu: SimulatedFmu, inputs: Sequence[str], start: Mapping[str, Value]) -> list[float]:
     """Values of inputs after the initialisation with start values."""
-    values = fmu.start_values(inputs)
+    values: list[float] = fmu.start_values(inputs).tolist()
     for k, name in enumerate(inputs):
         value = start.get(name)
         if value is not None and not isinstance(value, str):

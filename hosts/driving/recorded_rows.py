@@ -51,11 +51,11 @@ class RecordedRows:
     ----------
     senses : Senses
         Outputs, read at the start.
-    held : ndarray of shape (n,)
+    held : sequence of float, of length n
         Inputs at the start.
     straight : sequence of int
         Which of these go straight over a step.
-    sizes : ndarray of shape (len(straight),)
+    sizes : sequence of float, of length len(straight)
         Their largest values.
     every : int
         Steps from row to row.
@@ -72,22 +72,22 @@ class RecordedRows:
         Whether the last one was refused.
     jumps : dict of int to list of float
         By the number of a row: inputs before a jump at its time, where the row alone does not tell them.
-    lost : ndarray of shape (n,)
-        Which inputs moved between the rows otherwise than the rows tell.
+    lost : set of int
+        Inputs that moved between the rows otherwise than the rows tell.
     """
 
     def __init__(
         self,
         senses: Senses,
-        held: NDArray[np.float64],
+        held: Sequence[float],
         used: Sequence[int],
         straight: Sequence[int],
-        sizes: NDArray[np.float64],
+        sizes: Sequence[float],
         every: int,
         most: int,
         kept: Path | None = None,
     ) -> None:
-        self._senses, self._held, self._before = senses, held, held
+        self._senses, self._held = senses, list(held)
         self._used, self._straight, self._sizes = list(used), list(straight), sizes
         self._every, self._changes = every, list[float]()
         table = _table((most // every + 3, len(held) + len(senses)), kept)
@@ -95,33 +95,33 @@ class RecordedRows:
         self._write(0)
         self.done, self.refused = 0, False
         self.jumps: dict[int, list[float]] = {}
-        self.lost = np.zeros(len(held), bool)
+        self.lost: set[int] = set()
 
     def begin(self, values: Sequence[float]) -> None:
         """A step begins with these values of the inputs that are set."""
-        held, before = self._held, self._held.copy()
-        held[self._used] = values
-        jumped = np.abs(held - before) > ROUND_OFF * (np.abs(held) + np.abs(before))
         row, between = divmod(self.done, self._every)
+        before = self._held.copy()
+        for k, value in zip(self._used, values, strict=True):
+            self._held[k] = value
         if between:
-            self.lost |= jumped
-        else:
-            self._values[row, : len(held)] = held
-            if self._every > 1 or jumped[self._straight if row else self._used].any():
-                self.jumps[row] = before.tolist()
-        self._before = before
+            self.lost |= {k for k in self._used if self._jumps(k, before)}
+            return
+        self._values[row, : len(before)] = self._held
+        if self._every > 1 or any(self._jumps(k, before) for k in (self._straight if row else self._used)):
+            self.jumps[row] = before
+
+    def _jumps(self, k: int, before: Sequence[float]) -> bool:
+        x, y = self._held[k], before[k]
+        return abs(x - y) > ROUND_OFF * (abs(x) + abs(y))
 
     def move(self, ends: Sequence[float], changes: Sequence[float]) -> None:
         """Over the step those that go straight change by `changes` and reach `ends`."""
         if self.done % self._every:
-            self.lost[self._straight] |= np.abs(np.subtract(changes, self._changes)) > ROUND_OFF * self._sizes
+            turns = zip(self._straight, changes, self._changes, self._sizes, strict=True)
+            self.lost |= {k for k, new, old, size in turns if abs(new - old) > ROUND_OFF * size}
         self._changes = list(changes)
-        self._held[self._straight] = ends
-
-    def refuse(self, values: Sequence[float]) -> None:
-        """The step was refused: those that go straight have the values with which it would have begun."""
-        self._held[self._straight] = values
-        self.refused = True
+        for k, end in zip(self._straight, ends, strict=True):
+            self._held[k] = end
 
     def end(self) -> None:
         """The step was made, and its outputs were read."""
@@ -136,11 +136,9 @@ class RecordedRows:
         self._count[:1] = row + 1.0
 
     def close(self, last: bool) -> tuple[list[int], NDArray[np.float64]]:
-        """The steps that have a row, and the rows. `last`: whether the last step has one in any case."""
+        """The steps that have a row, and the rows. `last`: whether the last step has one if none was refused."""
         rows = [*range(0, self.done + 1, self._every)]
-        if last and self.done % self._every:
-            if self.refused:
-                self.jumps[len(rows)] = self._before.tolist()
+        if last and self.done % self._every and not self.refused:
             self._write(len(rows))
             rows.append(self.done)
         return rows, self._values[: len(rows)]

@@ -1,17 +1,14 @@
-"""The outputs of an FMU for a pilot: those that are costly to compute are read only where they are used."""
+"""The outputs of an FMU for a pilot: between rows only those that it uses are read."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.driving.simulated_fmu import SimulatedFmu
-
-COSTLY = ("stress.", "bending_moment.")
-"""Outputs that an FMU may compute on reading: they are read where a row is recorded or a pilot uses one."""
 
 
 class _NoOutputError(HostError, KeyError):
@@ -21,44 +18,41 @@ class _NoOutputError(HostError, KeyError):
 
 
 class Senses(Mapping[str, float]):
-    """The outputs after a step by name.
+    """The outputs of now by name, read from the FMU when they are asked for: an FMU may compute some on reading."""
 
-    `all_rows`: whether the outputs of each step are recorded, so that none is read later than the others.
-    """
+    def __init__(self, fmu: SimulatedFmu, names: Sequence[str]) -> None:
+        self._fmu, self._places = fmu, {n: k for k, n in enumerate(names)}
+        self._read_all, self.row = fmu.reader(names), np.empty(len(names))
+        self._all_read, self._used_read = False, False
+        self._used: dict[str, int] = {}
+        """Place of a used output in the buffer."""
+        self._buffer = np.empty(0)
+        self._read_used: Callable[[NDArray[np.float64]], None] = lambda into: None
 
-    def __init__(self, fmu: SimulatedFmu, names: Sequence[str], all_rows: bool) -> None:
-        self._places = {n: k for k, n in enumerate(names)}
-        self.row = np.empty(len(names))
-        later = [] if all_rows else [k for k, n in enumerate(names) if n.startswith(COSTLY)]
-        self._later, self._fresh = frozenset(later), True
-        self._parts = [
-            (fmu.reader([names[k] for k in part]), np.empty(len(part)), np.array(part, dtype=np.intp))
-            for part in ([k for k in range(len(names)) if k not in self._later], later)
-        ]
-
-    def read(self) -> None:
-        """Read the outputs of now, but for costly ones."""
-        self._fresh = not self._later
-        self._take(0)
+    def stepped(self) -> None:
+        """The FMU has made a step: what was read is that of before."""
+        self._all_read = self._used_read = False
 
     def whole(self) -> NDArray[np.float64]:
         """All outputs of now."""
-        if not self._fresh:
-            self._fresh = True
-            self._take(-1)
+        if not self._all_read:
+            self._read_all(self.row)
+            self._all_read = True
         return self.row
 
-    def _take(self, part: int) -> None:
-        read, into, places = self._parts[part]
-        read(into)
-        self.row[places] = into
-
     def __getitem__(self, name: str) -> float:
-        try:
-            place = self._places[name]
-            return (self.whole() if place in self._later else self.row).item(place)
-        except KeyError:
-            raise _NoOutputError(f"The driver needs the output '{name}', which the FMU does not have.") from None
+        if self._all_read and name in self._places:
+            return self.row.item(self._places[name])
+        if name not in self._used:
+            if name not in self._places:
+                raise _NoOutputError(f"The driver needs the output '{name}', which the FMU does not have.")
+            self._used[name] = len(self._used)
+            self._read_used, self._buffer = self._fmu.reader(list(self._used)), np.empty(len(self._used))
+            self._used_read = False
+        if not self._used_read:
+            self._read_used(self._buffer)
+            self._used_read = True
+        return self._buffer.item(self._used[name])
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._places)

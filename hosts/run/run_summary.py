@@ -8,7 +8,6 @@ import numpy as np
 
 from hosts.common.wheels import WHEELS
 from hosts.driving.result import Result
-from hosts.driving.senses import COSTLY
 
 # A wheel that carries less is in the air, N.
 _LIFT_FORCE = 1.0
@@ -29,6 +28,8 @@ _OTHER_WORKS = {
     "energy.road": "roads at ports",
     "energy.added": "added elements",
 }
+# What takes about as long to compute as a step.
+_COSTLY = ("stress.", "bending_moment.")
 _ERROR = "solver.energy_error"
 # An error of the steps beside the largest of such a work, in kJ, that is told: a held input gives the most of it.
 _OPEN, _LEAST_OPEN = 0.01, 1e-4
@@ -87,7 +88,7 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
         left = 1e3 * result["solver.capped_residual"].max() if "solver.capped_residual" in result else float("nan")
         count = f"{result['solver.capped_steps'][-1]:.0f}"
         rows.append(("steps ended at the limit of iterations", f"{count}, off by at most {left:.2g} mm"))
-    if any(name.startswith(COSTLY) and result[name].any() for name in result.names):
+    if any(name.startswith(_COSTLY) and result[name].any() for name in result.names):
         fewer = "" if interval > 1.5 * step else "; --interval reads fewer"
         rows.append(("stresses and moments", f"read every {1e3 * interval:g} ms{fewer}"))
     rows.append(("failed steps", f"{result.failed_steps} of {round(result.simulated / step) + result.failed_steps}"))

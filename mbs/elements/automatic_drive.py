@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import positive
 from mbs.common.errors import ModelError
-from mbs.elements.reals import NotNegative, Positive, Reals, reals_of
-from mbs.elements.record import ElementRecord, Output, columns
-from mbs.elements.record_checks import index, several
+from mbs.elements.element import Element
+from mbs.elements.integers import Integer, an_input
+from mbs.elements.reals import NotNegative, Positive, reals_of
+from mbs.elements.record import ElementRecord, Output
+from mbs.elements.record_checks import several
 from mbs.elements.wheel_signals import carrier_signals
-from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)
-class AutomaticDrive:
+class AutomaticDrive(Element):
     """Drive of two wheels by an engine with a torque converter and gears that shift automatically.
 
     The speed of the turbine is the ratio times the mean speed of the wheels. Ratio of reverse, speed and time to engage
@@ -69,6 +70,27 @@ class AutomaticDrive:
     neutral."""
     engage_time: Positive = 0.3
     """Time in which the torque fades out of one direction, and into the other, s."""
+
+    _words = "a drive"
+    _signals = (("left", 1), ("right", 1), ("f", 3), ("g", 3))
+    _integers = (
+        an_input("throttle", "the input"),
+        Integer("gears", least=1, reals=1),
+        an_input("selector", optional=True),
+        an_input("request", missing=True, optional=True),
+        an_input("clutch", optional=True),
+    )
+    _states = (1.0, 1.0, 1e3, 0.0)
+    _outputs = (
+        Output("engine_speed", "rad/s", "speed of the engine", display_unit="rpm"),
+        Output("gear", "1", "gear engaged", whole=True),
+        Output("wheel_torque", "N m", "torque on each of the two wheels, the mean where the differential locks"),
+        Output("engine_torque", "N m", "torque of the engine"),
+        *(Output(f"{side}_power", "W", f"power on the {side} wheel") for side in ("left", "right")),
+        *(Output(f"{side}_torque", "N m", f"torque on the {side} wheel") for side in ("left", "right")),
+    )
+    _more = "reverse_ratio"
+    _more_states = (1.0, 1.0)
 
     def faults(self) -> Iterator[tuple[str, str]]:
         """A field and what is wrong with it, where gears or speeds are not in order, without a full stop."""
@@ -125,42 +147,23 @@ class AutomaticDrive:
         ModelError
             The ratios do not fall, or a gear is left as soon as it is engaged.
         """
-        what = f"the drive '{name}'"
-        own = reals_of(self, what)
-        of_selector: Reals = {n: own.pop(n) for n in ("reverse_ratio", "engage_speed", "engage_time")}
+        what = self._what(name)
         ratios = [positive(r, f"A ratio of {what}") for r in several(self.ratios, f"the ratios of {what}")]
-        for field, wrong in self.faults():
-            raise ModelError(f"The {field.replace('_', ' ')} of {what} {wrong}.")
-        if not 1 <= gear <= len(ratios):
-            raise ModelError(f"The gear of {what} is {gear}; it must be one of 1 to {len(ratios)}.")
-        of_gears: Reals = {f"ratio_{i + 1}": (ratio, positive) for i, ratio in enumerate(ratios)}
-        inputs = [index(throttle, f"The input of {what}"), len(ratios)]
-        if selector is None:
-            of_selector = {}
-        else:
-            inputs.append(index(selector, f"The selector of {what}"))
         for number, asked in ((request, "request of gears"), (clutch, "clutch")):
             if number is not None and selector is None:
                 raise ModelError(f"T{what[1:]} has a {asked} and no selector; give it one.")
-        if request is not None or clutch is not None:
-            inputs.append(-1 if request is None else index(request, f"The request of {what}"))
-        if clutch is not None:
-            inputs.append(index(clutch, f"The clutch of {what}"))
-        return ElementRecord(
+        reals_of(self, what)
+        for field, wrong in self.faults():
+            raise ModelError(f"The {field.replace('_', ' ')} of {what} {wrong}.")
+        record = self._record(
             name,
-            ElementType.AUTOMATIC_DRIVE,
             (left, right, *carrier_signals(f, g, what)),
-            *columns(own | of_gears | of_selector),
-            inputs,
-            (float(gear), float(gear), 1e3, 0.0, *((1.0, 1.0) if of_selector else ())),
-            (
-                Output("engine_speed", "rad/s", "speed of the engine", display_unit="rpm"),
-                Output("gear", "1", "gear engaged" + (", -1: reverse, 0: neutral" if of_selector else ""), whole=True),
-                Output(
-                    "wheel_torque", "N m", "torque on each of the two wheels, the mean where the differential locks"
-                ),
-                Output("engine_torque", "N m", "torque of the engine"),
-                *(Output(f"{side}_power", "W", f"power on the {side} wheel") for side in ("left", "right")),
-                *(Output(f"{side}_torque", "N m", f"torque on the {side} wheel") for side in ("left", "right")),
-            ),
+            (throttle, len(ratios), selector, request, clutch),
+            behind={f"ratio_{i + 1}": (ratio, positive) for i, ratio in enumerate(ratios)},
         )
+        if not 1 <= gear <= len(ratios):
+            raise ModelError(f"The gear of {what} is {gear}; it must be one of 1 to {len(ratios)}.")
+        outputs = list(self._outputs)
+        if selector is not None:
+            outputs[1] = replace(outputs[1], description="gear engaged, -1: reverse, 0: neutral")
+        return replace(record, states=(float(gear), float(gear), *record.states[2:]), outputs=outputs)

@@ -7,17 +7,22 @@ from dataclasses import dataclass
 
 from mbs.common.affine import AffineVector
 from mbs.common.errors import ModelError
+from mbs.elements.element import SPACE_OR_PLANE, Element
+from mbs.elements.integers import channels, components
 from mbs.elements.record import ElementRecord
-from mbs.elements.record_checks import channels, size
-from mbs.kernel.header.enumerations import ElementType
+from mbs.elements.record_checks import size
 
 
 @dataclass(frozen=True)
-class BodyForce:
+class BodyForce(Element):
     """Force with components from inputs, N."""
 
     inputs: Sequence[int | None]
     """Numbers of the inputs along the axes, three in space and two in the plane; None: no force along that axis."""
+
+    _words = "a force"
+    _signals = (("point", SPACE_OR_PLANE), ("axes", (9, 2)))
+    _integers = components("first second third", missing=True)
 
     def record(self, name: str, point: AffineVector, axes: Sequence[AffineVector]) -> ElementRecord:
         """The force element.
@@ -30,7 +35,7 @@ class BodyForce:
             Three unit vectors in space, one in the plane (the second is it turned left); constant ones are fixed in the
             earth.
         """
-        what = f"the force '{name}'"
+        what = self._what(name)
         size(point, (2, 3), f"The point of {what}")
         dimension = len(point)
         if len(axes) != (3 if dimension == 3 else 1) or any(len(a) != dimension for a in axes):
@@ -38,4 +43,4 @@ class BodyForce:
             raise ModelError(f"The axes of {what} must be {wanted} of {dimension} components.")
         numbers = channels(self.inputs, dimension, what)
         signals = [s for vector in (point, *axes) for s in vector.components]
-        return ElementRecord(name, ElementType.BODY_FORCE, signals, integer=(*numbers, -1)[:3])
+        return self._record(name, signals, (*numbers, None)[:3])

@@ -9,19 +9,23 @@ from typing import Literal
 from mbs.common.affine import AffineVector
 from mbs.common.checks import shown
 from mbs.common.errors import ModelError
+from mbs.elements.element import Element
+from mbs.elements.integers import Integer, channels, components
 from mbs.elements.record import ElementRecord
-from mbs.elements.record_checks import channels
-from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)
-class BodyTorque:
+class BodyTorque(Element):
     """Torque with components from inputs, N m."""
 
     inputs: Sequence[int | None]
     """Numbers of the inputs: three in space, one in the plane; None: no torque about that axis."""
     axes: Literal["earth", "body"] = "earth"
     """Axes of the components."""
+
+    _words = "a torque"
+    _signals = (("frame", (9, 2)),)
+    _integers = (*components("first second third", missing=True), Integer("axes", most=1))
 
     def record(self, name: str, frame: Sequence[AffineVector]) -> ElementRecord:
         """The force element.
@@ -31,7 +35,7 @@ class BodyTorque:
         frame : sequence of AffineVector
             Orthonormal vectors of a body: a, b, c in space, a alone in the plane.
         """
-        what = f"the torque '{name}'"
+        what = self._what(name)
         lengths = [len(v) for v in frame]
         if lengths not in ([3, 3, 3], [2]):
             raise ModelError(f"The frame of {what} must be three spatial or one planar vector, not {lengths} numbers.")
@@ -39,5 +43,5 @@ class BodyTorque:
         if not isinstance(self.axes, str) or self.axes not in ("earth", "body"):
             raise ModelError(f"The axes of {what} are {shown(self.axes)}; they must be 'earth' or 'body'.")
         signals = [s for vector in frame for s in vector.components]
-        integers = (*numbers, int(self.axes == "body")) if len(frame) == 3 else (-1, -1, *numbers, 0)
-        return ElementRecord(name, ElementType.BODY_TORQUE, signals, integer=integers)
+        integers = (*numbers, int(self.axes == "body")) if len(frame) == 3 else (None, None, *numbers, 0)
+        return self._record(name, signals, integers)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import flag
 from mbs.elements.element import Element
+from mbs.elements.integers import Integer, an_input
 from mbs.elements.reals import NotNegative, Positive
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.record_checks import index
 from mbs.elements.wheel_signals import carrier_signals
 
 
@@ -32,6 +32,11 @@ class Brake(Element):
 
     _words = "a brake"
     _signals = (("f", 3), ("g", 3), ("spin", 1))
+    _integers = (
+        an_input("pedal", "the input"),
+        an_input("hand", "the hand brake", missing=True),
+        Integer("by_size", most=1, optional=True),
+    )
     _states = (0.0, 0.0)
     _outputs = (
         Output("torque", "N m", "torque of the brake on the wheel about the axis"),
@@ -63,7 +68,5 @@ class Brake(Element):
             Whether `input` is no pedal but any number from 0 on, and `max_torque` the torque per unit of it.
         """
         what = self._what(name)
-        pedal = index(input, f"The input of {what}")
-        lever = -1 if hand is None else index(hand, f"The hand brake of {what}")
-        more = (1,) if flag(by_size, f"The by_size of {what}") else ()
-        return self._record(name, (*carrier_signals(f, g, what), spin), (pedal, lever, *more))
+        sized = 1 if flag(by_size, f"The by_size of {what}") else None
+        return self._record(name, (*carrier_signals(f, g, what), spin), (input, hand, sized))

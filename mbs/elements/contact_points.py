@@ -11,17 +11,15 @@ from numpy.typing import ArrayLike
 from mbs.common.affine import AffineVector
 from mbs.common.checks import array, positive
 from mbs.common.errors import ModelError
-from mbs.elements.reals import Fraction, NotNegative, Positive, reals_of
-from mbs.elements.record import ElementRecord, Output, columns
-from mbs.elements.record_checks import fraction, index, size
-from mbs.kernel.header.enumerations import ElementType
-
-STATES = 4
-"""Per point: two deflections in the plane of contact and their rates."""
+from mbs.elements.element import Element
+from mbs.elements.integers import ROAD, Integer
+from mbs.elements.reals import Fraction, NotNegative, Positive
+from mbs.elements.record import ElementRecord, Output
+from mbs.elements.record_checks import fraction, size
 
 
 @dataclass(frozen=True)
-class ContactPoints:
+class ContactPoints(Element):
     """Points or spheres of a body that rest, slide and bounce on a road.
 
     Normal force over the depth d: K d^2/(2 w) up to the onset w, K (d - w/2) beyond; times ``1 + chi d'`` going in and
@@ -47,6 +45,17 @@ class ContactPoints:
     """Radius of the spheres around the points, as of tubes or edges, m."""
     restitution: Fraction = 0.0
     """Least coefficient of restitution e, that of fast impacts: ``chi d'`` saturates at 1/e - 1; 0: it does not."""
+
+    _words = "contact points"
+    _signals = (("origin", 3), ("axes", 9))
+    _integers = (ROAD, Integer("points", least=1, reals=3, states=4))
+    _behind = 6
+    _outputs = (
+        Output("normal_force", "N", "sum of the normal forces of the road on the points"),
+        Output("touching", "1", "number of points that touch the road"),
+        *(Output(f"force_{c}", "N", "force of the road on the body, earth axes") for c in "xyz"),
+        Output("depth", "m", "deepest penetration of a point"),
+    )
 
     @staticmethod
     def for_mass(
@@ -108,31 +117,15 @@ class ContactPoints:
         points : array_like, shape (n, 3)
             From the origin along the axes, m.
         """
-        what = f"the contact points '{name}'"
+        what = self._what(name)
         for vector in (origin, *axes):
             size(vector, (3,), f"The origin and each axis of {what}")
         places = array(points, (None, 3), f"the points of {what}")
         if len(axes) != 3 or not len(places):
             raise ModelError(f"The {what[4:]} need 3 axes and points of shape (n, 3); got {places.shape}.")
-        normal, friction = ("stiffness", "onset", "loss", "restitution"), ("stick_stiffness", "stick_damping")
-        order = ("radius", *normal, *friction, "friction_factor")
         box = (*places.min(axis=0).tolist(), *places.max(axis=0).tolist())
-        return ElementRecord(
-            name,
-            ElementType.CONTACT_POINTS,
-            (*origin.components, *(s for axis in axes for s in axis.components)),
-            *columns(reals_of(self, what, order), *box, *places.ravel().tolist()),
-            (index(road, f"The road of {what}"), len(places)),
-            (0.0,) * (STATES * len(places)),
-            (
-                Output("normal_force", "N", "sum of the normal forces of the road on the points"),
-                Output("touching", "1", "number of points that touch the road"),
-                Output("force_x", "N", "force of the road on the body, earth axes"),
-                Output("force_y", "N", "force of the road on the body, earth axes"),
-                Output("force_z", "N", "force of the road on the body, earth axes"),
-                Output("depth", "m", "deepest penetration of a point"),
-            ),
-        )
+        signals = (*origin.components, *(s for axis in axes for s in axis.components))
+        return self._record(name, signals, (road, len(places)), behind=[*box, *places.ravel().tolist()])
 
 
 def _loss(e: float) -> float:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from mbs.common.affine import AffineVector
-from mbs.elements.element import Element
+from mbs.elements.element import SPACE_OR_PLANE, Element, Signals
 from mbs.elements.reals import NotNegative
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import size
@@ -21,7 +22,7 @@ class Drag(Element):
     """kg/m^3."""
 
     _words = "a drag"
-    _signals = (("point", 0),)
+    _signals: ClassVar[Signals] = (("point", SPACE_OR_PLANE),)
     _outputs = (Output("force", "N", "size of the drag"),)
 
     def record(self, name: str, point: AffineVector) -> ElementRecord:

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.element import Element
+from mbs.elements.integers import an_input
 from mbs.elements.reals import NotNegative, Positive, Share
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.record_checks import index
 from mbs.elements.wheel_signals import carrier_signals
 
 
@@ -53,7 +53,8 @@ class ElectricDrive(Element):
 
     _words = "a drive"
     _signals = (("left", 1), ("right", 1), ("f", 3), ("g", 3))
-    _states = None
+    _integers = (an_input("throttle", "the input"), an_input("selector", optional=True))
+    _more_states = (1.0, 1.0)
     _outputs = (
         Output("motor_speed", "rad/s", "speed of the motor", display_unit="rpm"),
         Output("motor_torque", "N m", "torque of the motor"),
@@ -83,9 +84,5 @@ class ElectricDrive(Element):
         selector : int, optional
             Number of an input: -1 reverse, 0 neutral, 1 drive; without one the drive is in drive.
         """
-        what = self._what(name)
-        inputs = [index(throttle, f"The input of {what}")]
-        if selector is not None:
-            inputs.append(index(selector, f"The selector of {what}"))
-        signals = (left, right, *carrier_signals(f, g, what))
-        return self._record(name, signals, inputs, () if selector is None else (1.0, 1.0))
+        signals = (left, right, *carrier_signals(f, g, self._what(name)))
+        return self._record(name, signals, (throttle, selector))

@@ -15,8 +15,9 @@ from pathlib import Path
 import mbs.kernel
 from mbs.common.checks import not_negative, number, positive
 from mbs.elements.element import Element
-from mbs.elements.reals import Check, declared, texts_of
-from mbs.elements.record_checks import fraction, share
+from mbs.elements.integers import Integer, Of
+from mbs.elements.reals import Check, Group, Real, declared, each_real, texts_of
+from mbs.elements.record_checks import MOST, fraction, share
 from mbs.kernel.header.enumerations import ElementType
 
 FOLDER = Path(mbs.kernel.__file__).parent / "src" / "elements"
@@ -30,11 +31,12 @@ RANGES: dict[Check, tuple[str, str]] = {
 """Of a check: `ali3_range` in C, and what a number must be."""
 
 
-def class_of(kind: ElementType) -> type:
+def class_of(kind: ElementType) -> type[Element]:
     """The class of a type of elements."""
     name = kind.name.lower()
     found = getattr(importlib.import_module(f"mbs.elements.{name}"), name.title().replace("_", ""))
     assert isinstance(found, type)
+    assert issubclass(found, Element)
     return found
 
 
@@ -46,35 +48,99 @@ def texts(kind: type) -> dict[str, str]:
 def header(kind: type[Element]) -> str:
     """The header of an element."""
     name = kind._type().name.lower()
-    upper, reals, said = name.upper(), declared(kind), texts(kind)
-    components = [n for _, n in kind._signals]
-    sizes = {
-        "nsig": str(sum(components)) if all(components) else "-1",
-        "nreal": "-1" if kind._open else f"{upper}_REALS",
-    }
-    sizes |= {"nstate": str(len(kind._states)) if kind._states is not None else "-1", "nout": str(len(kind._outputs))}
+    upper, words = name.upper(), kind._words
+    own, last = kind._numbers()
+    required = sum(not of.optional for of in kind._integers)
     lines = [
         "/* clang-format off */",
-        *_comment(f"Numbers of {kind._words}. Written by `python -m mbs.elements.fields_in_c` from {kind.__name__}."),
-        *_comment("Signals: " + ", ".join(f"{s} ({n or '2 or 3'})" for s, n in kind._signals) + "."),
+        *_comment(f"Numbers of {words}. Written by `python -m mbs.elements.fields_in_c` from {kind.__name__}."),
+        *_comment(f"Signals: {_signals(kind)}."),
         *_comment("Outputs: " + ("; ".join(f"{o.name} ({o.unit}), {o.description}" for o in kind._outputs) or "none")),
         f"#ifndef ALI3_{upper}_FIELDS_H",
         f"#define ALI3_{upper}_FIELDS_H",
         '#include "element.h"',
         "",
-        "enum {",
+        *_enumeration(kind, f"{upper}_REALS", len(own), bool(last)),
     ]
-    for field in reals:
-        lines += [*(f"  {line}" for line in _comment(said[field])), f"  {field.upper()},"]
-    lines += [f"  {upper}_REALS", "};", "#ifndef ALI3_WIDTH"]
-    lines += [f"static const ali3_field {name}_fields[{upper}_REALS] = {{"]
-    for field, real in reals.items():
-        what, must = RANGES[real.check]
-        sentence = f"the {real.words or field.replace('_', ' ')} of {kind._words} {must}" if must else ""
-        lines += [f'  {{{what}, "{sentence}"}},']
-    lines += ["};", f"#define ALI3_{upper} .fields = {name}_fields, .nfields = {upper}_REALS, \\"]
-    lines += ["  " + ", ".join(f".{size} = {value}" for size, value in sizes.items()), "#endif", "#endif"]
+    if kind._integers:
+        lines += [
+            "enum {",
+            *(f"  {kind._prefix}{of.name.upper()}," for of in kind._integers),
+            f"  {upper}_INTEGERS",
+            "};",
+        ]
+    sizes = _sizes(kind, required)
+    lines += ["#ifndef ALI3_WIDTH"]
+    if own or last:
+        lines += [f"static const ali3_field {name}_fields[] = {{"]
+        for _, real, called in each_real(kind):
+            what, must = RANGES[real.check]
+            lines += [f'  {{{what}, "{f"the {called} of {words} {must}" if must else ""}"}},']
+        lines += ["};"]
+        sizes |= {"fields": f"{name}_fields", "nfields": str(len(own) + len(last))}
+    if kind._integers:
+        lines += [f"static const ali3_integer {name}_integers[] = {{"]
+        for of in kind._integers:
+            limits = f"{of.least}, {'INT32_MAX' if of.most == MOST else of.most}, {of.reals}, {of.states}"
+            lines += [f'  {{{of.of.value}, {limits}, "{_sentence(of, words)}"}},']
+        lines += ["};"]
+        sizes |= {"integers": f"{name}_integers", "nintegers": f"{upper}_INTEGERS"}
+    said = textwrap.wrap(", ".join(f".{size}={value}" for size, value in sizes.items()), 90)
+    said = [line.replace("=", " = ") for line in said]
+    lines += [f"#define ALI3_{upper} \\", *(f"  {line} \\" for line in said[:-1]), f"  {said[-1]}", "#endif", "#endif"]
     return "\n".join(lines) + "\n"
+
+
+def _enumeration(kind: type[Element], size: str, own: int, more: bool) -> list[str]:
+    """Places of the numbers; of those that may be missing as if nothing were counted before them."""
+    said, lines, at, follows = texts(kind), ["enum {"], 0, ""
+    for field, real in declared(kind).items():
+        if more and at == own:
+            lines += [f"  {size}{follows}", "};", "enum {"]
+            follows = f" = {size}" + (f" + {kind._behind}" if kind._behind else "")
+        name = kind._prefix + (real.name if isinstance(real, Real) and real.name else field).upper()
+        lines += [*(f"  {line}" for line in _comment(said[field])), f"  {name}{follows},"]
+        count = len([*each_real(real.kind)]) if isinstance(real, Group) else len(real.parts) or 1
+        follows = f" = {name} + {count}" if count > 1 else ""
+        if at < own < at + count:  # a group of which the last numbers may be missing
+            follows, more = f" = {own}", False
+        at += count
+    if not at:
+        return []
+    return [*lines, *([] if more else [f"  {size}{follows}"]), "};"]
+
+
+def _signals(kind: type[Element]) -> str:
+    if kind._signals is None:
+        return "any number"
+    return ", ".join(f"{s} ({' or '.join(map(str, n)) if isinstance(n, tuple) else n})" for s, n in kind._signals)
+
+
+def _sizes(kind: type[Element], required: int) -> dict[str, str]:
+    """Those of `ali3_element_type` that are not 0."""
+    own, last = kind._numbers()
+    both = [n if isinstance(n, tuple) else (n, n) for _, n in kind._signals or ()]
+    space, plane = sum(n for n, _ in both), sum(n for _, n in both)
+    sizes = {
+        "nsig": -1 if kind._signals is None else space,
+        "nsig_plane": 0 if plane == space else plane,
+        "nreal": -1 if kind._behind is None else len(own) + kind._behind,
+        "nreal_more": len(last),
+        "nint": required,
+        "nstate": len(kind._states),
+        "nstate_more": len(kind._more_states),
+        "nout": len(kind._outputs),
+    }
+    return {size: str(n) for size, n in sizes.items() if n}
+
+
+def _sentence(of: Integer, words: str) -> str:
+    """What the kernel says of an integer that is not what it must be."""
+    if of.of is not Of.NUMBERS:
+        thing = "an input" if of.of is Of.INPUTS else "a road"
+        return f"{of.called} of {words} names {thing} that does not exist"
+    some = " or ".join(map(str, range(of.least, min(of.most, of.least + 3) + 1)))
+    return f"{of.called} of {words} must be {some if of.most < of.least + 3 else f'at least {of.least}'}"
 
 
 def _comment(text: str) -> list[str]:
@@ -86,9 +152,7 @@ def _comment(text: str) -> list[str]:
 def headers() -> Iterator[tuple[Path, str]]:
     """The files in C, with their texts."""
     for kind in ElementType:
-        declaring = class_of(kind)
-        if issubclass(declaring, Element):
-            yield FOLDER / f"{kind.name.lower()}_fields.h", header(declaring)
+        yield FOLDER / f"{kind.name.lower()}_fields.h", header(class_of(kind))
 
 
 def main() -> None:

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
+from mbs.elements.element import Element
+from mbs.elements.integers import channels, components
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.record_checks import channels
-from mbs.elements.wheel_signals import wheel_signals
-from mbs.kernel.header.enumerations import ElementType
+from mbs.elements.wheel_signals import WHEEL, wheel_signals
 
 
 @dataclass(frozen=True)
-class HubWrench:
+class HubWrench(Element):
     """Force and moment at the centre of a wheel that is reduced to its spin, earth axes.
 
     The part of the moment about the axis of the wheel turns the wheel, the rest acts on its carrier.
@@ -22,13 +22,12 @@ class HubWrench:
     inputs: Sequence[int]
     """Numbers of the inputs: three components of the force, N, three of the moment, N m."""
 
+    _words = "a wrench"
+    _signals = WHEEL
+    _integers = components("force_x force_y force_z moment_x moment_y moment_z", missing=False)
+    _outputs = (Output("power", "W", "power of force and moment on wheel and carrier together"),)
+
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine) -> ElementRecord:
         """The force element."""
-        what = f"the wrench '{name}'"
-        return ElementRecord(
-            name,
-            ElementType.HUB_WRENCH,
-            wheel_signals(centre, axis, spin, what),
-            integer=channels(self.inputs, 6, what),
-            outputs=(Output("power", "W", "power of force and moment on wheel and carrier together"),),
-        )
+        what = self._what(name)
+        return self._record(name, wheel_signals(centre, axis, spin, what), channels(self.inputs, 6, what))

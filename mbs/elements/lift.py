@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mbs.common.affine import AffineVector
 from mbs.common.checks import instance_of
 from mbs.common.errors import ModelError
-from mbs.elements.element import Element
+from mbs.elements.element import SPACE_OR_PLANE, Element
+from mbs.elements.integers import WIND
 from mbs.elements.reals import NotNegative, Number
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import size
@@ -24,7 +25,8 @@ class Lift(Element):
     """kg/m^3."""
 
     _words = "a lift"
-    _signals = (("point", 0), ("forward", 0), ("up", 0))
+    _signals = tuple((name, SPACE_OR_PLANE) for name in ("point", "forward", "up"))
+    _integers = tuple(replace(of, optional=True) for of in WIND)
     _outputs = (Output("force", "N", "lift, positive along the upward axis"),)
 
     def record(
@@ -52,6 +54,6 @@ class Lift(Element):
                 )
         air: tuple[int, ...] = ()
         if wind is not None:
-            air = instance_of(Wind, wind, f"The wind of {what}", "a Wind or None").integers(what)
+            air = instance_of(Wind, wind, f"The wind of {what}", "a Wind or None").inputs
             size(point, (3,), f"The point in wind of {what}")
         return self._record(name, (*point.components, *forward.components, *up.components), air)

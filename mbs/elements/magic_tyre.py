@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import pi, tan
 from typing import Annotated
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import number, one_of, positive
+from mbs.common.checks import number, one_of, positive, vector
 from mbs.common.errors import ModelError
-from mbs.elements.reals import NotNegative, Number, Pair, Positive, Real, Reals, reals_of
-from mbs.elements.record import ElementRecord, Output, columns
-from mbs.elements.record_checks import index
-from mbs.elements.tyre import TYRE_OUTPUTS, check_rim
-from mbs.elements.tyre_bore import TyreBore, bore_reals
-from mbs.elements.wheel_signals import wheel_signals
-from mbs.kernel.header.enumerations import ElementType
+from mbs.elements.element import Element
+from mbs.elements.integers import ROAD, Integer
+from mbs.elements.reals import NotNegative, Number, Pair, Positive, Real, Reals
+from mbs.elements.record import ElementRecord, Output
+from mbs.elements.tyre import TYRE_OUTPUTS, WITH_BORE, check_rim
+from mbs.elements.tyre_bore import BORE, TyreBore
+from mbs.elements.wheel_signals import WHEEL, wheel_signals
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 
 VERSIONS = {"PAC2002": 52, "MF52": 52, "MF61": 61, "MF62": 62}
@@ -27,14 +27,13 @@ SIGNS = {"iso": (1.0, 1.0, 1.0), "sae": (-1.0, 1.0, -1.0), "adapted_sae": (1.0, 
 """Signs of slip angle, camber, and lateral force with aligning moment, from ISO axes to those of the coefficients."""
 FACTORS = ("lmux", "lmuy", "lkx", "lky")
 """Fields that multiply the scaling factors of the file."""
-_MIRRORED = (-1.0, -1.0, -1.0)
 Bounds = Annotated[Pair, Real(number, ("least", "most"))]
 _STEEPEST = 1.5706
 """rad: a slip angle has a tangent."""
 
 
 @dataclass(frozen=True)
-class MagicTyre:
+class MagicTyre(Element):
     """Tyre of a wheel that meets the road as a disc, with the Magic Formula's forces and moments.
 
     PAC2002 and MF-Tyre 5.2: H. B. Pacejka, Tire and Vehicle Dynamics, 2nd ed., 2006. MF-Tyre 6.1 and 6.2: 3rd ed.,
@@ -77,7 +76,7 @@ class MagicTyre:
     """Damping over stiffness of the carcass at rest, s."""
     combination: str = "weighting"
     """One of `COMBINATIONS`."""
-    signs: str = "iso"
+    signs: Annotated[str, Real(number, ("slip", "camber", "force"), name="sign")] = "iso"
     """Axes of the coefficients: key of `SIGNS`; x forward; ISO: y left, z up; SAE: y right, z down; the adapted SAE
     axes of Pacejka have a slip angle of the other sign."""
     mirrored: bool = False
@@ -88,10 +87,23 @@ class MagicTyre:
     """Likewise, slip angle, rad."""
     camber_range: Bounds = (-0.5, 0.5)
     """Likewise, camber, rad."""
-    largest_load: Positive = field(default=1e5)
+    largest_load: Positive = 1e5
     """Likewise, N; the vertical force itself goes on."""
-    bore: TyreBore | None = None
+    bore: Annotated[TyreBore | None, BORE] = None
     """Torque against turning on the spot; it fades out up to 1 m/s, from where the formula has the moments."""
+
+    _words = "a tyre"
+    _signals = WHEEL
+    _integers = (ROAD, Integer("version"), Integer("combination", most=len(COMBINATIONS) - 1), WITH_BORE)
+    _states = (0.0,) * 4
+    _outputs = (
+        *TYRE_OUTPUTS,
+        Output("overturning_moment", "N m", "moment about the wheel's heading in the plane of the road"),
+        Output("resistance_moment", "N m", "moment of rolling resistance about the wheel's axis"),
+    )
+    _behind = len(MAGIC_COEFFICIENTS)
+    _more = "bore_width"
+    _more_states = (0.0,) * 2
 
     @property
     def along(self) -> tuple[float, float]:
@@ -110,45 +122,26 @@ class MagicTyre:
         ModelError
             A number or a coefficient is not what it must be.
         """
-        what = f"the tyre '{name}'"
+        what = self._what(name)
         signals = wheel_signals(centre, axis, spin, what)
         version = VERSIONS[one_of(self.version, tuple(VERSIONS), f"The version of {what}")]
         combination = COMBINATIONS.index(one_of(self.combination, COMBINATIONS, f"The combination of {what}"))
-        reals, bore = self._reals(what), bore_reals(self.bore, what)
-        check_rim(self.bottoming_radius, self.radius, what)
-        return ElementRecord(
-            name,
-            ElementType.MAGIC_TYRE,
-            signals,
-            *columns(reals | bore),
-            (index(road, f"The road of {what}"), version, combination, *([1] if bore else [])),
-            (0.0,) * (6 if bore else 4),
-            (
-                *TYRE_OUTPUTS,
-                Output("overturning_moment", "N m", "moment about the wheel's heading in the plane of the road"),
-                Output("resistance_moment", "N m", "moment of rolling resistance about the wheel's axis"),
-            ),
-        )
-
-    def _reals(self, what: str) -> Reals:
-        """In the order of `mbs/kernel/src/elements/magic_tyre.c`."""
-        first = ("radius", "bottoming_radius", "stiffness", "progression", "damping", "bottoming_stiffness")
-        reals = reals_of(
-            self,
-            what,
-            (*first, "nominal_load", "reference_friction", "friction_factor", *FACTORS, "pressure", "settling"),
-        )
         signs = SIGNS[one_of(self.signs, tuple(SIGNS), f"The signs of {what}")]
-        for key, sign, turned in zip(("slip", "camber", "force"), signs, _MIRRORED, strict=True):
-            reals[f"sign_{key}"] = (sign * (turned if self.mirrored else 1.0), number)
-        ranges = reals_of(self, what, ("slip_range", "angle_range", "camber_range"))
-        for key in ("angle_range_least", "angle_range_most"):
-            angle, check = ranges[key]
-            ranges[key] = (tan(min(max(angle, -_STEEPEST), _STEEPEST)), check)
-        reals |= ranges | reals_of(self, what, ("largest_load",))
+        angles = vector(self.angle_range, 2, f"the angle range of {what}").tolist()
+        values = {
+            "signs": [-sign if self.mirrored else sign for sign in signs],
+            "angle_range": [tan(min(max(angle, -_STEEPEST), _STEEPEST)) for angle in angles],
+        }
+        integers = (road, version, combination, None if self.bore is None else 1)
+        record = self._record(name, signals, integers, values=values, behind=self._coefficients(what))
+        check_rim(self.bottoming_radius, self.radius, what)
+        return record
+
+    def _coefficients(self, what: str) -> Reals:
         for key in self.coefficients:
             if key not in MAGIC_COEFFICIENTS:
                 raise ModelError(f"The Magic Formula of {what} has no coefficient {key}.")
+        reals: Reals = {}
         for key, usual in MAGIC_COEFFICIENTS.items():
             check = positive if key in ("LMUX", "LMUY", "LKX", "LKY", "LFZO", "LONGVL") else number
             reals[key] = (check(self.coefficients.get(key, usual), f"{key} of {what}"), check)

@@ -11,12 +11,12 @@ from __future__ import annotations
 import ast
 import inspect
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Annotated, TypeAlias, get_type_hints
 
-from mbs.common.checks import not_negative, number, positive, vector
+from mbs.common.checks import instance_of, not_negative, number, positive, vector
 from mbs.elements.record_checks import fraction, share
 
 Check: TypeAlias = Callable[[object, str], float]
@@ -36,6 +36,27 @@ class Real:
     """Of several numbers in one field: the ends of their names."""
     words: str = ""
     """What a sentence calls it, where that is not its name."""
+    name: str = ""
+    """Its name, where that is not that of its field."""
+
+
+@dataclass(frozen=True)
+class Group:
+    """Several numbers of one field, which a class of their own declares; it stands in the type of the field."""
+
+    kind: type
+    words: str
+    """The class with its article, for sentences."""
+    noun: str = ""
+    """What sentences call it behind the name of its field."""
+    optional: bool = False
+    """Whether None is one without numbers."""
+    apart: bool = False
+    """Whether its numbers stand behind those of all fields, by their own names without that of the field."""
+
+    def name(self, field: str, number: str) -> str:
+        """Of a number of it."""
+        return number if self.apart else f"{field}_{number}"
 
 
 Number = Annotated[float, Real(number)]
@@ -45,16 +66,32 @@ Share = Annotated[float, Real(share)]
 Fraction = Annotated[float, Real(fraction)]
 
 
-_DECLARED: dict[type, dict[str, Real]] = {}
+_DECLARED: dict[type, dict[str, Real | Group]] = {}
 
 
-def declared(kind: type) -> dict[str, Real]:
-    """Numbers that a class declares, by name."""
+def declared(kind: type) -> dict[str, Real | Group]:
+    """Numbers that a class declares and groups of them, by field, in the order of the kernel."""
     if kind not in _DECLARED:  # a car asks for those of its tyres many times
         hints = get_type_hints(kind, include_extras=True).items()
         found = ((name, real) for name, hint in hints for real in getattr(hint, "__metadata__", ()))
-        _DECLARED[kind] = {name: real for name, real in found if isinstance(real, Real)}
+        known = {name: real for name, real in found if isinstance(real, (Real, Group))}
+        apart = {name for name, real in known.items() if isinstance(real, Group) and real.apart}
+        _DECLARED[kind] = {name: known[name] for name in sorted(known, key=apart.__contains__)}
     return _DECLARED[kind]
+
+
+def each_real(kind: type) -> Iterator[tuple[str, Real, str]]:
+    """Every single number that a class declares: its name, its declaration and what a sentence calls it."""
+    for field, real in declared(kind).items():
+        words = field.replace("_", " ")
+        if isinstance(real, Group):
+            noun = f"{words} {real.noun} ".strip() if real.noun else ""
+            for name, one, called in each_real(real.kind):
+                yield real.name(field, name), one, f"{called} of the {noun}" if noun else called
+        else:
+            own = real.name or field
+            for name in [f"{own}_{part}" for part in real.parts] or [own]:
+                yield name, real, real.words or own.replace("_", " ")
 
 
 def texts_of(kind: type) -> dict[str, str]:
@@ -69,20 +106,26 @@ def texts_of(kind: type) -> dict[str, str]:
     }
 
 
-def reals_of(thing: object, what: str, names: Sequence[str] = ()) -> Reals:
-    """Checked numbers of an element or a road.
+def reals_of(thing: object, what: str, values: Mapping[str, object] | None = None) -> Reals:
+    """Checked numbers of an element or a road, in the order of the kernel.
 
-    `what`: the thing, for the message; `names`: which, in the order of the kernel; by default all in the order of the
-    fields.
+    `what`: the thing, for the message; `values`: what stands in place of fields.
     """
-    known = declared(type(thing))
     reals: Reals = {}
-    for name in names or known:
-        real, value = known[name], getattr(thing, name)
-        words = f"{real.words or name.replace('_', ' ')} of {what}"
+    for name, real in declared(type(thing)).items():
+        value = values[name] if values and name in values else getattr(thing, name)
+        if isinstance(real, Group):
+            words = name.replace("_", " ")
+            if not (value is None and real.optional):
+                given: object = instance_of(real.kind, value, f"The {words} of {what}", real.words)
+                numbers = reals_of(given, f"the {words} {real.noun} of {what}" if real.noun else what)
+                reals |= {real.name(name, key): one for key, one in numbers.items()}
+            continue
+        own = real.name or name
+        words = f"{real.words or own.replace('_', ' ')} of {what}"
         if not real.parts:
-            reals[name] = (real.check(value, f"The {words}"), real.check)
+            reals[own] = (real.check(value, f"The {words}"), real.check)
             continue
         for part, one in zip(real.parts, vector(value, len(real.parts), f"the {words}"), strict=True):
-            reals[f"{name}_{part}"] = (real.check(one, f"The {words}"), real.check)
+            reals[f"{own}_{part}"] = (real.check(one, f"The {words}"), real.check)
     return reals

@@ -47,14 +47,6 @@ def size(vector: AffineVector, sizes: Sequence[int], what: str) -> None:
         raise ModelError(f"{capital(what)} has {len(vector)} components; it must have {wanted}.")
 
 
-def channels(inputs: Sequence[int | None], count: int, what: str) -> list[int]:
-    """Numbers of the inputs of a force or a torque, one per component; -1 for none."""
-    if not isinstance(inputs, (list, tuple)) or len(inputs) != count:
-        said = f"has {len(inputs)} inputs" if isinstance(inputs, (list, tuple)) else f"has the inputs {shown(inputs)}"
-        raise ModelError(f"{capital(what)} {said}; it needs {count}, None for no component.")
-    return [-1 if i is None else index(i, f"An entry of the inputs of {what}") for i in inputs]
-
-
 def several(values: Sequence[float], what: str) -> list[float]:
     """Finite numbers, one at least."""
     if not isinstance(values, (list, tuple, np.ndarray)) or np.ndim(np.asarray(values, dtype=object)) != 1:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ali3.echo import Understood
 from mbs.common.checks import array, is_number, not_negative, not_zero, number, one_of, positive, shown, vector, whole
 from mbs.common.errors import ModelError
-from mbs.elements.reals import Check, NotNegative, Number, Positive, Reals, declared, reals_of
+from mbs.elements.reals import Check, NotNegative, Number, Positive, Reals, each_real, reals_of
 from mbs.kernel.header.enumerations import RoadType
 
 
@@ -26,7 +26,7 @@ class _NamedNumbers(ABC):
 
     def __init_subclass__(cls, order: Sequence[str] = (), **others: Check) -> None:
         """`order` where it is not that of the fields; `others` are numbers that follow from what is no number."""
-        checks = {name: real.check for name, real in declared(cls).items()} | others
+        checks = {name: real.check for name, real, _ in each_real(cls)} | others
         cls.real_names = tuple(order or checks)
         cls.real_checks = tuple(checks[name] for name in cls.real_names)
 

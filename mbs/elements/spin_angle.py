@@ -5,18 +5,24 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
+from mbs.elements.element import Element
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.wheel_signals import carrier_signals
-from mbs.kernel.header.enumerations import ElementType
 
 
 @dataclass(frozen=True)
-class SpinAngle:
+class SpinAngle(Element):
     """Angle of an axisymmetric wheel on its carrier since the start, summed over the steps; it has no force.
 
     The coordinate of a spin is the integral of the absolute rate about its axis; where the carrier turns about that
     axis too, or the axis itself is turned around, the angle between wheel and carrier is another.
     """
+
+    _words = "an angle of a spinning wheel"
+    _signals = (("f", 3), ("g", 3), ("spin", 1))
+    _states = (0.0,) * 7
+    _outputs = (Output("angle", "rad", "angle of the wheel on its carrier since the start"),)
+    _tangent = False
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
         """The element.
@@ -27,12 +33,4 @@ class SpinAngle:
             For `Model.add`; its output `angle`, rad, is 0 at the start and positive for a wheel that turns as `spin`
             counts, without wrapping.
         """
-        what = f"the angle of the spinning wheel '{name}'"
-        return ElementRecord(
-            name,
-            ElementType.SPIN_ANGLE,
-            (*carrier_signals(f, g, what), spin),
-            states=(0.0,) * 7,
-            outputs=(Output("angle", "rad", "angle of the wheel on its carrier since the start"),),
-            tangent=False,
-        )
+        return self._record(name, (*carrier_signals(f, g, self._what(name)), spin))

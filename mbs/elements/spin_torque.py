@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.element import Element
+from mbs.elements.integers import an_input
 from mbs.elements.reals import Number
 from mbs.elements.record import ElementRecord, Output
-from mbs.elements.record_checks import index
 from mbs.elements.wheel_signals import carrier_signals
 
 
@@ -22,6 +22,7 @@ class SpinTorque(Element):
 
     _words = "a spin torque"
     _signals = (("f", 3), ("g", 3), ("spin", 1))
+    _integers = (an_input("input"),)
     _outputs = (
         Output("torque", "N m", "torque on the wheel about the axis"),
         Output("power", "W", "power of the torque on wheel and carrier together"),
@@ -29,6 +30,4 @@ class SpinTorque(Element):
 
     def record(self, name: str, f: AffineVector, g: AffineVector, spin: Affine) -> ElementRecord:
         """The force element."""
-        what = self._what(name)
-        signals = (*carrier_signals(f, g, what), spin)
-        return self._record(name, signals, (index(self.input, f"The input of {what}"),))
+        return self._record(name, (*carrier_signals(f, g, self._what(name)), spin), (self.input,))

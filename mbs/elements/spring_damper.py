@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 from mbs.common.affine import AffineVector
 from mbs.common.checks import instance_of, positive
 from mbs.common.errors import ModelError
-from mbs.elements.element import Element
-from mbs.elements.reals import NotNegative, Reals, reals_of
+from mbs.elements.element import SPACE_OR_PLANE, Element
+from mbs.elements.reals import Group, NotNegative, reals_of
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import size
 
@@ -41,10 +42,10 @@ class EndStops:
     """k of the rebound stop, N/m."""
     bump_progression: NotNegative = 0.0
     """L of the bump stop, m."""
-    rebound_progression: NotNegative = 0.0
-    """L of the rebound stop, m."""
     bump_travel: NotNegative = 0.0
     """Compression of the bump stop at which metal meets metal, m."""
+    rebound_progression: NotNegative = 0.0
+    """L of the rebound stop, m."""
     rebound_travel: NotNegative = 0.0
     """Compression of the rebound stop at which metal meets metal, m."""
     metal_stiffness: NotNegative = 0.0
@@ -62,15 +63,15 @@ class EndStops:
         progression = max(self.bump_progression, self.rebound_progression)
         return not max(progression, self.metal_stiffness, self.bump_loss, self.rebound_loss) > 0.0
 
-    def reals(self, what: str) -> tuple[Reals, Reals]:
-        """Checked lengths and stiffnesses, and the other eight, each in the order of the kernel.
+    def check(self, what: str) -> None:
+        """Refuse stops that contradict each other.
 
         Raises
         ------
         ModelError
             The bump length is not below the rebound length.
         """
-        lengths, more = reals_of(self, what, LENGTHS), reals_of(self, what, PROGRESSIVE)
+        reals_of(self, what)
         if self.bump_stiffness > 0.0 and self.rebound_stiffness > 0.0 and not self.bump_length < self.rebound_length:
             raise ModelError(
                 f"The bump length {self.bump_length:g} m of {what} must be less than the rebound length "
@@ -78,19 +79,16 @@ class EndStops:
             )
         if self.metal_stiffness > 0.0:
             positive(self.metal_onset, f"The metal onset of {what}")
-        return lengths, more
 
 
-LENGTHS = ("bump_length", "bump_stiffness", "rebound_length", "rebound_stiffness")
-PROGRESSIVE = (
-    *("bump_progression", "bump_travel", "rebound_progression", "rebound_travel"),
-    *("metal_stiffness", "metal_onset", "bump_loss", "rebound_loss"),
-)
+STOPS = Group(EndStops, "EndStops", apart=True)
 
 
 def given_stops(stops: EndStops | None, what: str) -> EndStops:
-    """The stops of a spring; without any, stops that do not act."""
-    return EndStops() if stops is None else instance_of(EndStops, stops, f"The stops of {what}", "EndStops")
+    """The stops of a spring, checked; without any, stops that do not act."""
+    given = EndStops() if stops is None else instance_of(EndStops, stops, f"The stops of {what}", "EndStops")
+    given.check(what)
+    return given
 
 
 @dataclass(frozen=True)
@@ -106,7 +104,7 @@ class SpringDamper(Element):
     """N s/m."""
     free_length: NotNegative = 0.0
     """Length without spring force, m."""
-    stops: EndStops | None = None
+    stops: Annotated[EndStops | None, STOPS] = None
     """Bump and rebound stops."""
     stiffness_factor: NotNegative = 1.0
     """Factor on the stiffness, for a parameter; not on the stops."""
@@ -114,9 +112,9 @@ class SpringDamper(Element):
     """Factor on the damping, for a parameter; not on the stops."""
 
     _words = "a spring-damper"
-    _signals = (("difference", 0),)
+    _signals = (("difference", SPACE_OR_PLANE),)
     _outputs = LINE_OUTPUTS
-    _open = True
+    _more = "bump_progression"
     _elastic = True
 
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
@@ -129,5 +127,5 @@ class SpringDamper(Element):
         """
         what = self._what(name)
         size(difference, (2, 3), f"The distance of {what}")
-        lengths, more = (stops := given_stops(self.stops, what)).reals(what)
-        return self._record(name, difference.components, more=lengths if stops.linear else lengths | more)
+        stops = given_stops(self.stops, what)
+        return self._record(name, difference.components, values={"stops": stops}, more=not stops.linear)

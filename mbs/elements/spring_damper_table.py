@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 from mbs.common.affine import AffineVector
 from mbs.common.checks import array, is_number, not_negative
 from mbs.common.errors import ModelError
-from mbs.elements.reals import NotNegative, Reals, reals_of
-from mbs.elements.record import ElementRecord, columns
+from mbs.elements.element import SPACE_OR_PLANE, Element
+from mbs.elements.integers import Integer
+from mbs.elements.reals import NotNegative, Real
+from mbs.elements.record import ElementRecord
 from mbs.elements.record_checks import size
-from mbs.elements.spring_damper import LINE_OUTPUTS, EndStops, given_stops
-from mbs.kernel.header.enumerations import ElementType
+from mbs.elements.spring_damper import LINE_OUTPUTS, STOPS, EndStops, given_stops
 
 if TYPE_CHECKING:
     from scipy.interpolate import PchipInterpolator
@@ -27,7 +28,7 @@ CLOSEST = 1e-9
 
 
 @dataclass(frozen=True)
-class SpringDamperTable:
+class SpringDamperTable(Element):
     """Spring and damper along the line between two points, each by a number or by points of its curve.
 
     Between the points the curve is a monotone cubic (F. N. Fritsch, R. E. Carlson, SIAM Journal on Numerical Analysis
@@ -35,20 +36,26 @@ class SpringDamperTable:
     of the spring is the integral of the curve.
     """
 
-    spring: float | Rows
+    spring: Annotated[float | Rows, Real(not_negative, name="stiffness")]
     """Stiffness, N/m, or rows of stretch from the free length, m, and force, N, both positive in tension; the stretch
     rises from row to row. Shape (n, 2)."""
-    damper: float | Rows = 0.0
+    damper: Annotated[float | Rows, Real(not_negative, name="damping")] = 0.0
     """Damping, N s/m, or rows of rate of the length, m/s, and force, N, both positive in rebound; rates rise, forces do
     not fall, and one row is (0, 0). Shape (n, 2)."""
     free_length: NotNegative = 0.0
     """Length without stretch, m."""
-    stops: EndStops | None = None
+    stops: Annotated[EndStops | None, STOPS] = None
     """Bump and rebound stops."""
     stiffness_factor: NotNegative = 1.0
     """Factor on the forces of the spring."""
     damping_factor: NotNegative = 1.0
     """Factor on the forces of the damper."""
+
+    _words = "a spring-damper"
+    _signals = (("difference", SPACE_OR_PLANE),)
+    _integers = (Integer("spring_points", reals=4), Integer("damper_points", reals=3))
+    _outputs = LINE_OUTPUTS
+    _elastic = True
 
     def record(self, name: str, difference: AffineVector) -> ElementRecord:
         """The force element.
@@ -63,26 +70,22 @@ class SpringDamperTable:
         ModelError
             A table does not rise, a damper would give energy, or the bump length is not below the rebound length.
         """
-        what = f"the spring-damper '{name}'"
+        what = self._what(name)
         size(difference, (2, 3), f"The distance of {what}")
         stiffness, spring = _number_or_table(self.spring, "stiffness", "spring", what)
         damping, damper = _number_or_table(self.damper, "damping", "damper", what)
         if len(damper):
             _check_damper(damper, what)
-        lengths, more = given_stops(self.stops, what).reals(what)
-        own: Reals = {  # with a table the kernel reads no number, and none can be a parameter
-            "unused stiffness" if len(spring) else "stiffness": (stiffness, not_negative),
-            "unused damping" if len(damper) else "damping": (damping, not_negative),
-        }
-        return ElementRecord(
+        record = self._record(
             name,
-            ElementType.SPRING_DAMPER_TABLE,
             difference.components,
-            *columns(own | reals_of(self, what) | lengths | more, *_spring_columns(spring), *_damper_columns(damper)),
             (len(spring), len(damper)),
-            outputs=LINE_OUTPUTS,
-            elastic=True,
+            values={"spring": stiffness, "damper": damping, "stops": given_stops(self.stops, what)},
+            behind=[*_spring_columns(spring), *_damper_columns(damper)],
         )
+        # with a table the kernel reads no number, and none can be a parameter
+        unused = {name for name, rows in (("stiffness", spring), ("damping", damper)) if len(rows)}
+        return replace(record, real_names=[f"unused {n}" if n in unused else n for n in record.real_names])
 
 
 def _number_or_table(value: float | Rows, number_name: str, name: str, what: str) -> tuple[float, NDArray[np.float64]]:

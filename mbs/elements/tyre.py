@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import instance_of, number, positive
+from mbs.common.checks import number, positive
 from mbs.common.errors import ModelError
-from mbs.elements.reals import NotNegative, Number, Pair, Positive, Real, Reals, reals_of
-from mbs.elements.record import ElementRecord, Output, columns
-from mbs.elements.record_checks import index
-from mbs.elements.tyre_bore import TyreBore, bore_reals
-from mbs.elements.wheel_signals import wheel_signals
-from mbs.kernel.header.enumerations import ElementType
+from mbs.elements.element import Element
+from mbs.elements.integers import ROAD, Integer
+from mbs.elements.reals import Group, NotNegative, Number, Pair, Positive, Real
+from mbs.elements.record import ElementRecord, Output
+from mbs.elements.tyre_bore import BORE, TyreBore
+from mbs.elements.wheel_signals import WHEEL, wheel_signals
 
 LOADS, AXES = ("1", "2"), ("x", "y")
 AtTwoLoads = Annotated[Pair, Real(positive, LOADS)]
@@ -71,8 +71,13 @@ class TyreCurve:
     """Slip from which on it slides, a ratio."""
 
 
+Curve = Annotated[TyreCurve, Group(TyreCurve, "a TyreCurve", "curve")]
+WITH_BORE = Integer("with_bore", least=1, most=1, optional=True)
+"""It is there where bore torque is."""
+
+
 @dataclass(frozen=True)
-class Tyre:
+class Tyre(Element):
     """Tyre of a wheel that meets the road as a disc.
 
     Pairs hold at the nominal load and at twice of it, those of the carcass along and across the heading.
@@ -86,9 +91,9 @@ class Tyre:
     """Radial stiffness, N/m."""
     damping: NotNegative
     """Radial damping, N s/m; it sets in over the first 5 mm."""
-    longitudinal: TyreCurve
+    longitudinal: Curve
     """Longitudinal force over longitudinal slip."""
-    lateral: TyreCurve
+    lateral: Curve
     """Lateral force over lateral slip."""
     trail: SignedAtTwoLoads
     """Dynamic trail over contact length at zero slip, a ratio."""
@@ -115,8 +120,17 @@ class Tyre:
     camber_slip: Number = 0.0
     """Camber thrust over cornering stiffness, a ratio: the lateral slip that has the force of a camber whose sine is
     1."""
-    bore: TyreBore | None = None
+    bore: Annotated[TyreBore | None, BORE] = None
     """Torque against turning about the normal of the road."""
+
+    _words = "a tyre"
+    _signals = WHEEL
+    _integers = (ROAD, WITH_BORE)
+    _states = (0.0,) * 4
+    _outputs = TYRE_OUTPUTS
+    _more = "bore_width"
+    _more_states = (0.0,) * 2
+    _prefix = "TYRE_"
 
     def record(self, name: str, centre: AffineVector, axis: AffineVector, spin: Affine, road: int) -> ElementRecord:
         """The force element.
@@ -126,43 +140,12 @@ class Tyre:
         ModelError
             A curve is not in order at some load up to the largest.
         """
-        what = f"the tyre '{name}'"
-        signals = wheel_signals(centre, axis, spin, what)
-        reals = self._reals(what)
+        what = self._what(name)
+        record = self._record(name, wheel_signals(centre, axis, spin, what), (road, None if self.bore is None else 1))
         check_rim(self.bottoming_radius, self.radius, what)
-        self._check_curves(what)
-        more = self._more_reals(what)
-        return ElementRecord(
-            name,
-            ElementType.TYRE,
-            signals,
-            *columns(reals | more),
-            (index(road, f"The road of {what}"), *([int(self.bore is not None)] if more else [])),
-            (0.0,) * (6 if more else 4),
-            TYRE_OUTPUTS,
-        )
-
-    def _reals(self, what: str) -> Reals:
-        """In the order of `mbs/kernel/src/elements/tyre.c`."""
-        first = ("radius", "bottoming_radius", "stiffness", "damping", "bottoming_stiffness", "nominal_load")
-        reals = reals_of(self, what, (*first, "reference_friction", "max_load_factor"))
-        for direction in ("longitudinal", "lateral"):
-            instance_of(TyreCurve, getattr(self, direction), f"The {direction} of {what}", "a TyreCurve")
-        curves = {
-            f"{direction}_{name}": real
-            for direction in ("longitudinal", "lateral")
-            for name, real in reals_of(getattr(self, direction), f"the {direction} curve of {what}").items()
-        }
-        reals |= curves
-        rest = reals_of(self, what).items()
-        return reals | {name: real for name, real in rest if name not in reals and name != "camber_slip"}
-
-    def _more_reals(self, what: str) -> Reals:
-        """Those of camber and bore torque, where there is one of them."""
-        leaning, bore = reals_of(self, what, ("camber_slip",)), bore_reals(self.bore, what)
-        if not self.camber_slip and not bore:
-            return {}
-        return leaning | (bore or dict.fromkeys(("bore_width", "bore_stiffness", "bore_damping"), (0.0, number)))
+        for _, field, wrong in self.faults_over_loads():
+            raise ModelError(f"The {field} of {what} {wrong}.")
+        return record
 
     def faults_over_loads(self) -> Iterator[tuple[str, str, str]]:
         """Where a force or slip is not positive or not in order at no load or at the largest.
@@ -189,10 +172,6 @@ class Tyre:
                 ("trail_end", self.trail_end, "end slip of the trail"),
             )
             yield from _faulty_slips(trail, q, load)
-
-    def _check_curves(self, what: str) -> None:
-        for _, name, wrong in self.faults_over_loads():
-            raise ModelError(f"The {name} of {what} {wrong}.")
 
 
 def _faulty_slips(

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbs.common.checks import instance_of
-from mbs.elements.reals import Positive, Reals, reals_of
+from mbs.elements.reals import Group, Positive
 
 
 @dataclass(frozen=True)
@@ -24,11 +23,5 @@ class TyreBore:
     damping: Positive
     """Torsional damping of the carcass, N m s/rad."""
 
-    def reals(self, what: str) -> Reals:
-        """In the order of `mbs/kernel/src/elements/tyre_bore.h`."""
-        return {f"bore_{name}": real for name, real in reals_of(self, f"the bore torque of {what}").items()}
 
-
-def bore_reals(bore: TyreBore | None, what: str) -> Reals:
-    """Those of the bore torque of a tyre; none where it has none."""
-    return {} if bore is None else instance_of(TyreBore, bore, f"The bore of {what}", "a TyreBore or None").reals(what)
+BORE = Group(TyreBore, "a TyreBore or None", "torque", optional=True)

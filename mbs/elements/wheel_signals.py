@@ -5,6 +5,9 @@ from __future__ import annotations
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.record_checks import size
 
+WHEEL = (("centre", 3), ("axis", 3), ("spin", 1))
+"""Of `wheel_signals`, as elements declare them."""
+
 
 def wheel_signals(centre: AffineVector, axis: AffineVector, spin: Affine, what: str) -> tuple[Affine, ...]:
     """Centre, unit axis to the left, absolute spin: of an element between wheel and road."""

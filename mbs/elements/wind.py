@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mbs.elements.record_checks import index
-
 
 @dataclass(frozen=True)
 class Wind:
@@ -16,13 +14,7 @@ class Wind:
     """`speed`, `heading`: numbers of the inputs: speed of the air, m/s, and the heading that it moves to, rad from the
     x axis of the earth to the left."""
 
-    def integers(self, what: str) -> tuple[int, int]:
-        """Checked numbers of the inputs.
-
-        Parameters
-        ----------
-        what : str
-            The element that is in it, for sentences.
-        """
-        speed = index(self.speed, f"The speed of the air of {what}")
-        return speed, index(self.heading, f"The heading of the air of {what}")
+    @property
+    def inputs(self) -> tuple[int, int]:
+        """Numbers of the inputs, for the record of an element."""
+        return self.speed, self.heading

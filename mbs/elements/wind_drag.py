@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from mbs.common.affine import AffineVector
 from mbs.common.checks import instance_of
 from mbs.elements.drag import Drag
+from mbs.elements.integers import WIND
 from mbs.elements.record import ElementRecord
 from mbs.elements.record_checks import size
 from mbs.elements.wind import Wind
@@ -20,6 +21,7 @@ class WindDrag(Drag):
     """How the air moves."""
 
     _signals = (("point", 3),)
+    _integers = WIND
 
     def record(self, name: str, point: AffineVector) -> ElementRecord:
         """The force element.
@@ -31,5 +33,5 @@ class WindDrag(Drag):
         """
         what = self._what(name)
         size(point, (3,), f"The point in wind of {what}")
-        air = instance_of(Wind, self.wind, f"The wind of {what}", "a Wind").integers(what)
+        air = instance_of(Wind, self.wind, f"The wind of {what}", "a Wind").inputs
         return self._record(name, point.components, air)

@@ -48,6 +48,7 @@ LIMITS = {
     "ALI3_STILL": "Of the largest value in a unit, or of the length: a smaller range is rest.",
     "ALI3_WRONG_ERROR": "Of the size of what is judged: above it a run is wrong.",
     "ALI3_AGREED": "Of what would be wrong: two motions that differ by less agree.",
+    "ALI3_MOST_PARTS": "By which the step of a second motion is longer, or half of it shorter, at most.",
     "ALI3_EVENT_ORDER": "Order of errors behind abrupt events.",
     "ALI3_HALVINGS_SUSPECT": "Halvings per step above which a run is suspect.",
     "ALI3_SYSTEM_VERSION": "Of the System file.",

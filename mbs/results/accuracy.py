@@ -19,7 +19,6 @@ from mbs.settings.input_signals import unit_text
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
-WARNED_ERROR = 0.98 * WRONG_ERROR  # estimates at the limit are themselves off by about two hundredths
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
 ENERGY_KEPT = 1e-3  # of that of the motion: what a free System may gain or lose, and `drift` of what is plainly smooth
 # Of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved.
@@ -131,15 +130,6 @@ def recorded_every(every: int, steps: int) -> int:
     """A divisor of `every` with which a run of so many steps has enough samples to be compared."""
     least = max(1, steps // INSTANTS)
     return next(k for k in range(min(every, least), 0, -1) if every % k == 0) if isinstance(every, int) else every
-
-
-def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> float:
-    """Order with which errors fall: that of the energy where both runs measured it, at most that of the method."""
-    most = float(METHOD_TABLE[method].order)
-    first, second = abs(coarse.energy_error), abs(fine.energy_error)
-    if not METHOD_TABLE[method].balance_decides or not (second > 0.0 and first > second):
-        return most
-    return min(most, max(1.0, math.log(first / second) / math.log(ratio)))
 
 
 def free_part(report: Report, steps: int, halvings: int) -> Accuracy:

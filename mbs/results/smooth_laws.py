@@ -24,8 +24,8 @@ SMOOTH = {
     ElementType.SPIN_ANGLE,
 }
 """Elements whose forces are smooth; a spring-damper is where it has no stops."""
-UNRESOLVED, SMOOTH_UNRESOLVED = 0.5, 1.0
-"""Missed shares: h w is twice as much, so that a period has six steps, and three."""
+UNRESOLVED = 0.5
+"""Missed share: h w is twice as much, so that a period has six steps; three are enough of a method of high order."""
 STOPS = (6, 8)  # of the numbers of a spring-damper: the stiffnesses of its stops
 
 
@@ -38,7 +38,7 @@ def unresolved_share(
     abrupt can happen three steps in a period are enough.
     """
     smooth = METHOD_TABLE[method].order > 2 and nothing_abrupt(system, span, inputs)
-    return SMOOTH_UNRESOLVED if smooth else UNRESOLVED
+    return 2.0 * UNRESOLVED if smooth else UNRESOLVED
 
 
 def nothing_abrupt(system: System, span: tuple[float, float], inputs: Mapping[str, Signal] | None = None) -> bool:

@@ -8,12 +8,16 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from mbs.common.checks import flag, instance_of, is_finite, is_number, mapping, number, shown
+from mbs.common.checks import array, flag, instance_of, is_finite, is_number, mapping, number, shown
 from mbs.kernel.header.enumerations import Status
 from mbs.results.accuracy import AccuracyWarning
+from mbs.results.comparison import WHOLE
 from mbs.results.simulation_error import PoseError
+from mbs.settings.control import Tolerance, checked_tolerance
 from mbs.settings.settings import Settings
+from mbs.simulation.prepared_system import length_of, prepared
 from mbs.simulation.state import Pose
 from mbs.system.system import System
 
@@ -158,3 +162,41 @@ def check_progress(progress: bool | Callable[[float], None] | None) -> None:
     """One sentence for what is neither a choice nor a function."""
     if progress is not None and not callable(progress):
         flag(progress, "The progress", ValueError)
+
+
+def record_times(t0: float, t_end: float, h: float | None, every: int, times: ArrayLike | None) -> NDArray[np.float64]:
+    """Instants of the record, the first of them t0."""
+    check_end(t0, t_end)
+    if times is not None and h is not None:
+        raise ValueError("Both times and h are given; one of them says where to record.")
+    if times is None:
+        if t_end == t0:
+            return np.array([t0])
+        interval = (t_end - t0) / WHOLE if h is None else h * every
+        samples = count_steps(t0, t_end, interval) + 1
+        check_record(samples, 1)
+        return t0 + interval * np.arange(samples, dtype=float)
+    wanted = array(times, (None,), "the times", ValueError, "finite numbers that ascend")
+    if not len(wanted) or not np.all(np.diff(wanted) > 0.0):
+        raise ValueError(f"The times must be finite numbers that ascend, not {shown(times)}.")
+    if len(wanted) and not (wanted[0] >= t0 and wanted[-1] <= t_end):
+        raise ValueError(
+            f"The times must lie between {t0:g} and {t_end:g} s; they go from {wanted[0]:g} to {wanted[-1]:g}."
+        )
+    return np.concatenate([[t0], wanted[wanted > t0]])
+
+
+def asked_tolerance(system: System, tolerance: object) -> Tolerance:
+    """The tolerance that is asked for, or one sentence."""
+    sensors = prepared(system)[1]["sensors"]
+    units = {sensor["name"]: sensor["unit"] for sensor in sensors if sensor.get("computed", True)}
+    return checked_tolerance(tolerance, units, length_of(system))
+
+
+def check_tolerance_settings(settings: Settings) -> None:
+    """Refuse settings with which no tolerance can be kept."""
+    if settings.step_iterations > 0:
+        raise ValueError(
+            f"step_iterations = {settings.step_iterations} with a tolerance: steps that are accepted as they are keep "
+            "none; give a step h, or leave the limit out."
+        )

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header.limits import AGREED
+from mbs.kernel.header.limits import AGREED, MOST_PARTS
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy, missed_share
 from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, is_open
@@ -23,7 +23,6 @@ from mbs.simulation.march import WATCHED
 from mbs.simulation.refined_run import RefinedRuns, TooDearError, Watch
 
 COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
-LONG = 8  # the first step over that of the run where one iteration or a high order shows enough, of that half as well
 ALONE = 0.03  # of the range: by order one the error behind which twice the step differs so much
 
 
@@ -44,7 +43,8 @@ def coarser_steps(
     which `unresolved_share` makes larger where errors have a high order.
     """
     one = one_iteration(settings, compared, states)
-    longer = [LONG, LONG // 2] if unresolved > UNRESOLVED else [LONG] if one else []
+    # with one iteration, or a high order, of that half as well
+    longer = [MOST_PARTS, MOST_PARTS // 2] if unresolved > UNRESOLVED else [MOST_PARTS] if one else []
     fit = [times for times in [*longer, 2] if times * missed_share(run, settings.method) <= unresolved]
     return [times for times in fit if times in (fit[0], 2)]
 

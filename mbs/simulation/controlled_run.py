@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.kernel.binding import ControlFields, KernelError
-from mbs.settings.input_signals import InputSignals
+from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.settings import Settings
-from mbs.simulation.prepared_system import length_of, prepared
+from mbs.simulation.prepared_system import distance, length_of, prepared, scales_of
 from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
@@ -80,7 +80,7 @@ class ControlledRun:
         simulation.change_settings(self.settings)
         self.tolerance = tolerance
         nq = simulation.system.nq
-        self.scale = np.array(meta.get("coordinate_lengths", [1.0] * nq), float)
+        self.scale = scales_of(simulation.system)
         self.fields = ControlFields(
             tolerance=tolerance,
             length=self.length,
@@ -161,7 +161,7 @@ class ControlledRun:
 
     def distance(self, other: ControlledRun) -> float:
         """Largest distance of the positions of two runs, in parts of the length."""
-        return float(np.max(np.abs(self.positions - other.positions) * self.scale, initial=0.0)) / self.length
+        return distance(self.simulation.system, self.positions, other.positions)
 
 
 def tightened(settings: Settings, error: float, q: Array, fine: float) -> Settings:
@@ -173,3 +173,8 @@ def tightened(settings: Settings, error: float, q: Array, fine: float) -> Settin
         tolerance_r=min(settings.tolerance_r, max(least, BALANCE * error)),
         tolerance_phi=min(settings.tolerance_phi, max(least, ROWS * error)),
     )
+
+
+def signals_of(inputs: Mapping[str, Signal], of: SteppedSystem) -> InputSignals:
+    """Inputs over time, by name, of a System."""
+    return InputSignals(inputs, prepared(of.system)[1]["inputs"])

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from mbs.common.progress import progress_for
 from mbs.kernel.header.enumerations import Status
+from mbs.kernel.header.limits import MOST_PARTS, WRONG_ERROR
 from mbs.kernel.header.steps import BranchKind
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
@@ -137,8 +138,8 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
     try:
         known = refined.verdict()
     except refined_run.TooDearError:
-        ahead = [refined.h / refined.tried * times for times in (1, 2, 4, 8)]
-        needed = refined.cost + sum(cost for cost in ahead if cost < 8.5 * refined.parts)
+        ahead = [refined.h / refined.tried * times for times in (1, 2, 4, MOST_PARTS)]
+        needed = refined.cost + sum(cost for cost in ahead if cost < (MOST_PARTS + 0.5) * refined.parts)
         known = refined.known or known
         text = accuracy.open_text(known, refined.tried, refined.most, needed)
         return replace(known, check_cost=refined.cost, message=f"{balance} {text}".strip())
@@ -150,7 +151,7 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
             text = f"The error of the run is not known: in a refined run with steps of {refined.tried:g} s {error}"
         return replace(known, check_cost=refined.cost, message=text)
     branch = run[0].branch_change if refined.left_alone else ""
-    off = refined.text(known) if (known.error or 0.0) > accuracy.WARNED_ERROR else ""
+    off = refined.text(known) if (known.error or 0.0) > WRONG_ERROR else ""
     if not (off or refined.finest.balance_wrong):  # if it is, the refined run is off as well, as by round-off
         balance = ""
     if not (off or balance):

@@ -28,14 +28,11 @@ from mbs.simulation.arguments import (
 from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
+from mbs.simulation.recorded import recorded
 from mbs.simulation.refusal import refusal
-from mbs.simulation.run_roads import run_roads
 from mbs.simulation.stepped_system import SteppedSystem
-from mbs.system.system import System
-from mbs.system.text import notices_before
 
 Array = NDArray[np.float64]
-NO_FORCE = 1e-6  # of the weight, as `ali3_no_force` has it
 WATCHED = 10  # parts of a run after which its samples are looked at
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
@@ -111,24 +108,6 @@ def march(
     return trajectory_of(simulation, t0, h * every, values, wall, before, record, left_out), seen
 
 
-def notices_of(system: System, t: Array, values: Array) -> list[str]:
-    """What a run tells beside its numbers: `notices_before`, and what sensors with a notice say of their columns,
-    `values` (n, ns) at `t` (n,).
-    """
-    meta = prepared(system)[1]
-    found, sensors = notices_before(meta), meta["sensors"]
-    for k, sensor in enumerate(sensors):
-        none = NO_FORCE * np.abs(system.arrays["gravity_force"]).max() if sensor["unit"] == "N" else 0.0
-        there = np.flatnonzero(np.abs(values[:, k]) > none if "notice" in sensor else ())
-        if len(there):
-            most = values[np.argmax(np.abs(values[:, k])), k]
-            found.append(
-                f"{sensor['notice']}: '{sensor['name']}' is not 0 from t = {t[there[0]]:g} s, "
-                f"at most {most:g} {sensor['unit']}."
-            )
-    return found
-
-
 @contextmanager
 def attached(simulation: SteppedSystem, signals: InputSignals, t0: float, t_end: float, h: float) -> Iterator[None]:
     """Inputs of a run: the kernel asks for them at the times at which its method evaluates them."""
@@ -150,28 +129,12 @@ def trajectory_of(
     left_out: Callable[[int], LeftOut | None],
 ) -> Trajectory:
     """What was recorded, with the counters since `before`; `left_out` makes of the number of samples what was not."""
-    sensors, report = prepared(simulation.system)[1]["sensors"], simulation.report
-    energy = accuracy.energy_text(report, simulation.system, simulation.settings.method)
+    report, settings = simulation.report, simulation.settings
     t = t0 + interval * np.arange(len(values), dtype=float)
-    return Trajectory(
-        t,
-        values,
-        [s["name"] for s in sensors],
-        [s["unit"] for s in sensors],
-        report,
-        simulation.settings,
-        wall,
-        accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings),
-        notices=[
-            *notices_of(simulation.system, t, values),
-            *filter(None, [report.capped_text, energy, simulation.start_text]),
-        ],
-        branch_change=simulation.branch_change,
-        poses=record.poses(t),
-        drawing=record.drawing,
-        roads=run_roads(simulation.system, simulation.instance, simulation.road_paths),
-        left_out=left_out(len(values)),
-    )
+    energy = accuracy.energy_text(report, simulation.system, settings.method)
+    known = accuracy.free_part(report, report.steps - before.steps, report.halvings - before.halvings)
+    notices = report.capped_text, energy
+    return recorded(simulation, t, values, settings, wall, record, left_out(len(values)), notices, accuracy=known)
 
 
 def next_chunk(chunk: int, spent: float, every: int) -> int:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from typing import Any
 from weakref import WeakKeyDictionary
 
+import numpy as np
+from numpy.typing import NDArray
+
 from mbs.kernel.binding import LoadedSystem
 from mbs.system.system import System
 
@@ -16,6 +19,16 @@ def prepared(system: System) -> tuple[LoadedSystem, dict[str, Any]]:
     if system not in _PREPARED:
         _PREPARED[system] = LoadedSystem(system.kernel_bytes()), system.meta
     return _PREPARED[system]
+
+
+def scales_of(system: System) -> NDArray[np.float64]:
+    """What turns changes of coordinates into lengths, m, shape (nq,)."""
+    return np.array(prepared(system)[1].get("coordinate_lengths", [1.0] * system.nq), float)
+
+
+def distance(system: System, one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
+    """Largest distance of coordinates (n, nq) in parts of the length."""
+    return float(np.max(np.abs(one - other) * scales_of(system), initial=0.0)) / length_of(system)
 
 
 def length_of(system: System) -> float:

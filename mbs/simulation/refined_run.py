@@ -8,12 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
-from mbs.kernel.header.limits import EVENT_ORDER
+from mbs.kernel.header.limits import MOST_PARTS, WRONG_ERROR
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
-from mbs.results.accuracy import MOST_COST, WARNED_ERROR, Accuracy
+from mbs.results.accuracy import MOST_COST, Accuracy
 from mbs.results.comparison import (
     COORDINATES,
     Compared,
@@ -25,6 +24,7 @@ from mbs.results.comparison import (
     shows_motion,
     sizes_of,
 )
+from mbs.results.convergence import LEAST_ORDER, extrapolated, measured_order, seen_order, unsure
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
 from mbs.results.smooth_laws import UNRESOLVED, nothing_abrupt, unresolved_share
@@ -32,7 +32,6 @@ from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.prepared_system import length_of
-from mbs.simulation.step_choice import LEAST_ORDER
 from mbs.system.system import System
 
 Run = tuple[Trajectory, list[NDArray[np.float64]]]
@@ -188,7 +187,7 @@ class RefinedRuns:
         """
         parts = self.first
         known = self.finer(parts)
-        while not self.divisor and parts < 8 * self.parts and (self.coarse or self._unsure(known, parts)):
+        while not self.divisor and parts < MOST_PARTS * self.parts and (self.coarse or self._unsure(known, parts)):
             parts *= 2
             known = self.finer(parts)
             if parts > 2 * self.parts:
@@ -196,9 +195,9 @@ class RefinedRuns:
                 known = self.known = extrapolated(
                     known, [self._table(r) for r in runs], self.compared, self.before, self.length
                 )
-            if parts == 4 * self.parts and (known.error or 0.0) > WARNED_ERROR:
+            if parts == MOST_PARTS // 2 * self.parts and (known.error or 0.0) > WRONG_ERROR:
                 break
-        if parts == 8 * self.parts and self._unsure(known, parts):
+        if parts == MOST_PARTS * self.parts and self._unsure(known, parts):
             units, sensors = self._differences(self._finer[parts // 2], self._finer[parts])
             known = replace(
                 known,
@@ -310,7 +309,7 @@ class RefinedRuns:
         order = float(METHOD_TABLE[run.settings.method].order)
         before, after = coarse[0].report, fine[0].report
         if round(ratio) < 4 and before is not None and after is not None:  # else the order hardly counts
-            order = accuracy.measured_order(run.settings.method, before, after, max(ratio, 1.0 / ratio))
+            order = measured_order(run.settings.method, before, after, max(ratio, 1.0 / ratio))
         factor = 1.0 / abs(1.0 - ratio**-order)
         return replace(
             run.accuracy,
@@ -320,44 +319,3 @@ class RefinedRuns:
             units={unit: factor * e for unit, e in units.items()},
             sensors={name: factor * e for name, e in sensors.items()},
         )
-
-
-def seen_order(first: float, near: float, parts: int, most_parts: int, most: float) -> float:
-    """Order, from `LEAST_ORDER` to `most`, with which runs come nearer to what they tend to, of which one and that with
-    its step in `parts` differ by `first` and `near` from that with its step in `most_parts`.
-    """
-
-    def more(order: float) -> float:
-        return float(near * (most_parts**order - 1.0) - first * ((most_parts / parts) ** order - 1.0))
-
-    if more(most) <= 0.0:
-        return most
-    return float(brentq(more, LEAST_ORDER, most)) if more(LEAST_ORDER) < 0.0 else LEAST_ORDER
-
-
-def unsure(known: Accuracy, apart: Mapping[str, float]) -> bool:
-    """Whether a run that is off by `apart` may change the verdict of the error that it gave, both over the range, per
-    unit.
-    """
-    above = {unit: error - WARNED_ERROR for unit, error in known.units.items()}
-    surely_wrong = any(more >= apart[unit] for unit, more in above.items())
-    return not surely_wrong and any(-more < apart[unit] for unit, more in above.items())
-
-
-def extrapolated(
-    known: Accuracy,
-    tables: Sequence[Mapping[str, NDArray[np.float64]]],
-    compared: Mapping[str, Compared],
-    before: Mapping[str, ComparedFields] | None,
-    length: float,
-) -> Accuracy:
-    """The error against what refined runs tend to, by Richardson's extrapolation with `EVENT_ORDER`.
-
-    `tables`: of the run and of the last two refined ones, of which the last has half the step, samples of shape (n,) by
-    name; `before`, `length`: as of `Comparison`.
-    """
-    run, coarse, fine = tables
-    more = 1.0 / (2.0**EVENT_ORDER - 1.0)
-    limit = {name: fine[name] + more * what.change(coarse[name], fine[name]) for name, what in compared.items()}
-    units, sensors, _ = differences(run, limit, compared, before, length)
-    return replace(known, units=units, sensors=sensors)

@@ -15,8 +15,8 @@ from mbs.results.accuracy import AccuracyWarning
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.settings import Settings
-from mbs.simulation import chosen_run
 from mbs.simulation.arguments import (
+    asked_tolerance,
     check_end,
     check_estimate,
     check_every,
@@ -25,13 +25,17 @@ from mbs.simulation.arguments import (
     check_step,
     check_system,
     check_time,
+    check_tolerance_settings,
     check_values,
+    record_times,
     warn_of_end,
 )
+from mbs.simulation.chosen_steps import chosen_equal_steps
 from mbs.simulation.fixed_steps import fixed_step_run
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.state import Pose
 from mbs.simulation.stepping import Simulation
+from mbs.simulation.tolerance_run import to_tolerance
 from mbs.system.system import System
 
 
@@ -114,7 +118,7 @@ def simulate(
     -----
     AccuracyWarning
         When constraint forces did more than 3.6 % of the work in the motion, or the refined run says that positions,
-        lengths, angles or forces of elements are off by more than 4.9 % of the largest range in their unit; with a
+        lengths, angles or forces of elements are off by more than 5 % of the largest range in their unit; with a
         tolerance, when the error is guessed to be more than three times that. When equal steps leave
         out more than a hundredth of the run at its end.
     BendingWarning
@@ -134,10 +138,10 @@ def simulate(
     check_progress(progress)
     if times is not None and tolerance is None:
         raise ValueError("times need a tolerance: equal steps are recorded where they end.")
-    wanted = None if tolerance is None else chosen_run.asked_tolerance(system, tolerance)
+    wanted = None if tolerance is None else asked_tolerance(system, tolerance)
     settings = check_settings(settings)
     if wanted is not None:
-        chosen_run.check_tolerance_settings(settings)
+        check_tolerance_settings(settings)
     check_values(parameters, "The parameters")
     named = method is not None or settings.method != Settings().method
     chosen = method if method is not None else settings.method if named or wanted is None else "auto"
@@ -167,14 +171,12 @@ def simulate(
         _warn_of(run)
         return run
     if wanted is None:
-        run = chosen_run.equal_steps(
-            start, equal_steps, t0, t_end, h, given, settings, chosen, estimate_error, progress
-        )
+        run = chosen_equal_steps(start, equal_steps, t0, t_end, h, given, settings, chosen, estimate_error, progress)
         _warn_of(run)
         return run
     with progress_for(progress) as bar:
-        record = chosen_run.record_times(t0, t_end, h, every, times)
-        return chosen_run.to_tolerance(start, wanted, record, given, settings, chosen, bar)[0]
+        record = record_times(t0, t_end, h, every, times)
+        return to_tolerance(start, wanted, record, given, settings, chosen, bar)[0]
 
 
 def _warn_of(run: Trajectory) -> None:

@@ -12,19 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.common.progress import Progress
+from mbs.kernel.header.limits import AGREED
 from mbs.results.comparison import INSTANTS
+from mbs.results.convergence import LEAST_ORDER
 from mbs.results.simulation_error import SimulationError
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.march import march
-from mbs.simulation.prepared_system import length_of, prepared
+from mbs.simulation.prepared_system import distance
 from mbs.simulation.stepped_system import SteppedSystem
-from mbs.system.system import System
 
 Array = NDArray[np.float64]
 MOST_STEPS = 3_000_000  # of a run
-LEAST_ORDER = 0.5  # measured: below, differences do not yet show the error
-EXACT = 1e-3  # of the tolerance: below it, twice, differences are round-off of what every step gives right
 
 
 @dataclass(frozen=True)
@@ -62,13 +61,13 @@ def choose_step(
         if positions is None or previous is None:
             differences.clear()
         else:
-            differences.append(_distance(system, positions, previous))
+            differences.append(distance(system, positions, previous))
         if len(differences) >= 2:
             order = _order(differences, METHOD_TABLE[method].order_of_changing_steps)
             error = differences[-1] / (2.0**order - 1.0)
             last = error, order
-            exact = max(differences[-2:]) <= EXACT * tolerance
-            if error <= tolerance and (order > LEAST_ORDER or exact):
+            agree = max(differences[-2:]) <= AGREED * tolerance  # round-off of what every step gives right
+            if error <= tolerance and (order > LEAST_ORDER or agree):
                 return StepChoice(h, error, order, len(runs))
         if (t_end - simulation.time) / h > MOST_STEPS / 2:
             break
@@ -107,9 +106,3 @@ def _positions(
             return None
         found.append(simulation.state.q)
     return np.array(found)
-
-
-def _distance(system: System, a: Array, b: Array) -> float:
-    meta = prepared(system)[1]
-    lengths = np.array(meta.get("coordinate_lengths", [1.0] * system.nq), float)
-    return float(np.max(np.abs(a - b) * lengths, initial=0.0)) / length_of(system)

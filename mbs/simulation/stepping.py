@@ -24,6 +24,7 @@ from mbs.settings.control import Tolerance
 from mbs.settings.input_signals import InputSignals, Signal, unit_text
 from mbs.settings.settings import Settings
 from mbs.simulation.arguments import (
+    asked_tolerance,
     check_end,
     check_estimate,
     check_every,
@@ -34,10 +35,11 @@ from mbs.simulation.arguments import (
     check_step,
     check_system,
     check_time,
+    check_tolerance_settings,
     check_values,
     count_steps,
+    record_times,
 )
-from mbs.simulation.chosen_run import asked_tolerance, check_tolerance_settings, record_times, to_tolerance
 from mbs.simulation.fixed_steps import fixed_step_run
 from mbs.simulation.follower import Readings
 from mbs.simulation.parameter_warning import tell_unworkable
@@ -46,6 +48,7 @@ from mbs.simulation.restored import restored
 from mbs.simulation.start_on_road import tell_start
 from mbs.simulation.state import Pose
 from mbs.simulation.stepped_system import SteppedSystem
+from mbs.simulation.tolerance_run import to_tolerance
 from mbs.system.system import System
 
 SINGULAR = {"switches": "switch"}

@@ -25,7 +25,7 @@ def site(out: Path) -> SimpleNamespace:
     return SimpleNamespace(outdir=str(out), builder=builder, config=SimpleNamespace(live_pages=None))
 
 
-def text(live_pages: ModuleType, app: SimpleNamespace, page: str = "docs/drive.md") -> str:
+def text(live_pages: ModuleType, app: SimpleNamespace, page: str = "docs/driving.md") -> str:
     source = [(ROOT / page).read_text(encoding="utf-8")]
     live_pages.listed(app, page, source)
     assert live_pages.MARK not in source[0]

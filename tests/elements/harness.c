@@ -14,17 +14,14 @@
 EXPORT int32_t harness_has_discrete(int32_t type) { return ali3_element_type_get(type)->discrete != NULL; }
 
 /* sizes: nsig, nreal, nint, nstate, nout */
-EXPORT int32_t harness_sizes_match(int32_t type, const int32_t sizes[5]) {
-  const ali3_element_type *t = ali3_element_type_get(type);
-  const int32_t want[5] = {t->nsig, t->nreal, t->nint, t->nstate, t->nout};
-  for (int i = 0; i < 5; i++)
-    if (want[i] >= 0 && want[i] != sizes[i]) return 0; /* below 0: any, or a number for each item */
-  return t->states == NULL || t->states(sizes[2]) == sizes[3];
+EXPORT int32_t harness_sizes_match(int32_t type, const int32_t sizes[5], const int32_t *integer) {
+  return ali3_element_fits(ali3_element_type_get(type), sizes[0], sizes[1], integer, sizes[2], sizes[3], sizes[4]);
 }
 
 EXPORT const char *harness_check(int32_t type, const int32_t sizes[5], const double *real, const int32_t *integer,
                                  int32_t n_inputs, int32_t n_roads) {
   const ali3_element_type *t = ali3_element_type_get(type);
+  if (!ali3_element_fits(t, sizes[0], sizes[1], integer, sizes[2], sizes[3], sizes[4])) return "sizes do not fit";
   return ali3_element_check(t, sizes[0], real, sizes[1], integer, sizes[2], n_inputs, n_roads);
 }
 

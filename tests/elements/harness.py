@@ -112,7 +112,7 @@ class Element:
         e = self.element
         counts = (len(e.signals), len(e.real), len(e.integer), len(e.states), len(e.outputs))
         self.sizes = _ints(counts)
-        assert library().harness_sizes_match(int(e.type), self.sizes), (
+        assert library().harness_sizes_match(int(e.type), self.sizes, _ints(e.integer)), (
             f"sizes {counts} of {e.type} are not those of the kernel"
         )
         assert self.check() is None, self.check()

@@ -201,7 +201,7 @@ def test_kernel_checks_the_drive() -> None:
     element = drive_element()
     assert "input that does not exist" in (element.check(n_inputs=0) or "")
     element.element = replace(element.element, integer=(0, 4))
-    assert "one ratio per gear" in (element.check() or "")
+    assert "sizes do not fit" in (element.check() or "")
 
 
 def selected(selector: float, speed: float, throttle: float, drive: AutomaticDrive = DRIVE) -> Element:

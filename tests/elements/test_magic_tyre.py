@@ -317,9 +317,9 @@ def test_forces_do_not_jump_where_the_wheel_stops_or_turns_back() -> None:
     ("change", "word"),
     [
         ({"radius": 0.1}, "bottoming radius"),
-        ({"stiffness": 0.0}, "vertical stiffness"),
-        ({"nominal_load": 0.0}, "loads, reference friction"),
-        ({"lmux": 0.0}, "factors on friction"),
+        ({"stiffness": 0.0}, "the stiffness of a tyre"),
+        ({"nominal_load": 0.0}, "nominal load"),
+        ({"lmux": 0.0}, "lmux"),
         ({"sign_force": 0.5}, "sign"),
         ({"slip_range_least": 0.1}, "hold zero"),
         ({"PCX1": 0.0}, "lacks shape"),

@@ -364,3 +364,21 @@ def contradicting_arm() -> mbs.Model:
     m.revolute("foot", m.ground, bars[0], point=corners[0])
     m.revolute("other foot", m.ground, bars[1], point=corners[2])
     return m
+
+
+def buffer(progression: float = 0.0) -> mbs.Model:
+    """A trolley that rolls for 10 s before a stiff spring stops it, and rolls back."""
+    m = mbs.Model("progressive_buffer" if progression else "buffer", dimension=2, gravity=(0.0, 0.0))
+    trolley = m.body("trolley", mass=1.0, com=(0.0, 0.0), inertia=0.1)
+    m.prismatic("rail", trolley, m.ground, axis=(1.0, 0.0))
+    m.initial_velocity(trolley, linear=(1.0, 0.0))
+    stops = EndStops(rebound_length=11.0, rebound_stiffness=1e4, rebound_progression=progression)
+    spring = m.spring_damper("spring", (m.ground, (-1.0, 0.0)), (trolley, (0.0, 0.0)), stiffness=0.0, stops=stops)
+    m.sense_element("spring.force", spring, "force")
+    m.sense_position("x", trolley, component="x")
+    return m
+
+
+def progressive_buffer() -> mbs.Model:
+    """The same without a kink where the spring is met."""
+    return buffer(0.05)

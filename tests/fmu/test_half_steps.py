@@ -216,7 +216,7 @@ def test_a_box_that_hops_on_and_on_is_made_twice_for_two_seconds(build: Callable
 
 @pytest.mark.parametrize("scene", ["double_pendulum", "double_pendulum_rates"])
 @pytest.mark.parametrize(("h", "span"), [(0.02, 1.6), (0.01, 0.6), (0.005, 2.0)])
-def test_places_or_rates_are_compared_where_nothing_touches_and_outputs_at_rest_judge_nothing(
+def test_places_or_rates_are_compared_without_a_road_and_outputs_at_rest_judge_nothing(
     h: float, span: float, scene: str, build: Callable[..., Path], host: HostMaker
 ) -> None:
     """A double pendulum in long steps: its tip goes elsewhere, or is right; its pin is open by round-off."""
@@ -311,3 +311,25 @@ def test_a_host_that_sets_a_state_before_each_step_is_told_that_nothing_is_check
         driven.step(k * 0.01, 0.01)
     (said,) = [m for m in driven.messages if "second time" in m]
     assert "their error is not known: a state was set" in said
+
+
+@pytest.mark.parametrize("scene", ["buffer", "progressive_buffer"])
+@pytest.mark.parametrize("h", [0.01, 0.002])
+def test_a_stop_that_is_met_late_is_told_where_it_is_wrong_and_only_there(
+    h: float, scene: str, build: Callable[..., Path], host: HostMaker
+) -> None:
+    """Without a road too: what is made twice from the start on ends before the spring is met."""
+    forces, told = [], []
+    for step in (2e-4, h):
+        driven = host(build(scene)).start({"step_size": step})
+        for k in range(1100):
+            driven.step(k * 0.01, 0.01)
+            forces.append(driven.get("spring.force"))
+        driven.slave.terminate()
+        told.append([m for m in driven.messages if WORDS in m])
+    fine, coarse = np.split(np.array(forces), 2)
+    error = np.abs(coarse - fine).max() / np.abs(fine).max()
+    assert told[0] == []
+    assert len(told[1]) == (error > 0.05)
+    assert (error > 0.05) == (h > 0.005)
+    assert all("spring.force is off" in m for m in told[1])

@@ -1,4 +1,4 @@
-"""The job of docs/continuous_integration.md on a small repository, as it is written; JUnit files by a second reader."""
+"""The job of docs/commands.md on a small repository, as it is written; JUnit files by a second reader."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from tests.hosts.scenes import tuned
 from tests.in_process import run
 
 junitparser = pytest.importorskip("junitparser")
-PAGE = Path(__file__).parents[2] / "docs" / "continuous_integration.md"
+PAGE = Path(__file__).parents[2] / "docs" / "commands.md"
 PULL = '"time","pull"\n0,0\n0.4,{0}\n0.4,-20\n1,0\n'
 
 

@@ -11,11 +11,12 @@ import pytest
 import mbs
 from benchmarks.references.cases import system_of
 from mbs.kernel.header.enumerations import Status
-from mbs.kernel.header.limits import EVENT_ORDER
-from mbs.results.accuracy import WARNED_ERROR, Accuracy
+from mbs.kernel.header.limits import EVENT_ORDER, WRONG_ERROR
+from mbs.results.accuracy import Accuracy
 from mbs.results.comparison import Compared
+from mbs.results.convergence import extrapolated, seen_order, unsure
 from mbs.simulation.fixed_steps import check
-from mbs.simulation.refined_run import RefinedRuns, Run, extrapolated, seen_order, unsure
+from mbs.simulation.refined_run import RefinedRuns, Run
 
 T = np.linspace(0.0, 1.0, 101)
 FORCE = 1000.0 * np.cos(3.0 * T)
@@ -83,10 +84,10 @@ def test_a_tried_step_is_off_by_what_is_told_of_it(order: float) -> None:
 
 @pytest.mark.parametrize("told", [0.017, 0.045, 0.055, 0.09])
 def test_a_verdict_is_open_where_the_repeats_differ_by_more_than_it_is_clear(told: float) -> None:
-    clear = abs(told - WARNED_ERROR)
+    clear = abs(told - WRONG_ERROR)
     assert unsure(by(N=told, m=0.001), {"N": 1.01 * clear, "m": 0.0})
     assert not unsure(by(N=told, m=0.001), {"N": 0.99 * clear, "m": 0.0})
-    assert unsure(by(N=told, m=0.04), {"N": 0.99 * clear, "m": 0.02}) == (told < WARNED_ERROR)
+    assert unsure(by(N=told, m=0.04), {"N": 0.99 * clear, "m": 0.02}) == (told < WRONG_ERROR)
 
 
 def oscillator(x: float = 0.0) -> mbs.System:

@@ -116,11 +116,11 @@ def test_a_ghost_moves_in_step_and_stands_still_after_its_end(pair: Opened) -> N
         assert np.abs(with_it[row, column] - without[row, column]).max() > 15
         column, row = pair.place([0.9, -0.45, 0.0])
         assert np.abs(with_it[row, column] - without[row, column]).max() < 5
-    assert "lasts from 0 s to 2.5 s" in pair.page.inner_text(".a3-head")
+    assert "lasts from 0 s to 2.5 s" in pair.page.inner_text(".a3-notices")
 
 
 def test_names_are_shown_as_they_are(pair: Opened) -> None:
-    assert "faster </script><b>crank (ghost)" in pair.page.inner_text(".a3-head")
+    assert "faster </script><b>crank (ghost)" in pair.page.inner_text(".a3-notices")
 
 
 def test_the_slider_the_keys_and_the_diagram_go_to_a_time(pair: Opened) -> None:
@@ -287,7 +287,7 @@ def test_legends_lie_on_no_instrument(opened: Callable[..., Opened], side: bool)
     for width, height in ((1280, 720), (800, 450), (390, 844), (844, 390), (900, 700)):
         page.page.set_viewport_size({"width": width, "height": height})
         page.seek(0.5)
-        parts = [".a3-cluster", ".a3-tyres", "[data-legend=arrows]", ".a3-head", ".a3-bar"]
+        parts = [".a3-cluster", ".a3-tyres", "[data-legend=arrows]", ".a3-notices", ".a3-bar"]
         boxes = {part: page.page.locator(part).first.bounding_box() for part in parts}
         legend = boxes.pop("[data-legend=arrows]")
         for name, box in boxes.items():
@@ -307,7 +307,7 @@ def test_a_gap_hides_the_body_and_cuts_the_line(opened: Callable[..., Opened]) -
         assert is_red(page.picture()[row, column]) == there
     data = page("player.plots.charts[0].plot.data[1].slice(50, 101)")
     assert [value is None for value in data] == [False] + 49 * [True] + [False]
-    assert "values that are no numbers" in page.page.inner_text(".a3-head")
+    assert "values that are no numbers" in page.page.inner_text(".a3-notices")
 
 
 def test_one_time_is_a_picture_that_stands(opened: Callable[..., Opened]) -> None:
@@ -321,7 +321,7 @@ def test_one_time_is_a_picture_that_stands(opened: Callable[..., Opened]) -> Non
 
 def test_a_result_without_a_scene_has_its_diagrams(opened: Callable[..., Opened]) -> None:
     page = opened(Recording(None, TIMES, {"x": np.sin(TIMES)}, {"x": "m"}, "foreign"), plots=["x"])
-    assert "no poses in this result" in page.page.inner_text(".a3-head")
+    assert "no poses in this result" in page.page.inner_text(".a3-notices")
     assert page.page.locator(".a3-chart canvas").bounding_box()["height"] > 100
     page.seek(1.0)
     assert page("document.querySelector('.a3-legend output').textContent") == "0.84147 m"
@@ -330,7 +330,7 @@ def test_a_result_without_a_scene_has_its_diagrams(opened: Callable[..., Opened]
 
 def test_a_camera_that_is_not_there_is_told(opened: Callable[..., Opened]) -> None:
     page = opened(crank(TIMES), camera="moon")
-    assert "There is no camera 'moon'" in page.page.inner_text(".a3-head")
+    assert "There is no camera 'moon'" in page.page.inner_text(".a3-notices")
     assert page.page.get_by_role("img", name="drawing of crank").count() == 1  # its own stands
 
 

@@ -145,15 +145,15 @@ def test_figures_in_a_low_page_leave_the_middle_of_the_picture_free(live: Path, 
         page.set_viewport_size({"width": 800, "height": 450})
         open_file(page, live)
         words = "This machine does not keep up: 0.82 s of the run a second, 1 asked for."
-        for part in ("behind", "banner"):
-            page.evaluate(f"words => {{ document.querySelector('[data-a3={part}]').textContent = words; }}", words)
-        figures, picture, banner = (
+        page.evaluate("words => { document.querySelector('[data-a3=behind]').textContent = words; }", words)
+        page.evaluate("words => { player.notices.flag('problem', words, { bad: true }); player.tell(words); }", words)
+        figures, picture, notices = (
             page.evaluate("part => document.querySelector(part).getBoundingClientRect().toJSON()", part)
-            for part in (".a3-hud", "canvas", ".a3-banner")
+            for part in (".a3-hud", "canvas", ".a3-notices")
         )
     assert figures["right"] <= picture["left"] + 0.4 * picture["width"]
     assert figures["height"] <= 0.5 * picture["height"]
-    assert figures["right"] < banner["left"]
+    assert notices["bottom"] < figures["top"]
 
 
 @pytest.mark.slow

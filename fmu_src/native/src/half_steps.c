@@ -1,7 +1,7 @@
 /* Where a force of a tyre, a contact or a spring with end stops changes abruptly, and where a run in long steps starts,
  * what follows is made a second time, until both agree for 0.5 s or its budget is spent, with half of a short step and
- * down to an eighth of a long one: what the outputs of both differ by is the error of the step. Where nothing can touch,
- * it is foretold beyond, by how it grew. A run without either, or that has been told of one, pays nothing. The other
+ * down to an eighth of a long one: what the outputs of both differ by is the error of the step. Without a road it is
+ * foretold beyond, by how it grew. A run without either, or that has been told of one, pays nothing. The other
  * motion is a snapshot of the same instance; of short steps it makes the dear ones later, in cheaper calls. */
 #include <math.h>
 #include <stdio.h>
@@ -10,10 +10,10 @@
 #include "slave.h"
 
 static const double SPAN = 0.5; /* s after an abrupt step or a difference: a wheel swings five times, or lands */
-static const double BUDGET = 2.0, SHARE = 0.1; /* s from a start on in MOST parts, as a wheel spins; beside them s, and
+static const double BUDGET = 2.0,
+                    SHARE = 0.1; /* s from a start on in ALI3_MOST_PARTS parts, as a wheel spins; beside them s, and
                                                 * of what was driven: how much is made twice at most */
 static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre; a second costs no more than at 2 ms */
-static const int64_t MOST = 8; /* parts of a step */
 /* Iterations of both motions in an inner step of up to 2 SHORT: where it takes more the other one waits. */
 static const int64_t ROOM = 7;
 enum { MOST_LATE = 512 }; /* communication steps that may wait */
@@ -134,18 +134,18 @@ void slave_half_steps_free(slave *s) {
   memset(&s->half_steps, 0, sizeof s->half_steps);
 }
 
-/* Whether something can: errors of what touches nothing are of order two, and come without an abrupt force. */
-static bool touches(const slave *s) { return ali3_contact_count(s->fidelity.system) > 0; }
+/* Whether there is a road: without one errors are of order two, and come without an abrupt force too. */
+static bool has_road(const slave *s) { return ali3_road_count(s->fidelity.system) > 0; }
 
 /* In how many parts the other motion makes a step. */
 static int64_t parts_of(const slave *s, double h) {
   int64_t n = 2;
-  while (touches(s) && n < MOST && h / (double)n > SHORT) n *= 2;
+  while (has_road(s) && n < ALI3_MOST_PARTS && h / (double)n > SHORT) n *= 2;
   return n;
 }
 
-/* s from a start on that are made twice: at the cost of MOST parts. */
-static double start_of(const slave *s, double h) { return BUDGET * (double)MOST / (double)parts_of(s, h); }
+/* s from a start on that are made twice: at the cost of ALI3_MOST_PARTS parts. */
+static double start_of(const slave *s, double h) { return BUDGET * (double)ALI3_MOST_PARTS / (double)parts_of(s, h); }
 
 /* One inner step of the communication step that waits longest, by the other motion, which the kernel has; slopes are
  * those of the present one, which does not wait if it has them. */
@@ -177,16 +177,16 @@ static bool begin(slave *s, const slave_late_step *step) {
   return t->left > 0.0;
 }
 
-/* When the other motion ends: what is known and, where nothing can touch, when the error is large by how it grew between
+/* When the other motion ends: what is known and, without a road and a stop that was met, when the error is large by how it grew between
  * the last two windows of a start, as a power of the time. */
 static void conclude(slave *s, const slave_late_step *step, double apart) {
   slave_half_steps *t = &s->half_steps;
   const double n = (double)parts_of(s, step->h), error = ali3_error_of(t->then, n, ALI3_EVENT_ORDER);
   char why[SLAVE_TEXT / 4], grows[SLAVE_TEXT / 8] = "";
-  if (touches(s) && !differ(apart)) return; /* until the next abrupt force */
+  if (has_road(s) && !differ(apart)) return; /* until the next abrupt force */
   const bool first = t->checked == -HUGE_VAL; /* later windows begin after an abrupt force, and are short */
   if (first) t->checked = step->end;
-  if (first && !touches(s) && t->before > 0.0 && t->then > t->before) {
+  if (first && !has_road(s) && t->abrupt == 0 && t->before > 0.0 && t->then > t->before) {
     const double length = step->driven - t->origin,
                  power = log(t->then / t->before) / log(2.0 * length / start_of(s, step->h));
     t->foretold = step->end + length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
@@ -353,7 +353,7 @@ slave_status slave_halve_steps(slave *s) {
   ali3_report report;
   if (s->event_said || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   /* what is let go swings; tyres that are driven from the start on slip at once, which long steps miss */
-  const bool begins = t->begins && (!touches(s) || 2.0 * s->made.h > (double)MOST * SHORT),
+  const bool begins = t->begins && (!has_road(s) || 2.0 * s->made.h > (double)ALI3_MOST_PARTS * SHORT),
              abrupt = report.abrupt_steps > t->abrupt || begins;
   const int64_t made = report.iterations - t->iterations;
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);

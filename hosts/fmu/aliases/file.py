@@ -39,7 +39,7 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
     file : Path
         TOML: ``"our name" = "name in the FMU"`` or ``"our name" = { name = "...", factor = 1.0, offset = 0.0 }``, where
         the value in the FMU is factor times ours plus offset; with ``unit`` that is a value in SI, in which the FMU has
-        that unit. ``"our name" = { from = "sideslip(chassis.vx, chassis.vy)" }`` computes it. See ``docs/aliases.md``.
+        that unit. ``"our name" = { from = "sideslip(chassis.vx, chassis.vy)" }`` computes it. See ``docs/fmu.md``.
     variables : Variables or collection of str
         Of the FMU; with names alone, units are not checked.
 

@@ -18,11 +18,13 @@ WRONG_ERROR = 0.05
 """Of the size of what is judged: above it a run is wrong."""
 AGREED = 0.1
 """Of what would be wrong: two motions that differ by less agree."""
+MOST_PARTS = 8
+"""By which the step of a second motion is longer, or half of it shorter, at most."""
 EVENT_ORDER = 2
 """Order of errors behind abrupt events."""
 HALVINGS_SUSPECT = 0.1
 """Halvings per step above which a run is suspect."""
-SYSTEM_VERSION = 2
+SYSTEM_VERSION = 3
 """Of the System file."""
 ROAD_VERSION = 1
 """Of a road file."""

@@ -16,7 +16,7 @@
 #define ALI3_API __attribute__((visibility("default")))
 #endif
 
-#define ALI3_SYSTEM_VERSION 2
+#define ALI3_SYSTEM_VERSION 3
 #define ALI3_STATE_VERSION 10
 
 /* How calls end, numbers in this order: X(NAME, cause, words, remedy). Cause of a refusal: CALL, what was given; START,
@@ -188,9 +188,9 @@ typedef struct {
    * and of which element */
   double rim_pressed, rim_time, rim_x, rim_y;
   int64_t rim_element;
-  /* Systems with roads: largest force of a tyre, a contact or a spring with end stops, and largest load of a tyre, N */
-  double largest_force, largest_load;
-  int64_t abrupt_steps; /* in which one of these, of tyres their load, changed by more than a tenth of the largest */
+  double largest_force, largest_load; /* of a tyre, a contact or a spring with end stops; load of a tyre, N */
+  int64_t abrupt_steps; /* in which one of these, of tyres their load, changed by more than a tenth of the largest;
+                           without roads of springs beyond a stop */
   int64_t divisions; /* of steps where such a force changes quickly, a stop is met or left, or at breaks of inputs */
   double change_rate; /* of such a force in the last part of a step, over that from which parts are halved, 1/s */
   int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
@@ -225,6 +225,7 @@ ALI3_API ali3_status ali3_system_load_with(const void *bytes, size_t size, const
                                            char *message, size_t message_size);
 ALI3_API void ali3_system_free(ali3_system *s);
 ALI3_API ali3_sizes ali3_system_sizes(const ali3_system *s);
+ALI3_API int32_t ali3_road_count(const ali3_system *s);
 
 ALI3_API size_t ali3_instance_size(const ali3_system *s); /* bytes of an instance */
 ALI3_API ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out);
@@ -455,6 +456,7 @@ ALI3_API double ali3_error_of(double apart, double ratio, int32_t order);
 #define ALI3_STILL 1e-4 /* of the largest value, or of the length: a smaller range is rest */
 #define ALI3_WRONG_ERROR 0.05 /* of the size: wrong */
 #define ALI3_AGREED 0.1 /* of what would be wrong: two motions that differ by less agree */
+#define ALI3_MOST_PARTS 8 /* by which the step of a second motion is longer, or half of it shorter, at most */
 #define ALI3_EVENT_ORDER 2 /* behind abrupt events: stops are located, parts of steps shrink with the step */
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
 ALI3_API ali3_status ali3_run_status(const ali3_report *report);
@@ -497,8 +499,6 @@ ALI3_API void ali3_contacts(const ali3_instance *in, unsigned char *touching);
 /* Per force element (ne) a number of the smooth piece of its law that holds in the present state with the present
  * inputs: where it changes, a stop is met or left, friction sticks or slips, a limit is reached. */
 ALI3_API void ali3_law_pieces(ali3_instance *in, uint32_t *piece);
-/* How many force elements are tyres, contacts or springs with end stops of a System with roads. */
-ALI3_API int32_t ali3_contact_count(const ali3_system *s);
 
 /* For tests and linearisation: values at a given (q, qd, y, t); any output may be NULL. Does not change the state.
    phi, lam and jacobian are those of the stored (mass-normalised) rows; of conditions on velocities, A qd = 0, phi is

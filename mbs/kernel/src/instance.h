@@ -54,14 +54,10 @@ struct ali3_instance {
   ali3_report report_before; /* of the step that branch_watch.c may repeat */
   double t_base, h_last; /* time = t_base + count * h_last */
   double event; /* the share of the present part at which a stop is met or left, see contact_event.c */
-  int32_t events_left; /* at which the present step may still be parted */
-  bool parts_at_events; /* it may be parted there at all */
-  bool may_divide; /* the present step is halved where a force changes abruptly in it */
+  int32_t events_left; /* at which the present step may still be parted; below 0: it is not parted there at all */
   double changed; /* largest change of a judged force in the step, of ali3_divides; below 0: not known */
-  bool halves_left; /* this is a part of a step that was asked for, and it may still be halved */
   int64_t count, iterations_before; /* of steps of h_last, and report.iterations where the present step began */
   int64_t *work_left; /* of the caller's call, see ali3_count_work; or NULL */
-  int64_t iterations_end; /* report.iterations where the present part must end, with a limit of the step's */
   int32_t initialised;
   /* start: of a step that may be halved; whole: of a composed one; direction: one in the space of states */
   ali3_vectors now, next, start, whole, direction;
@@ -71,9 +67,6 @@ struct ali3_instance {
   double capped_residual; /* and leaves this, m */
   double call_residual; /* the largest of the steps of a call */
   bool backed_up; /* in->start holds the state before the step */
-  bool discrete, unobserved; /* forces by discrete gradients; the state of this step will not be read */
-  bool sampled; /* only sensors will read it */
-  bool controlled; /* steps change from one to the next, and may be discarded */
   size_t n_vector;
   double *input, *input_work, *parameter, *input_middle;
   const double *force_input; /* inputs that elements use: input, or input_middle where the middle is evaluated */

@@ -3,25 +3,26 @@
 #ifndef ALI3_METHOD_H
 #define ALI3_METHOD_H
 #include "instance.h"
+#include "methods/request.h"
 
 /* What bounds the steps of a controlled run from below: the round-off of equations of index three, solved by rules of
  * order two or by collocation, or of index one. */
 typedef enum { ALI3_ROUND_OFF_INDEX_3 = 0, ALI3_ROUND_OFF_COLLOCATION, ALI3_ROUND_OFF_INDEX_1 } ali3_round_off;
 
 typedef struct {
-  /* A step h from in->now that ends at time t, after ali3_inputs_begin. Before it, in->next is a copy of in->now, so it
+  /* A step from in->now, after ali3_inputs_begin. Before it, in->next is a copy of in->now, so it
    * has what a method does not change, such as switches. A good step ends with ali3_accept; one that is
    * refused, with a status, leaves in->now as it was, or has called ali3_back_up before it changed it. It does not
    * allocate, counts iterations, factorizations and solves in in->report and never passes a NaN on. */
-  ali3_status (*step)(ali3_instance *in, double t, double h);
+  ali3_status (*step)(ali3_instance *in, const ali3_request *request);
   /* The following may be NULL. */
-  void (*before)(ali3_instance *in, double h);   /* what a step changes in in->now first, after ali3_back_up */
+  void (*before)(ali3_instance *in, const ali3_request *request); /* what it changes in in->now, after ali3_back_up */
   void (*motion)(ali3_instance *in, double h);   /* ali3_balance_change after a good step; NULL: the step does it */
   bool (*has_balance)(const ali3_instance *in);  /* whether its steps end with ali3_energy_watch; NULL: never */
   bool (*has_guides_work)(const ali3_instance *in); /* whether its steps measure the work of guides; NULL: never */
   ali3_status (*takes)(const ali3_instance *in); /* ALI3_OK, or why it cannot take the System; NULL: it takes all */
   const char *excludes; /* what it takes no System with, in words for users; NULL: it takes all */
-  /* What readers of in->now need after steps without a reader: those with in->unobserved, those with in->sampled. */
+  /* What readers of in->now need after steps of which nothing is read, and after those of which sensors are. */
   void (*after_unobserved)(ali3_instance *in);
   void (*after_sampled)(ali3_instance *in);
   int32_t owner;      /* ALI3_METHOD_* that its steps leave in the history of the state: its own, or one it shares */

@@ -76,19 +76,18 @@ ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double toleran
 }
 
 /* The inputs go straight to `end` (nu), or are held where it is NULL. */
-static ali3_status step(ali3_instance *in, double h, const double *end) {
+static ali3_status step(ali3_instance *in, double h, const double *end, ali3_reading reading) {
   ali3_whole_step whole;
-  ali3_status status = ali3_step_begin(in, h, end, &whole);
+  ali3_status status = ali3_step_begin(in, h, end, reading, &whole);
   if (status != ALI3_OK) return status;
-  return ali3_step_end(in, &whole, ali3_advance(in, whole.t, h, in->settings.max_halvings));
+  return ali3_step_end(in, &whole, ali3_advance(in, &whole.asked));
 }
 
 ali3_status ali3_step(ali3_instance *in, double h) {
   if (in == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
   const ali3_status status = ali3_check_method(in);
-  in->unobserved = in->sampled = false;
   in->call_residual = 0.0;
-  return status == ALI3_OK ? ali3_explain_refusal(in, step(in, h, NULL), h) : status;
+  return status == ALI3_OK ? ali3_explain_refusal(in, step(in, h, NULL, ALI3_READ_ALL), h) : status;
 }
 
 ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
@@ -129,13 +128,13 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
 
 double ali3_unsettled(const ali3_instance *in) { return in != NULL ? in->unsettled : 0.0; }
 
-/* After a unobserved or sampled step the last good state lacks what only a reader needs. */
-static ali3_status give_up(ali3_instance *in, ali3_status status, bool unobserved, bool sampled) {
+/* The last good state, of whose step so much was read, lacks what only another reader needs. */
+static ali3_status give_up(ali3_instance *in, ali3_status status, ali3_reading reading) {
   const ali3_method *method = ali3_method_of(in);
   ali3_vectors_copy(in, &in->start, &in->now);
   in->force_input = in->start.used; /* the present inputs are not always theirs */
-  if (unobserved && method->after_unobserved != NULL) method->after_unobserved(in);
-  if (sampled && method->after_sampled != NULL) method->after_sampled(in);
+  if (reading == ALI3_READ_NOTHING && method->after_unobserved != NULL) method->after_unobserved(in);
+  if (reading != ALI3_READ_ALL && method->after_sampled != NULL) method->after_sampled(in);
   in->force_input = in->input;
   if (!ali3_finite(in->now.q, (int64_t)in->n_vector)) ali3_vectors_copy(in, &in->now, &in->start);
   return status;
@@ -148,17 +147,15 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
   const int32_t nu = in->system->size.nu;
   const ali3_status method = ali3_check_method(in);
   if (method != ALI3_OK) return method;
-  bool unobserved = false, sampled = false; /* the last good step */
+  ali3_reading last = ALI3_READ_ALL; /* of the last good step */
   in->call_residual = 0.0;
   for (int64_t n = 0; n < n_steps; n++) {
     const bool recorded = (out != NULL || positions != NULL) && (n + 1) % every == 0;
-    /* the work of guides reads the end of each step */
-    in->unobserved = !recorded && n + 1 < n_steps && in->system->n_guide_work == 0;
-    in->sampled = n + 1 < n_steps;
-    const ali3_status status = step(in, h, inputs != NULL ? inputs + n * nu : NULL);
-    if (status != ALI3_OK) return ali3_explain_refusal(in, give_up(in, status, unobserved, sampled), h);
-    unobserved = in->unobserved;
-    sampled = in->sampled;
+    const bool sensed = recorded || in->system->n_guide_work > 0; /* it is read at the end of each step */
+    const ali3_reading reading = n + 1 == n_steps ? ALI3_READ_ALL : sensed ? ALI3_READ_SENSORS : ALI3_READ_NOTHING;
+    const ali3_status status = step(in, h, inputs != NULL ? inputs + n * nu : NULL, reading);
+    if (status != ALI3_OK) return ali3_explain_refusal(in, give_up(in, status, last), h);
+    last = reading;
     if (done != NULL) *done = n + 1;
     if (recorded) ali3_record_row(in, (n + 1) / every - 1, out, positions);
   }

@@ -84,18 +84,17 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   ali3_instance *in = g->lane[l];
   const ali3_sizes *z = &g->system->size;
   ali3_vectors *from = &in->now, *to = &in->next;
-  if (ali3_parted(in, step->t, step->h)) return false;
-  in->halves_left = false;
-  ali3_events_begin(in, in->settings.max_halvings);
-  in->may_divide = ali3_may_divide(in, in->settings.max_halvings);
-  if (ali3_divides_ahead(in, step->h) || fastest_turn(in) * step->h > MOST_TURN || !goes_on(in, step->h)) return false;
-  if (ali3_inputs_begin(in, step->t, step->h) != ALI3_OK) return false;
+  const double h = step->asked.h;
+  if (ali3_parted(in, step->asked.t, h)) return false;
+  ali3_events_begin(in, step->asked.depth);
+  if (ali3_divides_ahead(in, &step->asked) || fastest_turn(in) * h > MOST_TURN || !goes_on(in, h)) return false;
+  if (ali3_inputs_begin(in, step->asked.t, h) != ALI3_OK) return false;
   ali3_vectors_copy_unwritten(in, to, from);
-  if (ali3_input_jump(in, step->h) != ALI3_OK) return false;
-  ali3_guides_step(in, from, to, step->t, step->h);
+  if (ali3_input_jump(in, h) != ALI3_OK) return false;
+  ali3_guides_step(in, from, to, step->asked.t, h);
   memcpy(to->used, in->input, (size_t)z->nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)z->ny * sizeof(double));
-  to->h_last[0] = step->h;
+  to->h_last[0] = h;
   return true;
 }
 
@@ -104,21 +103,22 @@ static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *s
   ali3_instance *in = g->lane[l];
   if (in->system->n_flexible > 0) {
     in->next.history[ALI3_HISTORY_OWNER] = ALI3_METHOD_ALI3P;
-    ali3_predict_rates(in, step->h);
+    ali3_predict_rates(in, step->asked.h);
   } else {
-    ali3_history_shift(in, step->h);
+    ali3_history_shift(in, step->asked.h);
   }
   ali3_lane_elements_accept(g, l);
-  if (ali3_contact_event(in, step->h) || ali3_divides(in, step->h)) return ALI3_UNRESOLVED;
+  if (ali3_contact_event(in, &step->asked) || ali3_divides(in, &step->asked)) return ALI3_UNRESOLVED;
   const double *weight = in->system->n_flexible + in->system->n_tabled > 0 ? NULL : &g->weight[l];
   const double *square = g->squares + l;
-  const ali3_status resolved = ali3_energy_judge(in, step->h, g->work[l], g->size[l], g->end[l], g->open[l], weight);
+  const ali3_status resolved =
+      ali3_energy_judge(in, &step->asked, g->work[l], g->size[l], g->end[l], g->open[l], weight);
   if (resolved != ALI3_OK) return resolved;
   ali3_work_along(in, 0.5);
   ali3_guides_work(in, &in->next, g->guides[l]);
   const ali3_status status = ali3_accept(in);
   if (status != ALI3_OK) return status;
-  in->t_now = step->t;
+  in->t_now = step->asked.t;
   ali3_balance_motion(in, square[0], square[g->width], square[2 * g->width]);
   return ALI3_OK;
 }
@@ -130,7 +130,7 @@ static ali3_status alone(ali3_instance *in, const ali3_whole_step *step) {
   in->backed_up = false;
   in->capped = false;
   in->report = step->before;
-  return ali3_advance(in, step->t, step->h, in->settings.max_halvings);
+  return ali3_advance(in, &step->asked);
 }
 
 /* The step that has begun in the lanes of `going`, ended in status[l]. */
@@ -198,13 +198,13 @@ ali3_status ali3_many_run(ali3_many *many, int32_t n, ali3_lane *lane, double h,
     lane[l].status = (int32_t)ali3_check_method(lane[l].instance);
     lane[l].done = lane[l].alone = 0;
     lane[l].instance->call_residual = 0.0;
-    lane[l].instance->unobserved = lane[l].instance->sampled = false;
   }
   for (int64_t k = 0; k < n_steps; k++) {
     for (int32_t l = 0; l < n; l++) {
       going[l] = lane[l].status == ALI3_OK;
       const double *end = lane[l].inputs != NULL ? lane[l].inputs + k * S->size.nu : NULL;
-      status[l] = going[l] ? ali3_step_begin(lane[l].instance, h, end, &step[l]) : (ali3_status)lane[l].status;
+      status[l] =
+          going[l] ? ali3_step_begin(lane[l].instance, h, end, ALI3_READ_ALL, &step[l]) : (ali3_status)lane[l].status;
       going[l] = going[l] && status[l] == ALI3_OK;
       lane[l].status = (int32_t)status[l];
     }

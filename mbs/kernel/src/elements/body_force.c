@@ -1,6 +1,6 @@
 /* Force at a point of a body, given by inputs along the axes of a frame that may move with the body.
- * Signals: p (3), a, b, c (9); in the plane p (2), a (2), the second axis being a turned left.
- * Integers: the inputs along a, b, c, -1 for none. Outputs: none. */
+ * In the plane the second axis is the first turned left. */
+#include "body_force_fields.h"
 #include "element.h"
 #include "element_math.h"
 
@@ -27,19 +27,8 @@ static void evaluate(ali3_element_args *a) {
   }
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)real, (void)nreal, (void)n_roads;
-  if (nsig != 12 && nsig != 4) return "a body force needs 12 signals in space or 4 in the plane";
-  for (int32_t i = 0; i < nint; i++)
-    if (integer[i] < -1 || integer[i] >= n_inputs) return "a body force names an input that does not exist";
-  return 0;
-}
-
 const ali3_element_type ali3_body_force = {
+    ALI3_BODY_FORCE,
     .evaluate = evaluate,
     .conservative = true,
-    .nsig = -1,
-    .nint = 3,
-    .check = check,
 };

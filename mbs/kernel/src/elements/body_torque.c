@@ -1,13 +1,12 @@
 /* Torque on a body from inputs, in earth or body axes. For orthonormal a, b, c the generalised forces (m x a)/2, (m x
  * b)/2, (m x c)/2 do the work m . dtheta, and no work on the conditions that keep the frame orthonormal.
- * Signals: a, b, c (9); in the plane a (2). Integers: three inputs (-1: none; in the plane only the third counts), 1
- * for body axes.
- * Outputs: none. */
+ * The frame has the vectors a, b, c, in the plane a alone, and there only the third input counts. Axes: 1, of the body. */
+#include "body_torque_fields.h"
 #include "element.h"
 #include "element_math.h"
 
 static void planar(ali3_element_args *a) {
-  const double m = ali3_input_or_zero(a->input, a->integer[2]);
+  const double m = ali3_input_or_zero(a->input, a->integer[THIRD]);
   a->f[0] = -m * a->u[1]; /* its tangent is antisymmetric */
   a->f[1] = m * a->u[0];
 }
@@ -20,13 +19,13 @@ static void evaluate(ali3_element_args *a) {
   }
   double given[3], m[3];
   for (int j = 0; j < 3; j++) m[j] = given[j] = ali3_input_or_zero(a->input, a->integer[j]);
-  if (a->integer[3])
+  if (a->integer[AXES])
     for (int i = 0; i < 3; i++) m[i] = given[0] * a->u[i] + given[1] * a->u[3 + i] + given[2] * a->u[6 + i];
   for (int j = 0; j < 3; j++) {
     ali3_cross(m, a->u + 3 * j, a->f + 3 * j);
     for (int i = 0; i < 3; i++) a->f[3 * j + i] *= 0.5;
   }
-  if (!a->S || !a->integer[3]) return; /* in earth axes the tangent is antisymmetric */
+  if (!a->S || !a->integer[AXES]) return; /* in earth axes the tangent is antisymmetric */
   for (int j = 0; j < 3; j++)
     for (int k = 0; k < 3; k++) { /* block (j, k): (m_k [v_j]x - m_j [v_k]x) / 4 */
       double x[3];
@@ -38,20 +37,8 @@ static void evaluate(ali3_element_args *a) {
     }
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)real, (void)nreal, (void)nint, (void)n_roads;
-  if (nsig != 9 && nsig != 2) return "a body torque needs 9 signals in space or 2 in the plane";
-  for (int i = 0; i < 3; i++)
-    if (integer[i] < -1 || integer[i] >= n_inputs) return "a body torque names an input that does not exist";
-  if (integer[3] != 0 && integer[3] != 1) return "the axes of a body torque must be 0 (earth) or 1 (body)";
-  return 0;
-}
-
 const ali3_element_type ali3_body_torque = {
+    ALI3_BODY_TORQUE,
     .evaluate = evaluate,
     .conservative = true,
-    .nsig = -1,
-    .nint = 4,
-    .check = check,
 };

@@ -1,7 +1,7 @@
 /* Brake: elastoplastic friction torque between a wheel's spin and its carrier.
  * f and g are orthonormal on the carrier with f x g along the axis, the rate Omega of the spin is absolute.
- * Integers: input (0..1); that of the hand brake or -1; then 1 where the input is not a pedal but any size that is not
- * negative, as a torque or a pressure, or none. States: wind-up z rad, z' rad/s.
+ * The inputs are 0 to 1; with the integer of a size that of the pedal is any size that is not negative, as a torque or a
+ * pressure. States: wind-up z rad, z' rad/s.
  *
  * A spring and damper (k, c) in series with a slider: tau = k z + c z', z' = w while |tau| is below the bound, else
  * tau is at the bound and z' = (tau - k z)/c. With z = a + h z'/2 (trapezoidal rule) and D = c + h k/2:
@@ -12,12 +12,10 @@
 #include "element.h"
 #include "element_math.h"
 
-enum { PEDAL, HAND, PEDALS, BY_SIZE = PEDALS, BRAKE_INTEGERS };
-
 /* What the pads can hold: both pedals press them. */
 static real capacity(const ali3_element_args *a) {
   const real none = {0}, all = ali3_same(1.0);
-  const real most = a->nint == BRAKE_INTEGERS && a->integer[BY_SIZE] ? ali3_same(INFINITY) : all;
+  const real most = a->nint > BY_SIZE && a->integer[BY_SIZE] ? ali3_same(INFINITY) : all;
   const real *p = a->real, pedal = ali3_clamp(a->input[a->integer[PEDAL]], none, most);
   const real hand = ali3_clamp(ali3_input_or_zero(a->input, a->integer[HAND]), none, all);
   return p[MAX_TORQUE] * p[SHARE] * p[SIDE] * pedal + p[HAND_TORQUE] * hand;
@@ -56,21 +54,8 @@ static void evaluate(ali3_element_args *a) {
 }
 
 #ifndef ALI3_WIDTH
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)real, (void)nreal, (void)n_roads;
-  if (nint != PEDALS && nint != BRAKE_INTEGERS) return "a brake has two inputs, and may say that the first is no pedal";
-  if (integer[PEDAL] < 0 || integer[PEDAL] >= n_inputs || integer[HAND] < -1 || integer[HAND] >= n_inputs)
-    return "a brake names an input that does not exist";
-  if (nint == BRAKE_INTEGERS && integer[BY_SIZE] != 0 && integer[BY_SIZE] != 1)
-    return "whether the input of a brake is no pedal must be 0 or 1";
-  return 0;
-}
-
 const ali3_element_type ali3_brake = {
     ALI3_BRAKE,
     .evaluate = evaluate,
-    .nint = -1,
-    .check = check,
 };
 #endif

@@ -23,8 +23,14 @@ enum {
   SIDE,
   BRAKE_REALS
 };
+enum {
+  PEDAL,
+  HAND,
+  BY_SIZE,
+  BRAKE_INTEGERS
+};
 #ifndef ALI3_WIDTH
-static const ali3_field brake_fields[BRAKE_REALS] = {
+static const ali3_field brake_fields[] = {
   {ALI3_IS_NOT_NEGATIVE, "the max torque of a brake must not be negative"},
   {ALI3_IS_POSITIVE, "the stick stiffness of a brake must be greater than zero"},
   {ALI3_IS_POSITIVE, "the stick damping of a brake must be greater than zero"},
@@ -32,7 +38,13 @@ static const ali3_field brake_fields[BRAKE_REALS] = {
   {ALI3_IS_NOT_NEGATIVE, "the hand torque of a brake must not be negative"},
   {ALI3_IS_NOT_NEGATIVE, "the side of a brake must not be negative"},
 };
-#define ALI3_BRAKE .fields = brake_fields, .nfields = BRAKE_REALS, \
-  .nsig = 7, .nreal = BRAKE_REALS, .nstate = 2, .nout = 4
+static const ali3_integer brake_integers[] = {
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the input of a brake names an input that does not exist"},
+  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "the hand brake of a brake names an input that does not exist"},
+  {ALI3_OF_NUMBERS, 0, 1, 0, 0, "the by size of a brake must be 0 or 1"},
+};
+#define ALI3_BRAKE \
+  .nsig = 7, .nreal = 6, .nint = 2, .nstate = 2, .nout = 4, .fields = brake_fields, .nfields = 6, \
+  .integers = brake_integers, .nintegers = BRAKE_INTEGERS
 #endif
 #endif

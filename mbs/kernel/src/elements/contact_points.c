@@ -1,11 +1,8 @@
 /* Points of a body that touch a road: normal force with a smooth onset and loss, friction that holds at rest.
  *
- * Signals: origin o (3) and axes x, y, z (3 each) of the body; they need not be orthonormal, so a body that bends may
- * give averages of its own. Reals: radius m (0: points, else spheres), stiffness N/m, onset m, loss s/m, least
- * restitution, stick stiffness N/m, stick damping N s/m, factor of the road's friction, lowest and highest
- * x, y, z of the points, then x, y, z of each. Integers: road, number of points. States per point: deflections z1, z2
- * of the stick spring in the plane of contact and their rates. Outputs: sum of the normal forces N, number of points
- * that touch, force on the body in earth axes N (3), deepest penetration m.
+ * The axes of the body need not be orthonormal, so a body that bends may
+ * give averages of its own. Behind its numbers stand lowest and highest x, y, z of the points, then x, y, z of each.
+ * States per point: deflections z1, z2 of the stick spring in the plane of contact and their rates.
  *
  * Normal force: contact_law.h over the depth, with the mean of stiffness K setting in as a parabola over the onset.
  * Friction as in the brake: a spring and damper (k, c) in series with a slider, here in two directions. With
@@ -17,24 +14,12 @@
 #include <string.h>
 
 #include "contact_law.h"
+#include "contact_points_fields.h"
 #include "element.h"
 #include "element_math.h"
 #include "road.h"
 
-enum {
-  RADIUS,
-  STIFFNESS,
-  ONSET,
-  LOSS,
-  RESTITUTION,
-  STICK_STIFFNESS,
-  STICK_DAMPING,
-  FRICTION_FACTOR,
-  LOW,
-  HIGH = LOW + 3,
-  HEAD = HIGH + 3
-};
-enum { ROAD, POINTS, INTEGERS };
+enum { LOW = CONTACT_POINTS_REALS, HIGH = LOW + 3, HEAD = HIGH + 3 };
 enum { NORMAL_FORCE, TOUCHING, FORCE, DEPTH = FORCE + 3, OUTPUTS };
 enum { SIGNALS = 12, STATES = 4 }; /* states of each point */
 enum { STICKS = 1, SLIPS, PIECES };
@@ -219,16 +204,7 @@ static void discrete(ali3_element_args *a) { every_point(a, 1); }
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)nint, (void)n_inputs;
-  if (integer[ROAD] < 0 || integer[ROAD] >= n_roads) return "contact points name a road that does not exist";
-  if (integer[POINTS] < 1 || nreal != HEAD + 3 * (int64_t)integer[POINTS])
-    return "contact points need three numbers a point";
-  if (!(real[STIFFNESS] > 0.0 && real[ONSET] > 0.0 && real[STICK_STIFFNESS] > 0.0 && real[STICK_DAMPING] > 0.0))
-    return "stiffness, onset, stick stiffness and stick damping of contact points must be positive";
-  if (real[RADIUS] < 0.0 || real[LOSS] < 0.0 || real[FRICTION_FACTOR] < 0.0)
-    return "radius, loss and friction factor of contact points must not be negative";
-  if (!(real[RESTITUTION] >= 0.0 && real[RESTITUTION] < 1.0))
-    return "the least restitution of contact points must be at least 0 and below 1";
+  (void)nsig, (void)nreal, (void)nint, (void)n_inputs, (void)n_roads;
   for (int32_t i = 0; i < integer[POINTS]; i++)
     for (int k = 0; k < 3; k++) {
       const double x = real[HEAD + 3 * i + k];
@@ -238,13 +214,9 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
 }
 
 const ali3_element_type ali3_contact_points = {
+    ALI3_CONTACT_POINTS,
     .evaluate = evaluate,
     .discrete = discrete,
     .depth = depth,
-    .nsig = SIGNALS,
-    .nreal = -1,
-    .nint = INTEGERS,
-    .nstate = -STATES,
-    .nout = OUTPUTS,
     .check = check,
 };

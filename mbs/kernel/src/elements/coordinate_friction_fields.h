@@ -16,12 +16,12 @@ enum {
   COORDINATE_FRICTION_REALS
 };
 #ifndef ALI3_WIDTH
-static const ali3_field coordinate_friction_fields[COORDINATE_FRICTION_REALS] = {
+static const ali3_field coordinate_friction_fields[] = {
   {ALI3_IS_NOT_NEGATIVE, "the largest force of a friction must not be negative"},
   {ALI3_IS_POSITIVE, "the stick stiffness of a friction must be greater than zero"},
   {ALI3_IS_POSITIVE, "the stick damping of a friction must be greater than zero"},
 };
-#define ALI3_COORDINATE_FRICTION .fields = coordinate_friction_fields, .nfields = COORDINATE_FRICTION_REALS, \
-  .nsig = 1, .nreal = COORDINATE_FRICTION_REALS, .nstate = 2, .nout = 2
+#define ALI3_COORDINATE_FRICTION \
+  .nsig = 1, .nreal = 3, .nstate = 2, .nout = 2, .fields = coordinate_friction_fields, .nfields = 3
 #endif
 #endif

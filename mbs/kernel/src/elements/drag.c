@@ -19,16 +19,8 @@ static void evaluate(ali3_element_args *a) {
 }
 
 #ifndef ALI3_WIDTH
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)real, (void)nreal, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
-  if (nsig != 2 && nsig != 3) return "drag needs the 2 or 3 components of a point";
-  return 0;
-}
-
 const ali3_element_type ali3_drag = {
     ALI3_DRAG,
     .evaluate = evaluate,
-    .check = check,
 };
 #endif

@@ -1,6 +1,6 @@
 /* clang-format off */
 /* Numbers of a drag. Written by `python -m mbs.elements.fields_in_c` from Drag. */
-/* Signals: point (2 or 3). */
+/* Signals: point (3 or 2). */
 /* Outputs: force (N), size of the drag */
 #ifndef ALI3_DRAG_FIELDS_H
 #define ALI3_DRAG_FIELDS_H
@@ -14,11 +14,11 @@ enum {
   DRAG_REALS
 };
 #ifndef ALI3_WIDTH
-static const ali3_field drag_fields[DRAG_REALS] = {
+static const ali3_field drag_fields[] = {
   {ALI3_IS_NOT_NEGATIVE, "the drag area of a drag must not be negative"},
   {ALI3_IS_NOT_NEGATIVE, "the air density of a drag must not be negative"},
 };
-#define ALI3_DRAG .fields = drag_fields, .nfields = DRAG_REALS, \
-  .nsig = -1, .nreal = DRAG_REALS, .nstate = 0, .nout = 1
+#define ALI3_DRAG \
+  .nsig = 3, .nsig_plane = 2, .nreal = 2, .nout = 1, .fields = drag_fields, .nfields = 2
 #endif
 #endif

@@ -71,7 +71,7 @@ static void evaluate(ali3_element_args *a) {
   double share = 1.0;
   const int direction =
       a->nint > 1 ? ali3_selector_step(a->y_old, a->y_new, selector_of(a), a->h / p[ENGAGE_TIME], &share) : 1;
-  const double speed = p[RATIO] * wheel_rate(a), throttle = ali3_clamp(a->input[a->integer[0]], 0.0, 1.0);
+  const double speed = p[RATIO] * wheel_rate(a), throttle = ali3_clamp(a->input[a->integer[THROTTLE]], 0.0, 1.0);
   torque m = {0.0, 0.0, 0u};
   if (direction != 0) {
     m = motor(p, throttle, direction * speed, direction < 0);
@@ -98,17 +98,5 @@ static void accept(ali3_element_args *a) {
   if (a->nint > 1) ali3_selector_accept(a->y_new, selector_of(a), wheel_rate(a), a->real[ENGAGE_SPEED], !(a->h > 0.0));
 }
 
-static int32_t states(int32_t nint) { return nint > 1 ? ALI3_SELECTOR_STATES : 0; }
-
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)real, (void)nreal, (void)n_roads;
-  if (nint != 1 && nint != 2) return "an electric drive has one input, two with a selector";
-  for (int i = 0; i < nint; i++)
-    if (integer[i] < 0 || integer[i] >= n_inputs) return "an electric drive names an input that does not exist";
-  return 0;
-}
-
 const ali3_element_type ali3_electric_drive = {
-    ALI3_ELECTRIC_DRIVE, .evaluate = evaluate, .accept = accept, .nint = -1, .states = states, .check = check,
-};
+    ALI3_ELECTRIC_DRIVE, .evaluate = evaluate, .accept = accept,};

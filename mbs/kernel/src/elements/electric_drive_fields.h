@@ -39,8 +39,13 @@ enum {
   ENGAGE_TIME,
   ELECTRIC_DRIVE_REALS
 };
+enum {
+  THROTTLE,
+  SELECTOR,
+  ELECTRIC_DRIVE_INTEGERS
+};
 #ifndef ALI3_WIDTH
-static const ali3_field electric_drive_fields[ELECTRIC_DRIVE_REALS] = {
+static const ali3_field electric_drive_fields[] = {
   {ALI3_IS_NOT_NEGATIVE, "the max torque of a drive must not be negative"},
   {ALI3_IS_NOT_NEGATIVE, "the max power of a drive must not be negative"},
   {ALI3_IS_POSITIVE, "the ratio of a drive must be greater than zero"},
@@ -55,7 +60,12 @@ static const ali3_field electric_drive_fields[ELECTRIC_DRIVE_REALS] = {
   {ALI3_IS_NOT_NEGATIVE, "the engage speed of a drive must not be negative"},
   {ALI3_IS_POSITIVE, "the engage time of a drive must be greater than zero"},
 };
-#define ALI3_ELECTRIC_DRIVE .fields = electric_drive_fields, .nfields = ELECTRIC_DRIVE_REALS, \
-  .nsig = 8, .nreal = ELECTRIC_DRIVE_REALS, .nstate = -1, .nout = 7
+static const ali3_integer electric_drive_integers[] = {
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the input of a drive names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the selector of a drive names an input that does not exist"},
+};
+#define ALI3_ELECTRIC_DRIVE \
+  .nsig = 8, .nreal = 13, .nint = 1, .nstate_more = 2, .nout = 7, .fields = electric_drive_fields, \
+  .nfields = 13, .integers = electric_drive_integers, .nintegers = ELECTRIC_DRIVE_INTEGERS
 #endif
 #endif

@@ -55,6 +55,15 @@ typedef struct {
   const char *text;
 } ali3_field;
 
+/* The same of an integer: below 0 or `least`, or above `most` or the last of what it is a number of. */
+typedef enum { ALI3_OF_NUMBERS, ALI3_OF_INPUTS, ALI3_OF_ROADS } ali3_numbered;
+typedef struct {
+  ali3_numbered of;
+  int32_t least, most;
+  int32_t reals, states; /* of each that it counts */
+  const char *text;
+} ali3_integer;
+
 /* What a type of elements is; what is not named is 0 or NULL: not so, or none. */
 typedef struct ali3_element_type {
   ali3_element_function *evaluate;
@@ -63,7 +72,8 @@ typedef struct ali3_element_type {
    * ud = (u1 - u0) / (2 h), its h being half a step. NULL: evaluate is exact there, or as good. */
   ali3_element_function *discrete;
   ali3_element_function *accept; /* once per accepted step, and with h = 0 at a start: discrete changes in y_new */
-  bool stops; /* springs with end stops, whose first outputs are length and force */
+  /* Springs with end stops, whose first outputs are length and force: whether these lie beyond one. */
+  bool (*stops)(const double *real, const double *out);
   /* Of these: the share of a step of size h at which the first of those with a kink is met or left, from
    * the outputs at its start and at its end; 1: none is. */
   double (*event)(const double *real, int32_t nreal, const double *from, const double *to, double h);
@@ -77,17 +87,25 @@ typedef struct ali3_element_type {
   /* How deep the element is in its road with the scene raised by `raised`, m; < 0: above it. From u, real, integer and
    * roads; *part: raising the scene by this share of the depth brings it towards 0 and not beyond. */
   double (*depth)(const ali3_element_args *a, double raised, double *part);
-  /* sizes that the loader checks; -1: any; nstate = -k, k > 1: k for each of the items that the last integer counts */
+  /* Sizes without what its integers count; -1: any. nint are the integers that must be there, of all that `integers`
+   * has. With one of the others, or where there are none, nreal_more and nstate_more may follow. */
   int32_t nsig, nreal, nint, nstate, nout;
-  int32_t (*states)(int32_t nint); /* where nstate is -1: how many for so many integers; NULL: any */
-  const ali3_field *fields; /* what its first numbers must be; NULL: check looks at them */
+  int32_t nsig_plane; /* of an element in the plane, where they are others; 0: they are not */
+  int32_t nreal_more, nstate_more;
+  const ali3_field *fields; /* what its numbers must be: the first ones, then the last nreal_more */
   int32_t nfields;
+  const ali3_integer *integers;
+  int32_t nintegers;
   /* NULL or one sentence for bad data that the fields do not say */
   const char *(*check)(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                        int32_t n_inputs, int32_t n_roads);
 } ali3_element_type;
 
-/* NULL or one sentence for bad data: by the fields, then by the type's own check. */
+/* Whether the sizes of an element are those of its type; its signals may be in space or in the plane. */
+bool ali3_element_fits(const ali3_element_type *type, int32_t nsig, int32_t nreal, const int32_t *integer, int32_t nint,
+                       int32_t nstate, int32_t nout);
+
+/* NULL or one sentence for bad data: by the declared numbers and integers, then by the type's own check. */
 const char *ali3_element_check(const ali3_element_type *type, int32_t nsig, const double *real, int32_t nreal,
                                const int32_t *integer, int32_t nint, int32_t n_inputs, int32_t n_roads);
 

@@ -30,9 +30,49 @@ static bool lies_in(ali3_range range, double x) {
   }
 }
 
+static bool fits(int64_t expected, int32_t n) { return expected == n; }
+
+bool ali3_element_fits(const ali3_element_type *type, int32_t nsig, int32_t nreal, const int32_t *integer, int32_t nint,
+                       int32_t nstate, int32_t nout) {
+  if (type->nsig != -1 && nsig != type->nsig && (type->nsig_plane == 0 || nsig != type->nsig_plane)) return false;
+  if (nint < type->nint || nint > type->nintegers) return false;
+  int64_t reals = type->nreal, states = type->nstate;
+  for (int32_t i = 0; i < nint; i++) {
+    const int64_t count = integer[i] > 0 ? integer[i] : 0;
+    reals += type->integers[i].reals * count, states += type->integers[i].states * count;
+  }
+  const bool extended = nint > type->nint, either = type->nint == type->nintegers;
+  if (extended) states += type->nstate_more;
+  return (type->nreal == -1 || fits(reals + (extended ? type->nreal_more : 0), nreal) ||
+          (either && fits(reals + type->nreal_more, nreal))) &&
+         fits(states, nstate) && fits(type->nout, nout);
+}
+
+static const char *check_integers(const ali3_element_type *type, const int32_t *integer, int32_t nint, int32_t n_inputs,
+                                  int32_t n_roads) {
+  for (int32_t i = 0; i < nint && i < type->nintegers; i++) {
+    const ali3_integer *of = &type->integers[i];
+    const int32_t most = of->of == ALI3_OF_INPUTS ? n_inputs - 1 : of->of == ALI3_OF_ROADS ? n_roads - 1 : of->most;
+    if (integer[i] < of->least || integer[i] > most) return of->text;
+  }
+  return NULL;
+}
+
+/* The last nreal_more fields are those of the last numbers, where these are there. */
+static const char *check_fields(const ali3_element_type *type, const double *real, int32_t nreal, bool more) {
+  const int32_t first = type->nfields - type->nreal_more;
+  for (int32_t i = 0; i < (more ? type->nfields : first); i++) {
+    const int32_t at = i < first ? i : nreal - type->nfields + i;
+    if (!lies_in(type->fields[i].range, real[at])) return type->fields[i].text;
+  }
+  return NULL;
+}
+
 const char *ali3_element_check(const ali3_element_type *type, int32_t nsig, const double *real, int32_t nreal,
                                const int32_t *integer, int32_t nint, int32_t n_inputs, int32_t n_roads) {
-  for (int32_t i = 0; i < type->nfields && i < nreal; i++)
-    if (!lies_in(type->fields[i].range, real[i])) return type->fields[i].text;
-  return type->check == NULL ? NULL : type->check(nsig, real, nreal, integer, nint, n_inputs, n_roads);
+  const char *text = check_integers(type, integer, nint, n_inputs, n_roads);
+  const bool more = nint > type->nint || (type->nint == type->nintegers && nreal > type->nreal);
+  if (text == NULL) text = check_fields(type, real, nreal, more);
+  if (text != NULL || type->check == NULL) return text;
+  return type->check(nsig, real, nreal, integer, nint, n_inputs, n_roads);
 }

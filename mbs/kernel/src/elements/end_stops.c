@@ -72,12 +72,12 @@ double ali3_end_stops_event(const double *p, const double length[2], const doubl
   return first;
 }
 
-const char *ali3_end_stops_check(const double *p, int progressive) {
-  if (p[ALI3_BUMP_STIFFNESS] < 0.0 || p[ALI3_REBOUND_STIFFNESS] < 0.0)
-    return "the stiffness of a spring's stops must not be negative";
-  if (!progressive) return 0;
-  for (int i = ALI3_PROGRESSION; i < ALI3_STOPS; i++)
-    if (p[i] < 0.0) return "the numbers of a spring's progressive stops must not be negative";
+bool ali3_end_stops_beyond(const double *p, double length) {
+  return (p[ALI3_BUMP_STIFFNESS] > 0.0 && length < p[ALI3_BUMP_LENGTH]) ||
+         (p[ALI3_REBOUND_STIFFNESS] > 0.0 && length > p[ALI3_REBOUND_LENGTH]);
+}
+
+const char *ali3_end_stops_check(const double *p) {
   if (p[ALI3_METAL_STIFFNESS] > 0.0 && !(p[ALI3_METAL_ONSET] > 0.0))
     return "the metal end of a spring's stops needs a depth over which it sets in";
   return 0;

@@ -1,6 +1,7 @@
 /* Bump and rebound stops of springs: laws of contact_law.h beyond two lengths. */
 #ifndef ALI3_END_STOPS_H
 #define ALI3_END_STOPS_H
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "../algebra/real.h"
@@ -36,6 +37,9 @@ void ali3_end_stops_between(const double *p, int progressive, double l0, double 
 /* When a stop is met or left in a step of size h, as a share of it, from length and rate at both ends; 1: none is. */
 double ali3_end_stops_event(const double *p, const double length[2], const double rate[2], double h);
 
-/* NULL or one sentence. */
-const char *ali3_end_stops_check(const double *p, int progressive);
+/* Whether a length lies beyond a stop. */
+bool ali3_end_stops_beyond(const double *p, double length);
+
+/* NULL or one sentence about progressive stops. */
+const char *ali3_end_stops_check(const double *p);
 #endif

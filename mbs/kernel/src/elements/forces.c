@@ -57,7 +57,7 @@ ALI3_INLINED bool evaluate(ali3_instance *in, const ali3_force_call *call, int32
   prepare(in, call, e, u, ud, f, tangent, a);
   memset(f, 0, (size_t)a->nsig * sizeof(double));
   if (tangent != NULL) memset(tangent, 0, (size_t)(a->nsig * a->nsig) * sizeof(double));
-  (in->discrete && type->discrete != NULL ? type->discrete : type->evaluate)(a);
+  (call->discrete && type->discrete != NULL ? type->discrete : type->evaluate)(a);
   call->potential[e] = a->potential;
   return a->idle != 0;
 }
@@ -98,10 +98,10 @@ void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
   double u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals do not lie side by side */
   ali3_element_args a = common(in, call);
-  if (!in->discrete && S->n_four > 0) ali3_fours_forces(in, call); /* not every processor has its instructions */
-  const int32_t n = in->discrete ? S->size.ne : S->n_alone;
+  if (!call->discrete && S->n_four > 0) ali3_fours_forces(in, call); /* not every processor has its instructions */
+  const int32_t n = call->discrete ? S->size.ne : S->n_alone;
   for (int32_t k = 0; k < n; k++) {
-    const int32_t e = in->discrete ? k : S->alone[k];
+    const int32_t e = call->discrete ? k : S->alone[k];
     double *tangent = call->tangent && S->el_front[e] >= 0 ? in->S + S->el_S_off[e] : NULL;
     double *f = in->element_force + S->el_sig_ptr[e];
     const int32_t beside = S->el_beside[e];
@@ -118,7 +118,7 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   memcpy(Q, in->gravity_force, (size_t)S->size.nq * sizeof(double));
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, call->q);
-    ali3_flexible_forces(in, call->q, call->qd, call->Q);
+    ali3_flexible_forces(in, call->q, call->qd, call->discrete, call->Q);
     in->wC = call->wC;
     in->wK = call->wK;
   }

@@ -7,6 +7,7 @@ typedef struct {
   const double *q, *qd, *y_old;
   double h, wC, wK, reach;
   bool tangent;
+  bool discrete; /* over a step from in->now, by discrete gradients where there are any */
   bool iterate; /* one of several: in->watched stays, the forces of the last are in in->element_force */
   double *Q, *y_new, *out, *potential;
 } ali3_force_call;

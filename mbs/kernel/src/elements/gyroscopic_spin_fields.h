@@ -12,10 +12,10 @@ enum {
   GYROSCOPIC_SPIN_REALS
 };
 #ifndef ALI3_WIDTH
-static const ali3_field gyroscopic_spin_fields[GYROSCOPIC_SPIN_REALS] = {
+static const ali3_field gyroscopic_spin_fields[] = {
   {ALI3_IS_POSITIVE, "the spin inertia of a spinning wheel must be greater than zero"},
 };
-#define ALI3_GYROSCOPIC_SPIN .fields = gyroscopic_spin_fields, .nfields = GYROSCOPIC_SPIN_REALS, \
-  .nsig = 7, .nreal = GYROSCOPIC_SPIN_REALS, .nstate = 0, .nout = 0
+#define ALI3_GYROSCOPIC_SPIN \
+  .nsig = 7, .nreal = 1, .fields = gyroscopic_spin_fields, .nfields = 1
 #endif
 #endif

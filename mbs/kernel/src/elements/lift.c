@@ -35,16 +35,12 @@ static void evaluate(ali3_element_args *a) {
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)real, (void)nreal, (void)n_roads;
-  if (nint != 0 && (nint != AIR_INPUTS || nsig != 9)) return "lift in moving air needs space and two inputs";
-  const char *text = nint > 0 ? ali3_check_air(integer, n_inputs) : 0;
-  if (text != 0) return text;
-  return nsig != 6 && nsig != 9 ? "lift needs the 2 or 3 components of a point and of two axes" : 0;
+  (void)real, (void)nreal, (void)integer, (void)n_inputs, (void)n_roads;
+  return nint != 0 && (nint != AIR_INPUTS || nsig != 9) ? "lift in moving air needs space and two inputs" : 0;
 }
 
 const ali3_element_type ali3_lift = {
     ALI3_LIFT,
     .evaluate = evaluate,
-    .nint = -1,
     .check = check,
 };

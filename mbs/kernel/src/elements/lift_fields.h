@@ -1,6 +1,6 @@
 /* clang-format off */
 /* Numbers of a lift. Written by `python -m mbs.elements.fields_in_c` from Lift. */
-/* Signals: point (2 or 3), forward (2 or 3), up (2 or 3). */
+/* Signals: point (3 or 2), forward (3 or 2), up (3 or 2). */
 /* Outputs: force (N), lift, positive along the upward axis */
 #ifndef ALI3_LIFT_FIELDS_H
 #define ALI3_LIFT_FIELDS_H
@@ -13,12 +13,22 @@ enum {
   AIR_DENSITY,
   LIFT_REALS
 };
+enum {
+  WIND_SPEED,
+  WIND_HEADING,
+  LIFT_INTEGERS
+};
 #ifndef ALI3_WIDTH
-static const ali3_field lift_fields[LIFT_REALS] = {
+static const ali3_field lift_fields[] = {
   {ALI3_IS_ANY, ""},
   {ALI3_IS_NOT_NEGATIVE, "the air density of a lift must not be negative"},
 };
-#define ALI3_LIFT .fields = lift_fields, .nfields = LIFT_REALS, \
-  .nsig = -1, .nreal = LIFT_REALS, .nstate = 0, .nout = 1
+static const ali3_integer lift_integers[] = {
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the speed of the air of a lift names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the heading of the air of a lift names an input that does not exist"},
+};
+#define ALI3_LIFT \
+  .nsig = 9, .nsig_plane = 6, .nreal = 2, .nout = 1, .fields = lift_fields, .nfields = 2, \
+  .integers = lift_integers, .nintegers = LIFT_INTEGERS
 #endif
 #endif

@@ -1,9 +1,9 @@
 /* Tyre on a road by the Magic Formula: radial spring of a disc, steady forces of magic_formula.h, first-order carcass
  * deflections that are the same at standstill, rolling, sliding and in the air.
  *
- * Signals, outputs and states are those of tyre.c, with the overturning and rolling moments as two more outputs.
- * Integers: road, version of the formula, combination of the slips; 1 where the numbers of tyre_bore.h follow. The
- * moment of bore torque fades out up to ALI3_TYRE_ROLLS, from where the formula has the moments about the normal.
+ * Signals and states are those of tyre.c. Pressure is that over the nominal one, less 1; of the slip angle its tangent
+ * has a range; behind the numbers stand the coefficients. The moment of bore torque fades out up to ALI3_TYRE_ROLLS, from
+ * where the formula has the moments about the normal.
  *
  * Slips refer to the speed of travel; below ALI3_TYRE_ROLLS to that of the slip too, so that the force of a wheel that
  * slides sideways from rest has the direction of its slip. The carcass, per direction, follows F = F_steady(v) - g x' = c x + d x' with the
@@ -18,38 +18,13 @@
 #include "element.h"
 #include "element_math.h"
 #include "magic_formula.h"
+#include "magic_tyre_fields.h"
 #include "tyre_bore.h"
 #include "tyre_contact.h"
 
-enum {
-  RADIUS,
-  BOTTOMING_RADIUS,
-  STIFFNESS,
-  PROGRESSION,
-  DAMPING,
-  BOTTOMING_STIFFNESS,
-  NOMINAL_LOAD,
-  REFERENCE_FRICTION,
-  FRICTION_FACTOR,
-  FRICTION, /* 2: factors on LMUX and LMUY */
-  SLIP_STIFFNESS = FRICTION + 2, /* 2: on LKX and LKY */
-  PRESSURE = SLIP_STIFFNESS + 2, /* over the nominal one, less 1 */
-  SETTLING, /* s: carcass damping over carcass stiffness at rest */
-  SIGN_SLIP, /* 3: of slip angle, camber, lateral force and moment from ISO axes to those of the file */
-  SIGN_CAMBER,
-  SIGN_FORCE,
-  SLIP_LEAST, /* 2: longitudinal slip */
-  ANGLE_LEAST = SLIP_LEAST + 2, /* 2: tangent of the slip angle */
-  CAMBER_LEAST = ANGLE_LEAST + 2, /* 2: rad */
-  LARGEST_LOAD = CAMBER_LEAST + 2,
-  COEFFICIENTS,
-  REALS = COEFFICIENTS + ALI3_MF_COUNT,
-  BORE = REALS,
-  MORE_REALS = BORE + ALI3_BORE_NUMBERS
-};
-enum { ROAD, VERSION, COMBINED, INTEGERS, BORES = INTEGERS, MORE_INTEGERS };
-enum { STATES = 4, MORE_STATES = 6 };
-enum { OVERTURNING = ALI3_TYRE_OUTPUTS, RESISTANCE, OUTPUTS };
+enum { COEFFICIENTS = MAGIC_TYRE_REALS };
+enum { SLIP, CAMBER, FORCE }; /* parts of the sign: from ISO axes to those of the file */
+enum { OVERTURNING = ALI3_TYRE_OUTPUTS, RESISTANCE };
 
 typedef struct {
   double F[2], C[3], Mx, My, Mz; /* ISO axes of the road; C = -dF/dv as xx, xy, yy */
@@ -80,26 +55,26 @@ static ali3_magic_force steady(ali3_element_args *a, const ali3_tyre_patch *cont
   const ali3_magic_state s = *state = (ali3_magic_state){
       .c = p + COEFFICIENTS,
       .version = a->integer[VERSION],
-      .combined = a->integer[COMBINED],
+      .combined = a->integer[COMBINATION],
       .nominal_load = p[NOMINAL_LOAD],
       .radius = p[RADIUS],
       .load = contact->load < most ? contact->load : most,
-      .camber = p[SIGN_CAMBER] * ali3_clamp(lean, p[CAMBER_LEAST], p[CAMBER_LEAST + 1]),
+      .camber = p[SIGN + CAMBER] * ali3_clamp(lean, p[CAMBER_RANGE], p[CAMBER_RANGE + 1]),
       .pressure = p[PRESSURE],
-      .friction = {grip * p[FRICTION], grip * p[FRICTION + 1]},
-      .stiffness = {p[SLIP_STIFFNESS], p[SLIP_STIFFNESS + 1]},
+      .friction = {grip * p[LMUX], grip * p[LMUY]},
+      .stiffness = {p[LKX], p[LKY]},
       .moving = ali3_tyre_moving(fabs(m->travel[0])),
       .direction = m->travel[0] < 0.0 ? -1.0 : 1.0,
       .speed = fabs(m->travel[0]),
       .slide = ali3_hypot(m->v[0], m->v[1]),
   };
   if (s.load < contact->load) a->piece |= ALI3_TYRE_OVERLOADED;
-  if (s.camber != p[SIGN_CAMBER] * lean) a->piece |= ALI3_TYRE_AT_RANGE << 2;
-  const double ways[2] = {-1.0, p[SIGN_SLIP]}, turn[2] = {1.0, p[SIGN_FORCE]};
+  if (s.camber != p[SIGN + CAMBER] * lean) a->piece |= ALI3_TYRE_AT_RANGE << 2;
+  const double ways[2] = {-1.0, p[SIGN + SLIP]}, turn[2] = {1.0, p[SIGN + FORCE]};
   double slip[2], kept[2], by[2];
   for (int i = 0; i < 2; i++) {
     const double raw = ways[i] * m->v[i] / w;
-    slip[i] = ali3_clamp(raw, p[(i ? ANGLE_LEAST : SLIP_LEAST)], p[(i ? ANGLE_LEAST : SLIP_LEAST) + 1]);
+    slip[i] = ali3_clamp(raw, p[(i ? ANGLE_RANGE : SLIP_RANGE)], p[(i ? ANGLE_RANGE : SLIP_RANGE) + 1]);
     if (slip[i] != raw) a->piece |= (uint32_t)ALI3_TYRE_AT_RANGE << i;
     kept[i] = slip[i] == raw ? 1.0 : slip[i] / raw; /* beyond the range the force stays */
     by[i] = slip[i] == raw ? ways[i] / w : 0.0;
@@ -159,10 +134,10 @@ static reaction carcass(ali3_element_args *a, const ali3_tyre_patch *contact, co
     }
   }
   if (holds) {
-    const double acting[2] = {r.F[0], p[SIGN_FORCE] * r.F[1]};
-    f.F[1] *= p[SIGN_FORCE];
+    const double acting[2] = {r.F[0], p[SIGN + FORCE] * r.F[1]};
+    f.F[1] *= p[SIGN + FORCE];
     ali3_magic_moments(&s, acting, &f);
-    r.Mx = p[SIGN_CAMBER] * f.Mx, r.My = f.My, r.Mz = p[SIGN_FORCE] * f.Mz;
+    r.Mx = p[SIGN + CAMBER] * f.Mx, r.My = f.My, r.Mz = p[SIGN + FORCE] * f.Mz;
   }
   for (int i = 0; i < 2; i++) {
     a->y_new[i] = a->y_old[i];
@@ -199,7 +174,7 @@ static void evaluate(ali3_element_args *a) {
       m.loaded > 1e-6 ? 1.0 + ali3_tyre_moving(effective * fabs(omega)) * (effective / m.loaded - 1.0) : 1.0;
   ali3_tyre_velocities(a, &contact, e, ratio, &m);
   const double lean = ali3_atan2(ali3_dot(e, n), m.upright);
-  const bool bores = a->nint == MORE_INTEGERS;
+  const bool bores = a->nint > WITH_BORE;
   ali3_tyre_bore bore;
   if (bores) bore = ali3_tyre_bore_at(a, p + BORE, n, e, 2.0 * sqrt(radius * deflection));
   reaction r = carcass(a, &contact, &m, lean, bores ? &bore : 0);
@@ -231,33 +206,18 @@ static void evaluate(ali3_element_args *a) {
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)n_inputs;
-  const bool more = nint == MORE_INTEGERS;
-  if ((nint != INTEGERS && !more) || nreal != (more ? MORE_REALS : REALS))
-    return "a tyre has the wrong number of numbers";
-  if (more && integer[BORES] != 1) return "a tyre neither has bore torque nor has it not";
+  (void)nsig, (void)nreal, (void)nint, (void)n_inputs, (void)n_roads;
   const double *c = real + COEFFICIENTS;
-  if (integer[ROAD] < 0 || integer[ROAD] >= n_roads) return "a tyre names a road that does not exist";
-  const int32_t version = integer[VERSION], combined = integer[COMBINED];
+  const int32_t version = integer[VERSION];
   if (version != ALI3_MAGIC_PAC2002 && version != ALI3_MAGIC_61 && version != ALI3_MAGIC_62)
     return "a tyre has an unknown version of the Magic Formula";
-  if (combined < 0 || combined >= ALI3_MAGIC_COMBINATIONS) return "a tyre combines its slips in an unknown way";
-  if (!(real[RADIUS] > real[BOTTOMING_RADIUS] && real[BOTTOMING_RADIUS] > 0.0))
-    return "the bottoming radius of a tyre must lie between 0 and its radius";
-  if (!(real[STIFFNESS] > 0.0) || real[DAMPING] < 0.0 || real[BOTTOMING_STIFFNESS] < 0.0)
-    return "the vertical stiffness of a tyre must be positive, damping and bottoming stiffness not negative";
-  if (!(real[NOMINAL_LOAD] > 0.0 && real[REFERENCE_FRICTION] > 0.0 && real[LARGEST_LOAD] > 0.0 &&
-        real[SETTLING] > 0.0 && c[ALI3_MF_LFZO] > 0.0 && c[ALI3_MF_LONGVL] > 0.0))
-    return "loads, reference friction, settling time, LFZO and LONGVL of a tyre must be positive";
-  for (int i = 0; i < 2; i++)
-    if (real[FRICTION + i] <= 0.0 || real[SLIP_STIFFNESS + i] <= 0.0)
-      return "the factors on friction and slip stiffness of a tyre must be positive";
+  if (!(real[RADIUS] > real[BOTTOMING_RADIUS])) return "the bottoming radius of a tyre must be less than its radius";
+  if (!(c[ALI3_MF_LFZO] > 0.0 && c[ALI3_MF_LONGVL] > 0.0)) return "LFZO and LONGVL of a tyre must be positive";
   if (!(c[ALI3_MF_PKX1] > 0.0)) return "PKX1 of a tyre must be positive";
   if (!(real[PRESSURE] > -1.0)) return "the pressure of a tyre must be positive";
-  if (real[FRICTION_FACTOR] < 0.0) return "the friction factor of a tyre must not be negative";
   for (int i = 0; i < 3; i++)
-    if (fabs(real[SIGN_SLIP + i]) != 1.0) return "a sign of a tyre is neither 1 nor -1";
-  for (int i = SLIP_LEAST; i < LARGEST_LOAD; i += 2)
+    if (fabs(real[SIGN + i]) != 1.0) return "a sign of a tyre is neither 1 nor -1";
+  for (int i = SLIP_RANGE; i < LARGEST_LOAD; i += 2)
     if (!(real[i] <= 0.0 && real[i + 1] >= 0.0 && real[i] < real[i + 1]))
       return "a range of slips or camber of a tyre does not hold zero";
   if (c[ALI3_MF_PCX1] * c[ALI3_MF_LCX] * c[ALI3_MF_PDX1] * c[ALI3_MF_PKX1] == 0.0 ||
@@ -265,21 +225,14 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
     return "a tyre lacks shape, friction or slip stiffness";
   if (!(c[ALI3_MF_LMUX] > 0.0 && c[ALI3_MF_LMUY] > 0.0 && c[ALI3_MF_LKX] > 0.0 && c[ALI3_MF_LKY] > 0.0))
     return "LMUX, LMUY, LKX and LKY of a tyre must be positive";
-  return more ? ali3_tyre_bore_check(real + BORE) : 0;
+  return 0;
 }
 
-static int32_t states(int32_t nint) { return nint == MORE_INTEGERS ? MORE_STATES : STATES; }
-
 const ali3_element_type ali3_magic_tyre = {
+    ALI3_MAGIC_TYRE,
     .evaluate = evaluate,
     .start = ali3_tyre_start,
     .start_words = ALI3_TYRE_START_WORDS,
     .depth = ali3_tyre_depth,
-    .nsig = 7,
-    .nreal = -1,
-    .nint = -1,
-    .nstate = -1,
-    .states = states,
-    .nout = OUTPUTS,
     .check = check,
 };

@@ -15,10 +15,4 @@ static inline void ali3_over_air(const double *input, const int32_t *integer, co
   over[1] = velocity[1] - speed * ali3_sin(heading);
   over[2] = velocity[2];
 }
-
-static inline const char *ali3_check_air(const int32_t *integer, int32_t n_inputs) {
-  for (int i = 0; i < AIR_INPUTS; i++)
-    if (integer[i] < 0 || integer[i] >= n_inputs) return "moving air names an input that does not exist";
-  return 0;
-}
 #endif

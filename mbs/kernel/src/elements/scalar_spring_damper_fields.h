@@ -22,7 +22,7 @@ enum {
   SCALAR_SPRING_DAMPER_REALS
 };
 #ifndef ALI3_WIDTH
-static const ali3_field scalar_spring_damper_fields[SCALAR_SPRING_DAMPER_REALS] = {
+static const ali3_field scalar_spring_damper_fields[] = {
   {ALI3_IS_NOT_NEGATIVE, "the stiffness of a spring-damper must not be negative"},
   {ALI3_IS_NOT_NEGATIVE, "the damping of a spring-damper must not be negative"},
   {ALI3_IS_ANY, ""},
@@ -30,7 +30,7 @@ static const ali3_field scalar_spring_damper_fields[SCALAR_SPRING_DAMPER_REALS] 
   {ALI3_IS_NOT_NEGATIVE, "the stiffness factor of a spring-damper must not be negative"},
   {ALI3_IS_NOT_NEGATIVE, "the damping factor of a spring-damper must not be negative"},
 };
-#define ALI3_SCALAR_SPRING_DAMPER .fields = scalar_spring_damper_fields, .nfields = SCALAR_SPRING_DAMPER_REALS, \
-  .nsig = 1, .nreal = SCALAR_SPRING_DAMPER_REALS, .nstate = 0, .nout = 1
+#define ALI3_SCALAR_SPRING_DAMPER \
+  .nsig = 1, .nreal = 6, .nout = 1, .fields = scalar_spring_damper_fields, .nfields = 6
 #endif
 #endif

@@ -1,6 +1,6 @@
 /* Angle by which an axisymmetric wheel, reduced to one coordinate on its carrier, has turned on it since the start.
- * Signals: f (3), g (3) orthonormal on the carrier with f x g = e along the axis; chi with chi' = Omega the absolute
- * rate about it. States: turn, and f, g at the end of the last step. Outputs: angle = chi + turn. It has no force.
+ * f, g are orthonormal on the carrier with f x g = e along the axis, the spin chi has chi' = Omega, the absolute rate
+ * about it. States: turn, and f, g at the end of the last step. The angle is chi + turn. It has no force.
  *
  * The angle's rate is Omega - e . w with w the angular velocity of the carrier, and turn = -(chi at the start) minus the
  * integral of e . w. That integral is no function of the position, so it is summed over the steps: the frame of the last
@@ -10,6 +10,7 @@
 #include "../algebra/elementary.h"
 #include "element.h"
 #include "element_math.h"
+#include "spin_angle_fields.h"
 
 enum { TURN, F, G = F + 3, STATES = G + 3 };
 #define OPPOSITE 1e-9 /* of 1 + e0 . e1: an axis turned over within a step leaves the angle open */
@@ -46,11 +47,9 @@ static void accept(ali3_element_args *a) {
 }
 
 const ali3_element_type ali3_spin_angle = {
+    ALI3_SPIN_ANGLE,
     .evaluate = evaluate,
     .accept = accept,
     .conservative = true,
-    .nsig = 7,
-    .nstate = STATES,
-    .nout = 1,
 };
 #endif

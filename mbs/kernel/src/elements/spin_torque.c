@@ -1,11 +1,11 @@
 /* Torque from an input between a wheel's spin and its carrier, which takes the reaction.
- * f and g are orthonormal on the carrier with f x g along the axis, the rate of the spin is absolute. Integers: input. */
+ * f and g are orthonormal on the carrier with f x g along the axis, the rate of the spin is absolute. */
 #include "element.h"
 #include "element_math.h"
 #include "spin_torque_fields.h"
 
 static void evaluate(ali3_element_args *a) {
-  const double torque = a->real[GAIN] * a->input[a->integer[0]];
+  const double torque = a->real[GAIN] * a->input[a->integer[INPUT]];
   for (int i = 0; i < 3; i++) {
     a->f[i] = -0.5 * torque * a->u[3 + i]; /* its tangent is antisymmetric */
     a->f[3 + i] = 0.5 * torque * a->u[i];
@@ -16,12 +16,5 @@ static void evaluate(ali3_element_args *a) {
   a->out[1] = torque * (a->ud[6] - 0.5 * (ali3_dot(a->ud, a->u + 3) - ali3_dot(a->ud + 3, a->u)));
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)real, (void)nreal, (void)nint, (void)n_roads;
-  return integer[0] < 0 || integer[0] >= n_inputs ? "a spin torque names an input that does not exist" : 0;
-}
-
 const ali3_element_type ali3_spin_torque = {
-    ALI3_SPIN_TORQUE, .evaluate = evaluate, .conservative = true, .nint = 1, .check = check,
-};
+    ALI3_SPIN_TORQUE, .evaluate = evaluate, .conservative = true,};

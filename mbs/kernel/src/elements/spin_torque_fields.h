@@ -12,11 +12,19 @@ enum {
   GAIN,
   SPIN_TORQUE_REALS
 };
+enum {
+  INPUT,
+  SPIN_TORQUE_INTEGERS
+};
 #ifndef ALI3_WIDTH
-static const ali3_field spin_torque_fields[SPIN_TORQUE_REALS] = {
+static const ali3_field spin_torque_fields[] = {
   {ALI3_IS_ANY, ""},
 };
-#define ALI3_SPIN_TORQUE .fields = spin_torque_fields, .nfields = SPIN_TORQUE_REALS, \
-  .nsig = 7, .nreal = SPIN_TORQUE_REALS, .nstate = 0, .nout = 2
+static const ali3_integer spin_torque_integers[] = {
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the input of a spin torque names an input that does not exist"},
+};
+#define ALI3_SPIN_TORQUE \
+  .nsig = 7, .nreal = 1, .nint = 1, .nout = 2, .fields = spin_torque_fields, .nfields = 1, \
+  .integers = spin_torque_integers, .nintegers = SPIN_TORQUE_INTEGERS
 #endif
 #endif

@@ -1,13 +1,11 @@
 /* Linear spring and damper between two points, with optional end stops.
- * d = p2 - p1. Behind its own numbers stand those of its stops (end_stops.h), linear or not. */
+ * d = p2 - p1. The stops are those of end_stops.h, linear or not. */
 #include "element.h"
 #include "end_stops.h"
 #include "line_force.h"
 #include "spring_damper_fields.h"
 
-enum { STOPS = SPRING_DAMPER_REALS, LINEAR = STOPS + ALI3_LINEAR_STOPS, PROGRESSIVE = STOPS + ALI3_STOPS };
-
-static int progressive(int32_t nreal) { return nreal >= PROGRESSIVE; }
+static int progressive(int32_t nreal) { return nreal > SPRING_DAMPER_REALS; }
 
 static void evaluate(ali3_element_args *a) {
   const real *p = a->real;
@@ -45,6 +43,8 @@ static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
   return real[DAMPING] * real[DAMPING_FACTOR] != 0.0 || (progressive(nreal) && (loss[0] != 0.0 || loss[1] != 0.0));
 }
 
+static bool stops(const double *real, const double *out) { return ali3_end_stops_beyond(real + STOPS, out[0]); }
+
 /* Progressive stops have an onset without a kink. */
 static double event(const double *real, int32_t nreal, const double *from, const double *to, double h) {
   if (progressive(nreal)) return 1.0;
@@ -53,14 +53,12 @@ static double event(const double *real, int32_t nreal, const double *from, const
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
-  if (nsig != 2 && nsig != 3) return "a spring-damper needs the 2 or 3 components of a distance";
-  if (nreal != LINEAR && nreal != PROGRESSIVE) return "a spring-damper has 9 numbers, 17 with progressive stops";
-  return ali3_end_stops_check(real + STOPS, progressive(nreal));
+  (void)nsig, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
+  return progressive(nreal) ? ali3_end_stops_check(real + STOPS) : 0;
 }
 
 const ali3_element_type ali3_spring_damper = {
     ALI3_SPRING_DAMPER, .evaluate = evaluate, .discrete = discrete, .conservative = true,
-    .lossy = lossy,     .stops = true,        .event = event,       .check = check,
+    .lossy = lossy,     .stops = stops,       .event = event,       .check = check,
 };
 #endif

@@ -1,6 +1,6 @@
 /* clang-format off */
 /* Numbers of a spring-damper. Written by `python -m mbs.elements.fields_in_c` from SpringDamper. */
-/* Signals: difference (2 or 3). */
+/* Signals: difference (3 or 2). */
 /* Outputs: length (m), distance of the two points; force (N), force of spring, damper and stops, tension positive;
  * rate (m/s), rate of the length; damper_force (N), force of the damper without spring and stops, tension positive */
 #ifndef ALI3_SPRING_DAMPER_FIELDS_H
@@ -18,17 +18,32 @@ enum {
   STIFFNESS_FACTOR,
   /* Factor on the damping, for a parameter; not on the stops. */
   DAMPING_FACTOR,
-  SPRING_DAMPER_REALS
+  /* Bump and rebound stops. */
+  STOPS,
+  SPRING_DAMPER_REALS = 9
 };
 #ifndef ALI3_WIDTH
-static const ali3_field spring_damper_fields[SPRING_DAMPER_REALS] = {
+static const ali3_field spring_damper_fields[] = {
   {ALI3_IS_NOT_NEGATIVE, "the stiffness of a spring-damper must not be negative"},
   {ALI3_IS_NOT_NEGATIVE, "the damping of a spring-damper must not be negative"},
   {ALI3_IS_NOT_NEGATIVE, "the free length of a spring-damper must not be negative"},
   {ALI3_IS_NOT_NEGATIVE, "the stiffness factor of a spring-damper must not be negative"},
   {ALI3_IS_NOT_NEGATIVE, "the damping factor of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the bump length of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the bump stiffness of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the rebound length of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the rebound stiffness of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the bump progression of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the bump travel of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the rebound progression of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the rebound travel of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the metal stiffness of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the metal onset of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the bump loss of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the rebound loss of a spring-damper must not be negative"},
 };
-#define ALI3_SPRING_DAMPER .fields = spring_damper_fields, .nfields = SPRING_DAMPER_REALS, \
-  .nsig = -1, .nreal = -1, .nstate = 0, .nout = 4
+#define ALI3_SPRING_DAMPER \
+  .nsig = 3, .nsig_plane = 2, .nreal = 9, .nreal_more = 8, .nout = 4, .fields = spring_damper_fields, \
+  .nfields = 17
 #endif
 #endif

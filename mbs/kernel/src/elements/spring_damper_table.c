@@ -1,32 +1,30 @@
 /* Spring and damper between two points, each by a number or by a table, with optional end stops.
- * Signals: d = p2 - p1 (2 or 3). Reals: as below; then, by columns, the points of the spring's table (stretch from the
- * free length m, tension N, slope, energy from stretch 0) and those of the damper's (rate m/s, tension N, slope).
- * Integers: points of either table, 0: the number. Outputs: length m, force N (tension positive), rate m/s, force of the
- * damper alone N. */
+ * d = p2 - p1. Behind its numbers stand, by columns, the points of the spring's table (stretch from the free length m,
+ * tension N, slope, energy from stretch 0) and those of the damper's (rate m/s, tension N, slope); without points the
+ * number holds. */
 #include <stddef.h>
 
 #include "cubic_table.h"
 #include "element.h"
 #include "end_stops.h"
 #include "line_force.h"
-
-enum { STIFFNESS, DAMPING, FREE_LENGTH, STIFFNESS_FACTOR, DAMPING_FACTOR, STOPS, TABLES = STOPS + ALI3_STOPS };
-enum { SPRING, DAMPER, INTEGERS };
-enum { SPRING_COLUMNS = 4, DAMPER_COLUMNS = 3 };
+#include "spring_damper_table_fields.h"
 
 static ali3_cubic_table spring_table(const double *real, const int32_t *integer) {
-  return ali3_cubic_table_at(real + TABLES, integer[SPRING], 1);
+  return ali3_cubic_table_at(real + SPRING_DAMPER_TABLE_REALS, integer[SPRING_POINTS], 1);
 }
 
 static ali3_cubic_table damper_table(const double *real, const int32_t *integer) {
-  return ali3_cubic_table_at(real + TABLES + SPRING_COLUMNS * (int64_t)integer[SPRING], integer[DAMPER], 0);
+  const double *spring = real + SPRING_DAMPER_TABLE_REALS;
+  const int32_t columns = spring_damper_table_integers[SPRING_POINTS].reals;
+  return ali3_cubic_table_at(spring + columns * (int64_t)integer[SPRING_POINTS], integer[DAMPER_POINTS], 0);
 }
 
 /* Force of the damper, and its slope added to t. */
 static double damper(const ali3_element_args *a, double rate, ali3_tension *t) {
   const double *p = a->real, factor = p[DAMPING_FACTOR];
   double slope = p[DAMPING], force = p[DAMPING] * rate;
-  if (a->integer[DAMPER] > 0) {
+  if (a->integer[DAMPER_POINTS] > 0) {
     const ali3_cubic_table table = damper_table(p, a->integer);
     force = ali3_cubic_value(&table, rate, &slope, NULL);
   }
@@ -37,7 +35,7 @@ static double damper(const ali3_element_args *a, double rate, ali3_tension *t) {
 static void spring_at(const ali3_element_args *a, double stretch, ali3_tension *t) {
   const double *p = a->real, factor = p[STIFFNESS_FACTOR];
   double slope = p[STIFFNESS], force = slope * stretch, energy = 0.0;
-  if (a->integer[SPRING] > 0) {
+  if (a->integer[SPRING_POINTS] > 0) {
     const ali3_cubic_table table = spring_table(p, a->integer);
     force = ali3_cubic_value(&table, stretch, &slope, &energy);
   } else {
@@ -52,7 +50,7 @@ static void spring_at(const ali3_element_args *a, double stretch, ali3_tension *
 static void spring_between(const ali3_element_args *a, double x0, double x1, ali3_tension *t) {
   const double *p = a->real, factor = p[STIFFNESS_FACTOR];
   double slope = p[STIFFNESS], mean = slope * 0.5 * (x0 + x1);
-  if (a->integer[SPRING] > 0) {
+  if (a->integer[SPRING_POINTS] > 0) {
     const ali3_cubic_table table = spring_table(p, a->integer);
     mean = ali3_cubic_mean(&table, x0, x1);
     const double end = ali3_cubic_value(&table, x1, &slope, NULL);
@@ -93,9 +91,11 @@ static void discrete(ali3_element_args *a) {
 static bool lossy(const double *real, int32_t nreal, const int32_t *integer) {
   (void)nreal;
   const double *loss = real + STOPS + ALI3_STOP_LOSS;
-  const bool damped = integer[DAMPER] > 0 || real[DAMPING] != 0.0;
+  const bool damped = integer[DAMPER_POINTS] > 0 || real[DAMPING] != 0.0;
   return (damped && real[DAMPING_FACTOR] != 0.0) || loss[0] != 0.0 || loss[1] != 0.0;
 }
+
+static bool stops(const double *real, const double *out) { return ali3_end_stops_beyond(real + STOPS, out[0]); }
 
 /* A damper never gives energy: its force rises through nothing at rest. */
 static const char *check_damper(const ali3_cubic_table *t) {
@@ -107,33 +107,24 @@ static const char *check_damper(const ali3_cubic_table *t) {
 
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nint, (void)n_inputs, (void)n_roads;
-  if (nsig != 2 && nsig != 3) return "a spring-damper needs the 2 or 3 components of a distance";
-  const int64_t points[INTEGERS] = {integer[SPRING], integer[DAMPER]};
-  for (int i = 0; i < INTEGERS; i++)
-    if (points[i] != 0 && points[i] < 2) return "a table of a spring-damper needs two points at least";
-  if (nreal != TABLES + SPRING_COLUMNS * points[SPRING] + DAMPER_COLUMNS * points[DAMPER])
-    return "a spring-damper by table has another number of reals than its points ask for";
-  for (int i = STIFFNESS; i < STOPS; i++)
-    if (real[i] < 0.0) return "the numbers of a spring-damper by table must not be negative";
+  (void)nsig, (void)nreal, (void)n_inputs, (void)n_roads;
+  for (int32_t i = 0; i < nint; i++)
+    if (integer[i] == 1) return "a table of a spring-damper needs two points at least";
   const ali3_cubic_table spring = spring_table(real, integer), damper = damper_table(real, integer);
   if (!(ali3_cubic_rises(&spring) && ali3_cubic_rises(&damper)))
     return "the first column of a table of a spring-damper must rise";
   if (spring.n > 0 && !ali3_cubic_integrals_fit(&spring))
     return "the energies in the table of a spring are not those of its forces";
   const char *bad = damper.n > 0 ? check_damper(&damper) : 0;
-  return bad != 0 ? bad : ali3_end_stops_check(real + STOPS, 1);
+  return bad != 0 ? bad : ali3_end_stops_check(real + STOPS);
 }
 
 const ali3_element_type ali3_spring_damper_table = {
+    ALI3_SPRING_DAMPER_TABLE,
     .evaluate = evaluate,
     .discrete = discrete,
     .conservative = true,
     .lossy = lossy,
-    .stops = true,
-    .nsig = -1,
-    .nreal = -1,
-    .nint = INTEGERS,
-    .nout = 4,
+    .stops = stops,
     .check = check,
 };

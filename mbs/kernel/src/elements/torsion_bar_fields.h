@@ -19,13 +19,13 @@ enum {
   TORSION_BAR_REALS
 };
 #ifndef ALI3_WIDTH
-static const ali3_field torsion_bar_fields[TORSION_BAR_REALS] = {
+static const ali3_field torsion_bar_fields[] = {
   {ALI3_IS_POSITIVE, "the stiffness of a torsion bar must be greater than zero"},
   {ALI3_IS_NOT_NEGATIVE, "the damping of a torsion bar must not be negative"},
   {ALI3_IS_NOT_NEGATIVE, "the assistance of a torsion bar must not be negative"},
   {ALI3_IS_NOT_NEGATIVE, "the assistance limit of a torsion bar must not be negative"},
 };
-#define ALI3_TORSION_BAR .fields = torsion_bar_fields, .nfields = TORSION_BAR_REALS, \
-  .nsig = 2, .nreal = TORSION_BAR_REALS, .nstate = 0, .nout = 2
+#define ALI3_TORSION_BAR \
+  .nsig = 2, .nreal = 4, .nout = 2, .fields = torsion_bar_fields, .nfields = 4
 #endif
 #endif

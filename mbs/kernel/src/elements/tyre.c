@@ -1,13 +1,9 @@
 /* Tyre on a road: radial spring of a disc, TMeasy steady forces, first-order carcass deflections that are the same at
  * standstill, rolling, sliding and in the air.
  *
- * Signals: wheel centre r (3), unit spin axis e pointing left (3), chi with chi' = Omega the absolute rate about e
- * (> 0 rolling forward).
- * Integers: road; where numbers of camber and bore torque follow, also whether there is bore torque, 1 or 0.
- * States: carcass deflections x, y and their rates, then those of tyre_bore.h.
- * Outputs: Fx, Fy, Fz, Mz, slip, slip angle, deflection, loaded radius, contact point (3), inclination, normal of the
- * road there (3), rolling moment My about the contact point. Of two contacts these are the means by load; in the air they are the point of the road that is nearest
- * within the wheel plane, and its normal.
+ * The spin chi has chi' = Omega, the absolute rate about the axis (> 0 rolling forward).
+ * States: carcass deflections x, y and their rates, then those of tyre_bore.h. Of two contacts outputs are the means by
+ * load; in the air the contact is the point of the road that is nearest within the wheel plane, with its normal.
  *
  * Two radii are kept apart: the contact patch lies at the loaded radius |rho|; the rolling wheel advances by the
  * larger effective radius (2 R + |rho|)/3 per radian, so that one is used in the slip velocity and, for the same power
@@ -32,31 +28,7 @@
 #include "tmeasy.h"
 #include "tyre_bore.h"
 #include "tyre_contact.h"
-
-enum {
-  RADIUS,
-  BOTTOMING_RADIUS,
-  RADIAL_STIFFNESS,
-  RADIAL_DAMPING,
-  BOTTOMING_STIFFNESS,
-  NOMINAL_LOAD,
-  REFERENCE_FRICTION,
-  MAX_LOAD_FACTOR,
-  CURVE_X, /* 10: slope, largest force and its slip, sliding force and its slip, each at Pn and 2 Pn */
-  CURVE_Y = CURVE_X + 10, /* 10 */
-  TRAIL = CURVE_Y + 10, /* 6: relative trail, its first zero, its end */
-  CARCASS_STIFFNESS = TRAIL + 6,
-  CARCASS_DAMPING = CARCASS_STIFFNESS + 2,
-  ROLLING_RESISTANCE = CARCASS_DAMPING + 2,
-  FRICTION_FACTOR,
-  TYRE_REALS,
-  CAMBER_SLIP = TYRE_REALS, /* lateral slip that acts like a camber with the sine 1 */
-  BORE,
-  MORE_REALS = BORE + ALI3_BORE_NUMBERS
-};
-enum { TYRE_INTEGERS = 1, TYRE_BORES = TYRE_INTEGERS, MORE_INTEGERS };
-enum { TYRE_STATES = 4, MORE_STATES = 6 };
-enum { OUTPUTS = ALI3_TYRE_OUTPUTS };
+#include "tyre_fields.h"
 
 /* Radial return of F to the largest force of its direction, which in TMeasy is hypot(Fxm cos, Fym sin); J follows. */
 static void limit(ali3_element_args *a, truth loaded, const real full[2], real F[2], real J[2][2], real safe[2]) {
@@ -77,20 +49,20 @@ static void limit(ali3_element_args *a, truth loaded, const real full[2], real F
 }
 
 static real load_factor(const real *p, const ali3_tyre_patch *contact) {
-  return ali3_clamp(contact->load / p[NOMINAL_LOAD], ali3_same(0.0), p[MAX_LOAD_FACTOR]);
+  return ali3_clamp(contact->load / p[TYRE_NOMINAL_LOAD], ali3_same(0.0), p[TYRE_MAX_LOAD_FACTOR]);
 }
 
 static real friction_ratio(const real *p, const ali3_tyre_patch *contact) {
-  return contact->friction * p[FRICTION_FACTOR] / p[REFERENCE_FRICTION];
+  return contact->friction * p[TYRE_FRICTION_FACTOR] / p[TYRE_REFERENCE_FRICTION];
 }
 
 /* One step of the carcass with slip velocity v and transport speed w: force F, new slots, and damping matrix C = -dF/dv
  * (symmetric part, not below the safe share of the secant) as xx, xy, yy. */
 static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const real v[2], real w, real F[2], real C[3],
                     real g[2], ali3_tyre_bore *bore) {
-  const real *p = a->real, *c = p + CARCASS_STIFFNESS, *d = p + CARCASS_DAMPING, q = load_factor(p, contact);
+  const real *p = a->real, *c = p + TYRE_CARCASS_STIFFNESS, *d = p + TYRE_CARCASS_DAMPING, q = load_factor(p, contact);
   const real grip = friction_ratio(p, contact);
-  const ali3_tmeasy_pair t = ali3_tmeasy_pair_at(p + CURVE_X, p + CURVE_Y, q, grip);
+  const ali3_tmeasy_pair t = ali3_tmeasy_pair_at(p + TYRE_LONGITUDINAL, p + TYRE_LATERAL, q, grip);
   const real n[2] = {v[0] / (t.scale[0] * w), v[1] / (t.scale[1] * w)};
   real gradient[2], J[2][2], safe[2], offset[2], D[2], full[2];
   const truth grips = grip > ALI3_TYRE_NO_GRIP; /* the slope of a grip of next to nothing would hold at rest */
@@ -113,7 +85,7 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
   limit(a, loaded, full, F, J, safe);
   if (bore) {
     const real size2 = F[0] * F[0] + F[1] * F[1], bound = ali3_hypot(full[0] * F[0], full[1] * F[1]);
-    const ali3_tyre_held by = {.slope = q * ali3_tmeasy_at(p + CURVE_Y, q, grip).slope,
+    const ali3_tyre_held by = {.slope = q * ali3_tmeasy_at(p + TYRE_LATERAL, q, grip).slope,
                                .most = ali3_where(loaded & grips, full[1], none),
                                .transport = w,
                                .slip = ali3_hypot(v[0], v[1]),
@@ -127,7 +99,7 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
       for (int j = 0; j < 2; j++) J[i][j] *= left;
     }
   }
-  ALI3_PIECE(&a->piece, loaded & (contact->load > p[MAX_LOAD_FACTOR] * p[NOMINAL_LOAD]), ALI3_TYRE_OVERLOADED);
+  ALI3_PIECE(&a->piece, loaded & (contact->load > p[TYRE_MAX_LOAD_FACTOR] * p[TYRE_NOMINAL_LOAD]), ALI3_TYRE_OVERLOADED);
   for (int i = 0; i < 2; i++) {
     a->y_new[i] = a->y_old[i];
     a->y_new[2 + i] = (F[i] - offset[i]) / D[i];
@@ -146,15 +118,15 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
 /* Trail over contact length at the lateral slip s, behind the middle of the patch as the wheel rolls: the tread bends
  * from its leading edge on, which is the other edge in reverse. */
 static real trail_share(const real *p, const ali3_tyre_patch *contact, real s, real omega) {
-  const real share = ali3_tmeasy_trail(p + TRAIL, load_factor(p, contact), friction_ratio(p, contact), s);
+  const real share = ali3_tmeasy_trail(p + TYRE_TRAIL, load_factor(p, contact), friction_ratio(p, contact), s);
   return ali3_where(omega < 0.0, -share, share);
 }
 
 static void evaluate(ali3_element_args *a) {
   const real *p = a->real, omega = a->ud[6];
   const real none = {0};
-  const ali3_tyre_spring spring = {p[RADIUS], p[BOTTOMING_RADIUS], p[RADIAL_STIFFNESS],
-                                   none,      p[RADIAL_DAMPING],   p[BOTTOMING_STIFFNESS]};
+  const ali3_tyre_spring spring = {p[TYRE_RADIUS], p[TYRE_BOTTOMING_RADIUS], p[TYRE_STIFFNESS],
+                                   none,      p[TYRE_DAMPING],   p[TYRE_BOTTOMING_STIFFNESS]};
   real e[3], F[2], C[3], g[2];
   a->potential = none;
   ali3_tyre_axis(a->u + 3, e);
@@ -162,38 +134,37 @@ static void evaluate(ali3_element_args *a) {
   ali3_tyre_motion m = ali3_tyre_axes(&contact, e);
   const real *n = contact.normal, loaded = m.loaded;
 
-  const truth deflected = loaded < p[RADIUS];
-  const real rolling = (2.0 * p[RADIUS] + ali3_where(deflected, loaded, p[RADIUS])) / 3.0,
+  const truth deflected = loaded < p[TYRE_RADIUS];
+  const real rolling = (2.0 * p[TYRE_RADIUS] + ali3_where(deflected, loaded, p[TYRE_RADIUS])) / 3.0,
              transport = rolling * ali3_abs(omega), w = transport + ALI3_TYRE_SLOW;
   const real moving = ali3_tyre_moving(transport);
   const real ratio = ali3_where(loaded > 1e-6, 1.0 + moving * (rolling / loaded - 1.0),
                                 ali3_same(1.0)); /* slip radius over loaded radius */
   ali3_tyre_velocities(a, &contact, e, ratio, &m);
-  const real deflection = ali3_where(deflected, p[RADIUS] - loaded, none),
-             length = 2.0 * ali3_sqrt(p[RADIUS] * deflection);
-  const bool more = a->nint == MORE_INTEGERS, bores = more && a->integer[TYRE_BORES] == 1;
+  const real deflection = ali3_where(deflected, p[TYRE_RADIUS] - loaded, none),
+             length = 2.0 * ali3_sqrt(p[TYRE_RADIUS] * deflection);
+  const bool leans = ali3_any(p[TYRE_CAMBER_SLIP] != 0.0), bores = a->nint > TYRE_WITH_BORE;
   ali3_tyre_bore bore;
   real v[2] = {m.v[0], m.v[1]}, leaning = none, by_spin = none;
-  if (more) {
-    const real per_spin = p[CAMBER_SLIP] * ali3_dot(e, n) * rolling;
+  if (leans) {
+    const real per_spin = p[TYRE_CAMBER_SLIP] * ali3_dot(e, n) * rolling;
     by_spin = ali3_where(omega < 0.0, -per_spin, per_spin);
     leaning = by_spin * omega;
     v[1] += leaning;
     m.row[1][6] += by_spin;
-    for (int i = TYRE_STATES; i < MORE_STATES; i++) a->y_new[i] = none;
   }
-  if (bores) bore = ali3_tyre_bore_at(a, p + BORE, n, e, length);
+  if (bores) bore = ali3_tyre_bore_at(a, p + TYRE_BORE, n, e, length);
   carcass(a, &contact, v, w, F, C, g, bores ? &bore : 0);
   a->potential +=
-      0.5 * (p[CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] + p[CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
+      0.5 * (p[TYRE_CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] + p[TYRE_CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
   if (bores)
-    a->potential += 0.5 * p[BORE + ALI3_BORE_STIFFNESS] * a->y_new[ALI3_BORE_STATES] * a->y_new[ALI3_BORE_STATES];
+    a->potential += 0.5 * p[TYRE_BORE + ALI3_BORE_STIFFNESS] * a->y_new[ALI3_BORE_STATES] * a->y_new[ALI3_BORE_STATES];
   for (int k = 0; k < 7; k++) a->f[k] += F[0] * m.row[0][k] + F[1] * m.row[1][k];
 
-  const real trailing = more ? F[1] + g[1] * leaning : F[1];
+  const real trailing = leans ? F[1] + g[1] * leaning : F[1];
   real moment = -moving * length * trail_share(p, &contact, ali3_abs(m.v[1]) / w, omega) * trailing;
   if (bores) moment += bore.moment;
-  const real resist = p[ROLLING_RESISTANCE] * contact.load * p[RADIUS], roll = ali3_tanh(omega);
+  const real resist = p[TYRE_ROLLING_RESISTANCE] * contact.load * p[TYRE_RADIUS], roll = ali3_tanh(omega);
   real twist[3];
   ali3_cross(n, e, twist);
   for (int i = 0; i < 3; i++) a->f[3 + i] += moment * twist[i];
@@ -206,60 +177,38 @@ static void evaluate(ali3_element_args *a) {
     if (bores) ali3_add_outer(a->S, 7, a->wC * bore.C, bore.row);
     a->S[48] += a->wC * resist * (1.0 - roll * roll);
   }
-  ali3_tyre_outputs(a, &contact, e, &m, p[RADIUS], ratio, F, moment,
-                    more ? F[1] * by_spin - resist * roll : -resist * roll);
+  ali3_tyre_outputs(a, &contact, e, &m, p[TYRE_RADIUS], ratio, F, moment,
+                    leans ? F[1] * by_spin - resist * roll : -resist * roll);
 }
 
 #ifndef ALI3_WIDTH
 static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
                          int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)n_inputs;
-  const bool more = nint == MORE_INTEGERS;
-  if ((nint != TYRE_INTEGERS && !more) || nreal != (more ? MORE_REALS : TYRE_REALS))
-    return "a tyre has the wrong number of numbers";
-  if (more && integer[TYRE_BORES] != 0 && integer[TYRE_BORES] != 1)
-    return "a tyre neither has bore torque nor has it not";
-  if (integer[0] < 0 || integer[0] >= n_roads) return "a tyre names a road that does not exist";
-  if (!(real[RADIUS] > real[BOTTOMING_RADIUS] && real[BOTTOMING_RADIUS] > 0.0))
-    return "the bottoming radius of a tyre must lie between 0 and its radius";
-  if (!(real[RADIAL_STIFFNESS] > 0.0) || real[RADIAL_DAMPING] < 0.0 || real[BOTTOMING_STIFFNESS] < 0.0)
-    return "the vertical stiffness of a tyre must be positive, damping and bottoming stiffness not negative";
-  if (!(real[NOMINAL_LOAD] > 0.0 && real[REFERENCE_FRICTION] > 0.0 && real[MAX_LOAD_FACTOR] > 0.0))
-    return "nominal load, reference friction and largest load factor of a tyre must be positive";
-  for (int i = 0; i < 2; i++)
-    if (!(real[CARCASS_STIFFNESS + i] > 0.0 && real[CARCASS_DAMPING + i] > 0.0))
-      return "carcass stiffness and damping of a tyre must be positive";
+  (void)nsig, (void)nreal, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
+  if (!(real[TYRE_RADIUS] > real[TYRE_BOTTOMING_RADIUS]))
+    return "the bottoming radius of a tyre must be less than its radius";
   for (int end = 0; end < 2; end++) { /* both ends of the load range; between them the curves are linear per load */
-    const double q = end ? real[MAX_LOAD_FACTOR] : 0.0;
+    const double q = end ? real[TYRE_MAX_LOAD_FACTOR] : 0.0;
     for (int direction = 0; direction < 2; direction++) {
-      const ali3_tmeasy t = ali3_tmeasy_at(real + (direction ? CURVE_Y : CURVE_X), q, 1.0);
+      const ali3_tmeasy t = ali3_tmeasy_at(real + (direction ? TYRE_LATERAL : TYRE_LONGITUDINAL), q, 1.0);
       if (!(t.slope > 0.0 && t.max_force > 0.0 && t.slide_force > 0.0))
         return "a tyre force becomes zero or negative within its range of loads";
       if (!(t.max_slip > 0.0 && t.slide_slip > t.max_slip))
         return "the slips of a tyre must be positive and sliding must come after the maximum";
     }
-    const double *z = real + TRAIL + 2;
+    const double *z = real + TYRE_TRAIL_ZERO;
     const double zero = z[0] + (z[1] - z[0]) * (q - 1.0), last = z[2] + (z[3] - z[2]) * (q - 1.0);
     if (!(zero > 0.0 && last > zero)) return "the slips of a tyre's trail must be positive and increasing";
   }
-  if (real[ROLLING_RESISTANCE] < 0.0 || real[FRICTION_FACTOR] < 0.0)
-    return "rolling resistance and friction factor of a tyre must not be negative";
-  return more && integer[TYRE_BORES] == 1 ? ali3_tyre_bore_check(real + BORE) : 0;
+  return 0;
 }
 
-static int32_t states(int32_t nint) { return nint == MORE_INTEGERS ? MORE_STATES : TYRE_STATES; }
-
 const ali3_element_type ali3_tyre = {
+    ALI3_TYRE,
     .evaluate = evaluate,
     .start = ali3_tyre_start,
     .start_words = ALI3_TYRE_START_WORDS,
     .depth = ali3_tyre_depth,
-    .nsig = 7,
-    .nreal = -1,
-    .nint = -1,
-    .nstate = -1,
-    .states = states,
-    .nout = OUTPUTS,
     .check = check,
 };
 #endif

@@ -41,11 +41,3 @@ real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyr
   for (int i = 0; i < 2; i++) new[i] = ali3_where(gone, none, new[i]);
   return left;
 }
-
-#ifndef ALI3_WIDTH
-const char *ali3_tyre_bore_check(const double numbers[ALI3_BORE_NUMBERS]) {
-  for (int i = 0; i < ALI3_BORE_NUMBERS; i++)
-    if (!(numbers[i] > 0.0)) return "width, torsional stiffness and torsional damping of a tyre must be positive";
-  return 0;
-}
-#endif

@@ -18,7 +18,7 @@
 #include "element.h"
 
 enum { ALI3_BORE_STATES = 4 }; /* first of its two slots */
-enum { ALI3_BORE_WIDTH, ALI3_BORE_STIFFNESS, ALI3_BORE_DAMPING, ALI3_BORE_NUMBERS };
+enum { ALI3_BORE_WIDTH, ALI3_BORE_STIFFNESS, ALI3_BORE_DAMPING };
 
 typedef struct {
   const real *numbers; /* width of the patch, m; N m/rad; N m s/rad */
@@ -40,7 +40,4 @@ typedef struct { /* of the force beside the moment */
 
 /* One step: moment and new slots. Returns the share of F that is left. */
 real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_held *by);
-
-/* NULL or one sentence for bad numbers. */
-const char *ali3_tyre_bore_check(const double numbers[ALI3_BORE_NUMBERS]);
 #endif

@@ -1,5 +1,4 @@
-/* Aerodynamic drag F = -rho CdA |w| w / 2 at a point that moves at w over air that moves over the ground.
- * Integers: see moving_air.h. */
+/* Aerodynamic drag F = -rho CdA |w| w / 2 at a point that moves at w over air that moves over the ground. */
 #include "../algebra/small_vectors.h"
 #include "element.h"
 #include "moving_air.h"
@@ -18,15 +17,7 @@ static void evaluate(ali3_element_args *a) {
   if (speed > 0.0) ali3_add_outer(a->S, 3, a->wC * factor / speed, w);
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)real, (void)nreal, (void)nint, (void)n_roads;
-  return ali3_check_air(integer, n_inputs);
-}
-
 const ali3_element_type ali3_wind_drag = {
     ALI3_WIND_DRAG,
     .evaluate = evaluate,
-    .nint = AIR_INPUTS,
-    .check = check,
 };

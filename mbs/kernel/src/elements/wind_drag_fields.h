@@ -13,12 +13,22 @@ enum {
   AIR_DENSITY,
   WIND_DRAG_REALS
 };
+enum {
+  WIND_SPEED,
+  WIND_HEADING,
+  WIND_DRAG_INTEGERS
+};
 #ifndef ALI3_WIDTH
-static const ali3_field wind_drag_fields[WIND_DRAG_REALS] = {
+static const ali3_field wind_drag_fields[] = {
   {ALI3_IS_NOT_NEGATIVE, "the drag area of a drag must not be negative"},
   {ALI3_IS_NOT_NEGATIVE, "the air density of a drag must not be negative"},
 };
-#define ALI3_WIND_DRAG .fields = wind_drag_fields, .nfields = WIND_DRAG_REALS, \
-  .nsig = 3, .nreal = WIND_DRAG_REALS, .nstate = 0, .nout = 1
+static const ali3_integer wind_drag_integers[] = {
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the speed of the air of a drag names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the heading of the air of a drag names an input that does not exist"},
+};
+#define ALI3_WIND_DRAG \
+  .nsig = 3, .nreal = 2, .nint = 2, .nout = 1, .fields = wind_drag_fields, .nfields = 2, \
+  .integers = wind_drag_integers, .nintegers = WIND_DRAG_INTEGERS
 #endif
 #endif

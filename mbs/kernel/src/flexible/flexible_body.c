@@ -79,14 +79,14 @@ ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const real *x, re
   }
 }
 
-/* Q += Q_v, weight beside its constant part, elastic and damping forces, at the q that was prepared. Without Q_v in a
- * step by discrete gradients, whose inertia is in discrete_inertia.c. */
-ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const real *qd, real *Q) {
+/* Q += Q_v, weight beside its constant part, elastic and damping forces, at the q that was prepared. Without Q_v
+ * by discrete gradients, whose inertia is in discrete_inertia.c. */
+ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const real *qd, bool discrete, real *Q) {
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
     real *restrict x = in->flex_work, *restrict sum = x + n, *restrict rate = sum + n;
-    const double *g = f.gravity, turning = in->discrete ? 0.0 : 1.0;
+    const double *g = f.gravity, turning = discrete ? 0.0 : 1.0;
     real Ad[9];
     ali3_gather(9, f.frame + 3, qd, Ad);
     for (int i = 0; i < 9; i++) Ad[i] *= turning;
@@ -178,8 +178,9 @@ ALI3_BY_PROCESSOR(in->system, void, flexible_prepare, (const ali3_instance *in, 
 ALI3_BY_PROCESSOR(in->system, void, flexible_mass_times, (const ali3_instance *in, const real *x, real *out),
                   (in, x, out))
 
-ALI3_BY_PROCESSOR(in->system, void, flexible_forces, (const ali3_instance *in, const real *q, const real *qd, real *Q),
-                  (in, q, qd, Q))
+ALI3_BY_PROCESSOR(in->system, void, flexible_forces,
+                  (const ali3_instance *in, const real *q, const real *qd, bool discrete, real *Q),
+                  (in, q, qd, discrete, Q))
 
 ALI3_BY_PROCESSOR(in->system, void, flexible_tangent,
                   (const ali3_instance *in, double wM, double wC, double wK, real *F), (in, wM, wC, wK, F))

@@ -39,7 +39,6 @@ struct ali3_lane_group {
   ali3_settings settings; /* those of all lanes */
   ali3_rule rule;
   double h, alpha;
-  bool controlled, discrete; /* false */
   ali3_lane_vectors now, next;
   bool mass_isotropic;
   real *mass_val, *mass_floor, *mass_floor_inverse, *gravity_force;

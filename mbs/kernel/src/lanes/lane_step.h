@@ -98,7 +98,7 @@ static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
   memcpy(Q, in->gravity_force, (size_t)nq * sizeof *Q);
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, q);
-    ali3_flexible_forces(in, q, qd, Q);
+    ali3_flexible_forces(in, q, qd, false, Q);
   }
   elements(in, lanes, tangent);
   ali3_add_forces(in, in->element_force, Q);
@@ -261,7 +261,7 @@ static void predict(ali3_lane_group *in) {
     memcpy(in->next.lam, in->now.lam, (size_t)nc * sizeof *in->next.lam);
     return;
   }
-  if (in->settings.predictor == ALI3_PREDICTOR_PARABOLA) goes_on = ali3_history_smooth(in, ALI3_PARABOLA, h);
+  if (in->settings.predictor == ALI3_PREDICTOR_PARABOLA) goes_on = ali3_history_smooth(in, ALI3_PARABOLA, h, false);
   if (ali3_any(goes_on)) ali3_extrapolate(in, 0.5 * h, ALI3_PARABOLA, in->x, in->next.lam);
   for (int32_t k = 0; k < nc; k++) {
     const real lam = in->now.lam[k];

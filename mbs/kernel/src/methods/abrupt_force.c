@@ -14,8 +14,6 @@ static const double STOP_RATE = 50.0, CONTACT_RATE = 5.0;
 enum { DIVISIONS = 2 }; /* how deep a step is halved at such a change */
 enum { ENOUGH = 4 }; /* iterations of a half that is made without trying the whole, where they are limited */
 
-int32_t ali3_contact_count(const ali3_system *s) { return s->nr > 0 ? s->n_contact : 0; }
-
 /* The larger one, of one instruction; a NaN in x counts as nothing. */
 static double more(double most, double x) { return x > most ? x : most; }
 
@@ -35,12 +33,13 @@ static double change_of(const ali3_contact_forces_of *contact, const double *fro
   return most;
 }
 
-bool ali3_may_divide(const ali3_instance *in, int32_t depth) {
+/* Whether a step that may be halved so deep is, where a force changes abruptly in it. */
+static bool may_divide(const ali3_instance *in, int32_t depth) {
   return depth > 0 && depth > in->settings.max_halvings - DIVISIONS && in->system->nr > 0;
 }
 
-bool ali3_leaves_parts(ali3_instance *in, int32_t iterations) {
-  const int64_t left = in->iterations_end - in->report.iterations;
+bool ali3_leaves_parts(ali3_instance *in, const ali3_request *request, int32_t iterations) {
+  const int64_t left = request->iterations_end - in->report.iterations;
   if (in->settings.step_iterations > 0 && left < 2 * (int64_t)iterations) {
     in->capped = true;
     return false;
@@ -52,21 +51,22 @@ bool ali3_leaves_parts(ali3_instance *in, int32_t iterations) {
 /* The change from which on parts of the present step are halved. */
 static double most_change(const ali3_instance *in, double rate) { return fmin(rate * in->whole_length, ABRUPT); }
 
-/* Whether a part of size h with such a report.change_rate is made in halves. Its parts may change less; who judges
+/* Whether a part with such a report.change_rate is made in halves. Its parts may change less; who judges
  * abrupt steps afterwards is told of the whole. */
-static bool divided(ali3_instance *in, double h, int32_t iterations) {
-  if (!(in->may_divide && in->report.change_rate * h > 1.0 && ali3_leaves_parts(in, iterations))) return false;
+static bool divided(ali3_instance *in, const ali3_request *part, int32_t iterations) {
+  if (!(may_divide(in, part->depth) && in->report.change_rate * part->h > 1.0)) return false;
+  if (!ali3_leaves_parts(in, part, iterations)) return false;
   in->report.abrupt_steps++;
   return true;
 }
 
-bool ali3_divides_ahead(ali3_instance *in, double h) { return divided(in, h, ENOUGH); }
+bool ali3_divides_ahead(ali3_instance *in, const ali3_request *request) { return divided(in, request, ENOUGH); }
 
 /* A change over the largest one that is not divided; where nothing changes there may be no force. */
 static double over(double change, double largest) { return change > 0.0 ? change / largest : 0.0; }
 
 /* A load is measured by the largest load there was, other forces by the largest force. */
-bool ali3_divides(ali3_instance *in, double h) {
+bool ali3_divides(ali3_instance *in, const ali3_request *request) {
   const ali3_system *S = in->system;
   if (S->nr == 0) return false;
   enum { STOP, CONTACT, TYRE, KINDS };
@@ -82,15 +82,25 @@ bool ali3_divides(ali3_instance *in, double h) {
   const double load = over(most[TYRE], ABRUPT * largest_load),
                force = over(most[CONTACT], most_change(in, CONTACT_RATE) * largest_force),
                stop = over(most[STOP], most_change(in, STOP_RATE) * largest_force);
-  in->report.change_rate = fmax(fmax(load, force), stop) / h;
-  return divided(in, h, in->report.last_iterations);
+  in->report.change_rate = fmax(fmax(load, force), stop) / request->h;
+  return divided(in, request, in->report.last_iterations);
 }
 
-/* Largest change of a judged force in the step. */
+/* Whether a spring lies beyond a stop at the begin or the end of the step. */
+static bool beyond(const ali3_instance *in, const ali3_contact_forces_of *contact) {
+  const ali3_system *S = in->system;
+  const ali3_element_size *at = S->el_size + contact->element;
+  const ali3_element_type *kind = S->el_kind[contact->element];
+  return kind->stops(in->el_real + at->real, in->next.out + at->out) ||
+         kind->stops(in->el_real + at->real, in->now.out + at->out);
+}
+
+/* Largest change of a judged force in the step; without roads of springs beyond their stops alone. */
 static double changed(const ali3_instance *in) {
   double most = 0.0, largest = 0.0;
   for (int32_t c = 0; c < in->system->n_contact; c++)
-    most = more(most, change_of(in->system->contact + c, in->next.out, in->now.out, &largest));
+    if (in->system->nr > 0 || beyond(in, in->system->contact + c))
+      most = more(most, change_of(in->system->contact + c, in->next.out, in->now.out, &largest));
   return most;
 }
 

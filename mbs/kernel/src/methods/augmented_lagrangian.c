@@ -131,10 +131,11 @@ static ali3_status capped(ali3_instance *in) {
 }
 
 /* With a limit of a whole step the iterations go up to its part's share of them, at most as many as without. */
-ALI3_INLINED ali3_status newton(ali3_instance *in, double h, double alpha) {
+ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, double alpha) {
+  const double h = request->h;
   const ali3_settings *settings = &in->settings;
   const bool limited = settings->step_iterations > 0;
-  const int64_t share = in->iterations_end - in->report.iterations, any = settings->max_iterations;
+  const int64_t share = request->iterations_end - in->report.iterations, any = settings->max_iterations;
   const int64_t most = limited && share < any ? share : any;
   bool kept = false, mixes = false;
   const double fine = in->system->fine;
@@ -176,7 +177,8 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, double h, double alpha) {
   return limited && most > 0 ? capped(in) : ALI3_NOT_CONVERGED;
 }
 
-ALI3_BY_PROCESSOR(in->system, ali3_status, newton, (ali3_instance * in, double h, double alpha), (in, h, alpha))
+ALI3_BY_PROCESSOR(in->system, ali3_status, newton, (ali3_instance * in, const ali3_request *request, double alpha),
+                  (in, request, alpha))
 
 /* Trapezoidal rule (17), (18). */
 ALI3_INLINED void trapezoidal(ali3_instance *in, double h) {
@@ -188,7 +190,8 @@ ALI3_INLINED void trapezoidal(ali3_instance *in, double h) {
 }
 
 /* Also of generalised-alpha. */
-ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, double h) {
+ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_request *request) {
+  const double h = request->h;
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const double alpha = ali3_penalty(in, h);
@@ -202,8 +205,8 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
   in->capped |= turning * h > MOST_TURN;
   ali3_status status = ali3_input_jump(in, h);
   if (status != ALI3_OK) return status;
-  ali3_guides_step(in, from, to, t, h);
-  const bool from_past = ali3_predict(in, h, true);
+  ali3_guides_step(in, from, to, request->t, h);
+  const bool from_past = ali3_predict(in, request, true);
   if (is_alpha)
     ali3_alpha_rule(in, h);
   else
@@ -213,10 +216,10 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
   /* derivatives of a step are those of the trapezoidal rule, also in a damped start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
-  status = ali3_newton(in, h, alpha);
+  status = ali3_newton(in, request, alpha);
   if (status != ALI3_OK && from_past) { /* near a singular position multipliers of the past can mislead */
-    ali3_predict(in, h, false);
-    status = ali3_newton(in, h, alpha);
+    ali3_predict(in, request, false);
+    status = ali3_newton(in, request, alpha);
   }
   if (status != ALI3_OK) return status;
   const double *D = in->D, *d0 = in->d0;
@@ -237,7 +240,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
                                 .out = to->out,
                                 .potential = to->potential};
   ali3_forces_accept(in, &call);
-  if (ali3_contact_event(in, h) || ali3_divides(in, h)) return ALI3_UNRESOLVED;
+  if (ali3_contact_event(in, request) || ali3_divides(in, request)) return ALI3_UNRESOLVED;
   ali3_predict_rates(in, h);
   ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
   ali3_constraint_rate(in, to->q, to, in->Phit);
@@ -252,7 +255,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
     ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, left / c, MAX_SWEEPS, false);
     /* with the work that the forces did in this step which the last (25) left without balance */
     work += ali3_projection_work(in, &kinetic, &end, &open, &guides) + 0.5 * h * in->report.open_power;
-    const ali3_status resolved = ali3_energy_watch(in, h, work, kinetic, end, open);
+    const ali3_status resolved = ali3_energy_watch(in, request, work, kinetic, end, open);
     if (resolved != ALI3_OK) return resolved;
   } else {
     if (S->n_guide_work > 0) ali3_constraint_work(in, h, &guides);
@@ -263,7 +266,8 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, double t, doubl
   return ali3_accept(in);
 }
 
-ALI3_BY_PROCESSOR(in->system, ali3_status, augmented_lagrangian, (ali3_instance * in, double t, double h), (in, t, h))
+ALI3_BY_PROCESSOR(in->system, ali3_status, augmented_lagrangian, (ali3_instance * in, const ali3_request *request),
+                  (in, request))
 
 static bool projects(const ali3_instance *in) { return in->settings.project; }
 

@@ -87,11 +87,15 @@ static void again(ali3_instance *in) {
 }
 
 /* The step from in->before in n equal parts, the angles at its end; false where a part fails. */
-static bool in_parts(ali3_instance *in, double t, double h, int n) {
+static bool in_parts(ali3_instance *in, const ali3_request *step, int n) {
+  ali3_request part = *step;
+  part.h = step->h / n;
+  part.depth = 0;
   again(in);
   for (int i = 1; i <= n; i++) {
     in->backed_up = false;
-    if (ali3_advance(in, t - h + h * (double)i / n, h / n, 0) != ALI3_OK) return false;
+    part.t = step->t - step->h + step->h * (double)i / n;
+    if (ali3_advance(in, &part) != ALI3_OK) return false;
   }
   ali3_mode_angles(in, in->now.q);
   return true;
@@ -109,13 +113,13 @@ static bool keeps(const ali3_instance *in, const double *sine, int32_t k, int32_
 }
 
 /* The first triad, counted in its loop, whose sign the step changed otherwise than its parts do, or -1. */
-static int32_t jumped(ali3_instance *in, double t, double h, int32_t first, int32_t end) {
+static int32_t jumped(ali3_instance *in, const ali3_request *step, int32_t first, int32_t end) {
   const size_t all = (size_t)ali3_triad_count(in->system) * sizeof(double);
-  if (!in_parts(in, t, h, FEW)) return -1;
+  if (!in_parts(in, step, FEW)) return -1;
   memcpy(in->sine_few, in->mode_sine, all);
   int32_t k = first;
   while (k < end && !keeps(in, in->sine_few, k, first, end)) k++;
-  if (k == end || !in_parts(in, t, h, MANY)) return -1;
+  if (k == end || !in_parts(in, step, MANY)) return -1;
   for (; k < end; k++) {
     const double before = root(in->sine_before[k]), after = root(in->sine_after[k]), few = root(in->sine_few[k]),
                  many = root(in->mode_sine[k]), apart = fabs(many - after);
@@ -128,28 +132,29 @@ static int32_t jumped(ali3_instance *in, double t, double h, int32_t first, int3
 
 /* Repeats in parts a step in which a triad of the loop changed its sign; then its end comes back, by the whole step once
  * more where a reader will use its work space. */
-static ali3_status judge(ali3_instance *in, double t, double h, int64_t loop) {
+static ali3_status judge(ali3_instance *in, const ali3_request *step, int64_t loop) {
   const ali3_system *S = in->system;
   const int32_t first = S->mode_triad_ptr[loop] / ITEMS, end = S->mode_triad_ptr[loop + 1] / ITEMS;
   int32_t k = first;
   while (k < end && !crossed(in, k, first, end)) k++;
   if (k == end) return ALI3_OK;
   const ali3_report whole = in->report;
-  if (in->unobserved) ali3_vectors_copy(in, &in->coarse, &in->now);
-  const int32_t triad = jumped(in, t, h, first, end);
+  const bool read = step->reading != ALI3_READ_NOTHING;
+  if (!read) ali3_vectors_copy(in, &in->coarse, &in->now);
+  const int32_t triad = jumped(in, step, first, end);
   ali3_status status;
-  if (in->unobserved) {
+  if (!read) {
     ali3_vectors_copy(in, &in->now, &in->coarse);
     in->t_now = ali3_time(in);
-    status = ali3_inputs_begin(in, t, h);
-    in->t_now = t;
+    status = ali3_inputs_begin(in, step->t, step->h);
+    in->t_now = step->t;
   } else {
     again(in);
     in->backed_up = false;
-    status = ali3_advance(in, t, h, in->settings.max_halvings);
+    status = ali3_advance(in, step);
   }
   in->report = whole;
-  if (status == ALI3_OK && triad >= 0) report(in, loop, triad, ALI3_BRANCH_JUMP, t);
+  if (status == ALI3_OK && triad >= 0) report(in, loop, triad, ALI3_BRANCH_JUMP, step->t);
   return status;
 }
 
@@ -207,7 +212,8 @@ double ali3_branch_share(ali3_instance *in, const ali3_measure *measure, double 
   ali3_vectors_copy(in, &in->coarse, &in->now);
   ali3_vectors_copy(in, &in->now, &in->origin);
   ali3_status status = ALI3_OK;
-  for (int i = 0; i < MANY && status == ALI3_OK; i++) status = ali3_trial_step(in, t + h * (double)i / MANY, h / MANY);
+  for (int i = 0; i < MANY && status == ALI3_OK; i++)
+    status = ali3_trial_step(in, t + h * (double)i / MANY, h / MANY, ALI3_READ_SENSORS);
   for (int32_t i = 0; i < nq; i++) {
     in->w[i] = in->now.q[i] - in->coarse.q[i];
     in->x[i] = 0.0;
@@ -225,21 +231,21 @@ void ali3_branch_look(ali3_instance *in, double t) {
   if (watches(in)) left_modes(in, t);
 }
 
-/* After a good step that ended at t. */
-ali3_status ali3_branch_after(ali3_instance *in, double t, double h) {
+/* After a good step. */
+ali3_status ali3_branch_after(ali3_instance *in, const ali3_request *step) {
   const ali3_system *S = in->system;
   const size_t all = (size_t)ali3_triad_count(S) * sizeof(double);
   if (!watches(in)) return ALI3_OK;
-  if (ali3_method_of(in)->relative && in->unobserved) {
+  if (ali3_method_of(in)->relative && step->reading == ALI3_READ_NOTHING) {
     in->mode_known = false;
     return ALI3_OK;
   }
-  left_modes(in, t);
+  left_modes(in, step->t);
   /* with a limit of the work of a step none is repeated: a jump is then told where its loop has left its mode */
   if (!in->branch_near || in->settings.step_iterations > 0) return ALI3_OK;
   memcpy(in->sine_after, in->mode_sine, all);
   ali3_status status = ALI3_OK;
-  for (int64_t loop = 0; loop < ali3_loop_count(S) && status == ALI3_OK; loop++) status = judge(in, t, h, loop);
+  for (int64_t loop = 0; loop < ali3_loop_count(S) && status == ALI3_OK; loop++) status = judge(in, step, loop);
   memcpy(in->mode_sine, in->sine_after, all);
   return status;
 }

@@ -11,9 +11,12 @@ enum { STAGES = 5 };
 static const double OUTER = 0.41449077179437573714;
 
 /* By the last of the steps that a step of h is composed of. */
-static void before(ali3_instance *in, double h) { ali3_energy_momentum_restart(in, OUTER * h); }
+static void before(ali3_instance *in, const ali3_request *request) {
+  ali3_energy_momentum_restart(in, OUTER * request->h, request->controlled);
+}
 
-static ali3_status step(ali3_instance *in, double t, double h) {
+static ali3_status step(ali3_instance *in, const ali3_request *request) {
+  const double t = request->t, h = request->h;
   const double share[STAGES] = {OUTER, OUTER, 1.0 - 4.0 * OUTER, OUTER, OUTER};
   int32_t iterations = 0, most = in->report.max_iterations;
   double done = -1.0; /* time from the end of the step, in steps */
@@ -21,7 +24,7 @@ static ali3_status step(ali3_instance *in, double t, double h) {
   for (int stage = 0; stage < STAGES; stage++) {
     done = stage == STAGES - 1 ? 0.0 : done + share[stage];
     const ali3_status status = ali3_energy_momentum(in, t + done * h, share[stage] * h, 1.0 + done - 0.5 * share[stage],
-                                                    stage == STAGES - 1 && !in->unobserved);
+                                                    stage == STAGES - 1 && request->reading != ALI3_READ_NOTHING);
     if (status != ALI3_OK) {
       ali3_vectors_copy(in, &in->now, &in->whole);
       return status;

@@ -14,8 +14,7 @@ enum { EVENTS = 4 }; /* at which a step is parted at most */
 /* A step as it is asked for begins, whose parts may be halved so deep. Of cars events cost more than they gain:
  * theory.md. */
 void ali3_events_begin(ali3_instance *in, int32_t depth) {
-  in->events_left = EVENTS;
-  in->parts_at_events = depth > 0 && in->system->nr == 0;
+  in->events_left = depth > 0 && in->system->nr == 0 ? EVENTS : -1;
 }
 
 /* The first share of the step from in->now to in->next at which an element says so; else 1. */
@@ -33,15 +32,15 @@ static double first_event(const ali3_instance *in, double h) {
   return first;
 }
 
-bool ali3_contact_event(ali3_instance *in, double h) {
-  if (!in->parts_at_events) return false;
-  const double share = first_event(in, h), near = ALI3_AT_END * in->whole_length;
+bool ali3_contact_event(ali3_instance *in, const ali3_request *request) {
+  if (in->events_left < 0) return false;
+  const double h = request->h, share = first_event(in, h), near = ALI3_AT_END * in->whole_length;
   if (!(share * h > near && (1.0 - share) * h > near)) return false;
   if (in->events_left == 0) {
     in->report.abrupt_steps++; /* one that is not located is told as such */
     return false;
   }
-  if (!ali3_leaves_parts(in, in->report.last_iterations)) return false;
+  if (!ali3_leaves_parts(in, request, in->report.last_iterations)) return false;
   in->events_left--;
   in->event = share;
   return true;

@@ -102,12 +102,9 @@ static ali3_status side_step(ali3_instance *in, double t, double h, double when)
   const double middle = t + 0.5 * h;
   const bool second = when > middle + LEAST_PART * h;
   const double from = second ? middle : t;
-  const bool sampled = in->sampled;
   ali3_vectors_copy(in, &in->coarse, &in->now);
   ali3_vectors_copy(in, &in->now, second ? &in->centre : &in->origin);
-  in->sampled = false;
-  const ali3_status status = ali3_trial_step(in, from, when - from);
-  in->sampled = sampled;
+  const ali3_status status = ali3_trial_step(in, from, when - from, ALI3_READ_ALL);
   if (status == ALI3_OK) ali3_vectors_copy(in, &in->next, &in->now);
   ali3_vectors_copy(in, &in->now, &in->coarse);
   ali3_balance_restore(&in->report, &before);

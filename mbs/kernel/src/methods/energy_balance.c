@@ -75,7 +75,7 @@ void ali3_balance_motion(ali3_instance *in, double speed, double change, double 
   report->predictor_path += sqrt(miss);
   report->velocity_squares += change;
   report->predictor_squares += miss;
-  if (in->system->nr > 0) ali3_abrupt_force(in);
+  if (in->system->n_contact > 0) ali3_abrupt_force(in);
 }
 
 /* Sums over coordinates, weighted by m: of v1^2, of d^2 with d = v1 - v0, and of (d - h a)^2. */

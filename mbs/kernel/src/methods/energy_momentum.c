@@ -92,15 +92,14 @@ static void evaluate(ali3_instance *in, double h) {
                                 .wC = 0.5 * h,
                                 .wK = 0.25 * h * h,
                                 .tangent = true,
+                                .discrete = true,
                                 .iterate = true,
                                 .Q = in->Q,
                                 .y_new = to->y,
                                 .out = to->out,
                                 .potential = to->potential};
-  in->discrete = true;
   in->force_input = in->input_middle;
   ali3_forces(in, &call);
-  in->discrete = false;
   in->force_input = in->input;
   ali3_constant_mass_times(in, w, r);
   if (S->n_flexible > 0) {
@@ -340,8 +339,12 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   return status == ALI3_OK ? ali3_accept(in) : status;
 }
 
-static ali3_status step(ali3_instance *in, double t, double h) {
-  return ali3_energy_momentum(in, t, h, 0.5, !in->unobserved);
+static void before(ali3_instance *in, const ali3_request *request) {
+  ali3_energy_momentum_restart(in, request->h, request->controlled);
+}
+
+static ali3_status step(ali3_instance *in, const ali3_request *request) {
+  return ali3_energy_momentum(in, request->t, request->h, 0.5, request->reading != ALI3_READ_NOTHING);
 }
 
 /* Of the carried velocities, after steps from `from`. */
@@ -359,7 +362,7 @@ static ali3_status takes(const ali3_instance *in) { return in->system->n_tabled 
 const ali3_method ali3_method_energy_momentum = {.step = step,
                                                  .takes = takes,
                                                  .excludes = "no tabled bodies",
-                                                 .before = ali3_energy_momentum_restart,
+                                                 .before = before,
                                                  .motion = motion,
                                                  .has_guides_work = ali3_always,
                                                  .after_unobserved = ali3_energy_momentum_report,

@@ -7,6 +7,6 @@ double ali3_energy_momentum_penalty(const ali3_instance *in, double h); /* c alp
 void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weight);
 ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v);
 void ali3_energy_momentum_report(ali3_instance *in);
-void ali3_energy_momentum_restart(ali3_instance *in, double h);
+void ali3_energy_momentum_restart(ali3_instance *in, double h, bool controlled);
 void ali3_energy_momentum_motion(ali3_instance *in, const ali3_vectors *from, double h);
 #endif

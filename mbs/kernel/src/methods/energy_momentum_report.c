@@ -78,7 +78,7 @@ ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
   return status;
 }
 
-/* After unobserved steps. */
+/* After steps of which nothing was read. */
 void ali3_energy_momentum_report(ali3_instance *in) {
   ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
   ali3_energy_momentum_show(in, &in->now);
@@ -87,12 +87,12 @@ void ali3_energy_momentum_report(ali3_instance *in) {
 /* Before a step of h: the carried velocity goes to the reported one where steps change. What it has off the rows has
  * the size that belongs to the step it comes from; in a step a hundred times as short it would be a force a hundred
  * times as large, as it would stay what it is. */
-void ali3_energy_momentum_restart(ali3_instance *in, double h) {
+void ali3_energy_momentum_restart(ali3_instance *in, double h, bool controlled) {
   const double *history = in->now.history, last = -2.0 * history[ALI3_HISTORY_TIME];
   if (history[ALI3_HISTORY_OWNER] != (double)ALI3_METHOD_ENERGY_MOMENTUM || !(history[ALI3_HISTORY_COUNT] >= 1.0))
     return;
-  if (!in->controlled && fabs(h - last) <= SAME_STEP * fabs(h)) return;
+  if (!controlled && fabs(h - last) <= SAME_STEP * fabs(h)) return;
   ali3_back_up(in);
-  if (!in->controlled) ali3_energy_momentum_report(in); /* after a unobserved step nothing is reported yet */
+  if (!controlled) ali3_energy_momentum_report(in); /* where nothing was read nothing is reported yet */
   memcpy(in->now.own, in->now.qd, (size_t)in->system->size.nq * sizeof(double));
 }

@@ -12,15 +12,21 @@
 static const double MOST = 0.1, MOST_OF_A_PART = 0.02;
 static const double MOST_ENERGY = 1e100; /* J */
 
+/* Whether this is a part of a step that was asked for, and may still be halved. */
+static bool halves_left(const ali3_instance *in, const ali3_request *request) {
+  return request->depth > 0 && request->depth < in->settings.max_halvings && in->settings.step_iterations == 0;
+}
+
 /* Adds an error of the energy to the balance and, where no row is driven, judges it beside `size`; so also with what the
  * forces left without balance, of power `open`, would do in a next step of this size. `end` is the kinetic energy at its
  * end, `weight` that of gravity as ali3_balance_energy takes it. */
-ali3_status ali3_energy_judge(ali3_instance *in, double h, double error, double size, double end, double open,
-                              const double *weight) {
-  const double coming = fabs(error + 0.5 * h * (open - in->report.open_power)), worse = fmax(fabs(error), coming);
+ali3_status ali3_energy_judge(ali3_instance *in, const ali3_request *request, double error, double size, double end,
+                              double open, const double *weight) {
+  const double coming = fabs(error + 0.5 * request->h * (open - in->report.open_power)),
+               worse = fmax(fabs(error), coming);
   if (!(size + worse < 1e300)) return ALI3_NOT_FINITE;
   const bool driven = in->system->n_gterm_row > 0; /* a guide whose rate jumps adds energy instantly */
-  const bool resolved = driven || worse <= (in->halves_left ? MOST_OF_A_PART : MOST) * size;
+  const bool resolved = driven || worse <= (halves_left(in, request) ? MOST_OF_A_PART : MOST) * size;
   if (!resolved && in->settings.step_iterations == 0) return ALI3_UNRESOLVED;
   in->capped |= !resolved; /* no halves: the balance and the count say it */
   ali3_balance_energy(in, error, end, weight);
@@ -28,8 +34,9 @@ ali3_status ali3_energy_judge(ali3_instance *in, double h, double error, double 
   return ALI3_OK;
 }
 
-ali3_status ali3_energy_watch(ali3_instance *in, double h, double error, double kinetic, double end, double open) {
-  return ali3_energy_judge(in, h, error, ali3_energy_size(in, h, kinetic), end, open, NULL);
+ali3_status ali3_energy_watch(ali3_instance *in, const ali3_request *request, double error, double kinetic, double end,
+                              double open) {
+  return ali3_energy_judge(in, request, error, ali3_energy_size(in, request->h, kinetic), end, open, NULL);
 }
 
 /* At the start, and after a whole step whose energy is known, as it is where the method has a balance, or whose state is

@@ -200,7 +200,6 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
 
 /* Takes the report back to what the state in in->now says of itself: it was not read while steps were made. */
 static void finish(ali3_instance *in) {
-  in->sampled = false;
   const ali3_method *method = ali3_method_of(in);
   if (method->after_sampled != NULL && in->now.history[ALI3_HISTORY_OWNER] == (double)method->owner)
     method->after_sampled(in);
@@ -253,10 +252,7 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   if (jumped(in)) status = ali3_refresh(in);
   if (status == ALI3_OK) status = ali3_inputs_aim(in, 0.0, NULL);
   ali3_branch_before(in); /* the modes of the start, where they have not been evaluated yet */
-  in->unobserved = false;
-  in->sampled = in->controlled = true;
   if (status == ALI3_OK) status = run(in, &measure, t_end, most_steps, record, done);
-  in->controlled = false;
   finish(in);
   in->report.last_status = (int32_t)status;
   return status;

@@ -2,6 +2,7 @@
 #ifndef ALI3_ERROR_CONTROL_H
 #define ALI3_ERROR_CONTROL_H
 #include "../instance.h"
+#include "request.h"
 
 /* Settings of a controlled run; scale is the size of a unit of each coordinate, m (nq), or NULL: 1 m each. */
 typedef struct {
@@ -11,7 +12,7 @@ typedef struct {
 
 /* step_doubling.c */
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error);
-ali3_status ali3_trial_step(ali3_instance *in, double t, double h);
+ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading reading);
 double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,
                      double rate);
 double ali3_rate(const ali3_instance *in, const ali3_measure *measure);

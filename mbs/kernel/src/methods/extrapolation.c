@@ -33,13 +33,13 @@ ALI3_INLINED void history_miss(const ali3_instance *in, int32_t n, const real *w
 ALI3_BY_PROCESSOR(in->system, void, history_miss, (const ali3_instance *in, int32_t n, const real *weight),
                   (in, n, weight))
 
-/* Whether the n steps before the last would have predicted the last much better than assuming no change. */
-ALI3_INLINED truth history_smooth(const ali3_instance *in, int32_t n, double h) {
+/* Before a step h: whether the n steps before the last would have predicted the last much better than assuming no change. */
+ALI3_INLINED truth history_smooth(const ali3_instance *in, int32_t n, double h, bool controlled) {
   const int32_t nq = in->system->size.nq;
   const real *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a, *miss = in->w;
   real weight[ALI3_PAST], error = {0}, change = {0};
   const truth near =
-      (history[ALI3_HISTORY_COUNT] > (double)n) & ((in->controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1]) > h);
+      (history[ALI3_HISTORY_COUNT] > (double)n) & ((controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1]) > h);
   if (!ali3_any(near)) return near;
   ali3_lagrange(time + 1, n, time[0], weight);
   history_miss(in, n, weight);
@@ -51,7 +51,8 @@ ALI3_INLINED truth history_smooth(const ali3_instance *in, int32_t n, double h) 
   return near & (error < SMOOTH * SMOOTH * change);
 }
 
-ALI3_BY_PROCESSOR(in->system, truth, history_smooth, (const ali3_instance *in, int32_t n, double h), (in, n, h))
+ALI3_BY_PROCESSOR(in->system, truth, history_smooth, (const ali3_instance *in, int32_t n, double h, bool controlled),
+                  (in, n, h, controlled))
 
 /* Sum of the n vectors of a length with these weights. */
 ALI3_INLINED void weighted_sum(real *restrict to, const real *restrict from, int64_t length, const real *weight,

@@ -13,7 +13,8 @@
 #include "predict.h"
 
 /* Returns whether past steps were used; `from_past` false ignores them. */
-ALI3_INLINED bool predict(ali3_instance *in, double h, bool from_past) {
+ALI3_INLINED bool predict(ali3_instance *in, const ali3_request *request, bool from_past) {
+  const double h = request->h;
   const ali3_system *S = in->system;
   const ali3_vectors *from = &in->now;
   double *lam = in->next.lam;
@@ -23,8 +24,8 @@ ALI3_INLINED bool predict(ali3_instance *in, double h, bool from_past) {
     return false;
   }
   ali3_history_own(in, in->settings.method, from->qdd);
-  const bool goes_on =
-      from_past && in->settings.predictor == ALI3_PREDICTOR_PARABOLA && ali3_history_smooth(in, ALI3_PARABOLA, h);
+  const bool goes_on = from_past && in->settings.predictor == ALI3_PREDICTOR_PARABOLA &&
+                       ali3_history_smooth(in, ALI3_PARABOLA, h, request->controlled);
   ali3_history_predict(in, 0.5 * h, goes_on ? ALI3_PARABOLA : 0, in->x, lam);
   const double *last = from->lam, *qd = from->qd, *x = in->x, half = 0.5 * h * h;
   double *D = in->D;
@@ -33,7 +34,8 @@ ALI3_INLINED bool predict(ali3_instance *in, double h, bool from_past) {
   return goes_on;
 }
 
-ALI3_BY_PROCESSOR(in->system, bool, predict, (ali3_instance * in, double h, bool from_past), (in, h, from_past))
+ALI3_BY_PROCESSOR(in->system, bool, predict, (ali3_instance * in, const ali3_request *request, bool from_past),
+                  (in, request, from_past))
 
 /* Stores the mean acceleration and the multipliers of the step from in->now to in->next. */
 void ali3_predict_accept(ali3_instance *in, double h) {

@@ -337,7 +337,8 @@ static double work_of_drives(ali3_instance *in, double t, double h) {
 }
 
 /* From in->now to in->next; in->now changes only when the step is good. t is the time at its end. */
-static ali3_status step(ali3_instance *in, double t, double h) {
+static ali3_status step(ali3_instance *in, const ali3_request *request) {
+  const double t = request->t, h = request->h;
   const ali3_system *S = in->system;
   const size_t nq = (size_t)S->size.nq;
   const int64_t before = in->report.iterations;

@@ -98,7 +98,8 @@ static ali3_status after_jump(ali3_instance *in) {
 }
 
 /* From in->now to in->next, a copy of it; in->now changes only when the step is good. t is the time at its end. */
-static ali3_status step(ali3_instance *in, double t, double h) {
+static ali3_status step(ali3_instance *in, const ali3_request *request) {
+  const double t = request->t, h = request->h;
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   const int64_t before = in->report.iterations;
@@ -134,7 +135,7 @@ static ali3_status step(ali3_instance *in, double t, double h) {
   ali3_work_store(in, to);
   if (status == ALI3_OK && watched) {
     const double gained = 0.5 * ali3_mass_product(in, to->qd, to->qd, in->r) - kinetic;
-    status = ali3_energy_watch(in, h, gained - work, kinetic + fmax(gained, 0.0), kinetic + gained, 0.0);
+    status = ali3_energy_watch(in, request, gained - work, kinetic + fmax(gained, 0.0), kinetic + gained, 0.0);
   }
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;

@@ -197,12 +197,13 @@ static ali3_status close(ali3_instance *in) {
 }
 
 /* Natural coordinates of v at the state of the method, with what its readers need. */
-static ali3_status show(ali3_instance *in, ali3_vectors *v) {
+static ali3_status show(ali3_instance *in, ali3_vectors *v, ali3_reading reading, bool controlled) {
   const ali3_system *S = in->system;
   ali3_tree_accelerate(S->tree, in->tree, in->tree->qdd);
   ali3_tree_write(in, v->q, v->qd, v->qdd);
-  if (in->controlled && in->sampled) return ALI3_OK; /* only the motion is looked at */
-  if (in->sampled && !S->senses_rows && S->size.ne == 0) return ALI3_OK;
+  const bool sensors = reading == ALI3_READ_SENSORS;
+  if (controlled && sensors) return ALI3_OK; /* only the motion is looked at */
+  if (sensors && !S->senses_rows && S->size.ne == 0) return ALI3_OK;
   /* not from the last multipliers: bits must not depend on which states were read */
   memset(v->lam, 0, (size_t)S->size.nc * sizeof(double));
   const ali3_status status = ali3_index_one(in, v);
@@ -247,11 +248,13 @@ static void balance(ali3_instance *in, double h) {
 }
 
 /* From in->now by a step h; in->now changes only when the step is good. */
-static ali3_status step(ali3_instance *in, double h, const ali3_tableau *rule) {
+static ali3_status step(ali3_instance *in, const ali3_request *request, const ali3_tableau *rule) {
   const ali3_system *S = in->system;
   const ali3_tree *T = S->tree;
   const int32_t n = T->n;
   const int64_t before = in->report.iterations;
+  const double h = request->h;
+  const bool read = request->reading != ALI3_READ_NOTHING;
   const bool mine = in->now.history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_SEMI_RECURSIVE;
   ali3_tree_work *w = in->tree;
   ali3_status status = ali3_inputs_at(in, 0.0);
@@ -288,12 +291,12 @@ static ali3_status step(ali3_instance *in, double h, const ali3_tableau *rule) {
   balance(in, h);
   memcpy(w->state, w->sum, 2 * (size_t)n * sizeof(double));
   turn_back(S, w);
-  ali3_vectors *v = in->unobserved ? &in->now : &in->next;
-  if (!in->unobserved) ali3_vectors_copy(in, v, &in->now);
+  ali3_vectors *v = read ? &in->next : &in->now;
+  if (read) ali3_vectors_copy(in, v, &in->now);
   ali3_work_stage(in, 1.0, in->work_sum, v->work);
   ali3_work_store(in, v);
-  if (!in->unobserved) {
-    status = show(in, v);
+  if (read) {
+    status = show(in, v, request->reading, request->controlled);
     if (status != ALI3_OK) return status;
   }
   store(in, v->own);
@@ -301,10 +304,10 @@ static ali3_status step(ali3_instance *in, double h, const ali3_tableau *rule) {
   v->history[ALI3_HISTORY_COUNT] = 0.0;
   v->h_last[0] = 0.0;
   memcpy(v->used, in->input, (size_t)S->size.nu * sizeof(double));
-  return in->unobserved ? ALI3_OK : ali3_accept(in);
+  return read ? ali3_accept(in) : ALI3_OK;
 }
 
-/* After unobserved steps: the natural coordinates of the last one. */
+/* After steps of which not all was read: the natural coordinates of the last one. */
 static void report(ali3_instance *in) {
   ali3_tree_work *w = in->tree;
   if (!recall(in, in->now.own)) return;
@@ -312,9 +315,8 @@ static void report(ali3_instance *in) {
   ali3_tree_joints(in->system->tree, w);
   memcpy(w->qd + 1, w->state + in->system->tree->n, (size_t)in->system->tree->n * sizeof(double));
   ali3_tree_move(in->system->tree, w);
-  in->sampled = false;
   ali3_vectors_copy(in, &in->next, &in->now);
-  if (show(in, &in->next) != ALI3_OK) { /* nothing but the motion */
+  if (show(in, &in->next, ALI3_READ_ALL, false) != ALI3_OK) { /* nothing but the motion */
     ali3_tree_write(in, in->next.q, in->next.qd, in->next.qdd);
     memset(in->next.lam, 0, (size_t)in->system->size.nc * sizeof(double));
   }
@@ -325,10 +327,7 @@ static ali3_status takes(const ali3_instance *in) {
   return in->system->tree == NULL ? ALI3_NO_TREE : ali3_needs_no_states(in);
 }
 
-static ali3_status step_8(ali3_instance *in, double t, double h) {
-  (void)t;
-  return step(in, h, &ali3_order_8);
-}
+static ali3_status step_8(ali3_instance *in, const ali3_request *request) { return step(in, request, &ali3_order_8); }
 
 const ali3_method ali3_method_semi_recursive = {.step = step_8,
                                                 .takes = takes,
@@ -339,10 +338,7 @@ const ali3_method ali3_method_semi_recursive = {.step = step_8,
                                                 .stable_rate = 5.0,
                                                 .round_off = ALI3_ROUND_OFF_INDEX_1};
 
-static ali3_status step_4(ali3_instance *in, double t, double h) {
-  (void)t;
-  return step(in, h, &ali3_order_4);
-}
+static ali3_status step_4(ali3_instance *in, const ali3_request *request) { return step(in, request, &ali3_order_4); }
 
 const ali3_method ali3_method_semi_recursive_4 = {.step = step_4,
                                                   .takes = takes,

@@ -15,11 +15,12 @@
 enum { TRUSTED = 6 };
 
 /* A step from time t that is never halved inside; the caller restores what a failed one changed. */
-ali3_status ali3_trial_step(ali3_instance *in, double t, double h) {
+ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading reading) {
   in->backed_up = false;
   in->iterations_before = in->report.iterations;
   in->t_now = t;
-  return ali3_advance(in, t + h, h, 0);
+  const ali3_request request = {.t = t + h, .h = h, .reading = reading, .controlled = true};
+  return ali3_advance(in, &request);
 }
 
 static double scale_of(const ali3_measure *measure, int32_t i) {
@@ -54,15 +55,15 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
   const int32_t nq = in->system->size.nq;
   const ali3_report before = in->report;
   ali3_vectors_copy(in, &in->origin, &in->now);
-  ali3_status status = ali3_trial_step(in, t, h);
+  ali3_status status = ali3_trial_step(in, t, h, ALI3_READ_SENSORS);
   ali3_balance_restore(&in->report, &before);
   ali3_vectors_copy(in, &in->coarse, &in->now);
   ali3_vectors_copy(in, &in->now, &in->origin);
-  if (status == ALI3_OK) status = ali3_trial_step(in, t, 0.5 * h);
+  if (status == ALI3_OK) status = ali3_trial_step(in, t, 0.5 * h, ALI3_READ_SENSORS);
   if (status == ALI3_OK) {
     in->report.steps++;
     ali3_vectors_copy(in, &in->centre, &in->now);
-    status = ali3_trial_step(in, t + 0.5 * h, 0.5 * h);
+    status = ali3_trial_step(in, t + 0.5 * h, 0.5 * h, ALI3_READ_SENSORS);
   }
   if (status == ALI3_OK) {
     const int32_t order = ali3_method_order(in) < TRUSTED ? ali3_method_order(in) : TRUSTED;

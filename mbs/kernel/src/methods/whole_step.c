@@ -16,7 +16,8 @@
 #include "newton.h"
 
 /* The inputs go straight to `end` (nu), or are held where it is NULL. */
-ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3_whole_step *step) {
+ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3_reading reading,
+                            ali3_whole_step *step) {
   if (!in->initialised) return ALI3_NOT_INITIALISED;
   ali3_roads_forgive(in);
   if (ali3_wheels_watch(in) != ALI3_OK && ali3_roads_status(in) == ALI3_OK) {
@@ -31,10 +32,10 @@ ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3
   }
   const ali3_status aimed = ali3_inputs_aim(in, h, end);
   if (aimed != ALI3_OK) return aimed;
-  step->h = h;
   step->t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
   step->count = h == in->h_last ? in->count + 1 : 1;
-  step->t = step->t_base + (double)step->count * h;
+  step->asked = (ali3_request){
+      .t = step->t_base + (double)step->count * h, .h = h, .depth = in->settings.max_halvings, .reading = reading};
   step->before = in->report;
   in->capped = false;
   in->capped_residual = 0.0;
@@ -47,7 +48,7 @@ ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3
 
 /* `status` says whether the step was made. */
 ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_status status) {
-  if (status == ALI3_OK) status = ali3_branch_after(in, step->t, step->h);
+  if (status == ALI3_OK) status = ali3_branch_after(in, &step->asked);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
     if (in->backed_up) ali3_vectors_copy(in, &in->now, &in->start);
@@ -60,14 +61,14 @@ ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_s
     ali3_iterations_since(in, step->before.iterations); /* not of the last half only */
   in->report.steps++;
   const bool balanced = ali3_has_balance(in);
-  if (balanced || !in->unobserved) ali3_energy_trend(in, balanced);
+  if (balanced || step->asked.reading != ALI3_READ_NOTHING) ali3_energy_trend(in, balanced);
   if (in->capped) {
     in->report.capped++;
     in->report.capped_residual = fmax(in->report.capped_residual, in->capped_residual);
     in->call_residual = fmax(in->call_residual, in->capped_residual);
   }
   in->t_base = step->t_base;
-  in->h_last = step->h;
+  in->h_last = step->asked.h;
   in->count = step->count;
   return ALI3_OK;
 }

@@ -2,13 +2,16 @@
 #ifndef ALI3_WHOLE_STEP_H
 #define ALI3_WHOLE_STEP_H
 #include "../instance.h"
+#include "request.h"
 
 typedef struct {
-  double t, h, t_base; /* its end, its length, the time from which steps of this length are counted */
-  int64_t count;       /* of them, this one included */
+  ali3_request asked;
+  double t_base; /* the time from which steps of this length are counted */
+  int64_t count; /* of them, this one included */
   ali3_report before;
 } ali3_whole_step;
 
-ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3_whole_step *step);
+ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3_reading reading,
+                            ali3_whole_step *step);
 ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_status status);
 #endif

@@ -5,17 +5,6 @@
 #include "loading.h"
 #include "message.h"
 
-static bool fits(int32_t expected, int32_t n) { return expected == -1 || expected == n; }
-
-/* The number of states may follow from the integers, see element.h. */
-static bool states_fit(const ali3_system *s, int32_t e, const ali3_element_type *type, int32_t n) {
-  const int32_t expected = type->nstate;
-  if (type->states != NULL) return type->states(s->el_int_ptr[e + 1] - s->el_int_ptr[e]) == n;
-  if (expected >= -1) return fits(expected, n);
-  const int32_t last = s->el_int_ptr[e + 1] - 1, items = last < s->el_int_ptr[e] ? 0 : s->el_int[last];
-  return items > 0 && (int64_t)items * -expected == n;
-}
-
 /* Local indices must name the coordinates of the signals in the element's front. */
 static ali3_status check_element_places(const ali3_system *s, int32_t e, int64_t entries, ali3_message m) {
   const int32_t f = s->el_front[e], n_loc = s->el_loc_ptr[e + 1] - s->el_loc_ptr[e];
@@ -42,8 +31,8 @@ ali3_status ali3_check_elements(const ali3_system *s, ali3_message m) {
                   nint = s->el_int_ptr[e + 1] - s->el_int_ptr[e], nout = s->el_out_ptr[e + 1] - s->el_out_ptr[e],
                   nstate = s->el_state_ptr[e + 1] - s->el_state_ptr[e];
     if (type == NULL) return ali3_bad(m, "element %d has the unknown type %d", (int)e, (int)s->el_type[e]);
-    if (nsig > ALI3_MAX_SIGNALS || !fits(type->nsig, nsig) || !fits(type->nreal, nreal) || !fits(type->nint, nint) ||
-        !states_fit(s, e, type, nstate) || !fits(type->nout, nout))
+    if (nsig > ALI3_MAX_SIGNALS ||
+        !ali3_element_fits(type, nsig, nreal, s->el_int + s->el_int_ptr[e], nint, nstate, nout))
       return ali3_bad(m, "element %d of type %d has %d signals, %d reals, %d integers, %d states, %d outputs", (int)e,
                       (int)s->el_type[e], (int)nsig, (int)nreal, (int)nint, (int)nstate, (int)nout);
     int64_t entries = 0;

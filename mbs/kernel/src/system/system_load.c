@@ -147,6 +147,8 @@ void ali3_system_free(ali3_system *s) {
   memory.release(s);
 }
 
+int32_t ali3_road_count(const ali3_system *s) { return s->nr; }
+
 ali3_sizes ali3_system_sizes(const ali3_system *s) {
   const ali3_sizes none = {0};
   return s != NULL ? s->size : none;

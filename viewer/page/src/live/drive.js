@@ -1,6 +1,7 @@
 // An FMU that runs in the page: it is driven by keys, gamepads, fingers and sliders, drawn, plotted and recorded.
 import { button, el, short } from "../common/dom.js";
 import { DRIVING_WORDS } from "../common/key_table.js";
+import { instead } from "../common/notices.js";
 import { Shell } from "../shell/shell.js";
 import { decoded } from "../sources/decode.js";
 import { Hands, HANDS_MS } from "./hands.js";
@@ -39,14 +40,14 @@ class Drive extends Shell {
     const parts = (fmus ?? [one]).map((f) => ({ ...f, title: f.title ?? f.description.modelName }));
     const lacking = missingParts();
     if (lacking) {
-      this.viewBox.append(el("p.a3-notice", { data: "notice" }, lacking));
+      instead(this.viewBox, "problem", lacking);
       this.problem = lacking;
       this.ready = Promise.reject(new Error(lacking));
       this.ready.catch(() => {});
       return;
     }
     this.ready = this._open(parts, { beside, ends, script });
-    this.ready.catch((error) => this._tell(`${error.message}`));
+    this.ready.catch((error) => this._wrong(error.message));
   }
 
   get views() {
@@ -106,7 +107,7 @@ class Drive extends Shell {
       return this.session.want([[name, Number(value)]]);
     }
     const restarted = await this.session.set(name, value);
-    this._tell(restarted ? `The run began again with ${name} = ${value}.` : "", 3000);
+    if (restarted) this.tell(`The run began again with ${name} = ${value}.`);
     this.parameters?.show(name, value);
     return undefined;
   }
@@ -166,14 +167,14 @@ class Drive extends Shell {
     // Nothing is awaited from here until the page hears: the first answer finds everything in its place.
     this.session = new Session(fmus, { ...this.options, script: table }, {
       started: () => this._started(),
-      ran: () => this._tell(""),
+      ran: () => this.notices.lower(["problem", "hidden"]),
       moved: () => this.draw(),
       back: () => this._clear(),
       refused: (which, text, alive) => this._refused(which, text, alive),
-      message: (which, text) => this._tell(text),
-      error: (text) => this._tell(text),
+      message: (which, text) => this.tell(text),
+      error: (text) => this._wrong(text),
     });
-    this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep }, { look: this.look, tell: (sentence) => this._tell(sentence), box: this.viewBox });
+    this.stage = new Stage([...pictures, ...recordings], { ...this.options.view, keep: this.options.keep }, { look: this.look, notices: this.notices, box: this.viewBox });
     this._layOut(fmus[0]);
     this.stage.open();
     this.problem = this.stage.problem;
@@ -213,8 +214,6 @@ class Drive extends Shell {
     this.parameters = parameterPanel(parameters, { set: (v, value) => this._setSoon(v, value), roads });
     this.gamepadPanel = gamepadPanel(this.hands.gamepad, names);
     this.sideBox.append(this.inputPanel.element, this.parameters.element, ...(names.length ? [this.gamepadPanel.element] : []));
-    this.banner = el("div.a3-banner", { data: "banner" });
-    this.viewBox.append(this.banner);
     if (this.isCar) {
       this.viewBox.append(levers(names, want));
       this.root.classList.toggle("a3-touching", matchMedia("(pointer: coarse)").matches);
@@ -266,29 +265,20 @@ class Drive extends Shell {
 
   _clear(begun = false) {
     this.stage.renew(begun);
-    for (const part of this.stage.parts) if (!part.view?.problem) this.stage.tell(part, "");
-    this._tell("");
+    this.notices.lower();
   }
 
   _refused(which, text, alive) {
-    const part = this.stage.parts.filter((p) => p.variables)[which];
+    const { title } = this.stage.parts[which];
     const choices = [button("begin again", "Begin again", () => this.reset()), button("go back", "2 s back", () => this.back())];
     const time = this.session.time.toFixed(3);
-    this.stage.tell(part, `Stopped at ${time} s. ${text}`, alive ? [] : choices);
+    const who = this.stage.parts.length > 1 ? `${title}: ` : "";
+    this.notices.flag(`stopped ${which}`, `${who}Stopped at ${time} s. ${text}`, { bad: true, choices: alive ? [] : choices });
   }
 
-  tell(sentence) {
-    this._tell(sentence, 3000);
-  }
-
-  _tell(sentence, time = 0) {
-    clearTimeout(this._banner);
-    if (!this.banner) {
-      if (sentence) this.viewBox.append(el("p.a3-notice", { data: "notice" }, sentence));
-      return;
-    }
-    this.banner.textContent = sentence;
-    if (time) this._banner = setTimeout(() => (this.banner.textContent = ""), time);
+  /** What cannot be done stands there until time runs. @param {string} sentence */
+  _wrong(sentence) {
+    this.notices.flag("problem", sentence, { bad: true });
   }
 
   _listen() {
@@ -303,7 +293,7 @@ class Drive extends Shell {
   _hidden() {
     if (!document.hidden || !this.session.running) return;
     this.pause();
-    this._tell("Paused, because the page was not on the screen.");
+    this.notices.flag("hidden", "Paused, because the page was not on the screen.");
   }
 
   _poll() {
@@ -339,7 +329,7 @@ class Drive extends Shell {
   _download() {
     const { record } = this.session;
     const begin = record.first * record.step;
-    if (begin > 0) this._tell(`The table begins at ${short(begin)} s: what was before did not fit into the memory, so it cannot be repeated.`);
+    if (begin > 0) this.tell(`The table begins at ${short(begin)} s: what was before did not fit into the memory, so it cannot be repeated.`);
     const url = URL.createObjectURL(new Blob(this.session.csv(), { type: "text/csv" }));
     const name = (this.options.name ?? "run").replace(/[^\w.-]+/g, "_");
     const link = el("a", { href: url, download: `${name}.csv` });

@@ -17,27 +17,26 @@ export class Stage {
    * @param {Data[]} items - `{title, scene, sample, variables}` of an FMU, or `{title, scene, sample, recording}`; `sample`
    *   gives the numbers of a time.
    * @param {Data} options - Of SceneView.
-   * @param {{look: Data, tell: (sentence: string) => void, box: HTMLElement}} page - What pictures show now; told what
-   *   cannot be heard; takes the pictures.
+   * @param {{look: Data, notices: import("../common/notices.js").Notices, box: HTMLElement}} page - What pictures show
+   *   now; where sentences stand; what takes the pictures.
    */
-  constructor(items, options, { look, tell, box }) {
-    this._tell = tell;
+  constructor(items, options, { look, notices, box }) {
+    this._notices = notices;
     this._look = look;
     this._epoch = 0;
     this._surveyed = 0;
     /** @type {Data[]} one for each item: what it has, the elements, and what is made of them */
     this.parts = items.map((item) => {
       const holder = el("div.a3-picture");
-      const notice = el("div.a3-notice", { data: "notice", hidden: true });
       const hud = new Hud(item.title);
       const names = new Set(item.variables ? [...item.variables].filter(([, v]) => v.causality === "output").map(([name]) => name) : Object.keys(item.recording?.columns ?? {}));
       const fixed = (name) => item.variables?.get(name)?.start;
       const instruments = Instruments.of(names) ? new Instruments(names, { scene: item.scene, fixed }) : null;
-      const element = el("div.a3-view", {}, holder, ...(instruments ? [instruments.layer()] : []), hud.element, notice);
+      const element = el("div.a3-view", {}, holder, ...(instruments ? [instruments.layer()] : []), hud.element);
       box.append(element);
-      return { ...item, holder, notice, hud, instruments, element };
+      return { ...item, holder, hud, instruments, element };
     });
-    this._options = { driven: !options.keep, ...options };
+    this._options = { driven: !options.keep, onMessage: (sentence) => notices.note(sentence), ...options };
   }
 
   /** Make the pictures, once the element stands in the page. */
@@ -49,7 +48,6 @@ export class Stage {
     }
     for (const part of this.parts) this._follow(part);
     this.problem = this.parts.map((part) => part.view.problem).find(Boolean) ?? "";
-    for (const part of this.parts) if (part.view.problem) this.tell(part, part.view.problem);
   }
 
   /** Draw the roads that belong to a value of the parameter `road.file`, moved by other parameters. */
@@ -63,7 +61,7 @@ export class Stage {
     part.effects?.dispose();
     const { variables } = part;
     const constants = [...variables.values()].filter((v) => v.variability === "constant").map((v) => [v.name, Number(v.start)]);
-    part.effects = new Effects(part.view, { columns: [...variables.keys()], constants: Object.fromEntries(constants) }, this._tell);
+    part.effects = new Effects(part.view, { columns: [...variables.keys()], constants: Object.fromEntries(constants) }, (sentence) => this._notices.tell(sentence));
     part.effects.sound.mute(this._muted ?? false);
     if (this._heard) this.sound();
   }
@@ -129,21 +127,13 @@ export class Stage {
       const end = part.recording ? part.recording.t[part.recording.t.length - 1] : Infinity;
       part.hud.show(Math.min(time, end), part.recording ? null : pace);
       part.instruments?.show(lookup);
-      if (part.recording?.end) this.tell(part, time > end ? part.recording.end : "");
+      if (part.recording?.end) this._notices.flag(`end ${part.title}`, time > end ? `${part.title}: ${part.recording.end}` : "");
     }
   }
 
   /** Put the pictures on the screen. */
   render() {
     for (const part of this.parts) part.view.render();
-  }
-
-  /** A sentence over a picture, with buttons; empty takes it away. */
-  tell(part, sentence, buttons = []) {
-    if (part.told === sentence) return;
-    part.told = sentence;
-    part.notice.hidden = !sentence;
-    part.notice.replaceChildren(el("p", {}, sentence), ...buttons);
   }
 
   dispose() {

@@ -1,5 +1,6 @@
 // A page of recordings as viewer/page_file.py writes it.
 import { decoded } from "../sources/decode.js";
+import { instead } from "../common/notices.js";
 import { play } from "./play.js";
 
 /**
@@ -25,7 +26,7 @@ export function playPage(container, page) {
     })
     .catch((error) => {
       made.problem = error.message;
-      container.textContent = `This page cannot be shown: ${error.message}`;
+      instead(container, "problem", `This page cannot be shown: ${error.message}`);
     });
   return made;
 }

@@ -10,7 +10,6 @@ import { Recordings } from "../sources/recordings.js";
 import { fromHash, toHash } from "./link.js";
 import { Traces } from "./traces.js";
 
-const SHOWN_NOTES = 3;
 const JUMP = 0.5; // s of the run at real time: longer from one picture to the next is no way
 const SCANNED = 200; // times that ranges are looked for at
 
@@ -43,7 +42,7 @@ export class Player extends Shell {
     for (const [name, value] of Object.entries(asked)) if (value !== undefined) this.look[name] = value;
     this._draw();
     if (this.options.controls !== false) this._controls();
-    else if (this.ghosts.length > 0) this.viewBox.append(el("div.a3-head", {}, ...this._names())); // pictures and films
+    else if (this.ghosts.length > 0) this._names(); // pictures and films
     document.addEventListener("visibilitychange", () => (this.last = undefined), { signal: this.listeners.signal }); // nobody has seen what passed
     this._show();
     if (this.options.play) this.play();
@@ -152,8 +151,9 @@ export class Player extends Shell {
     if (this.solid < 0) return;
     const { scene } = this.runs[this.solid];
     const picture = el("div.a3-view");
+    const seen = this.options.controls !== false;
     this.viewBox.append(picture);
-    this._drawn.push(new SceneView(picture, scene, { words: this.options.controls !== false, keep: this.options.controls === false, driven: this.options.controls !== false, quality: this.options.quality }));
+    this._drawn.push(new SceneView(picture, scene, { words: seen, keep: !seen, driven: seen, quality: this.options.quality, onMessage: (sentence) => seen && this.notices.note(sentence) }));
     this.view.set(this.look);
     this._scan();
     this._trace(this.solid);
@@ -198,7 +198,8 @@ export class Player extends Shell {
   }
 
   _controls() {
-    this._head();
+    this._names();
+    for (const note of [...this.notes, ...this._spans(), ...(this.wrong ? [this.wrong] : [])]) this.notices.note(note);
     const { scene, columns = {} } = this.runs[this.solid] ?? {};
     const names = new Set(Object.keys(columns));
     if (!this.problem && Instruments.of(names)) {
@@ -206,31 +207,25 @@ export class Player extends Shell {
       this.viewBox.append(this.instruments.layer());
     }
     const plotsOnly = this.solid < 0;
-    if (plotsOnly) this.root.dataset.plotsOnly = "yes";
+    if (plotsOnly) {
+      this.root.dataset.plotsOnly = "yes";
+      this.notices.note("There are no poses in this result: signals can be plotted, and nothing is drawn.");
+    }
     const { t } = this.runs[0];
     const instruments = this.instruments ? { instruments: () => this.instruments.toggle() } : {};
     this.controls(this.source, instruments, { digits: digitsOf((t[t.length - 1] - t[0]) / Math.max(1, t.length - 1)) });
     if (plotsOnly || this.plotted.length) this.side(true);
   }
 
-  /** Names of the runs with the colours of their paths. */
+  /** Names of the runs with the colours of their paths, above what there is to say of them. */
   _names() {
-    return this.runs.map((run, k) => {
+    const names = this.runs.map((run, k) => {
       const ghost = this.ghosts.find((other) => other.run === run);
       const colour = ghost?.options.tint ?? (k === this.solid && this.ghosts.length > 0 ? looks.paths.body : undefined);
       const swatch = colour ? [el("span.a3-swatch", { style: `background:${colour}` })] : [];
-      return el("div.a3-name", {}, ...swatch, run.name, ...(ghost ? [" (ghost)"] : []));
+      return el("div", {}, ...swatch, run.name, ...(ghost ? [" (ghost)"] : []));
     });
-  }
-
-  /** Names of the runs and what there is to say of them, over the picture. */
-  _head() {
-    const rows = this._names();
-    const said = [...this.notes, ...this._spans(), ...(this.wrong ? [this.wrong] : [])];
-    if (this.solid < 0) said.push("There are no poses in this result: signals can be plotted, and nothing is drawn.");
-    const more = said.length > SHOWN_NOTES ? [`${said.length - SHOWN_NOTES} more notes stand in the settings.`] : [];
-    for (const note of [...said.slice(0, SHOWN_NOTES), ...more]) rows.push(el("div.a3-note", {}, note));
-    this.viewBox.append(el("div.a3-head", {}, ...rows));
+    this.notices.element.prepend(el("div.a3-head", {}, ...names));
   }
 
   /** Which runs do not last the whole time. */

@@ -21,7 +21,7 @@ export class SceneView {
    * @param {"outdoors" | "studio" | "board"} [options.look] by default after the scene
    * @param {string} [options.camera] the first camera
    * @param {boolean} [options.antialias] smooth edges; by default where a graphics card draws, on boards and in high quality
-   * @param {boolean} [options.words] sentences over the picture, true by default; legends of what is drawn stay
+   * @param {boolean} [options.words] what the grid of a board means, true by default
    * @param {number} [options.lift] the picture is moved up by this share of its height, where something stands below
    * @param {number} [options.trail] time in which the camera behind follows a turn, s; 0 by default: at once
    * @param {boolean} [options.keep] the picture can be read from the canvas after it is drawn
@@ -37,7 +37,6 @@ export class SceneView {
     if (getComputedStyle(container).position === "static") container.style.position = "relative";
     this.notes = new Notes(container, options.onMessage);
     const tell = (sentence) => this.notes.tell(sentence);
-    this.notes.words(options.words !== false);
     this.legends = new Legends(this.notes.legend);
     this.parts = new Parts(scene, { tell });
     this.ghosts = [];
@@ -167,10 +166,9 @@ export class SceneView {
    * @param {number} [wish.stressMost] the stress at the end of the colours, in its unit; 0: the largest so far
    * @param {number} [wish.deformation] displacements of flexible bodies are drawn so many times
    * @param {boolean} [wish.closed] bodies hide what is within
-   * @param {boolean} [wish.words] sentences over the picture
    * @param {string} [wish.quality]
    */
-  set({ arrows, arrowScale, stress, stressMost, deformation, closed, words, quality }) {
+  set({ arrows, arrowScale, stress, stressMost, deformation, closed, quality }) {
     const { parts } = this;
     if (arrows !== undefined) parts.arrows.shown = new Set(arrows === true ? this.arrowNames : arrows || []);
     if (arrowScale !== undefined) parts.arrows.factor = arrowScale;
@@ -178,7 +176,6 @@ export class SceneView {
     if (stressMost !== undefined) Object.assign(parts.bending, { most: stressMost, fixed: stressMost > 0 });
     if (deformation !== undefined) for (const { bending } of [parts, ...this.ghosts]) bending.factor = deformation;
     if (closed !== undefined) for (const each of [parts, ...this.ghosts]) each.close(closed);
-    if (words !== undefined) this.notes.words(words);
     if (quality !== undefined) this.look?.choose(quality);
     this.update(this.lookup);
   }
@@ -195,7 +192,7 @@ export class SceneView {
     const units = [...new Set(arrows.now.map((force) => force.unit))];
     const scales = units.map((of) => ({ unit: of, ...arrows.scaleOf(of), colour: arrows.colourOf(of) }));
     this.legends.put("arrows", scales.length > 0 ? scales : null, arrowLegend);
-    this.legends.put("grid", (this.notes.worded && this.look?.caption) || null, (caption) => [caption]);
+    this.legends.put("grid", (this.options.words !== false && this.look?.caption) || null, (caption) => [caption]);
   }
 
   /**

@@ -11,6 +11,7 @@ export class Settings {
     this.source = source;
     /** Shows a value that was set elsewhere, by its name. */
     this.shown = {};
+    this.notes = el("div.a3-wide");
     this.panel = el("div.a3-panel", { hidden: true });
     parent.append(this.panel);
     this._fill();
@@ -18,6 +19,7 @@ export class Settings {
 
   toggle(open = this.panel.hidden) {
     this.panel.hidden = !open;
+    this.notes.replaceChildren(...this.player.notices.noted.map((note) => el("p", {}, note)));
     this.player.bar.buttons.settings.setAttribute("aria-pressed", String(open));
   }
 
@@ -85,7 +87,6 @@ export class Settings {
     if (player.remember && /^(https?|file):$/.test(location.protocol)) {
       rows.push(el("span", {}, "link to this time"), el("button", { onclick: copy }, "copy"), copied);
     }
-    for (const note of player.notes ?? []) rows.push(el("p", {}, note));
-    this.panel.replaceChildren(...rows);
+    this.panel.replaceChildren(...rows, this.notes);
   }
 }

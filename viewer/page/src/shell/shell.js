@@ -3,6 +3,7 @@ import { el } from "../common/dom.js";
 import { fullScreen } from "../common/full_screen.js";
 import { Help } from "../common/help.js";
 import { keys } from "../common/keys.js";
+import { Notices } from "../common/notices.js";
 import { cameraActs } from "../common/views.js";
 import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
@@ -55,7 +56,9 @@ export class Shell {
   constructor(container, { theme = "auto", kind = "" } = {}) {
     styled(style);
     this.container = container;
-    this.viewBox = el("div.a3-views");
+    /** What there is to say. */
+    this.notices = new Notices();
+    this.viewBox = el("div.a3-views", {}, this.notices.element);
     this.sideBox = el("aside.a3-side", { hidden: true, data: "panel", "aria-label": "signals" });
     this.stageBox = el("div.a3-stage", {}, this.viewBox, this.sideBox);
     this.foot = el("div.a3-foot");
@@ -90,9 +93,8 @@ export class Shell {
    */
   controls(source, more, bar = {}, drive) {
     this.source = source;
-    const say = (sentence) => sentence && this.tell(sentence);
     const switches = ["arrows", "stress", "closed", "path"].filter((what) => this.has[what]);
-    const camera = (name) => say(this.camera(name));
+    const camera = (name) => this.tell(this.camera(name));
     this.acts = {
       ...source.acts,
       camera,
@@ -173,9 +175,9 @@ export class Shell {
     this.bar.sound(!on);
   }
 
-  /** Say a sentence over the picture. @param {string} sentence */
+  /** Say over the picture that something has happened. @param {string} sentence */
   tell(sentence) {
-    this.view?.notes.tell(sentence);
+    this.notices.tell(sentence);
   }
 
   /** What the address of the page may tell has changed. */

@@ -12,7 +12,6 @@ import { Beat } from "../sources/frames.js";
 import { Socket } from "../sources/socket.js";
 import { CalibrationPanel } from "./calibration.js";
 import { readByHost } from "./device_words.js";
-import { Notices } from "./notices.js";
 import { Report } from "./report.js";
 import { Steps } from "./steps.js";
 
@@ -22,6 +21,8 @@ const STEPS_EVERY = 0.1;
 const FIRST = ["chase", "driver", "orbit"];
 /** The picture stands higher by this share, since instruments are below. */
 const LIFT = 0.07;
+/** A state that is not as it should be. */
+const BAD = { bad: true };
 /** Time in which the camera behind follows a turn of the car, s. */
 const TRAIL = 0.18;
 
@@ -46,7 +47,6 @@ export class Cockpit extends Shell {
     this.source = new Socket(hello, link);
     this.instruments = new Instruments(new Set(hello.columns), { scene, world, fixed: (name) => this.source.fixed(name) });
     this.plan = this.instruments.plan;
-    this.notices = new Notices();
     this._layOut(hello.description?.variables ?? []);
     this._open(scene);
     this._controls(world);
@@ -81,7 +81,7 @@ export class Cockpit extends Shell {
   /** Something was said. @param {Data} event - Kind, text and simulated time, s. */
   event({ kind, text, time }) {
     if (kind === "refused") this._refusal = { time, text };
-    else this.notices.tell(text);
+    else this.tell(text);
   }
 
   /** Devices of the program. */
@@ -92,7 +92,7 @@ export class Cockpit extends Shell {
 
   /** The wire broke. */
   lost(sentence) {
-    this.notices.flag("lost", sentence, "bad");
+    this.notices.flag("lost", sentence, BAD);
   }
 
   /** One picture: called by the page before it is shown. */
@@ -147,7 +147,7 @@ export class Cockpit extends Shell {
     this.map.element.hidden = true;
     const { cluster, tyres, inset } = this.instruments;
     this._side = el("div.a3-left", {}, this.steps.element, tyres.element);
-    this.viewBox.append(this._picture, this.map.element, this._side, inset.element, cluster.element, this.levers, this.notices.element);
+    this.viewBox.append(this._picture, this.map.element, this._side, inset.element, cluster.element, this.levers);
     this._inputs = inputs;
   }
 
@@ -212,7 +212,7 @@ export class Cockpit extends Shell {
 
   _poll() {
     const { changed, lost } = this.hands.poll(this._speed ?? 0);
-    if (lost) this.notices.tell("The gamepad is gone: its pedals and steering are let go.");
+    if (lost) this.tell("The gamepad is gone: its pedals and steering are let go.");
     if (changed) this.gamepadPanel.fill();
     this.gamepadPanel.show();
     if (!document.hidden) this.source.wants.again();
@@ -228,12 +228,12 @@ export class Cockpit extends Shell {
     const warn = this.steps.show(frame, time, this.flow());
     const { notices } = this;
     const refused = this._refusal.text || "The car refused a step.";
-    notices.flag("refused", frame.refused ? `${refused} Rewind, set upright or reset to go on.` : "", "bad");
+    notices.flag("refused", frame.refused ? `${refused} Rewind, set upright or reset to go on.` : "", BAD);
     notices.flag("paused", !frame.running && !frame.refused ? "paused" : "");
     notices.flag("slow", frame.speed < 1 ? `slow motion × ${Number(frame.speed.toPrecision(3))}` : "");
-    notices.flag("behind", warn, "bad");
+    notices.flag("behind", warn, BAD);
     notices.flag("outside", this.plan.holds(car) ? "" : "Outside of the world: the ground goes on with nothing on it.");
-    notices.flag("stalled", stalled ? `No news of the car for ${stalled.toFixed(1)} s: this is the last that came.` : "", "bad");
+    notices.flag("stalled", stalled ? `No news of the car for ${stalled.toFixed(1)} s: this is the last that came.` : "", BAD);
   }
 
   /** @param {string} name */
@@ -250,10 +250,5 @@ export class Cockpit extends Shell {
   mute(on) {
     super.mute(on);
     this.effects.sound.mute(on);
-  }
-
-  /** @param {string} sentence */
-  tell(sentence) {
-    this.notices.tell(sentence);
   }
 }

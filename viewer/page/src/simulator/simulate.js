@@ -1,5 +1,5 @@
 // The page of the driving simulator: the car is driven by a program elsewhere, seen and steered here.
-import { el } from "../common/dom.js";
+import { instead } from "../common/notices.js";
 import { styled } from "../styles.js";
 import { Cockpit } from "./cockpit.js";
 import { Link } from "./link.js";
@@ -24,8 +24,7 @@ class Simulator {
   constructor(container, { url, token = new URLSearchParams(location.search).get("token") ?? "" }) {
     this.container = container;
     styled(style);
-    this._waiting = el("p.a3-wait", { data: "waiting" }, "Waiting for the program that drives the car …");
-    container.append(this._waiting);
+    instead(container, "waiting", "Waiting for the program that drives the car …");
     this.cockpit = null;
     this.problem = "";
     this._token = token;
@@ -39,7 +38,7 @@ class Simulator {
       hello: (hello) => this._hello(hello).catch((error) => this._wrong(error)),
       frame: (frame) => this._frame(frame),
       event: (event) => this._event(event),
-      refused: ({ text }) => this.cockpit?.notices.tell(text),
+      refused: ({ text }) => this.cockpit?.tell(text),
       report: (report) => this.cockpit?.report.show(report),
       devices: ({ devices }) => this.cockpit?.devices(devices),
       closed: (sentence) => this._closed(sentence),
@@ -89,7 +88,7 @@ class Simulator {
     const camera = this.cockpit?.cameraName;
     this.cockpit?.dispose();
     this.cockpit = new Cockpit(this.container, { ...hello, scene }, this.link, clock);
-    if (missing) this.cockpit.notices.tell(missing);
+    if (missing) this.cockpit.tell(missing);
     if (camera) this.cockpit.camera(camera);
     this.problem = this.cockpit.problem;
     if (!this._running) this._loop();
@@ -99,7 +98,7 @@ class Simulator {
   /** The page itself is wrong: that is said, and thrown for whoever looks for its place. */
   _wrong(error) {
     this.problem = `This page cannot show the car: ${error.message}`;
-    this.container.prepend(el("p.a3-wait", { data: "problem" }, this.problem));
+    instead(this.container, "problem", this.problem);
     throw error;
   }
 
@@ -113,7 +112,7 @@ class Simulator {
 
   _closed(sentence) {
     if (this.cockpit) this.cockpit.lost(sentence);
-    else this._waiting.textContent = sentence;
+    else instead(this.container, "waiting", sentence);
   }
 
   _loop() {

@@ -1,0 +1,102 @@
+"""How near the multibody car is to a spin: starts beside the measured state, a small disturbance, more speed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import closing
+from dataclasses import replace
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.shared.command import watched
+from benchmarks.validation.drive import FITTED, JUDGED, LENGTH, Array, Spans
+from benchmarks.validation.multibody import INTERVAL, LATERAL, YAW, in_windows, task_of
+from hosts.compare.start_values import reference_point
+from hosts.compare.stretch_fmu import StretchFmu
+from hosts.compare.stretches import Stretch
+from hosts.compare.task import Task
+
+BESIDE = 0.5, 0.3, 0.024  # m/s along, m/s across, rad/s: what the car may be off by (docs/validation.md)
+DISTURBED = 1e-3  # rad/s, of the yaw rate at the start
+FASTER = 1.05, 1.10, 1.15
+COLUMNS = {
+    "windows": "",
+    "number": "d",
+    "starts beside": "d",
+    "departed": "d",
+    "disturbance grows to": ".2f",
+    "is after 10 s": ".1e",
+    **{f"{100.0 * (f - 1.0):.0f} % faster": "d" for f in FASTER},
+}
+_SECONDS: dict[str, Spans] = {"fitted": FITTED, "others": JUDGED}
+_SINCE = 0.1  # s after the start, from which on a disturbance has grown
+
+
+def margins(car: str, log: Path, aliases: Path, settings: dict[str, float]) -> list[dict[str, Any]]:
+    """Rows of `COLUMNS`, for windows that were fitted and for the others.
+
+    `car`: what ``ali3 compare`` takes. Starts are the corners of a box about the measured state, `BESIDE` to either
+    side, at the reference point of the car; a driver holds the measured speed, or that times `FASTER`.
+    """
+    rows = []
+    for name, seconds in watched(list(_SECONDS.items())):
+        task = task_of(car, log, aliases, settings, seconds)
+        point, stretches = reference_point(task.fmu, task.set_values), task.stretches
+        corners = [np.array(signs) * BESIDE for signs in product((-1.0, 1.0), repeat=3)]
+        with closing(StretchFmu(task.fmu, task.step)) as fmu:
+            beside = [_driven(fmu, [moved(s, *corner, point) for s in stretches]) for corner in corners]
+            rates = [_driven(fmu, [moved(s, 0.0, 0.0, rate, point) for s in stretches])[1] for rate in (0.0, DISTURBED)]
+            quick = [_driven(fmu, [quickened(s, factor) for s in stretches]) for factor in FASTER]
+        growth = np.abs(rates[1] - rates[0])[:, round(_SINCE / INTERVAL) :] / DISTURBED
+        told = (len(stretches), len(corners) * len(stretches), sum(_departed(task, driven) for driven in beside))
+        told += (float(growth.max()), float(growth[:, -1].max()), *(_departed(task, driven) for driven in quick))
+        rows.append({"windows": name} | dict(zip(list(COLUMNS)[1:], told, strict=True)))
+    return rows
+
+
+def moved(stretch: Stretch, along: float, across: float, rate: float, point: tuple[float, float]) -> Stretch:
+    """A stretch that starts beside its state.
+
+    `along`, `across`, `rate`: m/s and rad/s, of the reference point; `point`: its place from the origin of the drawing,
+    for which the start values hold, m.
+    """
+    by = {
+        "initial.speed": along + rate * point[1],
+        "initial.lateral_speed": across - rate * point[0],
+        "initial.yaw_rate": rate,
+    }
+    start = stretch.manoeuvre.start
+    return _started(stretch, {name: float(start[name]) + value for name, value in by.items()})
+
+
+def quickened(stretch: Stretch, factor: float) -> Stretch:
+    """A stretch with another speed, held and at the start, and the steering as it is."""
+    assert stretch.speed is not None
+    held = replace(stretch.speed, values=factor * stretch.speed.values)
+    name = "initial.speed"
+    return replace(_started(stretch, {name: factor * float(stretch.manoeuvre.start[name])}), speed=held)
+
+
+def _started(stretch: Stretch, start: dict[str, float]) -> Stretch:
+    return replace(stretch, manoeuvre=replace(stretch.manoeuvre, start={**stretch.manoeuvre.start, **start}))
+
+
+def _driven(fmu: StretchFmu, stretches: Sequence[Stretch]) -> tuple[Array, Array]:
+    """Lateral velocity and yaw rate in windows, each of shape (w, m); one that is refused keeps its last values."""
+    at = INTERVAL * np.arange(round(LENGTH / INTERVAL) + 1)
+    runs = [fmu.drive(stretch) for stretch in stretches]
+    across, turning = (np.array([np.interp(at, run.time, run[name]) for run in runs]) for name in (LATERAL, YAW))
+    return across, turning
+
+
+def _departed(task: Task, driven: tuple[Array, Array]) -> int:
+    """How many windows have departed, as ``ali3 compare`` tells it: by more than the range of what was measured."""
+    gone = np.zeros(len(task.stretches), dtype=np.bool_)
+    for name, values in zip((LATERAL, YAW), driven, strict=True):
+        signal = task.outputs[name]
+        measured = in_windows(signal.time, signal.values, len(values))
+        gone |= ~(np.abs(values - measured).max(axis=1) <= np.ptp(signal.values))
+    return int(gone.sum())

@@ -1,0 +1,82 @@
+"""The fit of the multibody car to the drive, by ``ali3 compare --fit`` between bounds that stand in a file."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ali3.errors import UserError
+from ali3.reading import read_toml
+from benchmarks.validation.drive import FITTED, LENGTH, text_of
+from benchmarks.validation.multibody import arguments_of
+from hosts.compare.command import main as compare
+
+BOUNDS = Path(__file__).with_name("ferrari_250_lm_fit.toml")
+NEAR = 0.02  # of the range: a number so near to a bound is told
+COLUMNS = {
+    "number": "",
+    "low": ".4g",
+    "high": ".4g",
+    "found": ".4g",
+    "within": ".2g",
+    "without a quarter": "",
+    "without it": "+.1f",
+    "near a bound": "",
+}
+STEP, EVERY = 0.01, 20.0  # s: inner step; from one window to the next: half of the seconds, so that a fit takes minutes
+
+
+def sought_in(file: Path) -> tuple[dict[str, str], dict[str, float]]:
+    """What is sought: by name, its range as ``--fit`` takes it; and values that are given in place of the car's.
+
+    `file`: TOML: of each number a table with ``low`` and ``high``, and one ``given`` of values.
+    """
+    tables = read_toml(file, UserError)
+    given: Mapping[str, Any] = tables.pop("given", {})
+    return {n: f"{float(t['low'])!r}:{float(t['high'])!r}" for n, t in tables.items()}, {**given}
+
+
+def refit(car: str, log: Path, aliases: Path, bounds: Path) -> list[dict[str, Any]]:
+    """Rows of `COLUMNS`, one for each number that is sought.
+
+    `car`: what ``ali3 compare`` takes; `bounds`: a file for `sought_in`. Raises `UserError`: the command did not fit.
+    """
+    ranges, given = sought_in(bounds)
+    with tempfile.TemporaryDirectory() as folder:
+        record = Path(folder, "record.json")
+        arguments = [*arguments_of(car, log, aliases, {"step_size": STEP} | given), "--windows", f"{LENGTH:g}"]
+        arguments += ["--window-every", f"{EVERY:g}", "--seconds", text_of(FITTED), "--jobs", "1"]
+        arguments += [part for name, span in ranges.items() for part in ("--fit", f"{name}={span}")]
+        compare([*arguments, "--out", folder, "--json", str(record)])
+        told = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
+    if "fit" not in told:
+        raise UserError("Nothing was fitted; the command has said why.")
+    return [row_of(f, *map(float, ranges[f["name"]].split(":"))) for f in told["fit"]["found"]]
+
+
+def row_of(found: dict[str, Any], low: float, high: float) -> dict[str, Any]:
+    """A row of `COLUMNS`. `found`: as the record of ``ali3 compare --fit`` has it."""
+    value, folds = found["value"], found["folds"]
+    near = min(value - low, high - value) < NEAR * (high - low)
+    return {
+        "number": f"`{found['name']}`",
+        "low": low,
+        "high": high,
+        "found": value,
+        "within": found["half_width_95"],
+        "without a quarter": f"{min(folds):.4g} to {max(folds):.4g}" if folds else "–",
+        "without it": None if found["without"] is None else 100.0 * (found["without"] - 1.0),
+        "near a bound": "yes" if near else "no",
+    }
+
+
+def problems(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Sentences on numbers that lie near a bound."""
+    return [
+        f"{row['number']} = {row['found']:.4g} lies within {NEAR:.0%} of a bound; the model lacks what it stands for."
+        for row in rows
+        if row["near a bound"] == "yes"
+    ]

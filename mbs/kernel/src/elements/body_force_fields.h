@@ -1,0 +1,25 @@
+/* clang-format off */
+/* Numbers of a force. Written by `python -m mbs.elements.fields_in_c` from BodyForce. */
+/* Signals: point (3 or 2), axes (9 or 2). */
+/* Outputs: none */
+#ifndef ALI3_BODY_FORCE_FIELDS_H
+#define ALI3_BODY_FORCE_FIELDS_H
+#include "element.h"
+
+enum {
+  FIRST,
+  SECOND,
+  THIRD,
+  BODY_FORCE_INTEGERS
+};
+#ifndef ALI3_WIDTH
+static const ali3_integer body_force_integers[] = {
+  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "an entry of the inputs of a force names an input that does not exist"},
+  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "an entry of the inputs of a force names an input that does not exist"},
+  {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "an entry of the inputs of a force names an input that does not exist"},
+};
+#define ALI3_BODY_FORCE \
+  .nsig = 12, .nsig_plane = 4, .nint = 3, .integers = body_force_integers, \
+  .nintegers = BODY_FORCE_INTEGERS
+#endif
+#endif

@@ -1,0 +1,30 @@
+/* clang-format off */
+/* Numbers of a wrench. Written by `python -m mbs.elements.fields_in_c` from HubWrench. */
+/* Signals: centre (3), axis (3), spin (1). */
+/* Outputs: power (W), power of force and moment on wheel and carrier together */
+#ifndef ALI3_HUB_WRENCH_FIELDS_H
+#define ALI3_HUB_WRENCH_FIELDS_H
+#include "element.h"
+
+enum {
+  FORCE_X,
+  FORCE_Y,
+  FORCE_Z,
+  MOMENT_X,
+  MOMENT_Y,
+  MOMENT_Z,
+  HUB_WRENCH_INTEGERS
+};
+#ifndef ALI3_WIDTH
+static const ali3_integer hub_wrench_integers[] = {
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "an entry of the inputs of a wrench names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "an entry of the inputs of a wrench names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "an entry of the inputs of a wrench names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "an entry of the inputs of a wrench names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "an entry of the inputs of a wrench names an input that does not exist"},
+  {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "an entry of the inputs of a wrench names an input that does not exist"},
+};
+#define ALI3_HUB_WRENCH \
+  .nsig = 7, .nint = 6, .nout = 1, .integers = hub_wrench_integers, .nintegers = HUB_WRENCH_INTEGERS
+#endif
+#endif

@@ -1,0 +1,61 @@
+/* clang-format off */
+/* Numbers of a spring-damper. Written by `python -m mbs.elements.fields_in_c` from SpringDamperTable. */
+/* Signals: difference (3 or 2). */
+/* Outputs: length (m), distance of the two points; force (N), force of spring, damper and stops, tension positive;
+ * rate (m/s), rate of the length; damper_force (N), force of the damper without spring and stops, tension positive */
+#ifndef ALI3_SPRING_DAMPER_TABLE_FIELDS_H
+#define ALI3_SPRING_DAMPER_TABLE_FIELDS_H
+#include "element.h"
+
+enum {
+  /* Stiffness, N/m, or rows of stretch from the free length, m, and force, N, both positive in tension; the stretch
+   * rises from row to row. Shape (n, 2). */
+  STIFFNESS,
+  /* Damping, N s/m, or rows of rate of the length, m/s, and force, N, both positive in rebound; rates rise, forces
+   * do not fall, and one row is (0, 0). Shape (n, 2). */
+  DAMPING,
+  /* Length without stretch, m. */
+  FREE_LENGTH,
+  /* Factor on the forces of the spring. */
+  STIFFNESS_FACTOR,
+  /* Factor on the forces of the damper. */
+  DAMPING_FACTOR,
+  /* Bump and rebound stops. */
+  STOPS,
+  SPRING_DAMPER_TABLE_REALS = STOPS + 12
+};
+enum {
+  SPRING_POINTS,
+  DAMPER_POINTS,
+  SPRING_DAMPER_TABLE_INTEGERS
+};
+#ifndef ALI3_WIDTH
+static const ali3_field spring_damper_table_fields[] = {
+  {ALI3_IS_NOT_NEGATIVE, "the stiffness of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the damping of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the free length of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the stiffness factor of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the damping factor of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the bump length of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the bump stiffness of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the rebound length of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the rebound stiffness of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the bump progression of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the bump travel of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the rebound progression of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the rebound travel of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the metal stiffness of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the metal onset of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the bump loss of a spring-damper must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the rebound loss of a spring-damper must not be negative"},
+};
+static const ali3_integer spring_damper_table_integers[] = {
+  {ALI3_OF_NUMBERS, 0, INT32_MAX, 4, 0, "the spring points of a spring-damper must be at least 0"},
+  {ALI3_OF_NUMBERS, 0, INT32_MAX, 3, 0, "the damper points of a spring-damper must be at least 0"},
+};
+#define ALI3_SPRING_DAMPER_TABLE \
+  .nsig = 3, .nsig_plane = 2, .nreal = 17, .nint = 2, .nout = 4, .fields = spring_damper_table_fields, \
+  .nfields = 17, .integers = spring_damper_table_integers, \
+  .nintegers = SPRING_DAMPER_TABLE_INTEGERS
+#endif
+#endif

@@ -1,0 +1,124 @@
+/* clang-format off */
+/* Numbers of a tyre. Written by `python -m mbs.elements.fields_in_c` from Tyre. */
+/* Signals: centre (3), axis (3), spin (1). */
+/* Outputs: longitudinal_force (N), force of the road along the wheel's heading; lateral_force (N), force of the
+ * road to the left; vertical_force (N), force of the road along its normal; aligning_moment (N m), moment about
+ * the road's normal; slip (1), longitudinal slip, positive when driven, between about -1 and 1; slip_angle (rad),
+ * direction of travel from the wheel's heading, positive to the left; deflection (m), radial deflection;
+ * loaded_radius (m), distance of the contact patch from the centre; contact_x (m), x of the contact point, earth;
+ * in the air of the road's nearest point in the wheel plane; contact_y (m), y of the contact point, earth; in the
+ * air of the road's nearest point in the wheel plane; contact_z (m), z of the contact point, earth; in the air of
+ * the road's nearest point in the wheel plane; inclination (rad), of the wheel plane from the road's normal,
+ * positive with the top right; normal_x (1), x of the road's unit normal at the contact point, earth, upwards;
+ * normal_y (1), y of the road's unit normal at the contact point, earth, upwards; normal_z (1), z of the road's
+ * unit normal at the contact point, earth, upwards; rolling_moment (N m), about the contact point: rolling
+ * resistance, and Fx by its lever */
+#ifndef ALI3_TYRE_FIELDS_H
+#define ALI3_TYRE_FIELDS_H
+#include "element.h"
+
+enum {
+  /* Free radius, m. */
+  TYRE_RADIUS,
+  /* Loaded radius below which the rim bears, m. */
+  TYRE_BOTTOMING_RADIUS,
+  /* Radial stiffness, N/m. */
+  TYRE_STIFFNESS,
+  /* Radial damping, N s/m; it sets in over the first 5 mm. */
+  TYRE_DAMPING,
+  /* Longitudinal force over longitudinal slip. */
+  TYRE_LONGITUDINAL,
+  /* Lateral force over lateral slip. */
+  TYRE_LATERAL = TYRE_LONGITUDINAL + 10,
+  /* Dynamic trail over contact length at zero slip, a ratio. */
+  TYRE_TRAIL = TYRE_LATERAL + 10,
+  /* Lateral slip where the trail first vanishes, a ratio. */
+  TYRE_TRAIL_ZERO = TYRE_TRAIL + 2,
+  /* Lateral slip where it ends, a ratio. */
+  TYRE_TRAIL_END = TYRE_TRAIL_ZERO + 2,
+  /* Longitudinal and lateral stiffness of the carcass, N/m. */
+  TYRE_CARCASS_STIFFNESS = TYRE_TRAIL_END + 2,
+  /* Longitudinal and lateral damping of the carcass, N s/m. */
+  TYRE_CARCASS_DAMPING = TYRE_CARCASS_STIFFNESS + 2,
+  /* Load at which the first number of each pair holds, N. */
+  TYRE_NOMINAL_LOAD = TYRE_CARCASS_DAMPING + 2,
+  /* Coefficient of friction of the road on which the curves hold. */
+  TYRE_REFERENCE_FRICTION,
+  /* Stiffness of the rim on the road, N/m. */
+  TYRE_BOTTOMING_STIFFNESS,
+  /* Multiple of the nominal load at which the curves are clamped. */
+  TYRE_MAX_LOAD_FACTOR,
+  /* Coefficient of rolling resistance. */
+  TYRE_ROLLING_RESISTANCE,
+  /* Multiplies the friction of the road. */
+  TYRE_FRICTION_FACTOR,
+  /* Camber thrust over cornering stiffness, a ratio: the lateral slip that has the force of a camber whose sine is
+   * 1. */
+  TYRE_CAMBER_SLIP,
+  TYRE_REALS
+};
+enum {
+  /* Torque against turning about the normal of the road. */
+  TYRE_BORE = TYRE_REALS,
+};
+enum {
+  TYRE_ROAD,
+  TYRE_WITH_BORE,
+  TYRE_INTEGERS
+};
+#ifndef ALI3_WIDTH
+static const ali3_field tyre_fields[] = {
+  {ALI3_IS_POSITIVE, "the radius of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the bottoming radius of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the stiffness of a tyre must be greater than zero"},
+  {ALI3_IS_NOT_NEGATIVE, "the damping of a tyre must not be negative"},
+  {ALI3_IS_POSITIVE, "the slope of the longitudinal curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the slope of the longitudinal curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the max force of the longitudinal curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the max force of the longitudinal curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the max slip of the longitudinal curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the max slip of the longitudinal curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the slide force of the longitudinal curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the slide force of the longitudinal curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the slide slip of the longitudinal curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the slide slip of the longitudinal curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the slope of the lateral curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the slope of the lateral curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the max force of the lateral curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the max force of the lateral curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the max slip of the lateral curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the max slip of the lateral curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the slide force of the lateral curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the slide force of the lateral curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the slide slip of the lateral curve of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the slide slip of the lateral curve of a tyre must be greater than zero"},
+  {ALI3_IS_ANY, ""},
+  {ALI3_IS_ANY, ""},
+  {ALI3_IS_POSITIVE, "the trail zero of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the trail zero of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the trail end of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the trail end of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the carcass stiffness of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the carcass stiffness of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the carcass damping of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the carcass damping of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the nominal load of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the reference friction of a tyre must be greater than zero"},
+  {ALI3_IS_NOT_NEGATIVE, "the bottoming stiffness of a tyre must not be negative"},
+  {ALI3_IS_POSITIVE, "the max load factor of a tyre must be greater than zero"},
+  {ALI3_IS_NOT_NEGATIVE, "the rolling resistance of a tyre must not be negative"},
+  {ALI3_IS_NOT_NEGATIVE, "the friction factor of a tyre must not be negative"},
+  {ALI3_IS_ANY, ""},
+  {ALI3_IS_POSITIVE, "the width of the bore torque of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the stiffness of the bore torque of a tyre must be greater than zero"},
+  {ALI3_IS_POSITIVE, "the damping of the bore torque of a tyre must be greater than zero"},
+};
+static const ali3_integer tyre_integers[] = {
+  {ALI3_OF_ROADS, 0, INT32_MAX, 0, 0, "the road of a tyre names a road that does not exist"},
+  {ALI3_OF_NUMBERS, 1, 1, 0, 0, "the with bore of a tyre must be 1"},
+};
+#define ALI3_TYRE \
+  .nsig = 7, .nreal = 41, .nreal_more = 3, .nint = 1, .nstate = 4, .nstate_more = 2, .nout = 16, \
+  .fields = tyre_fields, .nfields = 44, .integers = tyre_integers, .nintegers = TYRE_INTEGERS
+#endif
+#endif

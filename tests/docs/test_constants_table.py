@@ -1,0 +1,70 @@
+"""The numbers of the check of a run: those of the code are those of the page, all of them."""
+
+from __future__ import annotations
+
+import ast
+import re
+from importlib import import_module
+
+from tests.docs.test_documents import ROOT
+
+MODULES = {
+    "results": ("accuracy", "comparison", "convergence", "smooth_laws"),
+    "simulation": ("coarser_run", "fixed_steps", "refined_run", "controlled_pair", "tolerance_run"),
+}
+ELSEWHERE = (
+    ("simulation.march", "WATCHED"),
+    ("simulation.stepping", "FEWEST_CHECKED"),
+    ("settings.control", "ALLOWED"),
+)
+SOURCES = ("mbs/kernel/src/sensors/comparison.c", "fmu_src/native/src/half_steps.c")
+HEADER = ("ENERGY", "WRONG", "AGREED", "STILL", "MOST_PARTS", "EVENT_ORDER", "BALANCE_WRONG", "SUSPECT", "DOUBT_FROM")
+NOT_TUNED = {"comparison.c KINDS", "comparison.c PI"}
+WORTH = {"%": 0.01, "s": 1.0, "rad": 1.0, "": 1.0}
+
+
+def in_python() -> dict[str, float]:
+    """Names in capitals that a module gives a value with a number in it."""
+    found = {}
+    for room, names in MODULES.items():
+        for name in names:
+            module = import_module(f"mbs.{room}.{name}")
+            body = ast.parse((ROOT / "mbs" / room / f"{name}.py").read_text(encoding="utf-8")).body
+            for line in (line for line in body if isinstance(line, ast.Assign)):
+                given = [n.value for n in ast.walk(line.value) if isinstance(n, ast.Constant)]
+                targets = [n.id for t in line.targets for n in ast.walk(t) if isinstance(n, ast.Name)]
+                if not any(isinstance(n, int | float) for n in given):
+                    continue
+                values = {t: getattr(module, t) for t in targets}
+                found |= {f"{name} {t}": v for t, v in values.items() if isinstance(v, int | float)}
+    for place, name in ELSEWHERE:
+        found[f"{place.split('.')[1]} {name}"] = getattr(import_module(f"mbs.{place}"), name)
+    return found
+
+
+def in_c() -> dict[str, float]:
+    """Static constants and enumerators of a value, and the limits of the header that are the check's."""
+    found = {}
+    for source in SOURCES:
+        text = (ROOT / source).read_text(encoding="utf-8")
+        for line in re.findall(r"static const \w+ (.*?);|enum \{ (.*?) \}", text, re.DOTALL):
+            for name, value in re.findall(r"([A-Z_]+) = ([\d.e-]+)", "".join(line)):
+                found[f"{source.rsplit('/', 1)[1]} {name}"] = float(value)
+    header = (ROOT / "mbs/kernel/include/ali3.h").read_text(encoding="utf-8")
+    for name, value in re.findall(r"#define ALI3_(\w+) ([\d.e-]+)\b", header):
+        if name.endswith(HEADER) or name.startswith(HEADER):
+            found[f"ali3.h {name}"] = float(value)
+    return found
+
+
+def on_the_page() -> dict[str, float]:
+    page = (ROOT / "docs" / "accuracy.md").read_text(encoding="utf-8").split("## Numbers of the check")[1]
+    rows = re.findall(r"^\| ([\d.e-]+) ?(%|s|rad)? \| `([\w. ]+)` \|", page, re.MULTILINE)
+    return {name: float(number) * WORTH[unit] for number, unit, name in rows}
+
+
+def test_the_numbers_of_the_check_are_those_of_the_page() -> None:
+    code = {name: value for name, value in (in_python() | in_c()).items() if name not in NOT_TUNED}
+    page = on_the_page()
+    assert sorted(code) == sorted(page)
+    assert {name: round(value, 12) for name, value in page.items()} == {n: round(v, 12) for n, v in code.items()}
