@@ -161,7 +161,7 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
         connected(address) as client,
         Kept[StudyRow](folder, StudyRow, "measures a study") as kept,
     ):
-        kept.into(OutcomeTable(folder, plan.record, plan))
+        kept.into(OutcomeTable(folder, plan.record))
         runner = on_cluster(client, plan, trial, plan.runs)
         before, processor, started = me.memory_info().rss, sum(me.cpu_times()[:2]), time.perf_counter()
         made = experiment_of(plan.work, plan.fmu).results(

@@ -76,10 +76,9 @@ def drive(page: Any, shot: Shot) -> None:
         page.wait_for_timeout(1e3 * seconds)
         if key:
             page.keyboard.up(key)
-    for key in shot.acts:
+    for key in ("k", *shot.acts):  # the rates stand in the picture
         page.keyboard.press(key)
-    if shot.acts:
-        page.wait_for_timeout(1500)
+    page.wait_for_timeout(1500)
 
 
 def take(fmu: Path, shot: Shot, file: Path) -> dict[str, float]:

@@ -251,8 +251,7 @@ PARTS = {
         "fit the multibody car to the drive",
         lambda options: refit(options.car, *_log(options), options.bounds or BOUNDS),
         options=LOGGED | SOUGHT,
-        pages=(PAGE,),
-        blocks=lambda rows: {"fit": table(rows, FIT_COLUMNS)},
+        words=lambda rows: table(rows, FIT_COLUMNS),
         check=lambda rows, options: problems(rows),
     ),
     "margins": Part(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Set
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -38,18 +38,19 @@ def settings_of_test(test: StandardTest, given: Mapping[str, float]) -> dict[str
 
 
 def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float]) -> Reason | None:
-    """Why a test cannot be done with a car, from what its FMU tells; None if it can.
-
-    An entry ``a | b`` of what the test needs is there if one of its names is.
-    """
-    there = {*car.inputs, *car.outputs, *car.parameters, *car.constants}
-    missing = [need for need in test.needs if not there & set(_names(need))]
+    """Why a test cannot be done with a car, from what its FMU tells; None if it can."""
+    missing = lacking(test, {*car.inputs, *car.outputs, *car.parameters, *car.constants})
     if not missing:
         return test.why_not(car, settings)
     words = " and no ".join(" or ".join(_names(need)) for need in missing)
     told = [car.fmu.why_missing(name) for need in missing for name in _names(need)]
     hint = "where it has another name, an alias file says which (--aliases)."
     return f"The FMU {car.path.name} has no {words}; {' '.join(dict.fromkeys(filter(None, told))) or hint}"
+
+
+def lacking(test: StandardTest, there: Set[str]) -> list[str]:
+    """What of the needs of a test is not there; an entry ``a | b`` is if one of its names is."""
+    return [need for need in test.needs if not there & set(_names(need))]
 
 
 def _names(need: str) -> list[str]:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import ali3
 
-_PACKAGES = ("ali3", "distributed", "fmpy", "numpy", "pandas", "pyarrow", "scipy", "zarr")
+_PACKAGES = ("ali3", "distributed", "fmpy", "numpy", "pandas", "pyarrow", "scipy", "xarray")
 
 
 @cache

@@ -196,7 +196,7 @@ def _run(
     else:
         check_same(folder, record, plan.record)
         record = keep_limits(folder, record, plan.record["limits"], content)
-    kept.into(OutcomeTable(folder, record, plan))
+    kept.into(OutcomeTable(folder, record))
     if again:
         failed = forget_rows(folder, record, _has_not_failed)
         print(f"{failed} failed runs are made again")

@@ -12,7 +12,7 @@ import numpy as np
 from ali3.near_names import did_you_mean
 from ali3.reading import is_folder
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.perform import perform, settings_of_test
+from hosts.catalogue.perform import lacking, perform, settings_of_test
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.common.errors import HostError
@@ -72,11 +72,8 @@ def checked_test(name: str, given: Mapping[str, float], fmu: SimulatedFmu, where
         settings = settings_of_test(test, given)
     except HostError as error:
         raise HostError(f"{where}: {error}") from None
-    there = {*fmu.variables, *fmu.constants()}
-    for need in test.needs:
-        names = {name.strip() for name in need.split("|")}
-        if not names & there:
-            raise HostError(f"{where}: the test {test.name} needs {' or '.join(sorted(names))}, which the FMU has not.")
+    for need in lacking(test, {*fmu.variables, *fmu.constants()}):
+        raise HostError(f"{where}: the test {test.name} needs {need.replace(' | ', ' or ')}, which the FMU has not.")
     return test.name, settings
 
 

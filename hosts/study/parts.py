@@ -1,4 +1,4 @@
-"""The table of a study: parts in Parquet that are there whole or not at all."""
+"""The table of a study in parts, which are there whole or not at all, and beside each the signals of its runs."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ali3.files import whole_file
 from ali3.words import one_line
 from hosts.common.errors import HostError
 from hosts.common.parquet import opened_parquet
-from hosts.study.folder import RUNS, sync
+from hosts.study.folder import RUNS, SIGNALS, sync
 from hosts.study.work import MISSING, Outcome, Run, seed_of
 
 _TYPES = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.int64(), "Boolean": pa.bool_()}
@@ -34,6 +34,13 @@ def table_schema(record: Mapping[str, Any]) -> Any:
     fields += [("simulated", pa.float64()), ("wall_seconds", pa.float64())]
     made = [pa.field(name, kind, metadata={"unit": units[name]} if name in units else None) for name, kind in fields]
     return pa.schema(made, metadata={"PANDAS_ATTRS": json.dumps(attributes(record))})
+
+
+def signal_schema(record: Mapping[str, Any]) -> Any:
+    """Columns of the signals: the run, and its samples of each."""
+    names, units = record["signals"]["names"], record["units"]
+    fields = [pa.field(name, pa.list_(pa.float64()), metadata={"unit": units[name]}) for name in names]
+    return pa.schema([pa.field("index", pa.int64()), *fields])
 
 
 def attributes(record: Mapping[str, Any]) -> dict[str, Any]:
@@ -55,6 +62,11 @@ def part_files(folder: Path) -> list[Path]:
     return sorted((folder / RUNS).glob("part-*.parquet"))
 
 
+def signals_beside(part: Path) -> Path:
+    """Those of the runs of a part."""
+    return part.parent.with_name(SIGNALS) / part.name
+
+
 class DamagedPartError(HostError):
     """A part that is not as it was written: `file`, and why in `words`."""
 
@@ -65,7 +77,15 @@ class DamagedPartError(HostError):
 
 def read_part(file: Path, record: Mapping[str, Any]) -> Any:
     """The rows of a part, whose pages are held against their checksums. Raises `DamagedPartError`."""
-    schema = table_schema(record)
+    return _read(file, table_schema(record))
+
+
+def read_signals(part: Path, record: Mapping[str, Any]) -> Any:
+    """The signals beside a part, see `read_part`."""
+    return _read(signals_beside(part), signal_schema(record))
+
+
+def _read(file: Path, schema: Any) -> Any:
     try:
         with opened_parquet(file, checksums=True) as part:
             table = part.read()
@@ -124,6 +144,10 @@ class PartWriter:
         self._schema = table_schema(record)
         self._labels = [m["name"] for m in record["manoeuvres"]]
         self._rows: dict[str, list[Any]] = {name: [] for name in self._schema.names}
+        self._signals = signal_schema(record) if record["signals"] else None
+        self._samples: list[tuple[int, NDArray[np.float64]]] = []
+        self.bytes = 0
+        """Of signals that are kept for the next part."""
         files = part_files(folder)
         self._next = int(files[-1].stem.rpartition("-")[2]) + 1 if files else 1
 
@@ -149,16 +173,35 @@ class PartWriter:
             row[name] = str(value) if is_text else value
         for name, value in row.items():
             self._rows[name].append(value)
+        if self._signals is not None and outcome.signals is not None:
+            self._samples.append((run.index, outcome.signals))
+            self.bytes += outcome.signals.nbytes
 
     def flush(self) -> None:
-        """Write the kept rows as a part. Raises `FileError`: it cannot be written; the parts before it stay."""
+        """Write the kept rows as a part, after their signals, so that each row that is there has its own.
+
+        Raises `FileError`: it cannot be written; the parts before it stay.
+        """
         if not len(self):
             return
+        file = self._folder / RUNS / _NAME.format(self._next)
+        if self._signals is not None:
+            index = pa.array([index for index, _ in self._samples], pa.int64())
+            columns = [_lists([x[:, k] for _, x in self._samples]) for k in range(len(self._signals) - 1)]
+            write_part(pa.Table.from_arrays([index, *columns], schema=self._signals), signals_beside(file))
         arrays = [pa.array(self._rows[field.name], field.type, from_pandas=False) for field in self._schema]
-        write_part(pa.Table.from_arrays(arrays, schema=self._schema), self._folder / RUNS / _NAME.format(self._next))
+        write_part(pa.Table.from_arrays(arrays, schema=self._schema), file)
         self._next += 1
+        self._samples.clear()
+        self.bytes = 0
         for column in self._rows.values():
             column.clear()
+
+
+def _lists(rows: list[NDArray[np.float64]]) -> Any:
+    """A column of lists."""
+    ends = np.cumsum([0, *map(len, rows)], dtype=np.int32)
+    return pa.ListArray.from_arrays(pa.array(ends), pa.array(np.concatenate([np.zeros(0), *rows])))
 
 
 def write_part(table: Any, file: Path) -> None:

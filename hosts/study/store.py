@@ -6,16 +6,16 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pyarrow as pa
 import xarray as xr
 
 from hosts.common.errors import HostError
-from hosts.study.folder import RECORD, SIGNALS, read_record
-from hosts.study.parts import attributes, part_files, read_part, table_schema
+from hosts.study.folder import RECORD, read_record
+from hosts.study.parts import attributes, part_files, read_part, read_signals, table_schema
 
 if TYPE_CHECKING:
     import pandas as pd
-    import xarray as xr
 
 
 def study_record(folder: str | os.PathLike[str]) -> dict[str, Any]:
@@ -45,26 +45,40 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
 
 
 def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -> xr.Dataset:
-    """Signals of a manoeuvre, read from the disk as they are used. `manoeuvre`: may be left out where there is one.
+    """Signals of a manoeuvre. `manoeuvre`: may be left out where there is one.
 
     Result: dimensions ``point`` and ``time``; NaN where a run has not been made, and after one that ended early. The
     parameters are coordinates along ``point``, as far as runs have been made. Raises `HostError`: there are no signals
-    of it.
+    of it, or a file is damaged.
     """
-    found = sorted(path.stem for path in Path(folder, SIGNALS).glob("*.zarr"))
-    if not found:
-        study_record(folder)
+    record = study_record(folder)
+    if not record["signals"]:
         raise HostError(f"The study in {folder} has kept no signals; [signals] in its file asks for them.")
-    if manoeuvre is None and len(found) == 1:
-        manoeuvre = found[0]
-    if manoeuvre not in found:
-        raise HostError(f"Signals are of one manoeuvre; those in {folder} are {', '.join(found)}.")
-    data: xr.Dataset = xr.open_zarr(Path(folder, SIGNALS, f"{manoeuvre}.zarr"), consolidated=True)
+    driven = {m["name"]: (k, m["step"]) for k, m in enumerate(record["manoeuvres"]) if "test" not in m}
+    if manoeuvre is None and len(driven) == 1:
+        manoeuvre = next(iter(driven))
+    if manoeuvre not in driven:
+        raise HostError(f"Signals are of one manoeuvre; those in {folder} are {', '.join(driven)}.")
+    (number, step), each = driven[manoeuvre], len(record["manoeuvres"])
+    signals, units = record["signals"], record["units"]
+    found: dict[str, dict[int, np.ndarray]] = {name: {} for name in signals["names"]}
+    for file in part_files(Path(folder)):
+        there = {int(k) for k in read_part(file, record)["index"].to_numpy() if k % each == number}
+        table = read_signals(file, record)
+        for row, index in enumerate(table["index"].to_pylist()):
+            for name in signals["names"] if index in there else ():
+                found[name][index // each] = table[name][row].values.to_numpy()
+    samples = max((len(x) for rows in found.values() for x in rows.values()), default=0)
+    columns = {}
+    for name, rows in found.items():
+        values = np.full((record["points"], samples), np.nan)
+        for point, x in rows.items():
+            values[point] = x
+        columns[name] = (("point", "time"), values, {"units": units[name]})
+    time = ("time", round(signals["interval"] / step) * step * np.arange(samples), {"units": "s"})
+    coordinates: dict[str, Any] = {"time": time, "point": ("point", np.arange(record["points"]))}
     frame = read_study(folder)
-    rows = frame[frame["manoeuvre"] == manoeuvre].set_index("point").reindex(data["point"].to_numpy())
-    units = frame.attrs["units"]
-    for name in frame.attrs["parameters"]:
-        unit = {"units": units[name]} if name in units else {}
-        data = data.assign_coords({name: ("point", rows[name].to_numpy(), unit)})
-    data.attrs["units"] = units
-    return data
+    made = frame[frame["manoeuvre"] == manoeuvre].set_index("point").reindex(coordinates["point"][1])
+    for name in record["parameters"]:
+        coordinates[name] = ("point", made[name].to_numpy(), {"units": units[name]} if name in units else {})
+    return xr.Dataset(columns, coordinates, {**attributes(record), "manoeuvre": manoeuvre})

@@ -42,10 +42,10 @@ class EndStops:
     """k of the rebound stop, N/m."""
     bump_progression: NotNegative = 0.0
     """L of the bump stop, m."""
-    bump_travel: NotNegative = 0.0
-    """Compression of the bump stop at which metal meets metal, m."""
     rebound_progression: NotNegative = 0.0
     """L of the rebound stop, m."""
+    bump_travel: NotNegative = 0.0
+    """Compression of the bump stop at which metal meets metal, m."""
     rebound_travel: NotNegative = 0.0
     """Compression of the rebound stop at which metal meets metal, m."""
     metal_stiffness: NotNegative = 0.0

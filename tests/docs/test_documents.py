@@ -17,6 +17,7 @@ from benchmarks.car.variable_tables import blocks, tables
 from benchmarks.references.cases import CASES
 from fmu_src.build.scene_registry import load_scene
 from hosts.driving.manoeuvres import manoeuvre_names
+from mbs.kernel.header.limits import SYSTEM_VERSION
 from mbs.settings.settings import METHODS
 
 ROOT = Path(__file__).parents[2]
@@ -234,6 +235,11 @@ def test_theory_has_all_equations_from_1_to_25():
     table = THEORY.partition("## Equation of the paper")[2].partition("\n## ")[0]
     first_cells = " ".join(line.split("|")[1] for line in table.splitlines() if line.startswith("| ("))
     assert {int(n) for n in re.findall(r"\((\d+)\)", first_cells)} == set(range(1, 26))
+
+
+def test_the_page_of_the_system_file_has_its_version():
+    page = TEXTS[ROOT / "docs" / "system_file.md"]
+    assert re.findall(r"^\| version = (\d+) \|", page, re.MULTILINE) == [str(SYSTEM_VERSION)]
 
 
 def test_the_reference_has_every_public_name():

@@ -7,8 +7,13 @@ from typing import Any
 import numpy as np
 
 import mbs
-from mbs.elements import ContactPoints, CoordinateFriction, EndStops, PlaneRoad, PortRoad
+from benchmarks.methods.free_wheels import WHEELS
+from mbs.common.affine import Affine
+from mbs.elements import ContactPoints, CoordinateFriction, EndStops, GridRoad, PlaneRoad, PortRoad
 from mbs.model.records import Ahead
+from mbs.scenes import cart_pole
+from tests.elements.tyre_data import TYRE
+from tests.model.test_written_inertias import DRAWN, thrown_model
 
 
 def crane(mass: float = 2.0, name: str = "crane") -> mbs.Model:
@@ -382,3 +387,35 @@ def buffer(progression: float = 0.0) -> mbs.Model:
 def progressive_buffer() -> mbs.Model:
     """The same without a kink where the spring is met."""
     return buffer(0.05)
+
+
+def before_a_wall() -> mbs.Model:
+    """A block on one wheel that does not turn, 5 m before a wall of 1 m."""
+    m = mbs.Model("before_a_wall", gravity=(0.0, 0.0, -9.81))
+    m.floating = True
+    hub = (0.0, 0.0, TYRE.radius)
+    body = m.body("block", mass=200.0, com=hub, inertia=(50.0, 50.0, 50.0))
+    x = np.arange(-10.0, 40.0, 0.2)
+    road = GridRoad((-10.0, -10.0), (0.2, 5.0), np.repeat(np.where(x > 5.1, 1.0, 0.0)[:, None], 5, axis=1), 0.0)
+    m.add(TYRE.record("tyre", body.point(hub), body.vector((0.0, 1.0, 0.0)), Affine(), m.road(road)))
+    m.sense_position("block.x", body, component="x")
+    return m
+
+
+def thrown() -> mbs.Model:
+    """A body whose moments of inertia are parameters."""
+    return thrown_model(DRAWN, True)
+
+
+def fast_armature() -> mbs.Model:
+    """An armature that turns by 200 rad in 0.01 s."""
+    m = WHEELS["armature"](2e4).model
+    m.step, m.stop_time = 1e-3, 0.1
+    return m
+
+
+def fast_cart() -> mbs.Model:
+    """A cart with a pole that falls over, of which no step keeps the energy after 0.44 s."""
+    m = cart_pole.build()
+    m.step, m.stop_time = 1e-3, 0.3
+    return m

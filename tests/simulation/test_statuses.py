@@ -128,6 +128,48 @@ PYTHON: dict[Status, Cause_] = {
 }
 
 
+def by(method: str, system: System, h: float = 0.01) -> None:
+    Simulation(system, settings=Settings(method=method)).step(h, 10)
+
+
+def assembled(_: Path) -> None:
+    Simulation(system_of("pendulum")).restore(Simulation(system_of("pendulum")).save())
+
+
+def in_the_table(_: Path) -> None:
+    Simulation(compile(number_model(np.linspace(-0.5, 0.5, 9)))).step(0.001, 252)
+
+
+REMEDIES: dict[Status, Cause_] = {
+    Status.BAD_FILE: lambda _: LoadedSystem(compile(driven_four_bar(5.0)).to_bytes()),
+    Status.BAD_STATE: assembled,
+    Status.NOT_INITIALISED: lambda _: started(four_bar()).step(0.01),
+    Status.FIXED_PARAMETER: lambda _: Simulation(thrown(DRAWN, True), parameters={"mass": 1.0}).step(0.01),
+    Status.NOT_CONVERGED: lambda _: Simulation(
+        compile(driven_four_bar(5.0)), settings=Settings(max_iterations=1, max_halvings=0, method="energy_momentum")
+    ).step(1e-5, 2),
+    Status.WRONG_METHOD: lambda _: by("ali3p", car()),
+    Status.START_REFUSED: lambda _: Simulation(car(PlaneRoad()), pose=Pose(z=0.0)),
+    Status.UNRESOLVED: lambda _: Simulation(system_of("cart_pole")).step(1e-5, 50_000),
+    Status.NO_TREE: lambda _: by("ali3p", car()),
+    Status.TOO_STIFF: lambda _: [by(method, sliding(1.0, 5000.0), 0.1) for method in ("ali3p", "radau_5")],
+    Status.TOO_FAR: lambda _: Simulation(car(), pose=Pose(x=1e7)),
+    Status.NO_EQUILIBRIUM: lambda _: Simulation(compile(hanging()), parameters={"k": 90.0, "payload": 1.0}),
+    Status.TOO_DEAR: lambda _: Simulation(system_of("flyball"), settings=Settings(max_halvings=16)).step(0.001, 1000),
+    Status.BEYOND_TABLE: in_the_table,
+    Status.BAD_INERTIA: lambda _: Simulation(thrown(DRAWN, True), parameters={"xx": 0.35}),
+    Status.TURNS_TOO_FAR: lambda _: Simulation(
+        compile(WHEELS["armature"](60.0).model), settings=Settings(max_halvings=0)
+    ).step(0.005, 200),
+}
+"""What is refused above, done as its remedy says."""
+
+
+@pytest.mark.parametrize("status", REMEDIES, ids=lambda status: status.name)
+def test_its_remedy_helps(status: Status, tmp_path: Path) -> None:
+    REMEDIES[status](tmp_path)
+
+
 ELSEWHERE = {Status.BRANCH_CHANGED, Status.ROAD_LOST, Status.WHEEL_IN_ROAD, Status.BAD_NORMAL}
 """By tests/simulation/test_assembly_modes.py, tests/roads/test_road_file.py and test_steep_faces.py, and
 tests/vehicle/test_road_port.py."""

@@ -145,11 +145,10 @@ def test_figures_in_a_low_page_leave_the_middle_of_the_picture_free(live: Path, 
         page.set_viewport_size({"width": 800, "height": 450})
         open_file(page, live)
         words = "This machine does not keep up: 0.82 s of the run a second, 1 asked for."
-        page.evaluate("words => { document.querySelector('[data-a3=behind]').textContent = words; }", words)
         page.evaluate("words => { player.notices.flag('problem', words, { bad: true }); player.tell(words); }", words)
         figures, picture, notices = (
             page.evaluate("part => document.querySelector(part).getBoundingClientRect().toJSON()", part)
-            for part in (".a3-hud", "canvas", ".a3-notices")
+            for part in (".a3-timing", "canvas", ".a3-notices")
         )
     assert figures["right"] <= picture["left"] + 0.4 * picture["width"]
     assert figures["height"] <= 0.5 * picture["height"]

@@ -17,7 +17,7 @@ from tests.viewer.simulator_program import BEHIND, REFUSED, REPORT, RUNNING, Pro
 
 PLACES = [{"name": "start", "x": 0.0, "y": -60.0, "yaw": 0.0}, {"name": "hill_20", "x": 120.0, "y": 80.0, "yaw": 0.0}]
 WORLD = {"name": "here", "places": PLACES, "bounds": [-200.0, -200.0, 200.0, 200.0]}
-PARTS = ("bar", "steps", "tyres", "map inset", "cluster")
+PARTS = ("bar", "timing", "tyres", "map inset", "cluster")
 _BOXES = """names => Object.fromEntries(names.map(name => {
   const { left, top, right, bottom } = document.querySelector(`[data-a3="${name}"]`).getBoundingClientRect();
   return [name, [left, top, right, bottom]];
@@ -286,6 +286,8 @@ class TestOnePage:
 
     def test_instruments_show_the_numbers_of_the_frame(self, shared: Program, lane_change: Recording) -> None:
         shared.values = {"used.throttle": 0.25, "used.brake": 0.5, "used.selector": 1.0}
+        assert not shared.page.locator('[data-a3="step time"]').is_visible()
+        shared.page.keyboard.press("k")
         shown(shared, 5.0, RUNNING, cost=1e-3, worst=1.5e-3, missed=7)
         assert int(shared.text("speed")) == round(3.6 * at(lane_change, "speed", 5.0))
         assert shared.text("gear") == f"gear {at(lane_change, 'gear', 5.0):.0f}"
@@ -294,7 +296,7 @@ class TestOnePage:
         value = "name => player.cockpit.instruments.cluster._pedals.find(p => p.column === `used.${name}`).gauge.value"
         assert shared.page.evaluate(value, "throttle") == 0.25
         assert shared.page.evaluate(value, "brake") == 0.5
-        assert shared.ask("player.cockpit.steps._bar.value") == pytest.approx(0.5)
+        assert shared.ask("player.cockpit.timing._bar.value") == pytest.approx(0.5)
         assert "missed 7" in shared.text("missed")
         assert "1.00 ms of 2.00 ms" in shared.text("step time")
         wheels = ["FL", "FR", "RL", "RR"]

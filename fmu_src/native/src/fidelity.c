@@ -59,8 +59,8 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
     if (loaded->snapshot == NULL || loaded->start == NULL) status = ALI3_NO_MEMORY;
   }
   if (status != ALI3_OK) {
-    slave_say(s, SLAVE_ERROR, "The file %s was refused: %s%s%s.", file, ali3_status_text(status),
-              message[0] != 0 ? ": " : "", message);
+    slave_say(s, SLAVE_ERROR, "The file %s was refused: %s%s%s. %s", file, ali3_status_text(status),
+              message[0] != 0 ? ": " : "", message, ali3_status_remedy(status));
     slave_fidelity_free(s, loaded);
     return false;
   }

@@ -67,14 +67,14 @@ def test_a_damaged_file_is_told_and_its_runs_are_made_again(
     rows = read_study(folder).drop(columns="wall_seconds")
     samples = open_signals(folder)["bob.y"].to_numpy()
     assert np.isfinite(samples).all()
-    for name in ("runs/part-000001.parquet", "signals/fall.zarr/bob.y/0.0", "signals/fall.zarr/.zmetadata"):
+    for name in ("runs/part-000001.parquet", "signals/part-000001.parquet"):
         file = folder / name
         data = file.read_bytes()
         place = len(data) // 2
         if name.startswith("runs"):  # half of this small file is the names of the columns, which no row depends on
             start, stop = data_page(file)
             place = (start + stop) // 2
-        file.write_bytes(data.replace(b"<f8", b">f8") if name.endswith("metadata") else turned(data, 8 * place + 3))
+        file.write_bytes(turned(data, 8 * place + 3))
         with pytest.raises(HostError, match="is damaged .*; the same study, started again, makes its runs again"):
             write_report(folder)
         capfd.readouterr()

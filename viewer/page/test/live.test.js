@@ -4,13 +4,13 @@ import { Blend } from "../src/sources/blend.js";
 import { Engine, scriptAt } from "../src/live/engine.js";
 import { Gamepad, readSource, withDeadZone } from "../src/live/gamepad.js";
 import { Hand } from "../src/live/hand.js";
-import { paceWords } from "../src/live/hud.js";
+import { paceWords } from "../src/instruments/pace.js";
 import { Keyboard } from "../src/live/keyboard.js";
 import { Pacer } from "../src/live/pacer.js";
 import { choicesOf, fromSlider, rangeOf, toSlider } from "../src/live/ranges.js";
 import { between, Record } from "../src/live/record.js";
 import { movedRoads } from "../src/live/roads.js";
-import { missingParts } from "../src/live/unpack.js";
+import { missingParts } from "../src/bytes.js";
 import { Runner } from "../src/live/worker.js";
 
 test("a pacer keeps absolute deadlines: a late wake makes up for what it missed", () => {
@@ -30,7 +30,7 @@ test("a pacer tells a machine that does not keep up, and slow motion is none", (
   for (let n = 1; n <= 300; n++) pacer.reached(0.01 * n, Math.floor(0.4 * n)); // 0.4 of real time
   assert.ok(Math.abs(pacer.factor() - 0.4) < 0.02, String(pacer.factor()));
   assert.ok(pacer.slow > 0);
-  const words = { running: true, cost: 1e-4, step: 0.01 };
+  const words = { running: true };
   assert.match(paceWords({ ...words, speed: 1, factor: pacer.factor() }).warn, /does not keep up: 0\.40 s of the run a second, 1 asked/);
   assert.equal(paceWords({ ...words, speed: 0.1, factor: 0.1 }).warn, "");
   assert.match(paceWords({ ...words, speed: 0.1, factor: 0.1 }).text, /slow motion/);

@@ -5,7 +5,7 @@ import { Hands } from "../src/live/hands.js";
 import { Trailing } from "../src/scene/trailing.js";
 import { Beat, Frames } from "../src/sources/frames.js";
 import { Trail } from "../src/instruments/map.js";
-import { Factor } from "../src/simulator/steps.js";
+import { Factor } from "../src/sources/factor.js";
 import { Surfaces, frictionOf } from "../src/instruments/surfaces.js";
 import { useColour, wheelsOf } from "../src/instruments/tyres.js";
 import { besides } from "../src/instruments/map.js";

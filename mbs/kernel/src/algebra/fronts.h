@@ -9,8 +9,8 @@ static inline void ali3_add_lower(real *block, int32_t size, int32_t i, int32_t 
   block[i >= j ? (int64_t)j * size + i : (int64_t)i * size + j] += value;
 }
 
-ali3_status ali3_factorise(ali3_instance *in, real *F);
-void ali3_solve(ali3_instance *in, const real *F, real *b);
+ALI3_PER_WIDTH ali3_status ali3_factorise(ali3_instance *in, real *F);
+ALI3_PER_WIDTH void ali3_solve(ali3_instance *in, const real *F, real *b);
 void ali3_mirror(const ali3_instance *in, double *F);
 ali3_status ali3_factorise_lu(ali3_instance *in, int32_t width, double *F);
 void ali3_solve_lu(ali3_instance *in, int32_t width, const double *F, double *b);

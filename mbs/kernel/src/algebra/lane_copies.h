@@ -2,7 +2,7 @@
  * is transposed. */
 #ifndef ALI3_LANE_COPIES_H
 #define ALI3_LANE_COPIES_H
-#ifdef ALI3_LANED /* by kernels.h */
+#ifdef ALI3_WIDTH
 typedef real loose __attribute__((aligned(8)));
 
 /* Blocks of numbers of a and b, each as long as its distance, change places. */

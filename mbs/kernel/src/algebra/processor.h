@@ -3,6 +3,8 @@
 #define ALI3_PROCESSOR_H
 #include <stdint.h>
 
+#include "real.h"
+
 int32_t ali3_processor_lanes(void); /* numbers in the longest vectors that it has instructions for: 2, 4 or 8 */
 
 #define ALI3_INLINED static inline __attribute__((always_inline)) /* compiled apart where it is called */
@@ -16,6 +18,6 @@ int32_t ali3_processor_lanes(void); /* numbers in the longest vectors that it ha
   type ali3_##name declared { return (system)->has_avx2 ? name##_avx2 given : name given; }
 #else
 #define ALI3_BY_PROCESSOR(system, type, name, declared, given)                                                         \
-  type ali3_##name declared { return name given; }
+  ALI3_PER_WIDTH type ali3_##name declared { return name given; }
 #endif
 #endif

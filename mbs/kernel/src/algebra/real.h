@@ -16,6 +16,13 @@
 #define ALI3_BRANCHES_AS_WRITTEN
 #endif
 
+/* Before the declaration of a function that is compiled as it stands and once for each width: each width has its own. */
+#ifdef ALI3_WIDTH
+#define ALI3_PER_WIDTH static __attribute__((unused))
+#else
+#define ALI3_PER_WIDTH
+#endif
+
 #ifdef ALI3_WIDTH
 typedef double real __attribute__((vector_size(8 * ALI3_WIDTH)));
 typedef int64_t truth __attribute__((vector_size(8 * ALI3_WIDTH)));

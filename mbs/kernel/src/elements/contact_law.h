@@ -20,11 +20,11 @@ typedef struct {
 } ali3_contact_law;
 
 /* Conservative force; adds to *slope and *energy. 0 for x <= 0. */
-real ali3_contact_force(const ali3_contact_law *law, real x, real *slope, real *energy);
+ALI3_PER_WIDTH real ali3_contact_force(const ali3_contact_law *law, real x, real *slope, real *energy);
 
 /* Mean of the conservative force over x from x0 to x1: the difference quotient of its energy, free of cancellation. */
 double ali3_contact_mean(const ali3_contact_law *law, double x0, double x1);
 
 /* Factor of the force at the rate x', and d(factor)/d(rate). */
-real ali3_contact_loss(const ali3_contact_law *law, real rate, real *slope);
+ALI3_PER_WIDTH real ali3_contact_loss(const ali3_contact_law *law, real rate, real *slope);
 #endif

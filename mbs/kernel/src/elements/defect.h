@@ -8,7 +8,8 @@
 /* r = -wK (change of the forces of elements since the iterate, whose signals have the rates in->ud_at) - B' S times the
  * change of their signals to those of q and qd, S the tangents in F. Of positions far away differences lose digits, of
  * rates they do not. */
-void ali3_elements_defect(ali3_instance *in, double h, truth lanes, const real *q, const real *qd, real *r);
+ALI3_PER_WIDTH void ali3_elements_defect(ali3_instance *in, double h, truth lanes, const real *q, const real *qd,
+                                         real *r);
 
 /* Of one element, where its signals have the rates ud and its forces are f. */
 static inline void ali3_add_defect(const ali3_instance *in, int32_t e, const real *ud, const real *f, real *r) {

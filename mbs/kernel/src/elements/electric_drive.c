@@ -99,4 +99,7 @@ static void accept(ali3_element_args *a) {
 }
 
 const ali3_element_type ali3_electric_drive = {
-    ALI3_ELECTRIC_DRIVE, .evaluate = evaluate, .accept = accept,};
+    ALI3_ELECTRIC_DRIVE,
+    .evaluate = evaluate,
+    .accept = accept,
+};

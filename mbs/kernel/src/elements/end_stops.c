@@ -9,10 +9,9 @@
 static void laws(const real *p, int progressive, ali3_contact_law law[2]) {
   const real none = {0};
   for (int side = 0; side < 2; side++) {
-    const real *q = p + ALI3_PROGRESSION + 2 * side;
     law[side].stiffness = p[side ? ALI3_REBOUND_STIFFNESS : ALI3_BUMP_STIFFNESS];
-    law[side].progression = progressive ? q[0] : none;
-    law[side].end = progressive ? q[1] : none;
+    law[side].progression = progressive ? p[ALI3_PROGRESSION + side] : none;
+    law[side].end = progressive ? p[ALI3_STOP_TRAVEL + side] : none;
     law[side].hard_stiffness =
         progressive ? ali3_where(law[side].stiffness > 0.0, p[ALI3_METAL_STIFFNESS], none) : none;
     law[side].onset = progressive ? p[ALI3_METAL_ONSET] : none;

@@ -13,11 +13,11 @@ enum {
   ALI3_REBOUND_LENGTH,
   ALI3_REBOUND_STIFFNESS,
   ALI3_LINEAR_STOPS,
-  ALI3_PROGRESSION = ALI3_LINEAR_STOPS, /* progression and travel of bump, then of rebound */
-  ALI3_METAL_STIFFNESS = ALI3_PROGRESSION + 4,
+  ALI3_PROGRESSION = ALI3_LINEAR_STOPS, /* of bump, then of rebound, as travel and loss */
+  ALI3_STOP_TRAVEL = ALI3_PROGRESSION + 2,
+  ALI3_METAL_STIFFNESS = ALI3_STOP_TRAVEL + 2,
   ALI3_METAL_ONSET,
-  ALI3_STOP_LOSS, /* of bump, then of rebound */
-  ALI3_STOPS = ALI3_STOP_LOSS + 2
+  ALI3_STOP_LOSS
 };
 
 /* A tension in its parts, its slopes by length and rate, and the energy. */
@@ -29,7 +29,7 @@ typedef struct {
 } ali3_tension;
 
 /* Adds the stops at a length and its rate. */
-void ali3_end_stops_at(const real *p, int progressive, real length, real rate, ali3_tension *t);
+ALI3_PER_WIDTH void ali3_end_stops_at(const real *p, int progressive, real length, real rate, ali3_tension *t);
 
 /* Adds their mean over a step from length l0 to l1, with the slopes by the length and rate of its middle. */
 void ali3_end_stops_between(const double *p, int progressive, double l0, double l1, double rate, ali3_tension *t);

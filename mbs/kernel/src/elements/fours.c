@@ -3,7 +3,6 @@
 #include <xmmintrin.h>
 
 #define ALI3_WIDTH 4
-#define ALI3_JOINED(name, width) name##_fours_##width /* apart from those of instances side by side */
 #if defined(__clang__)
 #pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
 #else

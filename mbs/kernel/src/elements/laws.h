@@ -15,39 +15,16 @@
 #include "../instance.h"
 #include "lane_road.h"
 
-#ifndef ALI3_JOINED
-#define ALI3_JOINED(name, width) name##_lanes_##width
-#endif
-#define ALI3_OF_WIDTH(name, width) ALI3_JOINED(name, width)
-#define ALI3_LANED(name) ALI3_OF_WIDTH(name, ALI3_WIDTH)
-
-static inline real ALI3_LANED(tanh)(real x) {
+static inline real lane_tanh(real x) {
   for (int l = 0; l < ALI3_WIDTH; l++) x[l] = ali3_tanh(x[l]);
   return x;
 }
 
 #define ali3_road ali3_lane_road
-#define ali3_tanh ALI3_LANED(tanh)
-#define ali3_atan2 ALI3_LANED(atan2)
-#define ali3_road_contacts ALI3_LANED(road_contacts)
-#define ali3_contacts_by_numbers ALI3_LANED(contacts_by_numbers)
-#define ali3_half_space ALI3_LANED(half_space)
-#define ali3_tmeasy_at ALI3_LANED(tmeasy_at)
-#define ali3_tmeasy_pair_at ALI3_LANED(tmeasy_pair_at)
-#define ali3_tmeasy_secant ALI3_LANED(tmeasy_secant)
-#define ali3_tmeasy_trail ALI3_LANED(tmeasy_trail)
-#define ali3_tyre_axis ALI3_LANED(tyre_axis)
-#define ali3_tyre_radial ALI3_LANED(tyre_radial)
-#define ali3_tyre_axes ALI3_LANED(tyre_axes)
-#define ali3_tyre_moving ALI3_LANED(tyre_moving)
-#define ali3_tyre_velocities ALI3_LANED(tyre_velocities)
-#define ali3_tyre_outputs ALI3_LANED(tyre_outputs)
-#define ali3_tyre_bore_at ALI3_LANED(tyre_bore_at)
-#define ali3_tyre_bore_step ALI3_LANED(tyre_bore_step)
-#define ali3_tyre_semidefinite ALI3_LANED(tyre_semidefinite)
-#define ali3_end_stops_at ALI3_LANED(end_stops_at)
-#define ali3_contact_force ALI3_LANED(contact_force)
-#define ali3_contact_loss ALI3_LANED(contact_loss)
+static real lane_atan2(real y, real x);
+
+#define ali3_tanh lane_tanh
+#define ali3_atan2 lane_atan2
 
 #include "../algebra/inverse_tangent.c"
 #include "contact_law.c"

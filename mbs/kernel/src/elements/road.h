@@ -47,8 +47,8 @@ static inline ali3_contact ali3_no_contact(void) {
 /* Writes one or two contacts (also open ones, so that outputs stay continuous) and returns their number.
  * axis must be a unit vector. The distance is C1 in centre and axis; -penetration grows by cosine^-1 normal .
  * d(centre). */
-int ali3_road_contacts(const ali3_road *road, const real centre[3], const real axis[3], real radius,
-                       ali3_contact out[2]);
+ALI3_PER_WIDTH int ali3_road_contacts(const ali3_road *road, const real centre[3], const real axis[3], real radius,
+                                      ali3_contact out[2]);
 
 enum { ALI3_ROAD_INPUTS = 7 }; /* of an answer of a road at a port */
 

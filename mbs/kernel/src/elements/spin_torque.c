@@ -17,4 +17,7 @@ static void evaluate(ali3_element_args *a) {
 }
 
 const ali3_element_type ali3_spin_torque = {
-    ALI3_SPIN_TORQUE, .evaluate = evaluate, .conservative = true,};
+    ALI3_SPIN_TORQUE,
+    .evaluate = evaluate,
+    .conservative = true,
+};

@@ -16,16 +16,17 @@ typedef struct { /* both directions over the normalised slips n_i = s_i / scale_
 } ali3_tmeasy_pair;
 
 /* pairs: values at the nominal load and at twice of it of slope, max_force, max_slip, slide_force, slide_slip. */
-ali3_tmeasy ali3_tmeasy_at(const real pairs[10], real q, real friction_ratio);
+ALI3_PER_WIDTH ali3_tmeasy ali3_tmeasy_at(const real pairs[10], real q, real friction_ratio);
 
 /* Both directions at one load and friction. */
-ali3_tmeasy_pair ali3_tmeasy_pair_at(const real x_pairs[10], const real y_pairs[10], real q, real friction_ratio);
+ALI3_PER_WIDTH ali3_tmeasy_pair ali3_tmeasy_pair_at(const real x_pairs[10], const real y_pairs[10], real q,
+                                                    real friction_ratio);
 
 /* Secant F(s)/s of the generalised slip s = |n|, finite at s = 0, and its gradient by the normalised slips n; the force
  * is minus the secant times n. */
-real ali3_tmeasy_secant(const ali3_tmeasy_pair *t, const real n[2], real gradient[2]);
+ALI3_PER_WIDTH real ali3_tmeasy_secant(const ali3_tmeasy_pair *t, const real n[2], real gradient[2]);
 
 /* Dynamic trail over contact length at lateral slip s >= 0; pairs: value at s = 0, slip of the first zero, slip where
  * it ends (both slips grow with the friction ratio). */
-real ali3_tmeasy_trail(const real pairs[6], real q, real friction_ratio, real s);
+ALI3_PER_WIDTH real ali3_tmeasy_trail(const real pairs[6], real q, real friction_ratio, real s);
 #endif

@@ -99,7 +99,8 @@ static void carcass(ali3_element_args *a, const ali3_tyre_patch *contact, const 
       for (int j = 0; j < 2; j++) J[i][j] *= left;
     }
   }
-  ALI3_PIECE(&a->piece, loaded & (contact->load > p[TYRE_MAX_LOAD_FACTOR] * p[TYRE_NOMINAL_LOAD]), ALI3_TYRE_OVERLOADED);
+  ALI3_PIECE(&a->piece, loaded & (contact->load > p[TYRE_MAX_LOAD_FACTOR] * p[TYRE_NOMINAL_LOAD]),
+             ALI3_TYRE_OVERLOADED);
   for (int i = 0; i < 2; i++) {
     a->y_new[i] = a->y_old[i];
     a->y_new[2 + i] = (F[i] - offset[i]) / D[i];
@@ -126,7 +127,7 @@ static void evaluate(ali3_element_args *a) {
   const real *p = a->real, omega = a->ud[6];
   const real none = {0};
   const ali3_tyre_spring spring = {p[TYRE_RADIUS], p[TYRE_BOTTOMING_RADIUS], p[TYRE_STIFFNESS],
-                                   none,      p[TYRE_DAMPING],   p[TYRE_BOTTOMING_STIFFNESS]};
+                                   none,           p[TYRE_DAMPING],          p[TYRE_BOTTOMING_STIFFNESS]};
   real e[3], F[2], C[3], g[2];
   a->potential = none;
   ali3_tyre_axis(a->u + 3, e);
@@ -155,8 +156,8 @@ static void evaluate(ali3_element_args *a) {
   }
   if (bores) bore = ali3_tyre_bore_at(a, p + TYRE_BORE, n, e, length);
   carcass(a, &contact, v, w, F, C, g, bores ? &bore : 0);
-  a->potential +=
-      0.5 * (p[TYRE_CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] + p[TYRE_CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
+  a->potential += 0.5 * (p[TYRE_CARCASS_STIFFNESS] * a->y_new[0] * a->y_new[0] +
+                         p[TYRE_CARCASS_STIFFNESS + 1] * a->y_new[1] * a->y_new[1]);
   if (bores)
     a->potential += 0.5 * p[TYRE_BORE + ALI3_BORE_STIFFNESS] * a->y_new[ALI3_BORE_STATES] * a->y_new[ALI3_BORE_STATES];
   for (int k = 0; k < 7; k++) a->f[k] += F[0] * m.row[0][k] + F[1] * m.row[1][k];

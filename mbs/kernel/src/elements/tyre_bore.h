@@ -28,8 +28,8 @@ typedef struct {
 } ali3_tyre_bore;
 
 /* length: of the patch, m */
-ali3_tyre_bore ali3_tyre_bore_at(const ali3_element_args *a, const real *numbers, const real normal[3], const real e[3],
-                                 real length);
+ALI3_PER_WIDTH ali3_tyre_bore ali3_tyre_bore_at(const ali3_element_args *a, const real *numbers, const real normal[3],
+                                                const real e[3], real length);
 
 typedef struct { /* of the force beside the moment */
   real slope, most; /* cornering stiffness and largest lateral force, N */
@@ -39,5 +39,5 @@ typedef struct { /* of the force beside the moment */
 } ali3_tyre_held;
 
 /* One step: moment and new slots. Returns the share of F that is left. */
-real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_held *by);
+ALI3_PER_WIDTH real ali3_tyre_bore_step(ali3_element_args *a, ali3_tyre_bore *b, const ali3_tyre_held *by);
 #endif

@@ -46,28 +46,29 @@ typedef struct {
 } ali3_tyre_motion;
 
 /* Unit axis of a wheel: an iterate of the solver need not be a unit vector. */
-void ali3_tyre_axis(const real axis[3], real e[3]);
+ALI3_PER_WIDTH void ali3_tyre_axis(const real axis[3], real e[3]);
 
 /* Radial forces of all contacts: adds to f, S and potential, returns the mean patch. */
-ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const ali3_tyre_spring *spring);
+ALI3_PER_WIDTH ali3_tyre_patch ali3_tyre_radial(ali3_element_args *a, const real e[3], const ali3_tyre_spring *spring);
 
 /* Axes at the patch; velocities and rows follow when the slip radius is known. */
-ali3_tyre_motion ali3_tyre_axes(const ali3_tyre_patch *contact, const real e[3]);
+ALI3_PER_WIDTH ali3_tyre_motion ali3_tyre_axes(const ali3_tyre_patch *contact, const real e[3]);
 
 /* Share of the rolling tyre at a speed: 0 at rest, 1 from ALI3_TYRE_ROLLS on, with a continuous slope. */
-real ali3_tyre_moving(real speed);
+ALI3_PER_WIDTH real ali3_tyre_moving(real speed);
 
 /* `ratio`: slip radius over loaded radius. */
-void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3], real ratio,
-                          ali3_tyre_motion *m);
+ALI3_PER_WIDTH void ali3_tyre_velocities(const ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3],
+                                         real ratio, ali3_tyre_motion *m);
 
 /* The outputs that every tyre begins with, ALI3_TYRE_OUTPUTS in number; `resisting`: of rolling, about the axis. */
 enum { ALI3_TYRE_DEFLECTION = 6, ALI3_TYRE_OUTPUTS = 16 };
-void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3], const ali3_tyre_motion *m,
-                       real radius, real ratio, const real force[2], real moment, real resisting);
+ALI3_PER_WIDTH void ali3_tyre_outputs(ali3_element_args *a, const ali3_tyre_patch *contact, const real e[3],
+                                      const ali3_tyre_motion *m, real radius, real ratio, const real force[2],
+                                      real moment, real resisting);
 
 /* Nearest positive semidefinite matrix; C holds xx, xy, yy. */
-void ali3_tyre_semidefinite(real C[3]);
+ALI3_PER_WIDTH void ali3_tyre_semidefinite(real C[3]);
 
 /* Of an element whose first number is its radius and first integer its road. */
 double ali3_tyre_depth(const ali3_element_args *a, double raised, double *part);

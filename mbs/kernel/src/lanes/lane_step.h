@@ -3,7 +3,7 @@
  * again. What fails is told by group->good and made again from its instance. */
 #ifndef ALI3_LANE_STEP_H
 #define ALI3_LANE_STEP_H
-#ifdef ALI3_LANED /* by kernels.h */
+#ifdef ALI3_WIDTH
 #include "../methods/ali3p.h"
 #include "../methods/defect_correction.h"
 #include "../methods/energy_watch.h"

@@ -1,6 +1,7 @@
 /* Eight lanes. */
 #if defined(__x86_64__)
 #define ALI3_WIDTH 8
+#define ALI3_CODE ali3_code_lanes_8
 #define ALI3_INSTRUCTIONS "avx512f,avx512dq,avx512vl"
 #if !defined(__clang__)
 #pragma GCC target("avx512f,avx512dq,avx512vl")

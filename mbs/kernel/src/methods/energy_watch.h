@@ -5,9 +5,9 @@
 #include "../instance.h"
 #include "request.h"
 
-real ali3_constraint_work(ali3_instance *in, double h, real *guides);
-real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *guides);
-real ali3_energy_size(const ali3_instance *in, double h, real kinetic);
+ALI3_PER_WIDTH real ali3_constraint_work(ali3_instance *in, double h, real *guides);
+ALI3_PER_WIDTH real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *guides);
+ALI3_PER_WIDTH real ali3_energy_size(const ali3_instance *in, double h, real kinetic);
 ali3_status ali3_energy_judge(ali3_instance *in, const ali3_request *request, double error, double size, double end,
                               double open, const double *weight);
 ali3_status ali3_energy_watch(ali3_instance *in, const ali3_request *request, double error, double kinetic, double end,

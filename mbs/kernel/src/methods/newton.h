@@ -10,5 +10,5 @@ double ali3_penalty(const ali3_instance *in, double h);
 bool ali3_judge(ali3_instance *in, const double *r);
 ali3_status ali3_newton_ended(const ali3_instance *in, ali3_status status);
 void ali3_iterations_since(ali3_instance *in, int64_t before);
-void ali3_accelerate(ali3_instance *in, truth mixes);
+ALI3_PER_WIDTH void ali3_accelerate(ali3_instance *in, truth mixes);
 #endif

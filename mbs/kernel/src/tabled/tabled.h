@@ -95,17 +95,18 @@ struct ali3_tabled_parameter_work {
   real own[12], turned[12]; /* sum of T J dT'/dp along Y, along the axes of the earth */
 };
 
-void ali3_tabled_table(const ali3_system *S, const ali3_tabled *c, real a, real b,
-                       real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]);
-void ali3_tabled_prepare(const ali3_instance *in, const real *q);
+ALI3_PER_WIDTH void ali3_tabled_table(const ali3_system *S, const ali3_tabled *c, real a, real b,
+                                      real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]);
+ALI3_PER_WIDTH void ali3_tabled_prepare(const ali3_instance *in, const real *q);
 /* in->extended[0 .. 2]: q, qd, qdd (NULL: left) with the dependents behind them, all or those that elements see;
  * prepared at q. */
-void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, const real *qdd, bool all);
+ALI3_PER_WIDTH void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, const real *qdd,
+                                       bool all);
 /* X of a change D of coordinates that ends where was prepared, behind D in in->extended[0]: to second order, of vectors
  * that elements see. */
-void ali3_tabled_way(const ali3_instance *in, const real *D);
+ALI3_PER_WIDTH void ali3_tabled_way(const ali3_instance *in, const real *D);
 /* Q of the forces on coordinates and dependents in in->extended_force, with weight and inertia. */
-void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q);
+ALI3_PER_WIDTH void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q);
 
 static inline bool ali3_tabled_heavy(const ali3_tabled *c) { return c->n == ALI3_TABLED_BODY && c->mass[0] > 0.0; }
 /* out (3) = Y t. */
@@ -113,14 +114,14 @@ static inline void ali3_tabled_turn(const real *restrict Y, const real *restrict
   for (int x = 0; x < 3; x++) out[x] = Y[x] * t[0] + Y[3 + x] * t[1] + Y[6 + x] * t[2];
 }
 /* Moments of a body times four vectors; `m`: mass, first (3), second xx, yy, zz, yz, zx, xy. */
-void ali3_tabled_moments(const double *m, const real *x, real *out);
-void ali3_tabled_add_inertia(const ali3_instance *in, const ali3_tabled *c, ali3_tabled_work *w);
-void ali3_tabled_mass_times(const ali3_instance *in, const real *x, real *out);
+ALI3_PER_WIDTH void ali3_tabled_moments(const double *m, const real *x, real *out);
+ALI3_PER_WIDTH void ali3_tabled_add_inertia(const ali3_instance *in, const ali3_tabled *c, ali3_tabled_work *w);
+ALI3_PER_WIDTH void ali3_tabled_mass_times(const ali3_instance *in, const real *x, real *out);
 /* Adds weight and -B' M_X Bd qd to Q. */
-void ali3_tabled_inertia_forces(const ali3_instance *in, const real *qd, real *Q);
+ALI3_PER_WIDTH void ali3_tabled_inertia_forces(const ali3_instance *in, const real *qd, real *Q);
 double ali3_tabled_gravity(const ali3_instance *in, const double *q);
 /* Adds what rates change in both energies beside M qdd and the constant weight. */
 void ali3_tabled_power(const ali3_instance *in, const double *qd, double *kinetic, double *gravity);
-void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, real *F);
-void ali3_tabled_elements_tangent(ali3_instance *in, real *F);
+ALI3_PER_WIDTH void ali3_tabled_tangent(const ali3_instance *in, double wM, double wK, real *F);
+ALI3_PER_WIDTH void ali3_tabled_elements_tangent(ali3_instance *in, real *F);
 #endif

@@ -4,13 +4,13 @@ import { DRIVING_WORDS } from "../common/key_table.js";
 import { instead } from "../common/notices.js";
 import { Shell } from "../shell/shell.js";
 import { decoded } from "../sources/decode.js";
-import { Hands, HANDS_MS } from "./hands.js";
-import { gamepadPanel, inputPanel, parameterPanel } from "./panel.js";
+import { Hands } from "./hands.js";
+import { inputPanel, parameterPanel } from "./panel.js";
 import { Session } from "../sources/fmu.js";
 import { Stage } from "./stage.js";
 import { levers } from "./touch.js";
 import { Sampler } from "../sources/sampler.js";
-import { missingParts, unpack, unpackedJson } from "./unpack.js";
+import { missingParts, unpack, unpackedJson } from "../bytes.js";
 
 const ACTS = ["steering", "throttle", "brake"];
 const PLOTTED = ["speed", "chassis.ay", "engine_speed", "motor_speed"];
@@ -104,7 +104,7 @@ class Drive extends Shell {
   async set(name, value) {
     if (this.inputs.some((v) => v.name === name)) {
       this.hands.hold(name);
-      return this.session.want([[name, Number(value)]]);
+      return this.session.want("slider", [[name, Number(value)]]);
     }
     const restarted = await this.session.set(name, value);
     if (restarted) this.tell(`The run began again with ${name} = ${value}.`);
@@ -129,7 +129,7 @@ class Drive extends Shell {
     const { session } = this;
     const { running, speed, step, pace } = session;
     this.stage.survey(session.range);
-    this.stage.show(session.time, { running, speed, step, factor: pace.factor, cost: pace.cost });
+    this.stage.show(session.time, { running, speed, factor: pace.factor, cost: pace.cost, deadline: step / speed });
     this.stage.render();
     this._showPanel();
   }
@@ -137,7 +137,6 @@ class Drive extends Shell {
   /** Take everything out of the page. */
   dispose() {
     this._ended = true;
-    clearInterval(this._asking);
     this.session?.close();
     this.stage?.dispose();
     super.dispose();
@@ -183,8 +182,8 @@ class Drive extends Shell {
     this.draw();
     this._drawn = NaN; // what the last picture showed
     this._ran = false;
-    this._listen();
-    this._asking = setInterval(() => this._poll(), HANDS_MS);
+    const pads = this.driven(this.hands, this.inputs.map((v) => v.name));
+    if (this.inputs.length) this.parameters.element.after(pads);
     this._frame();
     if (this.options.run !== false) await this.run(this.options.speed ?? 1);
   }
@@ -198,11 +197,11 @@ class Drive extends Shell {
     this.hands = new Hands({
       inputs: names,
       constants: this.isCar ? Object.fromEntries(constants.map((v) => [v.name, Number(v.start)])) : null,
-      want: (source, wants) => session.want(wants),
+      want: (source, wants) => session.want(source, wants),
     });
     const want = (name, value) => {
       this.hands.hold(name);
-      session.want([[name, value]]);
+      session.want("slider", [[name, value]]);
     };
     const follows = this.script ? `Inputs follow a table of ${short(this.script.t.at(-1))} s until a hand moves them. ` : "";
     const largest = (name) => Math.max(0, ...(this.script?.columns[name] ?? []).map(Math.abs));
@@ -212,8 +211,7 @@ class Drive extends Shell {
     const parameters = [...session.variables.values()].filter(settable);
     const roads = Object.keys(first.resources).filter((path) => path.startsWith("roads/")).map((path) => path.slice(6));
     this.parameters = parameterPanel(parameters, { set: (v, value) => this._setSoon(v, value), roads });
-    this.gamepadPanel = gamepadPanel(this.hands.gamepad, names);
-    this.sideBox.append(this.inputPanel.element, this.parameters.element, ...(names.length ? [this.gamepadPanel.element] : []));
+    this.sideBox.append(this.inputPanel.element, this.parameters.element);
     if (this.isCar) {
       this.viewBox.append(levers(names, want));
       this.root.classList.toggle("a3-touching", matchMedia("(pointer: coarse)").matches);
@@ -230,9 +228,10 @@ class Drive extends Shell {
     const instruments = this.stage.parts.map((part) => part.instruments).filter(Boolean);
     const more = {
       csv: () => this._download(),
+      costs: () => this.stage.parts.forEach(({ timing }) => timing.toggle()),
       ...(instruments.length ? { instruments: () => instruments.forEach((one) => one.toggle()) } : {}),
     };
-    const driven = this.isCar ? (event) => this.hands.key(event, this.get("speed")) : undefined;
+    const driven = this.isCar ? (event) => this.hands.key(event, this.driverSpeed) : undefined;
     this.controls(session, more, { places: Object.keys(this.options.places ?? {}), steps, step: session.step }, driven);
     const camera = this.options.camera ?? (this.isCar ? "chase" : "");
     if (this.cameras.includes(camera)) this.camera(camera);
@@ -281,24 +280,19 @@ class Drive extends Shell {
     this.notices.flag("problem", sentence, { bad: true });
   }
 
-  _listen() {
-    const { signal } = this.listeners;
-    const once = () => this.stage.sound();
-    for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, once, { signal, once: true });
-    window.addEventListener("blur", () => this.hands.letKeysGo(), { signal });
-    document.addEventListener("visibilitychange", () => this._hidden(), { signal });
+  get driverSpeed() {
+    return this.get("speed");
+  }
+
+  sound() {
+    this.stage.sound();
   }
 
   /** A page that is not seen does not run: it says so when it is seen again. */
-  _hidden() {
-    if (!document.hidden || !this.session.running) return;
+  unseen() {
+    if (!this.session.running) return;
     this.pause();
     this.notices.flag("hidden", "Paused, because the page was not on the screen.");
-  }
-
-  _poll() {
-    if (this.hands.poll(this.get("speed")).changed) this.gamepadPanel.fill();
-    this.gamepadPanel.show();
   }
 
   _frame() {

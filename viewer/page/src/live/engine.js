@@ -1,4 +1,5 @@
 // FMUs of one page, stepped side by side with the same inputs; saved states to go back to. Knows no page.
+import { place } from "../sources/sampler.js";
 import { Hand } from "./hand.js";
 
 /** Simulated time between saved states, s. */
@@ -41,17 +42,12 @@ function writer(slave, { name, type }) {
  * @returns {Object<string, number>}
  */
 export function scriptAt({ t, columns }, time, whole = new Set()) {
-  let [low, high] = [0, t.length]; // the first row that is later
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (t[middle] > time + 1e-9) high = middle;
-    else low = middle + 1;
-  }
-  const k = Math.min(Math.max(low, 1), t.length - 1);
-  const s = low === 0 ? 0 : low === t.length ? 1 : Math.max(time - t[k - 1], 0) / (t[k] - t[k - 1]);
+  const [k] = place(t, time + 1e-9);
+  const next = Math.min(k + 1, t.length - 1);
+  const s = next === k ? 1 : Math.max(time - t[k], 0) / (t[next] - t[k]);
   const found = {};
   for (const [name, values] of Object.entries(columns)) {
-    const [a, b] = t.length > 1 ? [values[k - 1], values[k]] : [values[0], values[0]];
+    const [a, b] = [values[k], values[next]];
     found[name] = s === 1 ? b : whole.has(name) ? a : a + s * (b - a);
   }
   return found;

@@ -1,9 +1,8 @@
 // Holds a simulation to a clock by absolute deadlines: what is late is made up for, what cannot be is told.
+import { Factor } from "../sources/factor.js";
 
 /** Lag beyond which it is not made up for, s of the clock. */
 const LAG_MOST = 0.25;
-/** Span over which the factor is measured, s of the clock. */
-const SPAN = 1.0;
 
 /** Steps that are due by a clock. */
 export class Pacer {
@@ -13,7 +12,7 @@ export class Pacer {
     this.speed = 1;
     this.running = false;
     this.slow = 0;
-    this._marks = [];
+    this._factors = new Factor();
   }
 
   /**
@@ -26,14 +25,15 @@ export class Pacer {
     this.running = true;
     this.speed = speed;
     this._anchor(now, k);
-    this._marks = [[now, k]];
+    this._factors = new Factor();
+    this._mark(now, k);
     this.slow = 0;
   }
 
   /** Time stands. */
   stop() {
     this.running = false;
-    this._marks = [];
+    this._factor = null;
     this.slow = 0;
   }
 
@@ -59,16 +59,16 @@ export class Pacer {
       this._anchor(now, k);
       this.slow += 1;
     }
-    this._marks.push([now, k]);
-    while (this._marks.length > 2 && now - this._marks[1][0] >= SPAN) this._marks.shift();
+    this._mark(now, k);
   }
 
   /** Simulated seconds per second of the clock over the last second; null while it is too short to tell. */
   factor() {
-    if (this._marks.length < 2) return null;
-    const [t0, k0] = this._marks[0];
-    const [t1, k1] = this._marks[this._marks.length - 1];
-    return t1 - t0 < 0.5 * SPAN ? null : ((k1 - k0) * this.step) / (t1 - t0);
+    return this._factor ?? null;
+  }
+
+  _mark(now, k) {
+    this._factor = this._factors.add({ running: true, speed: this.speed, time: k * this.step, wall: now });
   }
 
   _anchor(now, k) {

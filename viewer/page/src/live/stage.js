@@ -3,7 +3,7 @@ import { SceneView } from "../scene/scene_view.js";
 import { Effects } from "../effects/driven.js";
 import { el } from "../common/dom.js";
 import { Instruments } from "../instruments/index.js";
-import { Hud } from "./hud.js";
+import { Timing } from "../instruments/timing.js";
 import { movedRoads } from "./roads.js";
 
 /** Instants of a run that are looked at. */
@@ -28,13 +28,13 @@ export class Stage {
     /** @type {Data[]} one for each item: what it has, the elements, and what is made of them */
     this.parts = items.map((item) => {
       const holder = el("div.a3-picture");
-      const hud = new Hud(item.title);
+      const timing = new Timing(item.title);
       const names = new Set(item.variables ? [...item.variables].filter(([, v]) => v.causality === "output").map(([name]) => name) : Object.keys(item.recording?.columns ?? {}));
       const fixed = (name) => item.variables?.get(name)?.start;
       const instruments = Instruments.of(names) ? new Instruments(names, { scene: item.scene, fixed }) : null;
-      const element = el("div.a3-view", {}, holder, ...(instruments ? [instruments.layer()] : []), hud.element);
+      const element = el("div.a3-view", {}, holder, ...(instruments ? [instruments.layer()] : []), timing.element);
       box.append(element);
-      return { ...item, holder, hud, instruments, element };
+      return { ...item, holder, timing, instruments, element };
     });
     this._options = { driven: !options.keep, onMessage: (sentence) => notices.note(sentence), ...options };
   }
@@ -125,7 +125,8 @@ export class Stage {
       part.view.update(lookup);
       part.effects?.update(lookup, time, this._epoch);
       const end = part.recording ? part.recording.t[part.recording.t.length - 1] : Infinity;
-      part.hud.show(Math.min(time, end), part.recording ? null : pace);
+      const warn = part.timing.show(Math.min(time, end), part.recording ? null : pace);
+      if (!part.recording) this._notices.flag("behind", warn, { bad: true });
       part.instruments?.show(lookup);
       if (part.recording?.end) this._notices.flag(`end ${part.title}`, time > end ? `${part.title}: ${part.recording.end}` : "");
     }

@@ -11,6 +11,8 @@ const DOT = "position:absolute;width:9px;height:9px;margin:-4.5px;border-radius:
 const WORDS = "position:absolute;width:max-content;max-width:15em;background:#ffffffe0;border-radius:3px;padding:0 5px;font-variant-numeric:tabular-nums";
 /** Where the words stand beside their place: the largest stress stands above gauges that are near. */
 const BESIDE = { gauge: "top:-9px", most: "bottom:12px", picked: "top:10px" };
+/** Words find place between their dot and the border of the picture if it is so wide, pixels. */
+const WIDE = 190;
 /** A press that moves the mouse farther than this turns the camera, pixels. */
 const STILL = 4;
 /** Lines of what was clicked at most. */
@@ -107,8 +109,9 @@ export class Marks {
       }
       const { box, words } = this._made.get(key);
       write(words, text);
-      const outward = pixel[0] < this.view.size[0] / 2 ? ["auto", "8px"] : ["8px", "auto"]; // so that few lie over each other
-      [words.style.left, words.style.right] = outward;
+      const [before, behind] = [pixel[0], this.view.size[0] - pixel[0]];
+      const outward = Math.min(before, behind) > WIDE; // so that few lie over each other
+      [words.style.left, words.style.right] = before < behind === outward ? ["auto", "8px"] : ["8px", "auto"];
       box.style.transform = `translate(${pixel[0].toFixed(1)}px, ${pixel[1].toFixed(1)}px)`;
     }
     for (const [key, { box }] of this._made) {

@@ -1,10 +1,11 @@
 // The shell of every page: pictures of a source of numbers, what stands beside them, the bar below, settings, keys.
 import { el } from "../common/dom.js";
-import { fullScreen } from "../common/full_screen.js";
 import { Help } from "../common/help.js";
 import { keys } from "../common/keys.js";
 import { Notices } from "../common/notices.js";
 import { cameraActs } from "../common/views.js";
+import { HANDS_MS } from "../live/hands.js";
+import { gamepadPanel } from "../live/panel.js";
 import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
 import { Plots } from "./plots.js";
@@ -104,7 +105,7 @@ export class Shell {
       settings: () => this.settings.toggle(),
       help: () => this.help.toggle(),
       close: () => (this.settings.toggle(false), this.help.toggle(false)),
-      "full screen": () => fullScreen(this.root),
+      "full screen": () => this._fullScreen(),
       ...(drive ? { levers: () => this.root.classList.toggle("a3-touching"), mute: () => this.mute(!this.muted) } : {}),
       ...more,
     };
@@ -116,6 +117,52 @@ export class Shell {
     this.help = new Help(Object.keys(this.acts), drive !== undefined);
     this.root.append(this.help.element);
     keys({ acts: this.acts, first: drive, signal: this.listeners.signal });
+  }
+
+  /**
+   * Keys and a gamepad drive from now on. Those who extend this have `driverSpeed`, `sound` and `unseen`.
+   * @param {import("../live/hands.js").Hands} hands @param {string[]} inputs @returns {HTMLElement} the panel of the gamepad
+   */
+  driven(hands, inputs) {
+    this.hands = hands;
+    this._gamepad = gamepadPanel(hands.gamepad, inputs);
+    const { signal } = this.listeners;
+    for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, () => this._touch(), { signal });
+    window.addEventListener("blur", () => hands.letKeysGo(), { signal });
+    document.addEventListener("visibilitychange", () => document.hidden && this.unseen(), { signal });
+    this._asking = setInterval(() => this.poll(), HANDS_MS);
+    return this._gamepad.element;
+  }
+
+  /** Sound begins with the first touch of the page, as browsers want it. */
+  _touch() {
+    if (this._touched) return;
+    this._touched = true;
+    this.sound();
+  }
+
+  /** Look at the hands, by a clock of their own. */
+  poll() {
+    const { changed, lost } = this.hands.poll(this.driverSpeed);
+    if (lost) this.tell("The gamepad is gone: its pedals and steering are let go.");
+    if (changed) this._gamepad.fill();
+    this._gamepad.show();
+  }
+
+  /** Speed of the car that is driven, m/s. */
+  get driverSpeed() {
+    return 0;
+  }
+
+  /** Sound may begin. */
+  sound() {}
+
+  /** Nobody sees the page any more. */
+  unseen() {}
+
+  _fullScreen() {
+    if (document.fullscreenElement) document.exitFullscreen();
+    else this.root.requestFullscreen?.().catch(() => {}); // a browser may refuse it, as in a frame
   }
 
   /** A hand on a picture changes it. @param {HTMLElement} box */
@@ -185,6 +232,7 @@ export class Shell {
 
   dispose() {
     this.listeners.abort();
+    clearInterval(this._asking);
     this.observer.disconnect();
     this.plots?.dispose();
     this.dark.onchange = null;

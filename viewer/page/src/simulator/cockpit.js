@@ -1,22 +1,23 @@
 // Everything that one car's page shows and takes: picture, instruments, hands, what the program says.
-import { el } from "../common/dom.js";
+import { el, short } from "../common/dom.js";
 import { Effects } from "../effects/driven.js";
-import { Hands, HANDS_MS } from "../live/hands.js";
-import { gamepadPanel, section } from "../live/panel.js";
+import { Hands } from "../live/hands.js";
+import { section } from "../live/panel.js";
 import { levers } from "../live/touch.js";
 import { Instruments } from "../instruments/index.js";
 import { WorldMap } from "../instruments/map.js";
+import { Timing } from "../instruments/timing.js";
 import { SceneView } from "../scene/scene_view.js";
 import { Shell } from "../shell/shell.js";
+import { Factor } from "../sources/factor.js";
 import { Beat } from "../sources/frames.js";
 import { Socket } from "../sources/socket.js";
 import { CalibrationPanel } from "./calibration.js";
 import { readByHost } from "./device_words.js";
 import { Report } from "./report.js";
-import { Steps } from "./steps.js";
 
-/** Least time between two drawings of the report on time, s. */
-const STEPS_EVERY = 0.1;
+/** Least time between two drawings of the figures of time, s. */
+const TIMED_EVERY = 0.1;
 /** Cameras that come first; those of wheels and the map come last. */
 const FIRST = ["chase", "driver", "orbit"];
 /** The picture stands higher by this share, since instruments are below. */
@@ -50,8 +51,6 @@ export class Cockpit extends Shell {
     this._layOut(hello.description?.variables ?? []);
     this._open(scene);
     this._controls(world);
-    this._listen();
-    this._asking = setInterval(() => this._poll(), HANDS_MS);
   }
 
   get views() {
@@ -65,11 +64,11 @@ export class Cockpit extends Shell {
     return { drawn: this._beat.rate, size, longest: this._beat.longest, received: frames.rate, delay: frames.delay, stalled: this._stalled ?? 0 };
   }
 
-  /** A frame has come. @param {Data} frame */
+  /** A frame has come. @param {any} frame As `readFrame` has it. */
   add(frame) {
     const restarted = this.source.add(frame, this._clock());
     this.notices.flag("lost", "");
-    this.steps.add(frame);
+    this._factor = this._factors.add(frame);
     // A frame from before the refusal may come after its sentence, and does not answer it.
     if (!frame.refused && (restarted || frame.time > this._refusal.time)) this._refusal = { time: Infinity, text: "" };
     if (!restarted) return;
@@ -123,7 +122,6 @@ export class Cockpit extends Shell {
 
   /** Take listeners and the picture away. */
   dispose() {
-    clearInterval(this._asking);
     this.effects.dispose();
     this.view.dispose();
     super.dispose();
@@ -136,17 +134,18 @@ export class Cockpit extends Shell {
     const constants = inputs.includes("steering") ? (hello.constants ?? {}) : null;
     const pads = () => [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad && !readByHost(pad.id, this._hosts));
     this.hands = new Hands({ inputs, constants, pads, want });
-    this.steps = new Steps(hello.step);
-    this._touched = new Set();
+    this.timing = new Timing();
+    this._factors = new Factor();
+    this._pulled = new Set(); // levers that are held
     this.levers = levers(inputs, (name, value) => {
-      this._touched[value ? "add" : "delete"](name);
+      this._pulled[value ? "add" : "delete"](name);
       want("touch", [[name, value]]);
     });
     this._picture = el("div.a3-view");
     this.map = new WorldMap(this.plan, { whole: true, go: (place) => this.acts.place(place.name), free: () => this._freeOfFigures() });
     this.map.element.hidden = true;
     const { cluster, tyres, inset } = this.instruments;
-    this._side = el("div.a3-left", {}, this.steps.element, tyres.element);
+    this._side = el("div.a3-left", {}, this.timing.element, tyres.element);
     this.viewBox.append(this._picture, this.map.element, this._side, inset.element, cluster.element, this.levers);
     this._inputs = inputs;
   }
@@ -177,13 +176,12 @@ export class Cockpit extends Shell {
     const send = (message) => link.send(message);
     this._devices = new CalibrationPanel({ send });
     this.report = new Report(() => send({ type: "report" }));
-    this.gamepadPanel = gamepadPanel(this.hands.gamepad, this._inputs);
     const said = hello.recording ? `Everything is recorded in ${hello.recording}` : "Nothing is recorded.";
     const recorded = section("Recording", true, el("p", { data: "recording" }, said));
-    this.sideBox.append(this._devices.element, section("Report", true, this.report.element), recorded, this.gamepadPanel.element);
-    const more = { instruments: () => this.instruments.toggle() };
+    this.sideBox.append(this._devices.element, section("Report", true, this.report.element), recorded, this.driven(this.hands, this._inputs));
+    const more = { instruments: () => this.instruments.toggle(), costs: () => this.timing.toggle() };
     const places = (world.places ?? []).map(({ name }) => name);
-    this.controls(this.source, more, { places }, (event) => this.hands.key(event, this._speed ?? 0));
+    this.controls(this.source, more, { places }, (event) => this.hands.key(event, this.driverSpeed));
     this.camera(this.cameras[0]);
   }
 
@@ -194,27 +192,24 @@ export class Cockpit extends Shell {
     if (open) this.link.send({ type: "report" });
   }
 
-  _listen() {
-    const { signal } = this.listeners;
-    const once = () => !this._touchedOnce && (this._touchedOnce = true) && this.effects.start();
-    for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, once, { signal });
-    window.addEventListener("blur", () => this.hands.letKeysGo(), { signal });
-    document.addEventListener("visibilitychange", () => document.hidden && this._letGo(), { signal });
+  get driverSpeed() {
+    return this._speed ?? 0;
+  }
+
+  sound() {
+    this.effects.start();
   }
 
   /** Nobody sees the page: nobody drives. */
-  _letGo() {
+  unseen() {
     this.hands.letKeysGo();
     this.hands.letGamepadGo();
-    if (this._touched.size) this.source.want("touch", [...this._touched].map((name) => [name, 0])); // prettier-ignore
-    this._touched.clear();
+    if (this._pulled.size) this.source.want("touch", [...this._pulled].map((name) => [name, 0])); // prettier-ignore
+    this._pulled.clear();
   }
 
-  _poll() {
-    const { changed, lost } = this.hands.poll(this._speed ?? 0);
-    if (lost) this.tell("The gamepad is gone: its pedals and steering are let go.");
-    if (changed) this.gamepadPanel.fill();
-    this.gamepadPanel.show();
+  poll() {
+    super.poll();
     if (!document.hidden) this.source.wants.again();
   }
 
@@ -223,9 +218,13 @@ export class Cockpit extends Shell {
     this.instruments.show(lookup, car);
     this.bar.show(this.source);
     if (this.sideOpen) this.plots?.now();
-    if (now - (this._timed ?? -Infinity) < STEPS_EVERY) return;
+    if (now - (this._timed ?? -Infinity) < TIMED_EVERY) return;
     this._timed = now;
-    const warn = this.steps.show(frame, time, this.flow());
+    const factor = this._factor ?? null;
+    const slower = factor === null ? "" : `${short(factor)} s of the run a second, `;
+    const warn =
+      this.timing.show(time, { ...frame, factor, flow: this.flow() }) ||
+      (frame.running && frame.behind ? `The car's program is behind: ${slower}${short(frame.speed)} asked for.` : "");
     const { notices } = this;
     const refused = this._refusal.text || "The car refused a step.";
     notices.flag("refused", frame.refused ? `${refused} Rewind, set upright or reset to go on.` : "", BAD);

@@ -1,5 +1,5 @@
 // From the JSON of a page to runs with arrays.
-import { bytesOf, gunzipped } from "../bytes.js";
+import { bytesOf, gunzipped, missingParts } from "../bytes.js";
 
 /**
  * @typedef {{scene: Data | null, t: Float64Array, epoch: ArrayLike<number>, columns: Object<string, {unit: string, data: ArrayLike<number>}>,
@@ -35,9 +35,8 @@ async function columnsOf(block) {
  */
 export async function decoded(page) {
   if (page.format !== "ALi3 page" || page.version !== 1) throw new Error("The data of this page are of another format.");
-  if (typeof DecompressionStream === "undefined") {
-    throw new Error("This browser cannot unpack the data of the page; a newer one can (Chrome 80, Firefox 113, Safari 16.4).");
-  }
+  const lacking = missingParts(globalThis, false);
+  if (lacking) throw new Error(lacking);
   const runs = await Promise.all(
     page.runs.map(async (run) => {
       const times = await columnsOf(run.time);

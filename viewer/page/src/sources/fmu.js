@@ -144,8 +144,8 @@ export class Session {
     this.scrubbed = Math.max(this.oldest, Math.min(time, this.end));
   }
 
-  /** What a hand wants: `[name, value, rate]` each. */
-  want(wants) {
+  /** What a hand wants. @param {string} source @param {[string, number, number?][]} wants */
+  want(source, wants) {
     if (wants.length) this._desk.send({ do: "want", wants });
   }
 
@@ -157,7 +157,7 @@ export class Session {
     const variable = this.variables.get(name);
     if (!variable) throw new Error(`The FMU has no variable '${name}'.`);
     if (this.held.some((v) => v.name === name)) {
-      this.want([[name, Number(value)]]);
+      this.want("slider", [[name, Number(value)]]);
       return false;
     }
     await this.again({ ...this.start, [name]: value });

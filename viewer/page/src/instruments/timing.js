@@ -1,0 +1,59 @@
+// Time of a run and whether it keeps to the clock; behind a key what its steps cost and how pictures come.
+import { el, write } from "../common/dom.js";
+import { styled } from "../styles.js";
+import { Gauge } from "./gauges.js";
+import { paceWords } from "./pace.js";
+import style from "./style.css";
+
+const micro = (seconds) => (seconds < 9.995e-4 ? `${(1e6 * seconds).toFixed(0)} µs` : `${(1e3 * seconds).toFixed(seconds < 0.01 ? 2 : 0)} ms`);
+
+/** Figures of time. */
+export class Timing {
+  /** @param {string} [title] of the run */
+  constructor(title = "") {
+    styled(style);
+    this._time = el("div", { data: "time" });
+    this._pace = el("div", { data: "pace" });
+    this._bar = new Gauge({ data: "step time", colour: "#59d07a" });
+    this._worst = el("u", { title: "the longest step of the last second" });
+    this._bar.element.append(this._worst);
+    this._missed = el("div", { data: "missed" });
+    this._flow = el("div", { data: "flow" });
+    this._costs = el("div", { hidden: true }, this._bar.element, this._missed, this._flow);
+    this.element = el("div.a3-timing", { data: "timing" }, el("b", {}, title), this._time, this._pace, this._costs);
+  }
+
+  /** Show or hide what steps cost. */
+  toggle() {
+    this._costs.hidden = !this._costs.hidden;
+  }
+
+  /**
+   * @param {number} time s
+   * @param {Data | null} pace as `paceWords` has it, with `cost` and `deadline` of a step, s; of a simulator also `worst`,
+   *   `missed`, `lateness` and the `flow` of pictures; null: of a recording
+   * @returns {string} a warning where the machine does not keep up
+   */
+  show(time, pace) {
+    write(this._time, `${time.toFixed(2)} s`);
+    if (pace === null) return "";
+    const { text, warn } = paceWords(/** @type {any} */ (pace));
+    write(this._pace, text);
+    if (!this._costs.hidden) this._show(pace);
+    return warn;
+  }
+
+  /** @param {Data} pace */
+  _show({ cost, deadline, worst = 0, missed, lateness, flow }) {
+    const [share, most] = deadline > 0 ? [cost / deadline, worst / deadline] : [0, 0];
+    this._bar.show(share, share > 1 ? "#ff5a4d" : share > 0.5 ? "#ffb03b" : undefined);
+    this._bar.words(`step ${micro(cost)} of ${micro(deadline)}`);
+    this._worst.style.left = `${(100 * Math.min(1, most)).toFixed(1)}%`;
+    if (flow === undefined) return;
+    write(this._missed, `worst ${micro(worst)} · missed ${missed} · late ${micro(Math.max(0, lateness))}`);
+    this._missed.classList.toggle("a3-bad", most > 1);
+    const { drawn, size, longest, received, delay, stalled } = flow;
+    const wait = stalled ? ` · no frame for ${stalled.toFixed(1)} s` : ` · ${(1e3 * delay).toFixed(0)} ms behind`;
+    write(this._flow, `picture ${drawn.toFixed(0)}/s${size} (longest ${(1e3 * longest).toFixed(0)} ms) · frames ${received}/s${wait}`);
+  }
+}
