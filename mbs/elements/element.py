@@ -101,7 +101,7 @@ class Element:
             self._type(),
             signals,
             *columns({k: r for k, r in reals.items() if k not in others} | named | last, *plain),
-            integers,
+            tuple(integers),
             slots if states is None else states,
             self._outputs if outputs is None else outputs,
             self._tangent,

@@ -3,7 +3,7 @@
 #ifndef ALI3_METHOD_H
 #define ALI3_METHOD_H
 #include "instance.h"
-#include "methods/request.h"
+#include "request.h"
 
 /* What bounds the steps of a controlled run from below: the round-off of equations of index three, solved by rules of
  * order two or by collocation, or of index one. */

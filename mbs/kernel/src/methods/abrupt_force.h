@@ -2,7 +2,7 @@
 #ifndef ALI3_METHODS_ABRUPT_FORCE_H
 #define ALI3_METHODS_ABRUPT_FORCE_H
 #include "../instance.h"
-#include "request.h"
+#include "../request.h"
 
 void ali3_abrupt_force(ali3_instance *in);
 /* Whether the coming step is to be made in halves, because a force changed as quickly in the last; counted. */

@@ -2,7 +2,7 @@
 #ifndef ALI3_METHODS_CONTACT_EVENT_H
 #define ALI3_METHODS_CONTACT_EVENT_H
 #include "../instance.h"
-#include "request.h"
+#include "../request.h"
 
 void ali3_events_begin(ali3_instance *in, int32_t depth);
 /* Whether the step from in->now to in->next, both with their outputs, is to be parted at in->event. */

@@ -3,7 +3,7 @@
 #define ALI3_ENERGY_WATCH_H
 #include "../algebra/real.h"
 #include "../instance.h"
-#include "request.h"
+#include "../request.h"
 
 ALI3_PER_WIDTH real ali3_constraint_work(ali3_instance *in, double h, real *guides);
 ALI3_PER_WIDTH real ali3_projection_work(ali3_instance *in, real *kinetic, real *end, real *open, real *guides);

@@ -2,7 +2,7 @@
 #ifndef ALI3_ERROR_CONTROL_H
 #define ALI3_ERROR_CONTROL_H
 #include "../instance.h"
-#include "request.h"
+#include "../request.h"
 
 /* Settings of a controlled run; scale is the size of a unit of each coordinate, m (nq), or NULL: 1 m each. */
 typedef struct {

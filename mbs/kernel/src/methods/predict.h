@@ -2,7 +2,7 @@
 #ifndef ALI3_PREDICT_H
 #define ALI3_PREDICT_H
 #include "../instance.h"
-#include "request.h"
+#include "../request.h"
 
 enum { ALI3_PARABOLA = 3 };
 /* Share of the change of the multipliers that is taken: no step corrects what they have along dependent rows or has

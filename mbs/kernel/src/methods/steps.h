@@ -2,7 +2,7 @@
 #ifndef ALI3_STEPS_H
 #define ALI3_STEPS_H
 #include "../instance.h"
-#include "request.h"
+#include "../request.h"
 
 bool ali3_parted(const ali3_instance *in, double t, double h);
 ali3_status ali3_advance(ali3_instance *in, const ali3_request *request);

@@ -2,7 +2,7 @@
 #ifndef ALI3_WHOLE_STEP_H
 #define ALI3_WHOLE_STEP_H
 #include "../instance.h"
-#include "request.h"
+#include "../request.h"
 
 typedef struct {
   ali3_request asked;

@@ -1,6 +1,6 @@
 /* What a step is asked for. */
-#ifndef ALI3_METHODS_REQUEST_H
-#define ALI3_METHODS_REQUEST_H
+#ifndef ALI3_REQUEST_H
+#define ALI3_REQUEST_H
 #include <stdbool.h>
 #include <stdint.h>
 
