@@ -16,7 +16,7 @@ from ali3.archives import Archive
 from ali3.errors import FileError
 from ali3.reader_stops import reader_stops
 from ali3.reading import Error, open_file
-from ali3.unpacked import MOST_MEMORY, check_memory
+from ali3.unpacked_size import MOST_MEMORY, check_memory
 
 _COPIES = 2
 """In memory: the bytes and the array, or the array and what is made of it."""

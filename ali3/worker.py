@@ -21,10 +21,10 @@ _SHARE = 0.75  # of the memory of the machine that a process may take
 
 def _serve(folder: Path) -> None:
     from ali3.call_mark import begin_marks
+    from ali3.command_run import WRONG_USE, sentence
     from ali3.frames import write_frame
     from ali3.isolated import ALIVE, DONE, ERROR, READY, TOLD
     from ali3.processes import begin_for
-    from ali3.running import WRONG_USE, sentence
 
     begin_marks(folder)
     sink = os.fdopen(os.dup(1), "wb")

@@ -15,8 +15,8 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 import mbs
+from ali3.command_run import run_command
 from ali3.files import write_text
-from ali3.running import run_command
 from benchmarks.car import (
     accuracy,
     edge_answers,

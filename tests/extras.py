@@ -189,7 +189,7 @@ def _run(python: Path, what: str, files: Path) -> subprocess.CompletedProcess[st
     if what.startswith("ali3 "):
         return _ran([python, "-m", *shlex.split(what)], files)
     code = (
-        "import sys; from ali3.running import run_command; from mbs.common.errors import ModelError; "
+        "import sys; from ali3.command_run import run_command; from mbs.common.errors import ModelError; "
         f"sys.exit(run_command(lambda: exec({what!r}, {{}}) or 0, (ModelError,)))"
     )
     return _ran([python, "-W", "ignore", "-c", code], files)

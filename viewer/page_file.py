@@ -11,7 +11,7 @@ from ali3.files import check_writable, whole_file
 from ali3.near_names import near_names
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import MOST_TIMES, Recording
-from ali3.scene.written import WrittenPage
+from ali3.scene.written_file import WrittenPage
 from viewer.html_document import html_document
 from viewer.page_data import page_data
 from viewer.player_options import check_options

@@ -7,8 +7,8 @@ compares, `Echo.text` prints. What a reader returns is `Understood`: its `summar
 
 from __future__ import annotations
 
-from ali3.echo.judged import Echo, Mistake, Value, far_values
 from ali3.echo.quantity import WIDEST, Quantity, Range, quantities_of
+from ali3.echo.range_check import Echo, Mistake, Value, far_values
 from ali3.echo.understood import Understood, echo_of, summary_of, tables_of
 
 __all__ = [

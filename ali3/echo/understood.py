@@ -7,8 +7,8 @@ from dataclasses import replace
 from functools import singledispatch
 from typing import Any
 
-from ali3.echo.judged import Echo
 from ali3.echo.quantity import Quantity
+from ali3.echo.range_check import Echo
 
 
 @singledispatch

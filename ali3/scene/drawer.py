@@ -10,7 +10,7 @@ from typing import Any, Protocol, cast
 
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import Recording
-from ali3.scene.written import WrittenFilm, WrittenGltf, WrittenPage
+from ali3.scene.written_file import WrittenFilm, WrittenGltf, WrittenPage
 
 GROUP = "ali3.drawers"
 """Of entry points; each names a module with the functions of `Drawer`."""

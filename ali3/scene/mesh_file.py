@@ -19,7 +19,7 @@ from ali3.named_files import NamedFiles
 from ali3.reader_stops import read_by_library
 from ali3.reading import read_bytes
 from ali3.scene.errors import ViewerError
-from ali3.unpacked import check_memory
+from ali3.unpacked_size import check_memory
 
 if TYPE_CHECKING:
     import trimesh

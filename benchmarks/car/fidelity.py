@@ -15,8 +15,8 @@ from benchmarks.shared.pages import Row, table
 from mbs import Trajectory
 from mbs.scenes import prototype_car
 from mbs.vehicle import Fidelity
-from mbs.vehicle.levels import choice
-from mbs.vehicle.levels.choice import Choice
+from mbs.vehicle.levels import level_choice as choice
+from mbs.vehicle.levels.level_choice import Choice
 
 STEPS = (0.01, 0.005, 0.002)  # s
 COLOURS = {

@@ -26,11 +26,11 @@ from benchmarks.shared.command import watched
 from fmu_src.build.build import build_fmu
 from hosts.study.campaign import missing, on_cluster
 from hosts.study.folder import begin_study
-from hosts.study.one_run import Bench, experiment_of, outcome_of
 from hosts.study.plan import make_plan
 from hosts.study.study_file import read_study_file
-from hosts.study.trial import try_out
-from hosts.study.work import Outcome
+from hosts.study.study_runs import Bench, experiment_of, outcome_of
+from hosts.study.trial_runs import try_out
+from hosts.study.worker_data import Outcome
 
 Row = dict[str, Any]
 T = TypeVar("T")

@@ -12,8 +12,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
+from ali3.command_run import run_command
 from ali3.files import write_text
-from ali3.running import run_command
 from benchmarks.shared.figures import between, rows_of
 from benchmarks.shared.machine import conditions, describe
 from benchmarks.shared.pages import DOCS, Row, machine, replace

@@ -1,7 +1,7 @@
 """Kinds of seconds left out in turn: corners, ranges of speed and of longitudinal acceleration.
 
 From the numbers of the fitted seconds a model is taken to where all seconds without a kind lead, to first order, and
-judged on that kind: one step of Gauss and Newton (`hosts.compare.left_out`).
+judged on that kind: one step of Gauss and Newton (`hosts.compare.cross_validation`).
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from benchmarks.validation.drive import LENGTH, Array, Drive, Spans
 from benchmarks.validation.fitting import SCALES, Windows, begins, fit
 from benchmarks.validation.multibody import LATERAL, YAW, task_of
 from benchmarks.validation.refit import sought_in
-from hosts.compare.left_out import Parts, left_out
+from hosts.compare.cross_validation import Parts, left_out
+from hosts.compare.fitted_parameters import wanted_parameters
 from hosts.compare.replay import Replay
 from hosts.compare.residuals import Residuals
 from hosts.compare.stretches import GAP
-from hosts.compare.wanted import wanted_parameters
 from hosts.driving.result import Result
 
 Kinds = NDArray[np.intp]

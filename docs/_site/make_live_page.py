@@ -11,7 +11,7 @@ from importlib.resources import files
 from pathlib import Path
 
 import mbs
-from ali3.running import run_command
+from ali3.command_run import run_command
 from ali3.scene.recording import Recording
 from fmu_src.build.command import main as build
 from hosts.view.command import main as view

@@ -21,13 +21,13 @@ from fmu_src.build.progress_line import watched
 from fmu_src.description.nominal import drive_sizes, with_nominal
 from fmu_src.description.probe import probe
 from fmu_src.geometry.geometry import geometry, geometry_file
-from fmu_src.geometry.other_columns import with_other_columns
-from fmu_src.native.ahead import compiled_ahead
+from fmu_src.geometry.renamed_columns import with_other_columns
+from fmu_src.native.early_compilation import compiled_ahead
 from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.native.platforms import able_platforms
 from fmu_src.native.reference import ReferenceRun, reference_runs, with_other_names
-from fmu_src.variables.other_names import Renamed, renamed
+from fmu_src.variables.renamed_variables import Renamed, renamed
 from fmu_src.variables.texts import check_texts
 from fmu_src.variables.variables import check_fidelities, variable_table, with_uncomputed
 from mbs.common.checks import instance_of

@@ -13,7 +13,7 @@ from ali3.archives import LARGEST_UNPACKED
 from ali3.reading import is_file, read_bytes
 from ali3.words import shortened
 from fmu_src.build.scene_registry import SceneError
-from fmu_src.geometry.posed import Maker, posed_systems
+from fmu_src.geometry.system_with_poses import Maker, posed_systems
 from mbs.vehicle import Car, Fidelity, car_names, load
 from mbs.vehicle.chosen_ports import chosen_ports
 from mbs.vehicle.summary import grip_row
@@ -51,7 +51,7 @@ def build_car(
     car : str
         Name of a car of the package, a folder with a file car.toml, or such a file.
     poses : {"wheels", "all"} or None
-        As `fmu_src.geometry.posed.posed_systems` takes it.
+        As `fmu_src.geometry.system_with_poses.posed_systems` takes it.
     ports : str, optional
         As `mbs.vehicle.chosen_ports.chosen_ports` takes them, in addition to those of the file; the name of what is
         built says then that it has ports.
@@ -59,7 +59,7 @@ def build_car(
         Number of a member of `mbs.vehicle.Fidelity` that is alone in what is built, which its name says; by default
         all that an FMU offers.
     tell : callable
-        As `fmu_src.geometry.posed.posed_systems` takes it.
+        As `fmu_src.geometry.system_with_poses.posed_systems` takes it.
 
     Raises
     ------

@@ -8,17 +8,17 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.command_run import run_command
 from ali3.errors import UserError
 from ali3.extras import missing_package
 from ali3.near_names import did_you_mean
 from ali3.options import Parser, add_option
-from ali3.running import run_command
-from ali3.told_warnings import told_warnings
+from ali3.warning_lines import told_warnings
 
 if TYPE_CHECKING:
     from ali3.parameter_set import ParameterSet
     from fmu_src.build.progress_line import ProgressLine
-    from fmu_src.variables.other_names import Renamed
+    from fmu_src.variables.renamed_variables import Renamed
     from mbs import System
 
 _KINDS = "native,fmi3,python"
@@ -138,7 +138,7 @@ def _add_platforms(options: argparse.Namespace) -> int:
 
 def _build(options: argparse.Namespace) -> int:
     from fmu_src.build.build import KINDS, face_name
-    from fmu_src.native.ahead import compiled_ahead
+    from fmu_src.native.early_compilation import compiled_ahead
     from fmu_src.native.platforms import TARGETS, this_platform
 
     kinds = list(dict.fromkeys(options.kind.split(",")))

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, cast
 import mbs
 import mbs.scenes
 from ali3.reading import is_file, no_file
-from fmu_src.geometry.posed import PosesError, posed_systems
+from fmu_src.geometry.system_with_poses import PosesError, posed_systems
 
 if TYPE_CHECKING:
     from mbs.vehicle import Car
@@ -64,7 +64,7 @@ def load_fidelities(
     A scene offers them by a function `fidelities` beside its `build`: it returns functions that make a model by number,
     0 and on; the numbers may be members of an enumeration, whose names are then in the FMU. The one of `build` is the
     default of its argument `fidelity`. `scene`: as for `load_scene`; `poses`, `tell`: as
-    `fmu_src.geometry.posed.posed_systems` takes them.
+    `fmu_src.geometry.system_with_poses.posed_systems` takes them.
 
     Returns
     -------

@@ -10,8 +10,8 @@ import mbs
 from ali3.scene.scene_columns import columns_of
 from ali3.scene.scene_parts import frames_of
 from fmu_src.geometry.binding import bind
-from fmu_src.geometry.moved_places import moved_part
 from fmu_src.geometry.roads import with_parameters
+from fmu_src.geometry.shifted_shapes import moved_part
 from fmu_src.variables.variables import Variable
 
 FRAME_TUBE = "frame tube"

@@ -11,15 +11,15 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.ends import ROLLED
 from hosts.catalogue.preparation import start_at
 from hosts.catalogue.steered_run import level_acceleration
 from hosts.catalogue.steering import SteeringInput
+from hosts.catalogue.stop_conditions import ROLLED
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.circle_follower import CircleFollower
+from hosts.driving.pilots.combined_pilot import Together
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.pilots.speed_holder import SpeedHolder
-from hosts.driving.pilots.together import Together
 from hosts.driving.result import Result
 
 CONSTANT_RADIUS, CONSTANT_ANGLE, CONSTANT_SPEED = 1.0, 2.0, 3.0

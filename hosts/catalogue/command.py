@@ -13,9 +13,9 @@ from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.command_run import run_command
 from ali3.cores import available_cores
 from ali3.options import Parser, add_option, assignment
-from ali3.running import run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu
 from hosts.fmu.fmu_file import fmu_file
@@ -128,7 +128,7 @@ def _do(
     kept: Kept[TestRecord],
 ) -> int:
     """Do the tests that are not kept, and write what is there after each."""
-    from hosts.catalogue.kept import find
+    from hosts.catalogue.finished_tests import find
     from hosts.catalogue.output import print_measures, write_measures
     from hosts.catalogue.perform import missing_for
     from hosts.catalogue.report import write_report
@@ -190,7 +190,7 @@ def _done(
 ) -> Generator[None]:
     """Do all tasks under a progress bar; after each its outcome is among the others, and kept in the folder."""
     from ali3.isolated import Lost
-    from hosts.catalogue.kept import keep
+    from hosts.catalogue.finished_tests import keep
     from hosts.catalogue.perform import Reason
     from hosts.catalogue.record import TestRecord
     from hosts.catalogue.task import do, write_runs

@@ -11,8 +11,8 @@ from pydantic import model_validator
 
 from ali3.reading import read_toml
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.measure_sheet import Sheet, TestTables
 from hosts.catalogue.record import Standard, StandardTest, TestRecord
-from hosts.catalogue.sheet import Sheet, TestTables
 from hosts.common.errors import HostError
 
 _FOLDER = Path(__file__).parent / "standard"

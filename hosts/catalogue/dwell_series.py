@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.ends import SPUN
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
+from hosts.catalogue.stop_conditions import SPUN
 from hosts.measures.filters import phaseless_low_pass
 from hosts.measures.sine_with_dwell import NOTHING, SineWithDwell, sine_with_dwell
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError

@@ -11,9 +11,9 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.preparation import start_at
 from hosts.catalogue.steering import SteeringInput
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.pilots.combined_pilot import Together
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.pilots.steering import SteeringTable
-from hosts.driving.pilots.together import Together
 
 RATIO = "vehicle.steering_ratio"
 WHEELS = ("wheel_FL.steer", "wheel_FR.steer")

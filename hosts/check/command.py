@@ -12,12 +12,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.command_run import run_command
 from ali3.cores import available_cores
 from ali3.decimal_number import number
 from ali3.extras import command_needs
 from ali3.files import check_writable
 from ali3.options import Parser, add_option, assignment, count, given_of
-from ali3.running import run_command
 from ali3.words import shortened
 from hosts.check.junit import Case, write_junit
 from hosts.check.sarif import write_sarif

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ali3.command_run import NOT_GOOD
 from ali3.errors import UserError
-from ali3.running import NOT_GOOD
 
 
 class HostError(UserError):

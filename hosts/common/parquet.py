@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ali3.reading import check_file
-from ali3.unpacked import MOST_MEMORY, check_memory
+from ali3.unpacked_size import MOST_MEMORY, check_memory
 from hosts.common.errors import HostError
 
 if TYPE_CHECKING:

@@ -16,9 +16,9 @@ from scipy import signal as sp
 from scipy.optimize import least_squares
 
 from hosts.compare.correlated import covariance
+from hosts.compare.cross_validation import FEWEST, Parts, jackknife, parts_of
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import is_constant
-from hosts.compare.left_out import FEWEST, Parts, jackknife, parts_of
 from hosts.compare.noise import measured_noise
 from hosts.measures.signal import Signal
 

@@ -11,8 +11,8 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.command_run import run_command
 from ali3.options import Parser, add_option, count
-from ali3.running import run_command
 from ali3.units import quantity
 from hosts.common.options import add_fmu, add_setting_options
 from hosts.fmu.fmu_file import fmu_file

@@ -15,12 +15,12 @@ from scipy.stats import qmc
 from hosts.common.display_units import number_in
 from hosts.common.errors import HostError
 from hosts.compare.correlated import covariance, effective_samples
+from hosts.compare.cross_validation import FEWEST, Parts, clustered_covariance, folds, left_out, without_each
 from hosts.compare.deviations import rms
 from hosts.compare.fit_result import Fit, Found, Start
-from hosts.compare.left_out import FEWEST, Parts, clustered_covariance, folds, left_out, without_each
+from hosts.compare.fit_unknowns import Unknown
 from hosts.compare.noise import computed_noise, difference_steps, measured_noise
 from hosts.compare.residuals import RefusedError, Residuals
-from hosts.compare.unknown import Unknown
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.compare.unknown import Unknown
+from hosts.compare.fit_unknowns import Unknown
 
 
 @dataclass(frozen=True)

@@ -11,15 +11,15 @@ from ali3.words import sentence_of
 from hosts.common.display_units import shown_number
 from hosts.common.numbers import Value
 from hosts.compare.comparison import Comparison, compare
+from hosts.compare.cross_validation import parts_of
 from hosts.compare.curve import Curve, SensedCurve
 from hosts.compare.deviations import rms
 from hosts.compare.fit import fit, overlapping
 from hosts.compare.fit_result import Fit
-from hosts.compare.left_out import parts_of
+from hosts.compare.fit_unknowns import NUISANCES, Unknown, nuisances
+from hosts.compare.fitted_parameters import fit_step, wanted_parameters
 from hosts.compare.replay import Replay
 from hosts.compare.task import Task
-from hosts.compare.unknown import NUISANCES, Unknown, nuisances
-from hosts.compare.wanted import fit_step, wanted_parameters
 from hosts.driving.result import Result
 from hosts.fmu.fmu import StartRefusedError
 

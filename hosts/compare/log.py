@@ -21,7 +21,7 @@ from hosts.common.units import unit_definition, unit_of
 from hosts.compare.csv_dialect import CLOCK_TIME, unit_behind
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
-from hosts.compare.repeated import rows_of_a_value
+from hosts.compare.repeated_samples import rows_of_a_value
 from hosts.compare.spikes import spike_words, spikes
 from hosts.driving.missed_inputs import counted
 from hosts.driving.recorded_rows import ROUND_OFF

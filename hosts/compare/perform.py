@@ -12,12 +12,12 @@ from hosts.common.errors import FailedFmuError, HostError
 from hosts.compare.comparison import Comparison, compare
 from hosts.compare.curve import Curve
 from hosts.compare.fit_words import fit_notes, fit_problems, fit_table
+from hosts.compare.input_mistakes import misread_speed, turned_input, turned_signals
 from hosts.compare.log import FEWEST_SAMPLES
 from hosts.compare.plausibility import odd_scale
 from hosts.compare.replay import Replay
 from hosts.compare.results import Outcome, paths_of, write_outcome
 from hosts.compare.task import Task, prepare
-from hosts.compare.tried_mistakes import misread_speed, turned_input, turned_signals
 from hosts.compare.windows import held_words, window_words, windows
 from hosts.compare.words import common_words, table
 from hosts.measures.log_echo import consistent

@@ -17,7 +17,7 @@ from hosts.common.display_units import number_in
 from hosts.common.errors import HostError
 from hosts.compare.curve import Curve, SensedCurve
 from hosts.compare.deviations import rms
-from hosts.compare.unknown import Unknown
+from hosts.compare.fit_unknowns import Unknown
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 

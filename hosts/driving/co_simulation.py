@@ -15,11 +15,11 @@ from hosts.common.numbers import Value
 from hosts.driving.derived_columns import derive_columns
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.missed_inputs import missed_end, missed_inputs
+from hosts.driving.observation import Senses
 from hosts.driving.pilots.pilot import Pilot, refuse_missing
 from hosts.driving.recorded_rows import RecordedRows
 from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
-from hosts.driving.senses import Senses
 from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.driving.steady_throttle import with_change_of_speed, with_throttle
 from hosts.fmu.fmu import StepRefusedError

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ali3.errors import reason
 from hosts.common.errors import HostError
-from hosts.driving.senses import Senses
+from hosts.driving.observation import Senses
 
 ROUND_OFF = 1e-9
 """Of a value that is reached at the end of a step and set again for the next; more is a jump."""

@@ -243,5 +243,5 @@ for _name, _room, _several in (
     gymnasium.register(
         f"ali3/{_name}-v0",
         entry_point=f"hosts.plant.{_room}:{_name}",
-        vector_entry_point=f"hosts.plant.together:{_several}",
+        vector_entry_point=f"hosts.plant.vector_environment:{_several}",
     )

@@ -13,8 +13,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.command_run import run_command
 from ali3.options import Parser, add_option, given_of, name_and_text
-from ali3.running import run_command
 from ali3.units import quantity
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, wishes
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from hosts.driving.driver import Driver
     from hosts.driving.simulated_fmu import SimulatedFmu
-    from hosts.run.other_names import OtherNames
+    from hosts.run.renamed_run import OtherNames
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
@@ -93,7 +93,7 @@ def _run(options: argparse.Namespace) -> int:
     with Fmu(path) as opened:
         other: OtherNames | None = None
         if options.aliases is not None:
-            from hosts.run.other_names import OtherNames
+            from hosts.run.renamed_run import OtherNames
 
             other = OtherNames(opened, options.aliases)
         fmu: SimulatedFmu = opened if other is None else other.fmu

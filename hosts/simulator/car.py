@@ -18,9 +18,9 @@ from hosts.fmu.variables import Variables
 from hosts.recordings.recorded_columns import recorded_columns
 from hosts.recordings.recording import Recorder, recording_meta
 from hosts.simulator.car_process import COMMANDS, Order
-from hosts.simulator.mail import Mail, Records
 from hosts.simulator.moments import CarSettings, Event, Moment
 from hosts.simulator.process import Process
+from hosts.simulator.process_messages import Mail, Records
 from hosts.simulator.shared_values import RECORDING, ROW, STOP, SharedValues, Sizes
 from hosts.simulator.step_times import StepTimes
 

@@ -19,8 +19,8 @@ from hosts.fmu.fmu import StepRefusedError
 from hosts.simulator.clock import Clock, make_clock
 from hosts.simulator.driven_fmu import DrivenFmu, Told
 from hosts.simulator.notices import Notices
-from hosts.simulator.pace import Pace
 from hosts.simulator.priority import ask_for_priority
+from hosts.simulator.real_time_clock import Pace
 from hosts.simulator.shared_values import LOST_MESSAGES, LOST_ROWS, RECORDING, STATE_HEAD, STOP, SharedValues, Sizes
 from hosts.simulator.step_times import TimesRecord
 

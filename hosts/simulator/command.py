@@ -10,8 +10,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ali3.command_run import GOOD, NOT_GOOD, run_command
 from ali3.options import Parser, add_option, given_of
-from ali3.running import GOOD, NOT_GOOD, run_command
 from hosts.common.errors import HostError
 from hosts.common.options import add_fmu, add_setting_options, wishes
 

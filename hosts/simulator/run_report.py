@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ali3.files import write_text
-from hosts.simulator.mail import RECORDING_CUT
 from hosts.simulator.notices import NOT_FINITE
+from hosts.simulator.process_messages import RECORDING_CUT
 
 if TYPE_CHECKING:
     from hosts.simulator.preparation import Prepared

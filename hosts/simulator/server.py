@@ -24,7 +24,7 @@ from hosts.simulator import protocol
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.connected_page import ConnectedPage
 from hosts.simulator.guard import Guard
-from hosts.simulator.hands import Hands
+from hosts.simulator.input_arbiter import Hands
 from hosts.simulator.server_needs import Content, ShownDevices
 from hosts.simulator.web import BACKLOG, MOST_PAGES, Web
 

@@ -17,7 +17,7 @@ from ali3.temporary import temporary_folder
 from hosts.common.errors import HostError
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.guard import Guard
-from hosts.simulator.hands import Hands
+from hosts.simulator.input_arbiter import Hands
 from hosts.simulator.server import Server
 from hosts.simulator.server_needs import Content
 from viewer.open_browser import open_secretly

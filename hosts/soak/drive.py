@@ -13,9 +13,9 @@ from hosts.driving.pilots.pilot import SENSES
 from hosts.driving.wild_driver import WildDriver, wild_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.soak.checks import LARGEST_BALANCE, BadStepError, Counts, Watch
-from hosts.soak.grounds import Ground
+from hosts.soak.last_seconds import Stretch
 from hosts.soak.memory import Memory
-from hosts.soak.stretch import Stretch
+from hosts.soak.soak_roads import Ground
 
 _RUN = (15.0, 60.0)  # s, shortest and longest run
 _LYING = 1.0  # s that an overturned car lies still before it is set upright

@@ -27,7 +27,7 @@ from hosts.fmu.fmu_file import fmu_file
 from hosts.fmu.own_process import files_of
 from hosts.fmu.settings import settings_of
 from hosts.soak.drive import Failure, Outcome, Task, drive
-from hosts.soak.grounds import IN_THE_FMU, Ground, jump_ground, world_ground
+from hosts.soak.soak_roads import IN_THE_FMU, Ground, jump_ground, world_ground
 from hosts.soak.table import is_good, print_outcomes
 
 SEEDS = 10

@@ -34,13 +34,13 @@ from hosts.study.folder import (
     keep_limits,
     read_record,
 )
-from hosts.study.one_run import experiment_of, outcome_of, tell_start
 from hosts.study.outcome_table import OutcomeTable, Row
 from hosts.study.parts import forget_rows, part_files, runs_done
 from hosts.study.plan import Plan, make_plan
 from hosts.study.study_file import StudyFile, read_study_file
-from hosts.study.trial import Trial, bytes_of, try_out, with_columns
-from hosts.study.work import FAILED, Outcome, Run
+from hosts.study.study_runs import experiment_of, outcome_of, tell_start
+from hosts.study.trial_runs import Trial, bytes_of, try_out, with_columns
+from hosts.study.worker_data import FAILED, Outcome, Run
 
 if TYPE_CHECKING:
     from hosts.experiment.cluster_runs import ClusterRuns
@@ -87,7 +87,7 @@ def run_study(
         plan = _with_limits(plan, study)
     with nullcontext() if dry else Kept[Row](folder, Row, "runs a study") as kept:
         if before is not None and not dry:
-            from hosts.study.damage import set_damaged_aside
+            from hosts.study.damaged_files import set_damaged_aside
 
             for line in set_damaged_aside(folder, before):
                 print(f"note: {line}", file=sys.stderr)

@@ -11,8 +11,8 @@ import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.command_run import NOT_GOOD, run_command
 from ali3.options import Parser, add_option, given_of
-from ali3.running import NOT_GOOD, run_command
 from hosts.common.errors import HostError
 
 
@@ -108,7 +108,7 @@ def _target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int
 
 
 def _repeat(options: argparse.Namespace) -> int:
-    from hosts.study.repeat import repeater
+    from hosts.study.repeated_run import repeater
 
     repeat = repeater(options.study if options.study.is_dir() else _out(options))(options.run)
     if not repeat.drive:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
-from hosts.study.work import FAILED, INCOMPLETE, Outcome
+from hosts.study.worker_data import FAILED, INCOMPLETE, Outcome
 
 _MOST_SAID = 1000  # messages that are counted
 _TOLD = 5

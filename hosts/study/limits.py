@@ -21,7 +21,7 @@ from hosts.common.display_units import shown_in
 from hosts.common.numbers import or_null
 from hosts.measures.measure import Limit
 from hosts.study.store import read_study
-from hosts.study.work import ALL, DONE, FAILED, MISSING
+from hosts.study.worker_data import ALL, DONE, FAILED, MISSING
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from hosts.study.parts import PartWriter, runs_done
-from hosts.study.work import Outcome, Run
+from hosts.study.worker_data import Outcome, Run
 
 Row: TypeAlias = tuple[Run, Outcome]
 

@@ -18,7 +18,7 @@ from ali3.words import one_line
 from hosts.common.errors import HostError
 from hosts.common.parquet import opened_parquet
 from hosts.study.folder import RUNS, SIGNALS, sync
-from hosts.study.work import MISSING, Outcome, Run, seed_of
+from hosts.study.worker_data import MISSING, Outcome, Run, seed_of
 
 _TYPES = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.int64(), "Boolean": pa.bool_()}
 _NAME = "part-{:06d}.parquet"

@@ -27,7 +27,7 @@ from hosts.study.measures.study_measure import StudyMeasure, parse_measure
 from hosts.study.parameters import Parameter, parameter_of
 from hosts.study.points import Points, digest, sampled_points, table_points
 from hosts.study.study_file import ManoeuvreEntry, StudyFile, read_study_file
-from hosts.study.work import ALL, Run, Work
+from hosts.study.worker_data import ALL, Run, Work
 
 OWN_COLUMNS = (
     *("index", "point", "manoeuvre", "seed"),

@@ -30,12 +30,12 @@ from hosts.study.analysis.data import without_round_off
 from hosts.study.campaign import fmu_of_study, out_folder
 from hosts.study.folder import check_no_link
 from hosts.study.jobs import Job
-from hosts.study.one_run import OneProcess
 from hosts.study.plan import Plan, make_plan
-from hosts.study.search import TOLERANCE, Found, Run, seek
 from hosts.study.study_file import ParameterEntry, SamplingEntry, StudyFile, read_study_file
-from hosts.study.work import Outcome
-from hosts.study.work import Run as StudyRun
+from hosts.study.study_runs import OneProcess
+from hosts.study.target_search import TOLERANCE, Found, Run, seek
+from hosts.study.worker_data import Outcome
+from hosts.study.worker_data import Run as StudyRun
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -18,7 +18,7 @@ from hosts.common.closing import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
 from hosts.fmu.fmu import Fmu, StepRefusedError
-from hosts.systems.wires import Wire, fmus_of, parted, starts_of, wires_of
+from hosts.systems.connections import Wire, fmus_of, parted, starts_of, wires_of
 
 Array = NDArray[np.float64]
 Order = Literal["in turn", "at once"]

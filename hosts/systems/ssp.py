@@ -18,7 +18,7 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.parameters_as_set import written
-from hosts.systems.wires import Wire, fmus_of, starts_of, wires_of
+from hosts.systems.connections import Wire, fmus_of, starts_of, wires_of
 
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
 _COMMON, _STRUCTURE = f"{{{_SSP}Common}}", f"{{{_SSP}Description}}"

@@ -10,9 +10,9 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.command_run import run_command
 from ali3.decimal_number import number
 from ali3.options import Parser, add_option, given_of
-from ali3.running import run_command
 from ali3.units import quantity
 from hosts.common.errors import HostError
 from hosts.common.options import add_setting_options

@@ -8,9 +8,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ali3.command_run import GOOD, NOT_GOOD
 from ali3.files import check_writable
 from ali3.near_names import near_names
-from ali3.running import GOOD, NOT_GOOD
 from hosts.common.errors import HostError
 from hosts.common.road import wishes_with_road
 from hosts.fmu.car import is_car

@@ -28,7 +28,7 @@ from hosts.fmu.scene_file import scene_from
 from hosts.recordings.asked_manoeuvre import manoeuvre_of
 from hosts.recordings.format import is_recording
 from hosts.recordings.recorded_view import other_build, recorded_view
-from hosts.view.recorded import Table, read_table
+from hosts.view.result_tables import Table, read_table
 
 # What a car without inputs of the user's is driven through.
 _CAR_MANOEUVRE = "double_lane_change"

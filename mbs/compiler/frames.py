@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from mbs.common.frames import FlexibleShapes, Frames
-from mbs.compiler.tabled import tabled_coordinates
+from mbs.compiler.tabled_bodies import tabled_coordinates
 from mbs.model.mechanism import Mechanism
 
 

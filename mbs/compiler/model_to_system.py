@@ -23,7 +23,7 @@ from mbs.compiler.frames import frames_of
 from mbs.compiler.front_arrays import front_arrays, locator, mass_positions, row_fronts
 from mbs.compiler.fronts import Fronts, build_fronts
 from mbs.compiler.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
-from mbs.compiler.locked import check_motion, locked_gears, locked_parts
+from mbs.compiler.immobile_models import check_motion, locked_gears, locked_parts
 from mbs.compiler.metadata import metadata
 from mbs.compiler.natural import NaturalCoordinates, natural_coordinates
 from mbs.compiler.open_joints import joint_gaps, joints_of_bodies
@@ -36,7 +36,7 @@ from mbs.compiler.row_scale import row_scale
 from mbs.compiler.rows import rigid_rows
 from mbs.compiler.start import guide_start, reference_position, velocity
 from mbs.compiler.structure import rank_at, structure_report
-from mbs.compiler.tabled import (
+from mbs.compiler.tabled_bodies import (
     Dependents,
     base_coordinates,
     carried_mass,

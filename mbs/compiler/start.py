@@ -10,10 +10,10 @@ from scipy.sparse.linalg import spsolve
 from mbs.common.affine import Affine
 from mbs.compiler.consistent import start_velocity
 from mbs.compiler.full_coordinates import full_mass, symmetric
-from mbs.compiler.given_velocities import GivenVelocity, contradiction, given_velocities
 from mbs.compiler.natural import NaturalCoordinates
 from mbs.compiler.pose import full_values
 from mbs.compiler.row_arrays import RowArrays
+from mbs.compiler.start_velocities import GivenVelocity, contradiction, given_velocities
 from mbs.kernel.header.enumerations import GuideType
 from mbs.model.guides import of_table
 from mbs.model.mechanism import Mechanism

@@ -13,7 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from ali3.arrays import read_arrays
-from ali3.unpacked import Unpacked, check_memory
+from ali3.unpacked_size import Unpacked, check_memory
 from mbs.common.errors import ModelError
 from mbs.flexible.foreign_file import LARGEST
 

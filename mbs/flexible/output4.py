@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.io import FortranEOFError, FortranFile
 
 from ali3.reading import open_file
-from ali3.unpacked import check_memory
+from ali3.unpacked_size import check_memory
 from mbs.common.errors import ModelError
 from mbs.flexible.foreign_file import LARGEST
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from ali3.scene.drawer import drawer
 from ali3.scene.recording import Recording
-from ali3.scene.written import WrittenFilm, WrittenGltf, WrittenPage
+from ali3.scene.written_file import WrittenFilm, WrittenGltf, WrittenPage
 from mbs.common.checks import instance_of, shown, text
 from mbs.results.trajectory import Trajectory
 from mbs.system.system import System

@@ -23,7 +23,7 @@ from ali3.words import brief
 from mbs.common.checks import flag, shown, whole
 from mbs.elements.road import PortRoad, Road
 from mbs.results.accuracy import Accuracy
-from mbs.results.left_out import LeftOut
+from mbs.results.omitted_sensors import LeftOut
 from mbs.results.poses import Poses
 from mbs.results.run_report import Report
 from mbs.roads.scene_part import drawn_roads, scene_part

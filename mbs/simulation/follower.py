@@ -7,7 +7,7 @@ from weakref import WeakKeyDictionary
 
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
-from mbs.results.left_out import refused
+from mbs.results.omitted_sensors import refused
 from mbs.results.simulation_error import SimulationError
 from mbs.simulation.prepared_system import prepared
 from mbs.system.system import System

@@ -8,11 +8,11 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.results.left_out import LeftOut
+from mbs.results.omitted_sensors import LeftOut
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.simulation.follower import NO_PORTS, Follower, names_left_out
 from mbs.simulation.prepared_system import prepared
-from mbs.simulation.restored import restored
+from mbs.simulation.restored_run import restored
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.system.system import System
 

@@ -13,7 +13,7 @@ from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError
 from mbs.results import accuracy
 from mbs.results.comparison import instants
-from mbs.results.left_out import LeftOut
+from mbs.results.omitted_sensors import LeftOut
 from mbs.results.run_report import Report
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import InputSignals, Signal
@@ -28,7 +28,7 @@ from mbs.simulation.arguments import (
 from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
-from mbs.simulation.recorded import recorded
+from mbs.simulation.recorded_trajectory import recorded
 from mbs.simulation.refusal import refusal
 from mbs.simulation.stepped_system import SteppedSystem
 

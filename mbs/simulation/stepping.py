@@ -44,7 +44,7 @@ from mbs.simulation.fixed_steps import fixed_step_run
 from mbs.simulation.follower import Readings
 from mbs.simulation.parameter_warning import tell_unworkable
 from mbs.simulation.refusal import refusal
-from mbs.simulation.restored import restored
+from mbs.simulation.restored_run import restored
 from mbs.simulation.start_on_road import tell_start
 from mbs.simulation.state import Pose
 from mbs.simulation.stepped_system import SteppedSystem

@@ -26,7 +26,7 @@ from mbs.simulation.controlled_run import ROUND_OFF, ControlledRun, StalledError
 from mbs.simulation.left_out_run import left_out_to_tolerance
 from mbs.simulation.method_choice import choose
 from mbs.simulation.position_record import PositionRecord
-from mbs.simulation.recorded import recorded
+from mbs.simulation.recorded_trajectory import recorded
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.simulation.tolerance_words import refused, stalled, warn_of_tolerance
 

@@ -26,11 +26,11 @@ from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.flexible_chassis import flexible_chassis, frame_of
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.chassis.ground_contact import ground_contact
+from mbs.vehicle.chassis.mass_parameters import write_inertia
 from mbs.vehicle.chassis.mount import rigid_chassis
-from mbs.vehicle.chassis.written import write_inertia
 from mbs.vehicle.checks.car_checks import car_faults, car_oddities
 from mbs.vehicle.checks.equilibrium import Rest, rest_outputs, settled
-from mbs.vehicle.checks.working import working_ranges
+from mbs.vehicle.checks.working_ranges import working_ranges
 from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.driver_inputs import driver_inputs
 from mbs.vehicle.echo.car_echo import car_echo
@@ -46,7 +46,7 @@ from mbs.vehicle.shapes.car_shapes import car_shapes
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
 from mbs.vehicle.steep_road import tell_steep_face
-from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.tabled_axle import tabled_axle
 
 MOST_FAULTS = 8

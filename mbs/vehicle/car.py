@@ -14,7 +14,7 @@ from mbs.model.model import Model
 from mbs.model.records import Guide
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.built_car import BuiltCar, checked_car
-from mbs.vehicle.changes import changed_content
+from mbs.vehicle.changed_content import changed_content
 from mbs.vehicle.chassis.flexible_chassis import amplitude_outputs
 from mbs.vehicle.chassis.stress_scene import flexible_part
 from mbs.vehicle.fidelity import Fidelity

@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.columns import in_columns
+from ali3.command_run import run_command
 from ali3.errors import UserError
 from ali3.options import Parser, add_option, given_of, name_and_text
-from ali3.running import run_command
 from ali3.units import quantity
 
 _OF_KINEMATICS = ("travel", "fidelity", "points", "out")

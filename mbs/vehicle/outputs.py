@@ -18,7 +18,7 @@ from mbs.vehicle.constants import vehicle_constants
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.port_parts import port_outputs
 from mbs.vehicle.ports import Ports
-from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.suspensions.anti_roll_bar import LINK
 
 

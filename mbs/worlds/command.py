@@ -10,9 +10,9 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.command_run import run_command
 from ali3.errors import UserError
 from ali3.options import Parser, add_option, given_of
-from ali3.running import run_command
 from ali3.units import quantity
 from mbs.worlds.shipped import shipped_worlds
 

@@ -20,7 +20,7 @@ from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.write_road import write_road
 from mbs.worlds.road_of_world import points_of, write_world_road
 from mbs.worlds.terrain import Terrain
-from mbs.worlds.thin_world import STEP, off_by, thinner
+from mbs.worlds.thinned_world import STEP, off_by, thinner
 from mbs.worlds.world_echo import world_echo
 from mbs.worlds.world_file import is_world
 from mbs.worlds.world_record import record_of, world_record

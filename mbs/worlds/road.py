@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ali3.echo import Echo, tables_of
 from ali3.errors import UserError
 from ali3.files import whole_file, write_text
-from ali3.told_warnings import told_warnings
+from ali3.warning_lines import told_warnings
 from mbs.elements.road import GridRoad, PlaneRoad
 from mbs.roads.picture import draw_road
 from mbs.roads.read_road import read_road

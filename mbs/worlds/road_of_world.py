@@ -14,7 +14,7 @@ from ali3.files import whole_file
 from mbs.kernel.header.limits import ROAD_TILE
 from mbs.roads.road_header import check_grid
 from mbs.roads.shared_tiles import TILE_PLACES, TOLERANCE, SharedWriter, simplest
-from mbs.worlds import thin_world
+from mbs.worlds import thinned_world as thin_world
 from mbs.worlds.profiles import spaced
 from mbs.worlds.terrain import Terrain
 from mbs.worlds.world_types import WorldDescription

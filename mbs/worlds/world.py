@@ -18,7 +18,7 @@ from ali3.files import write_text
 from ali3.json_reading import read_json
 from ali3.near_names import did_you_mean
 from ali3.reading import is_file
-from ali3.told_warnings import told_warnings
+from ali3.warning_lines import told_warnings
 from mbs.roads import RoadFile
 from mbs.roads.kinds import CRG, MESHES
 from mbs.worlds.make_world import described, make_world

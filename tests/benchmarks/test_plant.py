@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from benchmarks.car import plant_steps as plant
-from hosts.plant.together import Together
+from hosts.plant.vector_environment import Together
 
 
 def test_every_way_makes_its_steps(prototype_fmu: Path) -> None:

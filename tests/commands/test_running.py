@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from ali3 import processes
+from ali3.command_run import run_command
 from ali3.errors import FileError, UserError
 from ali3.processes import module_command
-from ali3.running import run_command
 from ali3.words import shortened
 from mbs.kernel import build
 

@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from ali3.running import run_command
+from ali3.command_run import run_command
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 
@@ -35,7 +35,7 @@ def test_a_command_that_is_ended_cleans_up_and_says_so(number: int, capsys: pyte
 
 def test_under_nohup_a_closed_terminal_ends_nothing() -> None:
     text = (
-        "import os, signal; from ali3.running import run_command\n"
+        "import os, signal; from ali3.command_run import run_command\n"
         "def work():\n    os.kill(os.getpid(), signal.SIGHUP); print('done'); return 0\n"
         "raise SystemExit(run_command(work))"
     )

@@ -24,7 +24,7 @@ from ali3.errors import FileError, UserError
 from ali3.named_files import MOST_FILES, NamedFiles
 from ali3.reading import check_file, read_bytes
 from ali3.scene.mesh_file import MeshError, read_mesh
-from ali3.unpacked import Unpacked, check_memory
+from ali3.unpacked_size import Unpacked, check_memory
 from hosts.common.errors import HostError
 from hosts.compare.log_aliases import Dialect
 from hosts.compare.log_file import read_log

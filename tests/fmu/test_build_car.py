@@ -151,7 +151,7 @@ def test_a_car_that_cannot_be_compiled_is_named(car: Path, monkeypatch: pytest.M
         def refuse(model: object, error: Exception = error) -> None:
             raise error
 
-        monkeypatch.setattr("fmu_src.geometry.posed.mbs.compile", refuse)
+        monkeypatch.setattr("fmu_src.geometry.system_with_poses.mbs.compile", refuse)
         with pytest.raises(ValueError, match=f"own/car.toml: the car 'my_car' cannot be built: .*{error}"):
             build_car(str(car))
 

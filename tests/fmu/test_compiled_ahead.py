@@ -14,8 +14,9 @@ import pytest
 
 import mbs
 from fmu_src.build.build import build_fmu
-from fmu_src.native import ahead, compile, sources
-from fmu_src.native.ahead import compiled_ahead
+from fmu_src.native import compile, sources
+from fmu_src.native import early_compilation as ahead
+from fmu_src.native.early_compilation import compiled_ahead
 from mbs.kernel import build
 from tests.fmu import scenes
 from tests.unoptimised import unoptimised

@@ -19,8 +19,8 @@ from ali3.scene.scene_columns import all_columns
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities
 from fmu_src.geometry.geometry import geometry, lost_frames
-from fmu_src.geometry.other_columns import with_other_columns
-from fmu_src.geometry.posed import PosesError, posed_systems
+from fmu_src.geometry.renamed_columns import with_other_columns
+from fmu_src.geometry.system_with_poses import PosesError, posed_systems
 from fmu_src.variables.variables import variable_table
 from hosts.fmu.fmu import described
 from mbs.elements import SpringDamper

@@ -16,7 +16,7 @@ from ali3.alias_file import read_content
 from ali3.errors import UserError
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
-from fmu_src.variables.other_names import renamed
+from fmu_src.variables.renamed_variables import renamed
 from fmu_src.variables.variables import variable_table
 from tests.fmu.libcosim import by_libcosim
 from tests.fmu.native import compile_host, unpack

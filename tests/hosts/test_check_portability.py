@@ -168,7 +168,7 @@ CALLS: list[tuple[str, str, str, Change]] = [
         "native",
         "refused steps",
         "without end",
-        ("sources/refusal.c", "r->step == step ? r->count + 1 : 1", "r->step == step ? 1 : 1"),
+        ("sources/refused_step.c", "r->step == step ? r->count + 1 : 1", "r->step == step ? 1 : 1"),
     ),
     (
         "native",
@@ -186,7 +186,7 @@ CALLS: list[tuple[str, str, str, Change]] = [
         "a step beyond it",
         ("sources/step.c", "time + step > s->calls.stop_time", "0.0 > 1.0 + s->calls.stop_time"),
     ),
-    ("native", "careless calls", "empty instance name", ("sources/life.c", "name[0] == 0", "false")),
+    ("native", "careless calls", "empty instance name", ("sources/life_cycle.c", "name[0] == 0", "false")),
     ("native", "far from zero", "clock stands", ("sources/step.c", "!(time + step > time) || ", "false && ")),
 ]
 

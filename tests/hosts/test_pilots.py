@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
+from hosts.driving.pilots.combined_pilot import Together
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.pilots.steering import SteeringTable
-from hosts.driving.pilots.together import Together
 
 
 def hold(pilot: SpeedHolder, start: float, seconds: float, push: float = 4.0, step: float = 0.01) -> np.ndarray:

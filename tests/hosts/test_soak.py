@@ -30,8 +30,8 @@ from hosts.recordings.replay import replay
 from hosts.soak import drive as drive_module
 from hosts.soak.checks import BadStepError, Watch
 from hosts.soak.drive import Failure, Outcome, Task, drive
-from hosts.soak.grounds import Ground, jump_ground, jump_heights
 from hosts.soak.memory import Memory
+from hosts.soak.soak_roads import Ground, jump_ground, jump_heights
 from hosts.soak.table import is_good, print_outcomes
 
 STEP = 0.002

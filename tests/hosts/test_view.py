@@ -23,7 +23,7 @@ import mbs
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities, load_scene
 from hosts.run.command import main as run_fmu
-from hosts.view import recorded
+from hosts.view import result_tables as recorded
 from hosts.view.command import main as view
 from tests.viewer.test_page_text import data_of, numbers
 from viewer import open_browser

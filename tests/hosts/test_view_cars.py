@@ -17,7 +17,7 @@ from ali3.scene.scene_columns import pose_columns
 from fmu_src.build.build import build_fmu
 from hosts.run.command import main as run
 from hosts.view.command import main as view
-from hosts.view.recorded import read_table
+from hosts.view.result_tables import read_table
 from mbs.vehicle import load
 from tests.hosts.test_view import shown
 from tests.quick import quick

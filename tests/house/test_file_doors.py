@@ -14,7 +14,7 @@ from tests.house.test_import_directions import ROOT
 ROOMS = ("ali3", "mbs", "fmu_src", "hosts", "viewer")
 DOORS = {
     "ali3/reading.py": "regular files of a limited size",
-    "ali3/unpacked.py": "packed texts, within bounds of memory",
+    "ali3/unpacked_size.py": "packed texts, within bounds of memory",
     "ali3/archives.py": "zip archives",
     "hosts/common/parquet.py": "Parquet, measured unpacked",
 }

@@ -26,9 +26,9 @@ PATHS = (
 OPTIONAL_OF_A_STUDY = {
     "hosts.fmu.built_fmu",
     "hosts.study.analysis.report",
-    "hosts.study.damage",
+    "hosts.study.damaged_files",
     "hosts.study.drawn_points",
-    "hosts.study.repeat",
+    "hosts.study.repeated_run",
     "hosts.study.signals",
     "hosts.study.target",
 }

@@ -25,7 +25,7 @@ from mbs.tyre_files.tyre_echo import magic_echo
 from mbs.urdf import read_urdf
 from mbs.vehicle import load
 from mbs.vehicle.car import car_from
-from mbs.vehicle.changes import changed_content
+from mbs.vehicle.changed_content import changed_content
 from mbs.worlds.world_echo import world_echo
 from mbs.worlds.world_types import WorldDescription
 from tests.hosts.compare.test_log_echo import Drive, drive, frozen, late, scaled, swapped

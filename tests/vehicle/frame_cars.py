@@ -13,7 +13,7 @@ import scipy.sparse as sp
 
 from mbs.vehicle import Car, load
 from mbs.vehicle.car import car_from
-from mbs.vehicle.changes import changed_content
+from mbs.vehicle.changed_content import changed_content
 from mbs.vehicle.chassis.frames.tubes import TubesFrame
 from mbs.vehicle.chassis.gauges.reading import Reading
 from mbs.vehicle.chassis.gauges.recovery_rows import AXES

@@ -11,7 +11,7 @@ from ali3.command import main
 from ali3.typed_paths import annotation_at, by_name, keys_of, table_at
 from mbs.vehicle import Car, CarFileError, CarWarning, car_names, load
 from mbs.vehicle.car import car_from
-from mbs.vehicle.changes import changed_content
+from mbs.vehicle.changed_content import changed_content
 from tests.quick import quick
 from tests.vehicle.content import new_with, numbers, sentences, tables
 

@@ -17,7 +17,7 @@ from mbs.tyre_files.tyre_echo import tmeasy_echo
 from mbs.vehicle import built_car, car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.changes import changed_content
+from mbs.vehicle.changed_content import changed_content
 from mbs.vehicle.checks.equilibrium import Rest, settled
 from mbs.vehicle.command import main
 from mbs.vehicle.errors import CarWarning

@@ -13,9 +13,9 @@ from ali3.errors import FileError
 from mbs import compile, simulate
 from mbs.common.errors import ModelError
 from mbs.vehicle import Fidelity, load
-from mbs.vehicle.levels.choice import cheapest, levels
 from mbs.vehicle.levels.drives import ACCELERATION, Drive, own_drives, read_drive
 from mbs.vehicle.levels.errors import error_of_change, load_error, path_error
+from mbs.vehicle.levels.level_choice import cheapest, levels
 from mbs.vehicle.levels.measure import measure, systems_of
 
 

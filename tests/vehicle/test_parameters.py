@@ -10,7 +10,7 @@ import pytest
 from mbs import Pose, compile, simulate
 from mbs.vehicle import car_names, load
 from mbs.vehicle.car import car_from
-from mbs.vehicle.changes import changed_content
+from mbs.vehicle.changed_content import changed_content
 from mbs.vehicle.section import AXES, PRODUCTS, sections_of
 from tests.quick import quick
 

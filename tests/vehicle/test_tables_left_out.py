@@ -11,7 +11,7 @@ import pytest
 import mbs
 from mbs.vehicle import CarFileError, CarWarning, car_names, load
 from mbs.vehicle.car import car_from
-from mbs.vehicle.changes import changed_content
+from mbs.vehicle.changed_content import changed_content
 from mbs.vehicle.copy_car import copy_car
 from mbs.vehicle.linkages.linkage import Linkage, NotReachedError
 from mbs.vehicle.springs import Damper, Spring

@@ -15,7 +15,7 @@ from ali3.typed_paths import annotation_of
 from mbs import Pose, compile
 from mbs.vehicle import CarWarning, load
 from mbs.vehicle.car import car_from
-from mbs.vehicle.changes import changed_content
+from mbs.vehicle.changed_content import changed_content
 from mbs.vehicle.quantities import quantities_in
 from mbs.vehicle.section import sections_of
 from tests.vehicle.hatchback import drive

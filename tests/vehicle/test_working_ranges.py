@@ -9,9 +9,9 @@ import pytest
 from mbs import ParameterWarning, Pose, Simulation, compile, simulate
 from mbs.vehicle import car_names, load
 from mbs.vehicle.car import car_from
-from mbs.vehicle.changes import changed_content
+from mbs.vehicle.changed_content import changed_content
 from mbs.vehicle.checks.masses import ASIDE, SHARE
-from mbs.vehicle.checks.working import FAST, SUNK, working_ranges
+from mbs.vehicle.checks.working_ranges import FAST, SUNK, working_ranges
 
 BAD = {
     "front.tyre.stiffness": (1e4, 2e6),

@@ -254,7 +254,7 @@ def test_the_platform_is_asked_for_by_name(
         return b"\0asm"
 
     monkeypatch.setattr("fmu_src.native.package.compile_library", compiled)
-    monkeypatch.setattr("fmu_src.native.ahead.compiled_ahead", lambda work: nullcontext())
+    monkeypatch.setattr("fmu_src.native.early_compilation.compiled_ahead", lambda work: nullcontext())
     scene = ["--scene", f"{SCENES}:crane", "--out", str(tmp_path)]
     assert build_fmu.main([*scene, "--platforms", "wasm32"]) == 0
     printed = capsys.readouterr().out

@@ -16,7 +16,7 @@ from ali3.extras import missing_module
 from ali3.files import check_writable, whole_file
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import Recording
-from ali3.scene.written import WrittenGltf
+from ali3.scene.written_file import WrittenGltf
 from viewer.gltf.flexible import flexible_part
 from viewer.gltf.materials import Look
 from viewer.gltf.motion import Motion, Track, kept_times, largest_errors, thinned

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.circle_stop import COMPARED, STEADY, Stop
-from hosts.catalogue.ends import Ends
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.preparation import held, start_at
-from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.stop_conditions import Ends
 from hosts.common.errors import HostError
 from hosts.driving.pilots.braking import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.signal import chirp
 from scipy.signal.windows import tukey
 
-from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.steady_map import driven_ramp
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.measures.bandwidth import bandwidth

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.ends import Ends
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.passage import Passage
 from hosts.catalogue.preparation import RunUp, held
-from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.stop_conditions import Ends
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
 from hosts.driving.courses import course_of

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.preparation import held
-from hosts.catalogue.sheet import Sheet
 
 STEP = 0.002  # s; a peak of the load lasts some 10 ms
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.preparation import held
-from hosts.catalogue.sheet import Sheet
 from hosts.common.numbers import Value
 
 STEP = 0.002  # s; a wheel passes the edge within some 10 ms

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from hosts.catalogue.circle_stop import COMPARED, STEADY, Stop
-from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.standard.braking_in_a_turn import STEP, stop
 
 AFTER = 2.0  # s that are driven after the release

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.steady_map import driven_ramp
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.measures.one_period import NOTHING, OnePeriod, one_period

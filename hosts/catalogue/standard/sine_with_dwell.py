@@ -8,7 +8,7 @@ import numpy as np
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.dwell_series import DwellRun, amplitudes, processed, series
-from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.steady_map import refuse_odd, why_not_reached
 from hosts.catalogue.steered_run import Pedals, SteeredRun, steer
 from hosts.catalogue.steering import SteeringInput

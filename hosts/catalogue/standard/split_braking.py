@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.standard.straight_braking import stop
 
 STEP = 0.005  # s; the yaw rate rises within some 0.1 s

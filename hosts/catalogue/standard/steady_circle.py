@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hosts.catalogue.circle_run import CircleRun, drive_circle
-from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.steering_ratio import steering_ratio
 
 

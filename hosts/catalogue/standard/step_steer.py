@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.steady_map import driven_ramp
 from hosts.catalogue.steered_run import Pedals, steer
 from hosts.catalogue.steering import SteeringInput

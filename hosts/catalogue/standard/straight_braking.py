@@ -7,15 +7,15 @@ from collections.abc import Mapping
 from typing import Any
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.ends import Ends
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.preparation import RunUp, early_end, held
-from hosts.catalogue.sheet import Sheet
+from hosts.catalogue.stop_conditions import Ends
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.pilots.braking import Braking
+from hosts.driving.pilots.combined_pilot import Together
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.pilots.steering import SteeringTable
-from hosts.driving.pilots.together import Together
 from hosts.driving.result import Result
 
 STEP = 0.005  # s; the pedal rises in a multiple of it

@@ -13,7 +13,7 @@ from hosts.simulator.devices.joysticks import Joystick
 from hosts.simulator.devices.mapping import SELECTOR, DeviceMapping, InputMapping
 from hosts.simulator.devices.reading import Reading, Source
 from hosts.simulator.devices.steering import Steering
-from hosts.simulator.hands import LET_GO
+from hosts.simulator.input_arbiter import LET_GO
 
 TOUCHED = 0.02
 """Movement of an input from which on the device has a word there; a device that lies untouched moves nothing."""

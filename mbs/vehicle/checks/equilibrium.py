@@ -17,7 +17,7 @@ from mbs.system.compiled_model import CompiledModel
 from mbs.vehicle.axes import LEFT, UP
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.steering.steering_interface import Steered
 
 ODD = 0.02  # m: a wheel's travel between drawing and rest
 ODD_DEFLECTION = 0.005  # m: the same of a tyre's deflection

@@ -14,7 +14,7 @@ from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
 from mbs.vehicle.checks.places import centres_of, drawn_points
-from mbs.vehicle.checks.working import DAMPER_SPEED, under_load, weight_on_spring
+from mbs.vehicle.checks.working_ranges import DAMPER_SPEED, under_load, weight_on_spring
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics.axle_measures import roll_measures, travel_measures, wheel_measures
 from mbs.vehicle.linkages.continuation import HEAVE

@@ -11,7 +11,7 @@ from typing import Any
 
 from ali3.errors import UserError
 from ali3.files import check_writable, write_text
-from ali3.told_warnings import told_warnings
+from ali3.warning_lines import told_warnings
 from mbs.common.progress import progress_for
 from mbs.vehicle.car_file import load
 from mbs.vehicle.kinematics.axle_compliance import compliance, fidelity_of

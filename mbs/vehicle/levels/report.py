@@ -15,14 +15,14 @@ from ali3.decimal_number import parse_number
 from ali3.errors import UserError
 from ali3.files import check_writable, write_text
 from ali3.near_names import did_you_mean
-from ali3.told_warnings import told_warnings
 from ali3.units import number_with_unit
+from ali3.warning_lines import told_warnings
 from ali3.words import brief
 from mbs.common.progress import progress_for
 from mbs.vehicle.car_file import load
 from mbs.vehicle.fidelity import Fidelity
-from mbs.vehicle.levels.choice import LEFT_OUT, Choice, cheapest, levels, nearest
 from mbs.vehicle.levels.drives import own_drives, read_drive
+from mbs.vehicle.levels.level_choice import LEFT_OUT, Choice, cheapest, levels, nearest
 from mbs.vehicle.levels.measure import FINE, measure, systems_of
 
 USUAL = {"path": 1.0, "loads": 3.0}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from mbs.model.shapes import ShapeVocabulary
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.axle import Axle
-from mbs.vehicle.shapes.looks import BARE, CAST, Looks
+from mbs.vehicle.shapes.appearance import BARE, CAST, Looks
 from mbs.vehicle.side import sides
 
 BODIES = {"half": "half axle"}  # parts of a suspension whose bodies have another name in the model

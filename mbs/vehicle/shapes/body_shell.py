@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.shapes.appearance import ACCENT, DARK, SILL, Looks, Paint
 from mbs.vehicle.shapes.loft import interpolated, loft
-from mbs.vehicle.shapes.looks import ACCENT, DARK, SILL, Looks, Paint
 from mbs.vehicle.shapes.occupants import steering_wheel_place
 
 GLASS: Paint = {"material": "glass", "color": "#18212b", "opacity": 0.55}

@@ -13,9 +13,9 @@ from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.chassis.frames.tubes import TubesFrame
 from mbs.vehicle.shapes.anti_roll_bar import anti_roll_bar_shapes
+from mbs.vehicle.shapes.appearance import Looks
 from mbs.vehicle.shapes.body_shell import body_shell_shapes
 from mbs.vehicle.shapes.double_wishbone import double_wishbone_shapes
-from mbs.vehicle.shapes.looks import Looks
 from mbs.vehicle.shapes.occupants import occupant_shapes
 from mbs.vehicle.shapes.powertrain import powertrain_shapes
 from mbs.vehicle.shapes.steering import rack_of, steering_shapes

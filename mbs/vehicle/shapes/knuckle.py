@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mbs.model.body import Body
-from mbs.vehicle.shapes.looks import CAST, Anchor, Looks, inboard
+from mbs.vehicle.shapes.appearance import CAST, Anchor, Looks, inboard
 from mbs.vehicle.side import Side
 
 HUB = 0.055, 0.030  # m: length and radius of the hub of a small car

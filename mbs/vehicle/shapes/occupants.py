@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.shapes.looks import CLOTH, SILL, Looks, Paint
+from mbs.vehicle.shapes.appearance import CLOTH, SILL, Looks, Paint
 from mbs.vehicle.side import Point
 
 SKIN: Paint = {"material": "plastic", "color": "#c99b7d"}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mbs.vehicle.shapes.looks import BARE, CAST, DARK, Looks
+from mbs.vehicle.shapes.appearance import BARE, CAST, DARK, Looks
 from mbs.vehicle.side import sides
 
 ENGINE = 0.44, 0.46, 0.36  # m, of a small car

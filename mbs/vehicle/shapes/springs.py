@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from mbs.vehicle.shapes.looks import COIL, POLISHED, Anchor, Looks
+from mbs.vehicle.shapes.appearance import COIL, POLISHED, Anchor, Looks
 
 COIL_RADIUS, WIRE, DAMPER_RADIUS = 0.046, 0.011, 0.020  # m, of a small car
 PITCH = 0.038  # m from coil to coil

@@ -10,7 +10,7 @@ from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
-from mbs.vehicle.shapes.looks import BARE, CAST, DARK, POLISHED, Looks
+from mbs.vehicle.shapes.appearance import BARE, CAST, DARK, POLISHED, Looks
 from mbs.vehicle.shapes.occupants import RADIUS, TILT, driver_place, steering_wheel_place
 from mbs.vehicle.side import Point
 from mbs.vehicle.steering.pitman_arm import LINK, PitmanArm

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from mbs.vehicle.axle import Axle
+from mbs.vehicle.shapes.appearance import CAST, Looks, between, share_along
 from mbs.vehicle.shapes.knuckle import knuckle
-from mbs.vehicle.shapes.looks import CAST, Looks, between, share_along
 from mbs.vehicle.shapes.springs import spring_and_damper
 from mbs.vehicle.side import sides
 

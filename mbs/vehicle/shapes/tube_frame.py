@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from mbs.vehicle.chassis.tubular_frame import TubularFrame
-from mbs.vehicle.shapes.looks import BARE, CAST, PAINT, Looks
+from mbs.vehicle.shapes.appearance import BARE, CAST, PAINT, Looks
 
 FRAME = "frame tube"
 """Name of the shapes of the tubes, which closed bodies hide; left out where the frame is drawn as it bends."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mbs.vehicle.axle import Axle
-from mbs.vehicle.shapes.looks import Looks
+from mbs.vehicle.shapes.appearance import Looks
 from mbs.vehicle.side import sides
 from mbs.vehicle.tyres import Tyre
 

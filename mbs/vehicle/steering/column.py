@@ -40,7 +40,7 @@ from mbs.vehicle.quantities import (
 from mbs.vehicle.side import Point, Side
 from mbs.vehicle.steering.driver import angle_demand
 from mbs.vehicle.steering.rack_section import RackSection
-from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.steering.steering_outputs import RACK_FORCE, WHEEL_SPEED, WHEEL_TORQUE, demand_outputs
 from mbs.vehicle.steering.steering_section import COLUMN_STICK
 

@@ -12,7 +12,7 @@ from mbs.model.more_guides import MoreGuidesVocabulary
 from mbs.model.records import Guide
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.port_inputs import new_port
-from mbs.vehicle.steering.steered import RACK
+from mbs.vehicle.steering.steering_interface import RACK
 from mbs.vehicle.steering.steering_section import COLUMN_STICK
 
 

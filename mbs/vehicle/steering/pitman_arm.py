@@ -32,7 +32,7 @@ from mbs.vehicle.side import Side
 from mbs.vehicle.steering.driven_rack import column_friction
 from mbs.vehicle.steering.driver import angle_demand
 from mbs.vehicle.steering.four_bar import FourBar
-from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.steering.steering_outputs import WHEEL_SPEED, WHEEL_TORQUE, demand_outputs, tie_ratio
 from mbs.vehicle.steering.steering_section import SteeringSection
 

@@ -17,7 +17,7 @@ from mbs.vehicle.steering import driven_rack
 from mbs.vehicle.steering.driver import angle_demand
 from mbs.vehicle.steering.rack_section import RackSection, rack_ends
 from mbs.vehicle.steering.rack_table import SAME, RackTable, Rows, table_faults
-from mbs.vehicle.steering.steered import Steered
+from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.steering.steering_outputs import rack_outputs, rack_torque_outputs, tie_ratio
 
 

@@ -9,7 +9,7 @@ from mbs.model.joints.joint import Joint
 from mbs.model.mechanism import Mechanism
 from mbs.model.records import Guide, Input
 from mbs.vehicle.builder import CarBuilder
-from mbs.vehicle.steering.steered import RACK
+from mbs.vehicle.steering.steering_interface import RACK
 from mbs.vehicle.steering.steering_section import SteeringSection
 
 WHEEL_TORQUE = "torque of the driver's hands on the steering wheel, positive to the left"

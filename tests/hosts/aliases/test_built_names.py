@@ -22,7 +22,7 @@ from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.geometry import scene_of
 from hosts.fmu.variables import Variables
 from hosts.run.command import main as run
-from hosts.view.recorded import read_table
+from hosts.view.result_tables import read_table
 from hosts.view.view_sources import RunWishes, recordings_of
 from tests.hosts.plant.conftest import Made
 from tests.in_process import build_fmu

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any, cast
 
 from hosts.catalogue.definition import file_of_test
+from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.record import TestRecord
-from hosts.catalogue.sheet import Sheet
 
 
 def values(record: TestRecord) -> dict[str, float]:

@@ -9,7 +9,7 @@ import pytest
 
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.kept import find, keep
+from hosts.catalogue.finished_tests import find, keep
 from hosts.catalogue.output import measures_csv
 from hosts.catalogue.perform import settings_of_test
 from hosts.catalogue.record import TestRecord

@@ -12,7 +12,7 @@ from ali3.units import known_unit
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.definition import file_of_test
-from hosts.catalogue.kept import keep
+from hosts.catalogue.finished_tests import keep
 from hosts.catalogue.limits import GivenLimits
 from hosts.catalogue.perform import settings_of_test
 from hosts.catalogue.record import TestRecord

@@ -12,9 +12,9 @@ import pytest
 from hosts.catalogue.car import TestedCar
 from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.driving.pilots.combined_pilot import Together
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.pilots.steering import SteeringTable
-from hosts.driving.pilots.together import Together
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.fmu_source import FmuSource

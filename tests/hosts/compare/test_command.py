@@ -12,7 +12,7 @@ import pytest
 from pendulum import measured, measured_pull, motion
 
 from hosts.compare.command import main
-from hosts.view.recorded import read_table
+from hosts.view.result_tables import read_table
 
 TRUE = (123.0, 1.7)
 Columns = dict[str, np.ndarray]

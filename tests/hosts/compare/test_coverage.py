@@ -10,9 +10,9 @@ import pytest
 from pendulum import END, measured, measured_pull, motion
 
 from hosts.compare.fit import Fit, fit, overlapping
+from hosts.compare.fit_unknowns import Unknown, nuisances
 from hosts.compare.replay import Replay, inputs_of
 from hosts.compare.stretches import Stretch
-from hosts.compare.unknown import Unknown, nuisances
 from hosts.driving.result import Result
 from hosts.fmu.fmu_source import FmuSource
 

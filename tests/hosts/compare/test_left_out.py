@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from hosts.compare.left_out import FOLDS, Parts, clustered_covariance, folds, left_out, without_each
+from hosts.compare.cross_validation import FOLDS, Parts, clustered_covariance, folds, left_out, without_each
 
 LENGTH, SAMPLES = 10.0, 40
 

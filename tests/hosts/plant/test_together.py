@@ -15,7 +15,7 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 import hosts.plant.environments  # noqa: F401, registers them
 from hosts.common.errors import HostError
 from hosts.plant.environments import LaneKeeping
-from hosts.plant.together import Together
+from hosts.plant.vector_environment import Together
 
 LANE, BRAKES, LAP = (f"ali3/{name}-v0" for name in ("LaneKeeping", "AntiLockBraking", "ProvingGroundLap"))
 MANY, STEPS = 5, 24

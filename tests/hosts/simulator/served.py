@@ -15,7 +15,7 @@ import numpy as np
 
 from hosts.common.errors import HostError
 from hosts.simulator.guard import Guard
-from hosts.simulator.hands import Hands
+from hosts.simulator.input_arbiter import Hands
 from hosts.simulator.server import Server
 from hosts.simulator.server_needs import Content
 from hosts.simulator.web import listening_socket

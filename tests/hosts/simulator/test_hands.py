@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from hosts.simulator.hands import LET_GO, Hands
+from hosts.simulator.input_arbiter import LET_GO, Hands
 
 KEYS = Path(__file__).parents[3] / "viewer" / "page" / "src" / "live" / "keyboard.js"
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from hosts.simulator.late_causes import CAUSES
-from hosts.simulator.pace import MOST_LATE, Pace
+from hosts.simulator.real_time_clock import MOST_LATE, Pace
 from hosts.simulator.step_times import TIMES_SIZE, TimesRecord
 
 H = 0.002

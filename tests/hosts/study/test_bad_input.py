@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from hosts.study import trial
+from hosts.study import trial_runs as trial
 from hosts.study.command import main
 from hosts.study.folder import begin_study
 from hosts.study.plan import make_plan

@@ -16,9 +16,9 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.fmu_source import FmuSource
 from hosts.study.campaign import run_study
 from hosts.study.jobs import Job
-from hosts.study.one_run import Bench
 from hosts.study.store import read_study
-from hosts.study.work import Work
+from hosts.study.study_runs import Bench
+from hosts.study.worker_data import Work
 
 TESTS = Path(__file__).parents[2]
 BAD = """

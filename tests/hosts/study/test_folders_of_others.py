@@ -16,10 +16,10 @@ from hosts.study.command import main
 from hosts.study.folder import begin_study, read_record
 from hosts.study.parts import PartWriter
 from hosts.study.plan import make_plan
-from hosts.study.repeat import repeater
+from hosts.study.repeated_run import repeater
 from hosts.study.store import read_study
 from hosts.study.study_file import read_study_file
-from hosts.study.work import Outcome
+from hosts.study.worker_data import Outcome
 
 
 @pytest.fixture

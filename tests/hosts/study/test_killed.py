@@ -30,7 +30,7 @@ from hosts.study.command import main
 from hosts.study.outcome_table import Row
 from hosts.study.parts import part_files
 from hosts.study.store import read_study
-from hosts.study.work import Outcome, Run
+from hosts.study.worker_data import Outcome, Run
 
 ROOT = Path(__file__).parents[3]
 RUNS = 140

@@ -16,7 +16,7 @@ from hosts.study.analysis.report import report_of
 from hosts.study.command import main
 from hosts.study.limits import share_notes, share_rows, shares
 from hosts.study.store import read_study
-from hosts.study.work import ALL
+from hosts.study.worker_data import ALL
 from tests.hosts.study.frames import frame_of
 
 UNITS = {"k": "N/m", "gradient": "rad.s2/m", "speed": "m/s"}

@@ -22,7 +22,7 @@ from hosts.common.errors import HostError
 from hosts.run.command import main as drive
 from hosts.study.campaign import run_study
 from hosts.study.command import main
-from hosts.study.repeat import repeater
+from hosts.study.repeated_run import repeater
 from hosts.study.store import read_study
 
 TESTS = Path(__file__).parents[2]

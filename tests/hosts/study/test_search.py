@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from hosts.study.search import Found, seek
+from hosts.study.target_search import Found, seek
 
 
 def sought(function: Callable[[float], float], wanted: float, low: float, high: float, **more: float) -> Found:

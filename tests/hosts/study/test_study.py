@@ -13,10 +13,10 @@ import pytest
 
 from hosts.common.errors import HostError
 from hosts.study.campaign import run_study
-from hosts.study.one_run import Bench
 from hosts.study.plan import make_plan
 from hosts.study.store import open_signals, read_study
 from hosts.study.study_file import read_study_file
+from hosts.study.study_runs import Bench
 
 GRAVITY = 9.81
 STUDY = (Path(__file__).parent / "study.txt").read_text(encoding="utf-8")

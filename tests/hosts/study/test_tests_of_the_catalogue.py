@@ -10,11 +10,11 @@ import pytest
 
 from hosts.catalogue.registry import TESTS
 from hosts.study.command import main
-from hosts.study.one_run import Bench
 from hosts.study.plan import make_plan
 from hosts.study.study_file import read_study_file
-from hosts.study.trial import try_out, with_columns
-from hosts.study.work import DONE, Outcome
+from hosts.study.study_runs import Bench
+from hosts.study.trial_runs import try_out, with_columns
+from hosts.study.worker_data import DONE, Outcome
 
 STUDY = 'fmu = "{fmu}"\nstep = 0.005\n[parameters]\n"front.tyre.grip" = {{ values = [1.0, 0.9] }}\n'
 # Short, and such that nothing is asked that these runs cannot tell.

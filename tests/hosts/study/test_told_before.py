@@ -12,8 +12,8 @@ from hosts.common.road import road_value
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.study.campaign import run_study
 from hosts.study.jobs import Job
-from hosts.study.one_run import OneProcess
-from hosts.study.work import Run, Work
+from hosts.study.study_runs import OneProcess
+from hosts.study.worker_data import Run, Work
 
 
 @pytest.mark.slow

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from hosts.common.errors import HostError
 from hosts.simulator.devices import configuration_folder
 from hosts.simulator.devices.mapping import read_settings
-from hosts.simulator.hands import LET_GO, Hands
+from hosts.simulator.input_arbiter import LET_GO, Hands
 from hosts.simulator.protocol import DEVICE_MESSAGES
 from tests.hosts.simulator.devices.virtual import ANGLE_MAX, GAMEPAD, INPUTS, OTHER, sdl2, until
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from hosts.simulator.car import Car, CarSettings
-from hosts.simulator.hands import Hands
+from hosts.simulator.input_arbiter import Hands
 from tests.hosts.simulator.devices.haptics import Haptics
 from tests.hosts.simulator.devices.virtual import until
 

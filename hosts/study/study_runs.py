@@ -28,7 +28,7 @@ from hosts.fmu.fmu_source import LoadedFmu
 from hosts.fmu.own_process import files_of
 from hosts.measures.measure import Measure
 from hosts.study.jobs import Job, performed
-from hosts.study.work import DONE, FAILED, INCOMPLETE, Outcome, Run, Work, seed_of
+from hosts.study.worker_data import DONE, FAILED, INCOMPLETE, Outcome, Run, Work, seed_of
 
 if TYPE_CHECKING:
     from hosts.driving.driver import Driver

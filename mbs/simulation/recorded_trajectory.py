@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.results.accuracy import Accuracy
-from mbs.results.left_out import LeftOut
+from mbs.results.omitted_sensors import LeftOut
 from mbs.results.trajectory import Trajectory
 from mbs.settings.control import Control
 from mbs.settings.settings import Settings

@@ -10,9 +10,9 @@ from typing import Any
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.study.jobs import Job
-from hosts.study.one_run import OneProcess
 from hosts.study.plan import Plan
-from hosts.study.work import FAILED, INCOMPLETE, Outcome, Work
+from hosts.study.study_runs import OneProcess
+from hosts.study.worker_data import FAILED, INCOMPLETE, Outcome, Work
 
 _LONGEST = 2.0  # s of a run that is repeated for the test of reuse
 _ROW = 60.0  # bytes of a row in a part beside its numbers

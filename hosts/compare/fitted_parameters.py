@@ -10,7 +10,7 @@ from ali3.near_names import did_you_mean
 from ali3.processes import command_name
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.compare.unknown import Unknown
+from hosts.compare.fit_unknowns import Unknown
 from hosts.fmu.variables import Variable
 
 _STEP = "step_size"
