@@ -84,7 +84,7 @@ def test_importing_loads_none_of_them() -> None:
 
 
 def test_a_study_does_not_load_what_only_some_studies_ask_for() -> None:
-    names = {f"hosts.study.{name}" for name in ("campaign", "command", "outcome_table", "trial")}
+    names = {f"hosts.study.{name}" for name in ("campaign", "command", "outcome_table", "trial_runs")}
     names |= {f"hosts.experiment.{name}" for name in ("cluster", "cluster_runs")}
     loaded = ran(f"import sys, {', '.join(names)}; print(*sys.modules)").stdout.split()
     assert names <= set(loaded)
