@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mbs import Model, Pose, Settings, Simulation, System, compile, write_road
-from mbs.elements import GridRoad, KerbRoad, PlaneRoad
+from mbs.elements import EndStops, GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.binding.many import Many, widest_lanes
 from mbs.scenes import (
@@ -221,6 +221,29 @@ def test_what_is_not_for_lanes_is_stepped_alone(system: Callable[[], System], se
     compiled, h, n = system(), 0.005, 5
     single, together = ([Simulation(compiled, settings=settings) for _ in range(2)] for _ in range(2))
     assert compare(Many(prepared(compiled)[0], 2), single, together, h, n)[0] == 2 * n
+
+
+def test_lanes_count_abrupt_steps_at_a_stop_from_the_first_step_on() -> None:
+    """A state in which a spring is beyond its stop goes on in lanes that have made no step of their own."""
+    system, h, n = compile(_stopped()), 0.004, 5
+    begun = _after(system, 10, h)
+    single, together = ([Simulation(system) for _ in range(2)] for _ in range(2))
+    for simulation in (*single, *together):
+        simulation.restore(begun.save())
+    counted = single[0].instance.report()["abrupt_steps"]
+    assert compare(Many(prepared(system)[0], 2), single, together, h, n) == (0, {Status.OK})
+    assert single[0].instance.report()["abrupt_steps"] > counted
+
+
+def _stopped() -> Model:
+    """A mass that meets a stop after 0.03 s and is in it for half of a period of 0.1 s; there is no road."""
+    m = Model("mass at a stop", dimension=2, gravity=(0.0, 0.0))
+    mass = m.point_mass("mass", mass=1.0, position=(1.0, 0.0))
+    m.point_on_line("line", (mass, (1.0, 0.0)), (m.ground, (1.0, 0.0)), axis=(1.0, 0.0))
+    m.initial_velocity(mass, linear=(1.0, 0.0))
+    stops = EndStops(rebound_length=1.03, rebound_stiffness=4e3)
+    m.spring_damper("stop", (m.ground, (0.0, 0.0)), (mass, (1.0, 0.0)), stiffness=0.0, free_length=1.0, stops=stops)
+    return m
 
 
 def test_groups_refuse_what_they_cannot_step() -> None:

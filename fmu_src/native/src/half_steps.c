@@ -10,9 +10,9 @@
 #include "slave.h"
 
 static const double SPAN = 0.5; /* s after an abrupt step or a difference: a wheel swings five times, or lands */
-static const double BUDGET = 2.0,
-                    SHARE = 0.1; /* s from a start on in ALI3_MOST_PARTS parts, as a wheel spins; beside them s, and
-                                                * of what was driven: how much is made twice at most */
+/* s from a start on in ALI3_MOST_PARTS parts, as a wheel spins; beside them s, and of what was driven: how much is made
+ * twice at most. */
+static const double BUDGET = 2.0, SHARE = 0.1;
 static const double SHORT = 1.3e-3; /* s, steps that resolve a wheel on its tyre; a second costs no more than at 2 ms */
 /* Iterations of both motions in an inner step of up to 2 SHORT: where it takes more the other one waits. */
 static const int64_t ROOM = 7;
@@ -177,8 +177,8 @@ static bool begin(slave *s, const slave_late_step *step) {
   return t->left > 0.0;
 }
 
-/* When the other motion ends: what is known and, without a road and a stop that was met, when the error is large by how it grew between
- * the last two windows of a start, as a power of the time. */
+/* When the other motion ends: what is known and, without a road and a stop that was met, when the error is large by how
+ * it grew between the last two windows of a start, as a power of the time. */
 static void conclude(slave *s, const slave_late_step *step, double apart) {
   slave_half_steps *t = &s->half_steps;
   const double n = (double)parts_of(s, step->h), error = ali3_error_of(t->then, n, ALI3_EVENT_ORDER);

@@ -140,7 +140,7 @@ struct ali3_system {
   int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */
   const ali3_element_type **el_kind;
   ali3_element_size *el_size; /* ne */
-  ali3_contact_forces_of *contact; /* n_contact: elements with a depth or a rebound stop */
+  ali3_contact_forces_of *contact; /* n_contact: elements with a depth or end stops */
   int32_t *el_S_off; /* ne+1: offsets of the elements' signal tangents */
   int32_t *el_entry_ptr; /* ne+1: signal entries of the element */
   int32_t *el_entry_local; /* per entry: its coordinate within the element */

@@ -86,6 +86,7 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   ali3_vectors *from = &in->now, *to = &in->next;
   const double h = step->asked.h;
   if (ali3_parted(in, step->asked.t, h)) return false;
+  in->changed = -1.0;
   ali3_events_begin(in, step->asked.depth);
   if (ali3_divides_ahead(in, &step->asked) || fastest_turn(in) * h > MOST_TURN || !goes_on(in, h)) return false;
   if (ali3_inputs_begin(in, step->asked.t, h) != ALI3_OK) return false;

@@ -33,7 +33,8 @@ ALI3_INLINED void history_miss(const ali3_instance *in, int32_t n, const real *w
 ALI3_BY_PROCESSOR(in->system, void, history_miss, (const ali3_instance *in, int32_t n, const real *weight),
                   (in, n, weight))
 
-/* Before a step h: whether the n steps before the last would have predicted the last much better than assuming no change. */
+/* Before a step h: whether the n steps before the last would have predicted the last much better than assuming no
+ * change. */
 ALI3_INLINED truth history_smooth(const ali3_instance *in, int32_t n, double h, bool controlled) {
   const int32_t nq = in->system->size.nq;
   const real *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a, *miss = in->w;
