@@ -1,4 +1,4 @@
-"""The outputs of an FMU for a pilot: between rows only those that it uses are read."""
+"""The outputs of an FMU for a pilot: between rows only those that it uses are read, or all where some are derived."""
 
 from __future__ import annotations
 
@@ -18,10 +18,14 @@ class _NoOutputError(HostError, KeyError):
 
 
 class Senses(Mapping[str, float]):
-    """The outputs of now by name, read from the FMU when they are asked for: an FMU may compute some on reading."""
+    """The outputs of now by name, read from the FMU when they are asked for: an FMU may compute some on reading.
+
+    Where some are derived all are read after each step: rates and whole turns are made from those of the steps before.
+    """
 
     def __init__(self, fmu: SimulatedFmu, names: Sequence[str]) -> None:
         self._fmu, self._places = fmu, {n: k for k, n in enumerate(names)}
+        self._each_step = any(n in fmu.derived for n in names)
         self._read_all, self.row = fmu.reader(names), np.empty(len(names))
         self._all_read, self._used_read = False, False
         self._used: dict[str, int] = {}
@@ -32,6 +36,8 @@ class Senses(Mapping[str, float]):
     def stepped(self) -> None:
         """The FMU has made a step: what was read is that of before."""
         self._all_read = self._used_read = False
+        if self._each_step:
+            self.whole()
 
     def whole(self) -> NDArray[np.float64]:
         """All outputs of now."""

@@ -125,6 +125,16 @@ def test_the_same_car_gives_the_same_record(style, foreign_fmu, alias_file, ours
     assert record["brake"] == pytest.approx(ours["brake"], abs=1e-12)
 
 
+def test_rates_are_of_the_steps_where_rows_are_further_apart(foreign_fmu, alias_file):
+    """Also at rows every 0.5 s; yaw counts its turns between them."""
+    car = car_of(foreign_fmu("chrono"), alias_file("chrono"))
+    each, few = (car.drive(manoeuvre(), record_step=apart) for apart in (None, 0.5))
+    assert len(few.time) == 25
+    assert np.array_equal(few["chassis.yaw"], each["chassis.yaw"][::50])
+    inner = slice(1, -1)  # the ends have differences on one side
+    assert few["chassis.ay"][inner] == pytest.approx(each["chassis.ay"][::50][inner], abs=0.1)
+
+
 @pytest.mark.slow
 def test_rates_are_as_good_as_the_step_is_short(foreign_fmu, alias_file):
     errors = []
