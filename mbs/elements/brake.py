@@ -35,7 +35,7 @@ class Brake(Element):
     _integers = (
         an_input("pedal", "the input"),
         an_input("hand", "the hand brake", missing=True),
-        Integer("by_size", most=1, optional=True),
+        Integer("by_size", most=1, optional=True, words="the choice of a size as the input"),
     )
     _states = (0.0, 0.0)
     _outputs = (

@@ -72,7 +72,7 @@ class TyreCurve:
 
 
 Curve = Annotated[TyreCurve, Group(TyreCurve, "a TyreCurve", "curve")]
-WITH_BORE = Integer("with_bore", least=1, most=1, optional=True)
+WITH_BORE = Integer("with_bore", least=1, most=1, optional=True, words="the number of bore torques")
 """It is there where bore torque is."""
 
 

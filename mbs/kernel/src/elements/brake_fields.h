@@ -41,7 +41,7 @@ static const ali3_field brake_fields[] = {
 static const ali3_integer brake_integers[] = {
   {ALI3_OF_INPUTS, 0, INT32_MAX, 0, 0, "the input of a brake names an input that does not exist"},
   {ALI3_OF_INPUTS, -1, INT32_MAX, 0, 0, "the hand brake of a brake names an input that does not exist"},
-  {ALI3_OF_NUMBERS, 0, 1, 0, 0, "the by size of a brake must be 0 or 1"},
+  {ALI3_OF_NUMBERS, 0, 1, 0, 0, "the choice of a size as the input of a brake must be 0 or 1"},
 };
 #define ALI3_BRAKE \
   .nsig = 7, .nreal = 6, .nint = 2, .nstate = 2, .nout = 4, .fields = brake_fields, .nfields = 6, \

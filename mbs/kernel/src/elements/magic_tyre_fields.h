@@ -108,7 +108,7 @@ static const ali3_integer magic_tyre_integers[] = {
   {ALI3_OF_ROADS, 0, INT32_MAX, 0, 0, "the road of a tyre names a road that does not exist"},
   {ALI3_OF_NUMBERS, 0, INT32_MAX, 0, 0, "the version of a tyre must be at least 0"},
   {ALI3_OF_NUMBERS, 0, 2, 0, 0, "the combination of a tyre must be 0 or 1 or 2"},
-  {ALI3_OF_NUMBERS, 1, 1, 0, 0, "the with bore of a tyre must be 1"},
+  {ALI3_OF_NUMBERS, 1, 1, 0, 0, "the number of bore torques of a tyre must be 1"},
 };
 #define ALI3_MAGIC_TYRE \
   .nsig = 7, .nreal = 203, .nreal_more = 3, .nint = 3, .nstate = 4, .nstate_more = 2, .nout = 18, \

@@ -115,7 +115,7 @@ static const ali3_field tyre_fields[] = {
 };
 static const ali3_integer tyre_integers[] = {
   {ALI3_OF_ROADS, 0, INT32_MAX, 0, 0, "the road of a tyre names a road that does not exist"},
-  {ALI3_OF_NUMBERS, 1, 1, 0, 0, "the with bore of a tyre must be 1"},
+  {ALI3_OF_NUMBERS, 1, 1, 0, 0, "the number of bore torques of a tyre must be 1"},
 };
 #define ALI3_TYRE \
   .nsig = 7, .nreal = 41, .nreal_more = 3, .nint = 1, .nstate = 4, .nstate_more = 2, .nout = 16, \
