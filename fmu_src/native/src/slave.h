@@ -129,7 +129,7 @@ typedef struct { /* the last good communication step, whose start the fidelity k
   bool sloped; /* along derivatives of the inputs, which are kept */
 } slave_made;
 
-typedef struct { /* inputs that the host gave within the last communication step, see asked_inputs.c */
+typedef struct { /* inputs that the host gave within the last communication step, see intermediate_update.c */
   int64_t n, room; /* inner steps that rows are kept of, 0: none were given; that there is room for */
   double *row, *next; /* (n + 1) x nu: at the ends of inner steps, from the start on; the one that is asked for */
   double *value; /* n_known: what was given last */
@@ -270,7 +270,7 @@ bool slave_texts_start(slave *s);
 void slave_texts_remark(slave *s);
 bool slave_without_effect(const slave *s, const slave_variable *v);
 
-/* life.c */
+/* life_cycle.c */
 slave *slave_new(const ali3_memory *memory, void *host, slave_logger *logger, bool logging, const char *name,
                  const char *token, const char *resources);
 void slave_free(slave *s);
@@ -312,7 +312,7 @@ bool slave_is_output(uint32_t reference);
 slave_status slave_taken(slave *s, uint32_t reference, double value, double *taken); /* of an input, and said once */
 slave_status slave_may_set(slave *s, uint32_t reference, double value); /* the answer it would get; nothing is set */
 
-/* whole.c: the same of whole numbers */
+/* integers.c: the same of whole numbers */
 slave_status slave_get_whole(slave *s, const uint32_t *reference, size_t n, int32_t *value);
 slave_status slave_set_whole(slave *s, const uint32_t *reference, size_t n, const int32_t *value);
 
@@ -325,7 +325,7 @@ void slave_add_slopes(const double *slope, double elapsed, double *input);
 void slave_asked_at(const slave *s, double elapsed, double h, double *input);
 void slave_inputs_at(const slave *s, double elapsed, double *input);
 
-/* asked_inputs.c */
+/* intermediate_update.c */
 bool slave_asked_room(slave *s, int64_t n);
 void slave_asked_free(slave *s);
 slave_status slave_set_asked(slave *s, const uint32_t *reference, size_t n, const double *value);
@@ -349,7 +349,7 @@ void slave_half_steps_look(slave *s);
 void slave_half_steps_end(slave *s);
 void slave_half_steps_free(slave *s);
 
-/* made_again.c: parameters and inputs of the step that was made; the same set in the state of its start */
+/* repeated_step.c: parameters and inputs of the step that was made; the same set in the state of its start */
 void slave_look_at_step(const slave *s, double *parameter, double *input);
 ali3_status slave_set_step(const slave *s, const double *parameter, const double *input);
 
@@ -366,7 +366,7 @@ void slave_kinks_begin(slave_kinks *k, ali3_instance *kernel, bool beside);
 void slave_kinks_after(slave_kinks *k, ali3_instance *kernel);
 slave_status slave_kinks_say(slave *s, const slave_kinks *k);
 
-/* refusal.c: a host that asks for a refused step again is stopped */
+/* refused_step.c: a host that asks for a refused step again is stopped */
 slave_status slave_refuse_step(slave *s, ali3_status status, double time, double step, const char *worst,
                                const slave_variable *jumped);
 void slave_forget_refusal(slave *s);
