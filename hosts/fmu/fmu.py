@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from ctypes import c_double, c_int32, c_uint32
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
@@ -28,10 +28,6 @@ from hosts.fmu.description_file import opened, read_description
 from hosts.fmu.instance import Instance, State, inputs_within_steps
 from hosts.fmu.scalars import TEXTS, NamedScalars, Place, constants_of
 from hosts.fmu.variables import Variables, check_co_simulation
-
-if TYPE_CHECKING:
-    pass
-
 
 _MOST_MESSAGES = 10_000  # between two calls that clear them
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ali3.columns import some_of
 from ali3.files import whole_file
+from ali3.reading import is_file
 from ali3.words import one_line
 from hosts.common.errors import HostError
 from hosts.common.parquet import opened_parquet
@@ -81,8 +82,11 @@ def read_part(file: Path, record: Mapping[str, Any]) -> Any:
 
 
 def read_signals(part: Path, record: Mapping[str, Any]) -> Any:
-    """The signals beside a part, see `read_part`."""
-    return _read(signals_beside(part), signal_schema(record))
+    """The signals beside a part, see `read_part`; a file that has gone is one that is damaged."""
+    file = signals_beside(part)
+    if not is_file(file):
+        raise DamagedPartError(file, "it is not there")
+    return _read(file, signal_schema(record))
 
 
 def _read(file: Path, schema: Any) -> Any:

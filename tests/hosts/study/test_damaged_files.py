@@ -85,3 +85,17 @@ def test_a_damaged_file_is_told_and_its_runs_are_made_again(
         assert read_study(folder).drop(columns="wall_seconds").equals(rows)
         assert np.array_equal(open_signals(folder)["bob.y"].to_numpy(), samples)
     assert len(list((folder / "runs").glob(".damaged-part-*"))) == 1
+
+
+def test_the_runs_of_signals_that_have_gone_are_made_again(
+    study_file: Callable[..., Path], tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    file, folder = study_file(more=SIGNALS), tmp_path / "out"
+    assert run_study(file, folder, None, 1) is not None
+    samples = open_signals(folder)["bob.y"].to_numpy()
+    (folder / "signals/part-000001.parquet").unlink()
+    with pytest.raises(HostError, match="it is not there.*; the same study, started again, makes its runs again"):
+        open_signals(folder)
+    assert run_study(file, folder, None, 1) is not None
+    assert "part-000001.parquet is damaged (it is not there); its runs are made again." in capfd.readouterr().err
+    assert np.array_equal(open_signals(folder)["bob.y"].to_numpy(), samples)
