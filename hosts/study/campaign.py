@@ -91,7 +91,8 @@ def run_study(
 
             for line in set_damaged_aside(folder, before):
                 print(f"note: {line}", file=sys.stderr)
-        if before is not None and not dry and not again and runs_done(folder, before).all():
+        if before is not None and kept is not None and not again and runs_done(folder, before).all():
+            kept.clear()  # a kill between a table and its journal leaves both
             keep_limits(folder, before, plan.record["limits"], content)
             print(f"{plan.runs} of {plan.runs} runs are there: {folder}")
             return Ended(folder, True, 0)

@@ -29,7 +29,6 @@ OPTIONAL_OF_A_STUDY = {
     "hosts.study.damaged_files",
     "hosts.study.drawn_points",
     "hosts.study.repeated_run",
-    "hosts.study.signals",
     "hosts.study.target",
 }
 """What only some options and files of a study ask for."""

@@ -99,3 +99,6 @@ def test_the_runs_of_signals_that_have_gone_are_made_again(
     assert run_study(file, folder, None, 1) is not None
     assert "part-000001.parquet is damaged (it is not there); its runs are made again." in capfd.readouterr().err
     assert np.array_equal(open_signals(folder)["bob.y"].to_numpy(), samples)
+    (folder / "done").write_bytes(b"")  # as a kill leaves it between the last part and the end of the journal
+    assert run_study(file, folder, None, 1) is not None
+    assert not (folder / "done").exists()
