@@ -92,8 +92,8 @@ def read_signals(part: Path, record: Mapping[str, Any]) -> Any:
 def _read(file: Path, schema: Any) -> Any:
     try:
         with opened_parquet(file, checksums=True) as part:
-            table = part.read()
-            written = [part.metadata.row_group(k).num_rows for k in range(part.metadata.num_row_groups)]
+            table, laid_out = part.read(), _is_laid_out(part.metadata)
+            written = [part.metadata.num_rows, sum(g.num_rows for g in _row_groups(part.metadata))]
     except HostError:
         raise
     except (pa.ArrowException, OSError, KeyError, ValueError) as error:
@@ -102,9 +102,25 @@ def _read(file: Path, schema: Any) -> Any:
         own = {field.name: str(field.type) for field in schema}
         odd = [f.name for f in table.schema if own.get(f.name) != str(f.type)]
         raise DamagedPartError(file, f"its columns are not those of the study: {some_of(odd or own, 3)}")
-    if sum(written) != len(table):  # the number of rows has no checksum
-        raise DamagedPartError(file, f"{sum(written)} rows were written, and it says {len(table)}")
+    if any(n != len(table) for n in written):  # the footer has no checksum
+        raise DamagedPartError(file, f"{max(written)} rows were written, and it has {len(table)}")
+    if not laid_out:
+        raise DamagedPartError(file, "its footer names other places than those of its columns")
     return table
+
+
+def _row_groups(metadata: Any) -> list[Any]:
+    return [metadata.row_group(k) for k in range(metadata.num_row_groups)]
+
+
+def _is_laid_out(metadata: Any) -> bool:
+    """Whether columns lie one behind the other: one at the place of another has right checksums too."""
+    end = 4  # behind the magic number
+    for column in (group.column(k) for group in _row_groups(metadata) for k in range(group.num_columns)):
+        if end != (column.dictionary_page_offset or column.data_page_offset):
+            return False
+        end += column.total_compressed_size
+    return True
 
 
 def runs_done(folder: Path, record: Mapping[str, Any]) -> NDArray[np.bool_]:
