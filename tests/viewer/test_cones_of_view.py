@@ -41,7 +41,7 @@ def opened(
     page = Opened(chromium, table.with_suffix(".html"), "#camera=top")
     page("""() => {
       player.view.parts.group.visible = false;
-      document.querySelector('.a3-name').style.visibility = 'hidden';
+      document.querySelector('.a3-notices').style.visibility = 'hidden';
       window.player.player.instruments.toggle();
       window.player.set({ quality: 'medium' });
     }""")

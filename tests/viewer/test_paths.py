@@ -249,11 +249,11 @@ def test_a_ghost_is_told_apart_by_its_colour_even_where_both_ran(opened: Callabl
     ghost = run("two")
     ghost.columns["body.y"] += np.where(T > 3.0, 1.5, 0.0)
     page = opened(run("one"), ghost, camera="top")
-    assert page("() => [...document.querySelectorAll('.a3-name')].map(name => name.textContent)") == [
+    assert page("() => [...document.querySelectorAll('.a3-head > div')].map(name => name.textContent)") == [
         "one",
         "two (ghost)",
     ]
-    swatches = page("""() => [...document.querySelectorAll('.a3-name .a3-swatch')]
+    swatches = page("""() => [...document.querySelectorAll('.a3-head .a3-swatch')]
       .map(part => getComputedStyle(part).backgroundColor.match(/[0-9]+/g).map(Number))""")
     assert is_yellow(*swatches[0])
     assert is_magenta(*swatches[1])
