@@ -53,8 +53,8 @@ class Ending(TestedCar):
 @pytest.mark.parametrize("name", TESTS)
 def test_a_limit_is_not_kept_by_a_run_that_was_not_driven(name: str, prototype: TestedCar) -> None:
     """Each is cut at once, while the speed is reached, and later."""
-    cars = [Ending("cut", prototype.path, at=at) for at in (0.02, 0.7, 1.6)]
-    cars += [] if name in MOVED_BY_ITSELF else [Ending("stands", prototype.path, stands=True)]
+    cars = [Ending("cut", prototype.fmu, at=at) for at in (0.02, 0.7, 1.6)]
+    cars += [] if name in MOVED_BY_ITSELF else [Ending("stands", prototype.fmu, stands=True)]
     for car in cars:
         try:
             record = perform(standard_test(name), car)

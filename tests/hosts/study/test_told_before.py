@@ -10,6 +10,7 @@ import pytest
 
 from hosts.common.road import road_value
 from hosts.driving.manoeuvre import Manoeuvre
+from hosts.fmu.fmu_source import FmuSource
 from hosts.study.campaign import run_study
 from hosts.study.jobs import Job
 from hosts.study.study_runs import OneProcess
@@ -44,7 +45,7 @@ def test_a_start_is_told_where_a_run_has_it(
     (tmp_path / "far.csv").write_text("x,-5,0,5\n500,0,0,0\n550,0,0,0\n600,0,0,0\n")
     start = {"road.file": road_value(str(tmp_path / "far.csv"), tmp_path)}
     job = Job("far", Manoeuvre("far", np.zeros(1), {}, 1.0, start))
-    work = Work("none.fmu", "", "", "", (job,), ("initial.x",), (), (), ())
+    work = Work(FmuSource(Path("none.fmu")), "", "", "", (job,), ("initial.x",), (), (), ())
     with OneProcess(work, tmp_path / "none.fmu") as processes:
         assert "none.fmu" in processes.run(Run(0, {"initial.x": x})).reason
     assert capfd.readouterr().err.count("warning: ") == told
