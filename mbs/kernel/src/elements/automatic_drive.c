@@ -213,9 +213,8 @@ static void accept(ali3_element_args *a) {
   a->y_new[2] = ali3_clamp(crossed * a->h, 0.0, a->y_new[2] - p[DWELL]);
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)nreal, (void)nint, (void)n_inputs, (void)n_roads;
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint) {
+  (void)nsig, (void)nreal, (void)nint;
   for (int i = 0; i < integer[GEARS]; i++)
     if (real[AUTOMATIC_DRIVE_REALS + i] < 0.0) return "the ratios of an automatic drive must not be negative";
   if (!(real[IDLE_SPEED] > 0.0 && real[STALL_SPEED] >= real[IDLE_SPEED] && real[LIMIT_SPEED] > real[STALL_SPEED]))

@@ -202,9 +202,8 @@ static void evaluate(ali3_element_args *a) { every_point(a, 0); }
 
 static void discrete(ali3_element_args *a) { every_point(a, 1); }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)nreal, (void)nint, (void)n_inputs, (void)n_roads;
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint) {
+  (void)nsig, (void)nreal, (void)nint;
   for (int32_t i = 0; i < integer[POINTS]; i++)
     for (int k = 0; k < 3; k++) {
       const double x = real[HEAD + 3 * i + k];

@@ -97,8 +97,7 @@ typedef struct ali3_element_type {
   const ali3_integer *integers;
   int32_t nintegers;
   /* NULL or one sentence for bad data that the fields do not say */
-  const char *(*check)(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                       int32_t n_inputs, int32_t n_roads);
+  const char *(*check)(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint);
 } ali3_element_type;
 
 /* Whether the sizes of an element are those of its type; its signals may be in space or in the plane. */

@@ -30,8 +30,6 @@ static bool lies_in(ali3_range range, double x) {
   }
 }
 
-static bool fits(int64_t expected, int32_t n) { return expected == n; }
-
 bool ali3_element_fits(const ali3_element_type *type, int32_t nsig, int32_t nreal, const int32_t *integer, int32_t nint,
                        int32_t nstate, int32_t nout) {
   if (type->nsig != -1 && nsig != type->nsig && (type->nsig_plane == 0 || nsig != type->nsig_plane)) return false;
@@ -43,9 +41,9 @@ bool ali3_element_fits(const ali3_element_type *type, int32_t nsig, int32_t nrea
   }
   const bool extended = nint > type->nint, either = type->nint == type->nintegers;
   if (extended) states += type->nstate_more;
-  return (type->nreal == -1 || fits(reals + (extended ? type->nreal_more : 0), nreal) ||
-          (either && fits(reals + type->nreal_more, nreal))) &&
-         fits(states, nstate) && fits(type->nout, nout);
+  const bool reals_fit = type->nreal == -1 || nreal == reals + (extended ? type->nreal_more : 0) ||
+                         (either && nreal == reals + type->nreal_more);
+  return reals_fit && nstate == states && nout == type->nout;
 }
 
 static const char *check_integers(const ali3_element_type *type, const int32_t *integer, int32_t nint, int32_t n_inputs,
@@ -74,5 +72,5 @@ const char *ali3_element_check(const ali3_element_type *type, int32_t nsig, cons
   const bool more = nint > type->nint || (type->nint == type->nintegers && nreal > type->nreal);
   if (text == NULL) text = check_fields(type, real, nreal, more);
   if (text != NULL || type->check == NULL) return text;
-  return type->check(nsig, real, nreal, integer, nint, n_inputs, n_roads);
+  return type->check(nsig, real, nreal, integer, nint);
 }

@@ -8,9 +8,8 @@ static void evaluate(ali3_element_args *a) {
   a->potential = 0.0;
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)real, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint) {
+  (void)real, (void)integer, (void)nint;
   return nreal != nsig ? "an input force needs one weight per signal" : 0;
 }
 

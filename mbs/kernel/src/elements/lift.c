@@ -33,9 +33,8 @@ static void evaluate(ali3_element_args *a) {
   }
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)real, (void)nreal, (void)integer, (void)n_inputs, (void)n_roads;
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint) {
+  (void)real, (void)nreal, (void)integer;
   return nint != 0 && (nint != AIR_INPUTS || nsig != 9) ? "lift in moving air needs space and two inputs" : 0;
 }
 

@@ -204,9 +204,8 @@ static void evaluate(ali3_element_args *a) {
   a->out[RESISTANCE] = -r.My * roll;
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)nreal, (void)nint, (void)n_inputs, (void)n_roads;
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint) {
+  (void)nsig, (void)nreal, (void)nint;
   const double *c = real + COEFFICIENTS;
   const int32_t version = integer[VERSION];
   if (version != ALI3_MAGIC_PAC2002 && version != ALI3_MAGIC_61 && version != ALI3_MAGIC_62)

@@ -51,9 +51,8 @@ static double event(const double *real, int32_t nreal, const double *from, const
   return ali3_end_stops_event(real + STOPS, (double[]){from[0], to[0]}, (double[]){from[2], to[2]}, h);
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint) {
+  (void)nsig, (void)integer, (void)nint;
   return progressive(nreal) ? ali3_end_stops_check(real + STOPS) : 0;
 }
 

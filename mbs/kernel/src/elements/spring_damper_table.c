@@ -105,9 +105,8 @@ static const char *check_damper(const ali3_cubic_table *t) {
   return ali3_cubic_value(t, 0.0, &slope, NULL) == 0.0 ? 0 : "the table of a damper must pass through the origin";
 }
 
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)nreal, (void)n_inputs, (void)n_roads;
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint) {
+  (void)nsig, (void)nreal;
   for (int32_t i = 0; i < nint; i++)
     if (integer[i] == 1) return "a table of a spring-damper needs two points at least";
   const ali3_cubic_table spring = spring_table(real, integer), damper = damper_table(real, integer);

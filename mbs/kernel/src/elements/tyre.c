@@ -183,9 +183,8 @@ static void evaluate(ali3_element_args *a) {
 }
 
 #ifndef ALI3_WIDTH
-static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint,
-                         int32_t n_inputs, int32_t n_roads) {
-  (void)nsig, (void)nreal, (void)integer, (void)nint, (void)n_inputs, (void)n_roads;
+static const char *check(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint) {
+  (void)nsig, (void)nreal, (void)integer, (void)nint;
   if (!(real[TYRE_RADIUS] > real[TYRE_BOTTOMING_RADIUS]))
     return "the bottoming radius of a tyre must be less than its radius";
   for (int end = 0; end < 2; end++) { /* both ends of the load range; between them the curves are linear per load */
