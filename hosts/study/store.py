@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -37,7 +38,11 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
     damaged.
     """
     record = study_record(folder)
-    tables = [read_part(file, record) for file in part_files(Path(folder))]
+    return _frame(record, [read_part(file, record) for file in part_files(Path(folder))])
+
+
+def _frame(record: dict[str, Any], tables: Sequence[Any]) -> pd.DataFrame:
+    """The parts of a table as one."""
     table = pa.concat_tables(tables) if tables else table_schema(record).empty_table()
     frame: pd.DataFrame = table.to_pandas().set_index("index").sort_index()
     frame.attrs = attributes(record)
@@ -62,8 +67,9 @@ def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -
     (number, step), each = driven[manoeuvre], len(record["manoeuvres"])
     signals, units = record["signals"], record["units"]
     found: dict[str, dict[int, np.ndarray]] = {name: {} for name in signals["names"]}
-    for file in part_files(Path(folder)):
-        there = {int(k) for k in read_part(file, record)["index"].to_numpy() if k % each == number}
+    parts = {file: read_part(file, record) for file in part_files(Path(folder))}
+    for file, part in parts.items():
+        there = {int(k) for k in part["index"].to_numpy() if k % each == number}
         table = read_signals(file, record)
         for row, index in enumerate(table["index"].to_pylist()):
             for name in signals["names"] if index in there else ():
@@ -77,7 +83,7 @@ def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -
         columns[name] = (("point", "time"), values, {"units": units[name]})
     time = ("time", round(signals["interval"] / step) * step * np.arange(samples), {"units": "s"})
     coordinates: dict[str, Any] = {"time": time, "point": ("point", np.arange(record["points"]))}
-    frame = read_study(folder)
+    frame = _frame(record, list(parts.values()))
     made = frame[frame["manoeuvre"] == manoeuvre].set_index("point").reindex(coordinates["point"][1])
     for name in record["parameters"]:
         coordinates[name] = ("point", made[name].to_numpy(), {"units": units[name]} if name in units else {})
