@@ -6,9 +6,10 @@ import io
 import json
 import re
 from argparse import Namespace
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -151,21 +152,14 @@ def _data(shown: Shown) -> dict[str, Any]:
     return page_data(runs, {key: value for key, value in shown.options.items() if value is not None})
 
 
-_CACHE: dict[str, Any] = {}
-
-
-def _once(name: str, make: Callable[[], Any]) -> Any:
-    if name not in _CACHE:
-        _CACHE[name] = make()
-    return _CACHE[name]
-
-
+@cache
 def _recorded(name: str) -> Any:
-    return _once(name, ANIMATIONS[name].record)
+    return ANIMATIONS[name].record()
 
 
+@cache
 def _car() -> Path:
-    return Path(_once(LIVE, lambda: fmu_of_scene("prototype_car", lambda words: None)))
+    return Path(fmu_of_scene("prototype_car", lambda words: None))
 
 
 def _drawn(chromium: Any, shown: Shown, address: str, text: str, made: str) -> bytes:

@@ -108,7 +108,7 @@ class FmuSource:
     def opened(self) -> Iterator[Fmu | NamedFmu]:
         """The FMU under our names. Raises `HostError`: it cannot be loaded."""
         with Fmu(self.path) as fmu:
-            yield seen_through(fmu, self.names)
+            yield self.seen(fmu)
 
     def done_apart(
         self, work: Callable[[Any, Callable[[float], None]], _Made], task: object, kind: Any, start: Mapping[str, Value]
@@ -141,4 +141,4 @@ class LoadedFmu:
         else:
             self._fmu.reset()
             self._fmu.messages.clear()
-        return seen_through(self._fmu, self._source.names)
+        return self._source.seen(self._fmu)
