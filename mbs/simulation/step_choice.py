@@ -66,7 +66,7 @@ def choose_step(
             order = _order(differences, METHOD_TABLE[method].order_of_changing_steps)
             error = differences[-1] / (2.0**order - 1.0)
             last = error, order
-            agree = max(differences[-2:]) <= AGREED * tolerance  # round-off of what every step gives right
+            agree = max(differences[-2:]) <= AGREED * tolerance  # what every step gives right shows no order
             if error <= tolerance and (order > LEAST_ORDER or agree):
                 return StepChoice(h, error, order, len(runs))
         if (t_end - simulation.time) / h > MOST_STEPS / 2:
