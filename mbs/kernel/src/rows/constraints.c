@@ -23,8 +23,8 @@ static const real *near_origin(ali3_instance *in, const real *q) {
     const real way = 64.0 * ali3_floor(q[witness[d]] / direction[d][witness[d]] / 64.0 + 0.5);
     if (!ali3_any(way != 0.0)) continue;
     for (int32_t i = 0; i < S->size.nq; i++)
-      in->shifted[i] = ali3_where(way != 0.0, from[i] - way * direction[d][i], from[i]);
-    from = in->shifted;
+      in->step.shifted[i] = ali3_where(way != 0.0, from[i] - way * direction[d][i], from[i]);
+    from = in->step.shifted;
   }
   return from;
 }
@@ -356,7 +356,7 @@ ALI3_INLINED void square_of_four(const ali3_system *S, const int32_t *rows, cons
 ALI3_INLINED void rows_square(ali3_instance *in, const real *J, double weight, real *F) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *loc = S->row_loc;
-  real *restrict spread = in->local;
+  real *restrict spread = in->tangent.local;
   for (int32_t at = 0; at < S->size.nc; at++) {
     const int32_t k = S->front_row[at], f = S->row_front[k], n = S->front_ptr[f + 1] - S->front_ptr[f],
                   end = ptr[k + 1];
