@@ -90,7 +90,7 @@ struct ali3_system {
   ali3_system *turned; /* turned.c: with room for all directions of axes that parameters write; NULL: there are none */
   void *lean; /* the arrays of this one, which has none */
   int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q; of a row of
-                                   triples the terms of three entries in turn */
+                                   points the terms of three entries in turn */
   double *hess_val;
   double *row_round; /* round-off of the violation at the reference position, m */
   double largest_round; /* of these */

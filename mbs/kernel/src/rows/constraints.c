@@ -30,7 +30,8 @@ static const real *near_origin(ali3_instance *in, const real *q) {
 }
 
 /* Adds the terms t to end - 1 of three neighbouring entries of Phi_q to them, of points: with three neighbours each.
- * Returns the first term of the next three. */
+ * Returns the first term of the next three. Entry by entry a step has 13.5 % (spatial chain) to 15.1 % (lane change,
+ * 10 ms) more instructions. */
 static inline int32_t add_points(const ali3_system *S, int32_t t, int32_t end, const real *q, ali3_three *entry) {
   ALI3_SHORT
   for (; t < end; t += 3) ali3_three_add_each(entry, S->hess_val + t, q + S->hess_col[t]);
