@@ -282,7 +282,7 @@ _ENTRIES = """/* The functions of the kernel for callers that may round in anoth
 /* An instance keeps what its caller has, for the function that it is asked for inputs. */
 static ali3_float_control set_for(ali3_instance *in) {
   const ali3_float_control before = ali3_float_control_set();
-  if (in != NULL) in->host_control = before;
+  if (in != NULL) in->inputs.host_control = before;
   return before;
 }
 

@@ -138,7 +138,7 @@ ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_
                                           int32_t n) {
   real *panel = block + (int64_t)start * n;
   const group *end[PANELS];
-  group *packed = (group *)in->local;
+  group *packed = (group *)in->tangent.local;
   ALI3_UNROLLED
   for (int32_t k = 0; k < panels; k++) {
     const int32_t p = start + k * PANEL;

@@ -5,7 +5,7 @@
 /* An instance keeps what its caller has, for the function that it is asked for inputs. */
 static ali3_float_control set_for(ali3_instance *in) {
   const ali3_float_control before = ali3_float_control_set();
-  if (in != NULL) in->host_control = before;
+  if (in != NULL) in->inputs.host_control = before;
   return before;
 }
 

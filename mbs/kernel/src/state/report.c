@@ -5,7 +5,9 @@
 
 #include "../instance.h"
 
-double ali3_time(const ali3_instance *in) { return in != NULL ? in->t_base + (double)in->count * in->h_last : 0.0; }
+double ali3_time(const ali3_instance *in) {
+  return in != NULL ? in->clock.base + (double)in->clock.count * in->clock.h : 0.0;
+}
 
 ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out) {
   if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
@@ -54,7 +56,7 @@ double ali3_solver_value(const ali3_instance *in, int32_t kind) {
   }
 }
 
-double ali3_capped_residual(const ali3_instance *in) { return in != NULL ? in->call_residual : 0.0; }
+double ali3_capped_residual(const ali3_instance *in) { return in != NULL ? in->bound.call_residual : 0.0; }
 
 ali3_doubt ali3_run_doubt(const ali3_report *r) {
   if (r == NULL || r->steps < ALI3_DOUBT_FROM) return ALI3_DOUBT_NONE;
