@@ -12,7 +12,7 @@ from mbs.compiler.model_to_system import checked, compiled
 from mbs.compiler.overconstrained import TOLERANCE, closed_loops
 from mbs.compiler.ports import with_ports_of
 from mbs.compiler.tree import tree_arrays
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.system.compiled_model import CompiledModel
 from mbs.system.drawing import Drawing
 from mbs.system.system import System
@@ -21,7 +21,7 @@ Correction = Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]
 """Makes a context in which joints are drawn as their loops close, of the corrections by joint: m and rad."""
 
 
-def compile(model: Mechanism, *, tolerance: float = TOLERANCE) -> System:
+def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
     """Compile a model.
 
     Linear joint equations are eliminated, dependent rows removed, the elimination order and fronts of the tangent
@@ -64,7 +64,7 @@ def compile(model: Mechanism, *, tolerance: float = TOLERANCE) -> System:
     return System.of(made, late, None if make is None else ported)
 
 
-def _closed(model: Mechanism, closing: Callable[[Mechanism], Correction]) -> tuple[Correction, CompiledModel]:
+def _closed(model: Model, closing: Callable[[Model], Correction]) -> tuple[Correction, CompiledModel]:
     """What a model is compiled to with its loops closed, and the context in which they are."""
     corrected = closing(checked(model))
     with corrected() as closed:

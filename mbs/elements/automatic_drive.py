@@ -21,8 +21,12 @@ from mbs.elements.wheel_signals import carrier_signals
 class AutomaticDrive(Element):
     """Drive of two wheels by an engine with a torque converter and gears that shift automatically.
 
-    The speed of the turbine is the ratio times the mean speed of the wheels. Ratio of reverse, speed and time to engage
-    are used where there is a selector.
+    The speed of the turbine is the ratio times the mean speed of the wheels, that of the engine, which has no inertia,
+    ``sqrt(w_s^2 + w_t^2)`` of stall and turbine speed. Its torque is ``min(T_max, P_max/w)`` times a linear factor of
+    the converter. Gears shift between steps, by speed or by request, and blend over the ramp; a clutch behind the
+    converter passes on at most the share of the largest torque that its pedal leaves, and slips beyond. Both wheels
+    have equal torques, the carrier their reaction. Ratio of reverse, speed and time to engage are used where there is a
+    selector.
     """
 
     max_torque: NotNegative

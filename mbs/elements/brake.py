@@ -15,7 +15,11 @@ from mbs.elements.wheel_signals import carrier_signals
 
 @dataclass(frozen=True)
 class Brake(Element):
-    """Elastoplastic friction torque between a wheel and its carrier."""
+    """Elastoplastic friction torque between a wheel and its carrier.
+
+    Spring and damper in series with a slider: ``k z + c z'``, at most pedal times largest torque times share, plus hand
+    brake times its torque; ``z'`` is the spin against the carrier while it sticks.
+    """
 
     max_torque: NotNegative
     """Torque at full pedal, N m."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from mbs.common.checks import number, shown, text
-from mbs.model.core import ModelCore
 from mbs.model.records import Constant
+from mbs.model.register import Register
 
 
-class ConstantVocabulary(ModelCore):
+class ConstantVocabulary(Register):
     """Constants."""
 
     def constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Constant:

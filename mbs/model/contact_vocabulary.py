@@ -12,16 +12,16 @@ from mbs.common.errors import ModelError
 from mbs.elements.contact_points import ContactPoints
 from mbs.elements.record import ElementRecord
 from mbs.elements.road import ANSWER
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.inputs import new_input
-from mbs.model.mechanism import Mechanism
 from mbs.model.records import Role
 
 
-class ContactVocabulary(Mechanism):
+class ContactVocabulary(BodyVocabulary):
     """Answers on roads, and contact with them."""
 
-    def road_answer(self: Mechanism, name: str, *, friction: float = 0.9, near: str = "") -> int:
+    def road_answer(self, name: str, *, friction: float = 0.9, near: str = "") -> int:
         """Seven inputs by which another program says what the road is like at a point: for a `PortRoad`.
 
         They are the point that it was asked for, with which the answer holds whenever it comes, and height, unit

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ali3.echo import Echo, Understood, echo_of
 from mbs.common.checks import Vector, is_number, number, positive, shown, vector
 from mbs.common.errors import ModelError
+from mbs.model.air import AirVocabulary
 from mbs.model.body import Body
 from mbs.model.channel_sensors import ChannelSensorVocabulary
 from mbs.model.constants import ConstantVocabulary
@@ -20,29 +21,42 @@ from mbs.model.energy_sensors import EnergySensorVocabulary
 from mbs.model.flexible import FlexibleBody
 from mbs.model.flexible_vocabulary import FlexibleVocabulary
 from mbs.model.forces import ForceVocabulary
+from mbs.model.inputs import InputVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
+from mbs.model.joint_vocabulary import JointVocabulary
 from mbs.model.more_guides import MoreGuidesVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.orientation_sensors import OrientationSensorVocabulary
+from mbs.model.parameters import ParameterVocabulary
 from mbs.model.point_mass import PointMass
+from mbs.model.road_vocabulary import RoadVocabulary
 from mbs.model.sliding_shapes import SlidingVocabulary
+from mbs.model.spin import SpinVocabulary
+from mbs.model.springs import SpringVocabulary
 from mbs.model.table_vocabulary import TableVocabulary
 
 
 class Model(
     Understood,
-    TableVocabulary,
+    JointVocabulary,
+    SpringVocabulary,
     ForceVocabulary,
+    AirVocabulary,
+    RoadVocabulary,
+    ContactVocabulary,
+    SpinVocabulary,
+    DriveVocabulary,
+    TableVocabulary,
+    FlexibleVocabulary,
+    InputVocabulary,
+    MoreGuidesVocabulary,
+    ParameterVocabulary,
+    ConstantVocabulary,
     MotionSensorVocabulary,
     OrientationSensorVocabulary,
     EnergySensorVocabulary,
     ChannelSensorVocabulary,
     JointSensorVocabulary,
-    ConstantVocabulary,
-    FlexibleVocabulary,
-    ContactVocabulary,
-    MoreGuidesVocabulary,
-    DriveVocabulary,
     SlidingVocabulary,
 ):
     """A mechanism: bodies, joints, forces, inputs and sensors.

@@ -59,7 +59,7 @@ class Car(BuiltCar):
             The road is a grid with a wall, a face that is higher than the radius of a wheel.
         """
         fidelity = Fidelity.of(fidelity)
-        m = self.empty(Model)
+        m = self.empty()
         drive = None if guide is None else lambda way: m.drive("guided way", way, guide(m))
         b = self.reported(m, road, fidelity, drive)
         if Fidelity.DYNAMIC in self.offered:
