@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import pandas as pd
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 from numpy.typing import NDArray
-from scipy.stats import binomtest
 
 from ali3.chart_style import BLUE, RED
 from ali3.charts import MANY_POINTS
 from hosts.study.analysis.data import Parameter, Response, StudyData
 from hosts.study.analysis.main_effects import MainEffect, classes
+from hosts.study.limits import interval_of_share
 
 WIDTH = 11.0
 _COLUMNS = 4
@@ -129,13 +130,7 @@ def failed_share(
     `x`: shape (n,); `failed`: shape (n,). Returns `at`, `share`, `low` and `high`, shape (b,): mean of the parameter in
     the class, share 0 to 1 and its interval.
     """
-    codes, _ = classes(x)
-    groups = [np.flatnonzero(codes == k) for k in range(int(codes.max()) + 1)]
-    counts = [int(failed[g].sum()) for g in groups]
-    intervals = [binomtest(c, len(g)).proportion_ci(0.95, method="wilson") for c, g in zip(counts, groups, strict=True)]
-    return (
-        np.array([x[g].mean() for g in groups]),
-        np.array([c / len(g) for c, g in zip(counts, groups, strict=True)]),
-        np.array([float(i.low) for i in intervals]),
-        np.array([float(i.high) for i in intervals]),
-    )
+    groups = pd.DataFrame({"x": x, "failed": failed}).groupby(classes(x)[0])
+    counts, sizes = groups["failed"].sum().to_numpy(), groups.size().to_numpy()
+    low, high = np.transpose([interval_of_share(*pair) for pair in zip(counts.tolist(), sizes.tolist(), strict=True)])
+    return groups["x"].mean().to_numpy(), counts / sizes, low, high
