@@ -1,4 +1,8 @@
-"""Expressions such as ``max(abs(chassis.ay), after=2.0)``, evaluated by simpleeval."""
+"""Expressions such as ``max(abs(chassis.ay), after=2.0)``, evaluated by simpleeval.
+
+They are of users: names, forms and units are checked before the first run, which those of the files of standard tests
+(`hosts.measures.scope`), of runs and arrays without units, cannot be.
+"""
 
 from __future__ import annotations
 
