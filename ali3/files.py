@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from ali3.errors import FileError, reason
 from ali3.temporary import temporary_folder
@@ -43,6 +45,11 @@ def write_text(file: str | os.PathLike[str], text: str) -> None:
     """Write a whole text file in UTF-8; see `whole_file`."""
     with whole_file(file) as made:
         made.write_text(text, encoding="utf-8")
+
+
+def write_json(file: str | os.PathLike[str], content: Any) -> None:
+    """Write a whole JSON file in UTF-8, whose numbers are finite; see `whole_file`."""
+    write_text(file, json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
 
 
 def make_folder(folder: str | os.PathLike[str]) -> Path:

@@ -32,7 +32,7 @@ class CarFacts:
     units: Mapping[str, str]
     """Of all variables by our names."""
     constants: Mapping[str, float]
-    """Of the FMU and of the alias file, by our names."""
+    """Of the FMU and of the alias file, which wins; by our names."""
     step: float
     """Communication step, s."""
     token: str = ""
@@ -112,23 +112,3 @@ class TestedCar:
     def path(self) -> Path:
         """Of the FMU."""
         return self.fmu.path
-
-    @property
-    def inputs(self) -> tuple[str, ...]:
-        """Our names of inputs."""
-        return self.facts.inputs
-
-    @property
-    def outputs(self) -> tuple[str, ...]:
-        """Our names of real and whole outputs."""
-        return self.facts.outputs
-
-    @property
-    def parameters(self) -> tuple[str, ...]:
-        """Our names of real and whole parameters."""
-        return self.facts.parameters
-
-    @property
-    def constants(self) -> Mapping[str, float]:
-        """Of the FMU and of the alias file, which wins; by our names."""
-        return self.facts.constants

@@ -139,8 +139,8 @@ def drive_circle(
 def _pilot(
     car: TestedCar, side: float, method: float, radius: float, ratio: float, steering: SteeringInput, watch: _Watch
 ) -> Pilot:
-    brakes = "brake" in car.inputs
-    wheelbase = car.constants["vehicle.wheelbase"]
+    brakes = "brake" in car.facts.inputs
+    wheelbase = car.facts.constants["vehicle.wheelbase"]
     if method == CONSTANT_RADIUS:
         full = steering.largest if math.isfinite(steering.largest) else 2.0 * math.pi
         limit = full * steering.per_radian

@@ -40,6 +40,7 @@ _OF_CHECK = ("steps", "time_limit", "thorough")
 _OF_PARAMETERS = ("show_parameters", "save_parameters", "diff")
 _OF_SOAK = ("drives", "seed", "stop_time", "world", "json")
 _OF_REFERENCE = ("manoeuvre", "bound")
+_OF_FOLDER = ("again", "out")
 _OF_BOTH = ("fidelity", "step", "jobs", "again", "out")
 
 
@@ -135,6 +136,11 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     others = [*table, *(["--reference"] if reference else []), *(["--soak"] if options.soak else [])]
     if (options.soak or reference) and len(others) > 1:
         raise HostError(f"{others[0]} does not go with {others[-1]}.")
+    if reference and options.reference.is_file() and (of_folder := given_of(parser, options, _OF_FOLDER)):
+        raise HostError(
+            f"{of_folder[0]} goes with a folder of tables, of which those that are done are kept; {options.reference} "
+            "is one table."
+        )
     if (of_check := given_of(parser, options, _OF_CHECK)) and others:
         raise HostError(f"{of_check[0]} is of the check alone.")
     written = {name: getattr(options, name) for name in ("junit", "sarif") if getattr(options, name) is not None}

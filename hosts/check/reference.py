@@ -135,7 +135,7 @@ def check_references(
 
     with ExitStack() as held:
         fmu = held.enter_context(Fmu(path))
-        kept = held.enter_context(Kept[_Compared](out, _Compared, "checks an FMU", again)) if len(files) > 1 else None
+        kept = held.enter_context(Kept[_Compared](out, _Compared, "checks an FMU", again)) if place.is_dir() else None
         references = []
         for file in files:
             try:

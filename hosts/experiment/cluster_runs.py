@@ -146,10 +146,11 @@ class ClusterRuns(Closing, Generic[T, R]):
                 results = [Lost(_LOST_WITH_WORKERS.format(killed))]
         except WrongWorkerError:
             raise
-        except (CancelledError, OSError) as error:
-            self._flying[future] = chunk, tried
-            raise SchedulerLostError from error
         except Exception as error:
+            # of a worker an error is the chunk's, of whatever kind
+            if isinstance(error, (CancelledError, OSError)) and future.status != "error":
+                self._flying[future] = chunk, tried
+                raise SchedulerLostError from error
             if tried is None:
                 self._suspects.append((chunk, 0))
             else:

@@ -6,16 +6,16 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError, model_validator
 
 from ali3.reading import LARGEST_TOML, read_bytes, toml_of
 from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
-from hosts.measures.limit_entry import LimitEntry, Number
+from hosts.measures.limit_entry import LimitEntry
 
 METHODS = ("grid", "latin_hypercube", "sobol", "saltelli", "table")
 
-Setting: TypeAlias = bool | int | Number | str
+Setting: TypeAlias = bool | int | FiniteFloat | str
 Name: TypeAlias = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_.\- ]*$", max_length=100)]
 NAME_WORDS = "up to 100 letters, digits, spaces, dots, minus signs and underscores, a letter first"
 
@@ -27,7 +27,7 @@ class _Part(BaseModel):
 class ParameterEntry(_Part):
     """How a parameter of the FMU is varied."""
 
-    range: list[Number] | None = Field(default=None, min_length=2, max_length=2, title="two numbers, low and high")
+    range: list[FiniteFloat] | None = Field(default=None, min_length=2, max_length=2, title="two numbers, low and high")
     values: list[Setting] | None = Field(default=None, min_length=1, title="a list of at least one value")
     count: int | None = Field(default=None, ge=1, title="a whole number, how many values of the range a grid has")
     unit: str | None = Field(default=None, title="the unit of the FMU or a display unit of it, as text")
@@ -52,9 +52,9 @@ class ManoeuvreEntry(_Part):
     name: Name | None = Field(default=None, title=NAME_WORDS)
     manoeuvre: str | None = Field(default=None, title="a manoeuvre of the command run: its name or a file")
     test: str | None = Field(default=None, title="the name of a test of the command catalogue")
-    settings: dict[str, Number] = Field(default_factory=dict, title="numbers by the name of a test's setting")
+    settings: dict[str, FiniteFloat] = Field(default_factory=dict, title="numbers by the name of a test's setting")
     measures: list[str] | None = Field(default=None, min_length=1, title="a list of at least one measure of a test")
-    stop_time: Number | None = Field(default=None, gt=0.0, title="a positive number, s")
+    stop_time: FiniteFloat | None = Field(default=None, gt=0.0, title="a positive number, s")
     start: dict[str, Setting] = Field(default_factory=dict, title="values by names of parameters or inputs")
 
     @model_validator(mode="after")
@@ -98,7 +98,7 @@ class SignalsEntry(_Part):
     """What is kept over time."""
 
     names: list[str] = Field(min_length=1, title="a list of at least one name of an input or output")
-    interval: Number = Field(gt=0.0, title="a positive number, s")
+    interval: FiniteFloat = Field(gt=0.0, title="a positive number, s")
 
 
 class StudyFile(_Part):
@@ -108,8 +108,8 @@ class StudyFile(_Part):
     fmu: str | None = Field(default=None, title="the path of an FMU")
     car: str | None = Field(default=None, title="a car of the package by its name, or a car file")
     aliases: str | None = Field(default=None, title="an alias file, or the name of one of the package")
-    step: Number | None = Field(default=None, gt=0.0, title="a positive number, s")
-    time_limit: Number | None = Field(default=None, gt=0.0, title="a positive number, s, that a run may take")
+    step: FiniteFloat | None = Field(default=None, gt=0.0, title="a positive number, s")
+    time_limit: FiniteFloat | None = Field(default=None, gt=0.0, title="a positive number, s, that a run may take")
     start: dict[str, Setting] = Field(default_factory=dict, title="values by names of parameters or inputs")
     manoeuvres: list[ManoeuvreEntry] = Field(min_length=1, title="at least one table [[manoeuvres]]")
     sampling: SamplingEntry = Field(default=SamplingEntry(), title="a table")

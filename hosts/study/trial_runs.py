@@ -116,7 +116,7 @@ def with_columns(plan: Plan, columns: Mapping[str, str]) -> Plan:
         "measures": {**plan.record["measures"], **columns},
         "units": {**plan.record["units"], **columns},
     }
-    return replace(plan, work=replace(plan.work, columns=names), record=record, units=record["units"])
+    return replace(plan, work=replace(plan.work, columns=names), record=record)
 
 
 def bytes_of(plan: Plan) -> float:

@@ -117,6 +117,14 @@ def test_a_stopped_check_of_a_folder_goes_on_with_the_tables_that_are_left(
     assert driven == [3, 2, 3]
 
 
+@pytest.mark.parametrize("given", [("--again",), ("--out", "kept")])
+def test_of_one_table_nothing_is_kept(fmu: Path, result: Path, given: tuple[str, ...]) -> None:
+    done = run(main, fmu, "--reference", result, *given)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert f"{given[0]} goes with a folder of tables" in done.stderr
+    assert f"{result} is one table." in done.stderr
+
+
 def test_tables_are_told_in_their_order_whichever_is_done_first() -> None:
     told = in_order(iter([(2, "c"), (0, "a"), (1, "b"), (3, "d")]))
     assert [next(told), *told] == ["a", "b", "c", "d"]
