@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
-from mbs.kernel.header.limits import BALANCE_WRONG
+from mbs.kernel.header.limits import WRONG_ERROR
 
 LINE = 0.5
 """Square of the correlation of energy and time from which energy grows: of a whole swing it is 0.6, of two 0.15."""
@@ -138,8 +138,8 @@ class Report:
 
     @property
     def balance_wrong(self) -> bool:
-        """Whether it is above what any right run had, by more than the tolerance of the residual leaves open."""
-        return self.energy_balance > BALANCE_WRONG and abs(self.energy_error) > self.energy_floor
+        """Whether it is above what is wrong, by more than the tolerance of the residual leaves open."""
+        return self.energy_balance > WRONG_ERROR and abs(self.energy_error) > self.energy_floor
 
     @property
     def energy_growth(self) -> float:

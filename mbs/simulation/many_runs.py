@@ -155,7 +155,7 @@ class _Run:
         """By the refined runs of `simulate`, which begin with the same run alone; a plainly smooth run has none."""
         told = list(self.told_at_start)
         report, end = self.simulation.report, self.t0 + self.steps * self.h
-        if accuracy.doubt(report, report.steps, report.halvings):
+        if accuracy.doubt(report):
             run.accuracy = fixed_step_run(
                 self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None,
                 warned=told,

@@ -226,7 +226,7 @@ class RefinedRuns:
         """
         step, tried = accuracy.needed_step(self.h, known), self._offs()
         parts = 0 if step is None or self.before is not None else math.ceil(self.h / step - 1e-9)
-        if parts > max(self._finer) and not any(off <= accuracy.MET for _, off in tried):
+        if parts > max(self._finer) and not any(off <= accuracy.CLEAR for _, off in tried):
             try:
                 self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
             except (SimulationError, TooDearError):

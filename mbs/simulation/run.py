@@ -117,7 +117,7 @@ def simulate(
     Warns
     -----
     AccuracyWarning
-        When constraint forces did more than 3.6 % of the work in the motion, or the refined run says that positions,
+        When constraint forces did more than 5 % of the work in the motion, or the refined run says that positions,
         lengths, angles or forces of elements are off by more than 5 % of the largest range in their unit; with a
         tolerance, when the error is guessed to be more than three times that. When equal steps leave
         out more than a hundredth of the run at its end.

@@ -13,7 +13,7 @@ from mbs.common.checks import flag, instance_of, is_finite, number, positive, sh
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.binding.instance import Instance
-from mbs.kernel.header.limits import BALANCE_WRONG, LONGEST_SETTLING
+from mbs.kernel.header.limits import LONGEST_SETTLING, MOST_PARTS
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
@@ -53,7 +53,6 @@ from mbs.system.system import System
 
 SINGULAR = {"switches": "switch"}
 MOST_ITERATIONS = 10**6
-FEWEST_CHECKED = 10  # steps of a run that is checked by refined runs
 
 
 class Simulation(SteppedSystem):
@@ -393,7 +392,7 @@ class Simulation(SteppedSystem):
             None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives
             the share that is done.
         estimate_error : bool or float, optional
-            As of `simulate`, in the first run in doubt, of ten steps or more; its last refined run goes on
+            As of `simulate`, in the first run in doubt, of eight steps or more; its last refined run goes on
             from run to run with its part of the step and is given the same inputs, parameters and switches, until a
             step by hand.
         tolerance : float or mapping of str to float, optional
@@ -429,7 +428,7 @@ class Simulation(SteppedSystem):
         estimate_error = check_estimate(estimate_error)
         every = check_every(every)
         check_progress(progress)
-        checked = estimate_error is not False and count_steps(self.time, t_end, check_step(h)) >= FEWEST_CHECKED
+        checked = estimate_error is not False and count_steps(self.time, t_end, check_step(h)) >= MOST_PARTS
         given, made, state = self._refined if checked else None, False, self.instance.save() if checked else b""
         self._refined = None
 
@@ -487,7 +486,7 @@ class Simulation(SteppedSystem):
         if not self._rim_told and (told := self.road_text):
             self._rim_told = True
             warnings.warn(told, RoadWarning, stacklevel=3)
-        if self._warned or self.instance.energy_balance() <= BALANCE_WRONG:
+        if self._warned or not self.instance.balance_wrong():
             return
         driven = len(self.system.arrays["gterm_row"]) > 0
         if accuracy.balance_says(self.report, self.settings.method, driven):

@@ -44,7 +44,7 @@ def test_a_right_run_may_need_shorter_coarse_steps(h: float, times: float, cost:
 def test_long_steps_that_are_solved_to_the_end_would_hide_it() -> None:
     """A spatial slider-crank, a third off: steps eight times as long are halved, and then differ by 8 %."""
     system, span = drawn("spatial slider-crank", 5, 244)
-    with pytest.warns(mbs.AccuracyWarning, match="off by at least 3[0-9] %"):
+    with pytest.warns(mbs.AccuracyWarning, match="off by about 3[0-9] %"):
         mbs.simulate(system, span, span / 300, every=6, progress=False)
 
 
@@ -106,7 +106,7 @@ def test_a_coarser_run_that_does_not_resolve_an_impact_tells_nothing() -> None:
     truth = place(rate**2, gap, run.t)
     assert np.abs(run["x"] - truth).max() > 0.3 * np.ptp(truth)
     assert np.abs(run["x"] - twice["x"]).max() < 0.01 * np.ptp(truth)
-    with pytest.warns(mbs.AccuracyWarning, match="off by at least"):
+    with pytest.warns(mbs.AccuracyWarning, match="off by about 3[0-9] %"):
         mbs.simulate(system, steps * h, h, settings=settings, progress=False)
 
 
@@ -327,7 +327,7 @@ def cam(lift: PPoly, stiffness: float, damping: float) -> mbs.System:
 @pytest.mark.parametrize(
     ("method", "piece", "rate", "stiffness", "damping", "h", "cost"),
     [
-        pytest.param("radau_5", 0.2, 0.5, 100.0, 2.0, 0.01, 0.45, id="it cost 4 runs"),
+        pytest.param("radau_5", 0.2, 0.5, 100.0, 2.0, 0.01, 0.44, id="it cost 4 runs"),
         pytest.param("ali3p", 0.08, 0.5, 5600.0, 11.0, 0.002, 0.5, id="it cost 14"),
     ],
 )

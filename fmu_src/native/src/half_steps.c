@@ -23,6 +23,12 @@ static bool spent(const slave_half_steps *t, const slave_late_step *step) {
   return t->spent > BUDGET + SHARE * step->driven;
 }
 
+/* The error of a motion by what another with 1/n of its step differs by; of order two, as ALi3-P is. */
+static double error_of(double apart, double n) { return apart * n * n / (n * n - 1.0); }
+
+/* Steps so far that were halved, or in which a force changed abruptly. */
+static int64_t abrupt_steps(const ali3_report *report) { return report->abrupt_steps + report->halvings; }
+
 /* Whether two motions that differ by this much do not agree. */
 static bool differ(double apart) { return apart > ALI3_AGREED * ALI3_WRONG_ERROR; }
 
@@ -93,7 +99,7 @@ void slave_half_steps_begin(slave *s) {
   if (t->begins && ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->shown) == ALI3_OK)
     ali3_compare(t->what, t->n, 1, NULL, NULL, t->shown, t->seen);
   if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) memset(&report, 0, sizeof report);
-  t->abrupt = report.abrupt_steps;
+  t->abrupt = abrupt_steps(&report);
   t->iterations = report.iterations;
 }
 
@@ -181,7 +187,7 @@ static bool begin(slave *s, const slave_late_step *step) {
  * it grew between the last two windows of a start, as a power of the time. */
 static void conclude(slave *s, const slave_late_step *step, double apart) {
   slave_half_steps *t = &s->half_steps;
-  const double n = (double)parts_of(s, step->h), error = ali3_error_of(t->then, n, ALI3_EVENT_ORDER);
+  const double n = (double)parts_of(s, step->h), error = error_of(t->then, n);
   char why[SLAVE_TEXT / 4], grows[SLAVE_TEXT / 8] = "";
   if (has_road(s) && !differ(apart)) return; /* until the next abrupt force */
   const bool first = t->checked == -HUGE_VAL; /* later windows begin after an abrupt force, and are short */
@@ -301,7 +307,7 @@ static slave_status judge(slave *s) {
   int32_t worst;
   ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, 0, t->size);
   const double n = (double)parts_of(s, t->h), h = t->h, apart = ali3_compared_error(t->n, t->seen, t->size, 0, &worst),
-               error = ali3_error_of(apart, n, ALI3_EVENT_ORDER);
+               error = error_of(apart, n);
   const bool met = error <= n * ALI3_WRONG_ERROR; /* by the step of the other motion, by order one, as at a kink */
   if (!(error > ALI3_WRONG_ERROR)) {
     forget(t);
@@ -329,8 +335,8 @@ static slave_status foretell(slave *s, double now) {
                    "step up to %.4g s it was off by %.2g %%, and this grows as it did until then. Compare with a run "
                    "of half the step_size, %g s. This is said once.",
                    now, slave_the_table.variable[t->variable[t->worst]].name, 100.0 * ALI3_WRONG_ERROR,
-                   (double)parts_of(s, t->h), t->checked,
-                   100.0 * ali3_error_of(t->then, (double)parts_of(s, t->h), ALI3_EVENT_ORDER), 0.5 * t->h);
+                   (double)parts_of(s, t->h), t->checked, 100.0 * error_of(t->then, (double)parts_of(s, t->h)),
+                   0.5 * t->h);
 }
 
 /* What can be said by now, or when the run has `ended`. */
@@ -354,10 +360,10 @@ slave_status slave_halve_steps(slave *s) {
   if (s->event_said || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   /* what is let go swings; tyres that are driven from the start on slip at once, which long steps miss */
   const bool begins = t->begins && (!has_road(s) || 2.0 * s->made.h > (double)ALI3_MOST_PARTS * SHORT),
-             abrupt = report.abrupt_steps > t->abrupt || begins;
+             abrupt = abrupt_steps(&report) > t->abrupt || begins;
   const int64_t made = report.iterations - t->iterations;
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);
-  t->abrupt = report.abrupt_steps;
+  t->abrupt = abrupt_steps(&report);
   t->iterations = report.iterations;
   t->begins = false;
   if (begins && !(t->driven > 0.0)) t->spent = -start_of(s, s->made.h); /* beside what abrupt forces may cost */

@@ -404,17 +404,11 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 /* Farthest and fastest start, m and m/s or rad/s, and its yaw, rad: coordinates have 16 digits. */
 #define ALI3_FARTHEST 1e8
 #define ALI3_FASTEST 1e6
-/* |energy_error| over the energy that was in the motion: largest kinetic energy and work, at least energy_floor. Above
- * ALI3_BALANCE_WRONG, at any time, no run was right that was tried; below it a run may be wrong. */
-#define ALI3_BALANCE_WRONG 0.036
+/* |energy_error| over the energy that was in the motion: largest kinetic energy and work, at least energy_floor. */
 ALI3_API double ali3_energy_balance(const ali3_report *report);
-/* Signs of a wrong run that need no repeated run: none; halvings in more than ALI3_HALVINGS_SUSPECT of its steps; a
- * balance above ALI3_BALANCE_WRONG. The first ALI3_DOUBT_FROM steps are not judged: they have no motion to compare
- * with. */
-#define ALI3_HALVINGS_SUSPECT 0.1
-#define ALI3_DOUBT_FROM 100
-typedef enum { ALI3_DOUBT_NONE, ALI3_DOUBT_HALVINGS, ALI3_DOUBT_BALANCE } ali3_doubt;
-ALI3_API ali3_doubt ali3_run_doubt(const ali3_report *report);
+/* 1: it is above ALI3_WRONG_ERROR, by more than what the tolerance of the residual leaves open; below a run may be wrong
+ * too. */
+ALI3_API int32_t ali3_balance_wrong(const ali3_report *report);
 /* Two motions of a System with longer and shorter steps, compared by numbers that they show, each in a unit. What rests
  * judges nothing: its size is 0. Rates, and forces of motors, are judged where no place moves by itself. */
 enum { /* units */
@@ -451,13 +445,10 @@ ALI3_API void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3
 /* The largest difference, or the largest of the last sample, over its size; *worst: whose, -1: none. */
 ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const double *size, int32_t latest,
                                     int32_t *worst);
-/* The error of the coarser motion by what both differ by: steps are so many times those of the finer one. */
-ALI3_API double ali3_error_of(double apart, double ratio, int32_t order);
 #define ALI3_STILL 1e-4 /* of the largest value, or of the length: a smaller range is rest */
 #define ALI3_WRONG_ERROR 0.05 /* of the size: wrong */
 #define ALI3_AGREED 0.1 /* of what would be wrong: two motions that differ by less agree */
 #define ALI3_MOST_PARTS 8 /* by which the step of a second motion is longer, or half of it shorter, at most */
-#define ALI3_EVENT_ORDER 2 /* behind abrupt events: stops are located, parts of steps shrink with the step */
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
 ALI3_API ali3_status ali3_run_status(const ali3_report *report);
 /* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty where there is none. */

@@ -151,7 +151,8 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
   in->bound.call_residual = 0.0;
   for (int64_t n = 0; n < n_steps; n++) {
     const bool recorded = (out != NULL || positions != NULL) && (n + 1) % every == 0;
-    const bool sensed = recorded || in->system->n_guide_work > 0; /* it is read at the end of each step */
+    /* work of guides and abrupt forces are read at the end of each step */
+    const bool sensed = recorded || in->system->n_guide_work > 0 || in->system->n_contact > 0;
     const ali3_reading reading = n + 1 == n_steps ? ALI3_READ_ALL : sensed ? ALI3_READ_SENSORS : ALI3_READ_NOTHING;
     const ali3_status status = step(in, h, inputs != NULL ? inputs + n * nu : NULL, reading);
     if (status != ALI3_OK) return ali3_explain_refusal(in, give_up(in, status, last), h);

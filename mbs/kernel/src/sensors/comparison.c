@@ -103,9 +103,3 @@ double ali3_compared_error(int32_t n, const ali3_compared *seen, const double *s
   }
   return error;
 }
-
-double ali3_error_of(double apart, double ratio, int32_t order) {
-  double factor = 1.0;
-  for (int32_t i = 0; i < order; i++) factor *= ratio;
-  return apart * factor / (factor - 1.0);
-}
