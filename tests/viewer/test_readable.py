@@ -31,7 +31,7 @@ SEEN = f"""() => [...document.querySelectorAll('{CONTROLS}')]
   .filter((part) => part.checkVisibility({{ visibilityProperty: true }}) && !part.disabled)"""
 OPEN = """() => {
   for (const part of document.querySelectorAll('details')) part.open = true;
-  const shell = player.player ?? player.cockpit ?? player;
+  const shell = player.cockpit ?? player;
   shell.settings.toggle(true);
   if (shell === player.cockpit) shell.side(true);
 }"""
@@ -200,9 +200,9 @@ def test_axe_finds_nothing(shown: Any, colours: str) -> None:
     if colours == "dark":  # scroll bars and fields too
         assert "dark" in shown.evaluate("bar => getComputedStyle(document.querySelector(bar)).colorScheme", BAR)
     assert findings(shown) == []
-    shown.evaluate("(player.player ?? player.cockpit ?? player).help?.toggle(true)")
+    shown.evaluate("(player.cockpit ?? player).help?.toggle(true)")
     assert findings(shown) == [], "with the list of keys over it"
-    shown.evaluate("(player.player ?? player.cockpit ?? player).help?.toggle(false)")
+    shown.evaluate("(player.cockpit ?? player).help?.toggle(false)")
 
 
 @pytest.mark.slow
