@@ -97,9 +97,9 @@ class Tyre(Element):
     """Lateral force over lateral slip."""
     trail: SignedAtTwoLoads
     """Dynamic trail over contact length at zero slip, a ratio."""
-    trail_zero: AtTwoLoads
+    trail_zero: Annotated[Pair, Real(positive, LOADS, "slip of zero trail")]
     """Lateral slip where the trail first vanishes, a ratio."""
-    trail_end: AtTwoLoads
+    trail_end: Annotated[Pair, Real(positive, LOADS, "end slip of the trail")]
     """Lateral slip where it ends, a ratio."""
     carcass_stiffness: AlongAxes
     """Longitudinal and lateral stiffness of the carcass, N/m."""
