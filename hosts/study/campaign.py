@@ -200,7 +200,7 @@ def _run(
     kept.into(OutcomeTable(folder, record))
     if again:
         failed = forget_rows(folder, record, _has_not_failed)
-        print(f"{failed} failed runs are made again")
+        print(f"{failed} failed runs are repeated")
     done = runs_done(folder, record)
     before = int(np.count_nonzero(done))
     if before:

@@ -26,7 +26,7 @@ def set_damaged_aside(folder: Path, record: Mapping[str, Any]) -> list[str]:
             read_part(file, record)
         except DamagedPartError as error:
             aside = file.replace(file.with_name(f".damaged-{file.name}"))
-            told.append(f"{error.file} is damaged ({error.words}); its runs are made again, it is kept as {aside}.")
+            told.append(f"{error.file} is damaged ({error.words}); its runs are repeated, it is kept as {aside}.")
             continue
         if not record["signals"]:
             continue
@@ -34,5 +34,5 @@ def set_damaged_aside(folder: Path, record: Mapping[str, Any]) -> list[str]:
             read_signals(file, record)
         except DamagedPartError as error:
             file.unlink()
-            told.append(f"{error.file} is damaged ({error.words}); its runs are made again.")
+            told.append(f"{error.file} is damaged ({error.words}); its runs are repeated.")
     return told

@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 
 CONFIDENCE = 0.95
 _NO_INTERVAL = {
-    "grid": "the points of a grid are no random sample",
+    "grid": "the points of a grid are not a random sample",
     "table": "how the rows of a table were chosen is unknown",
-    "saltelli": "runs of a block of the design share values, so that they are no independent sample",
+    "saltelli": "runs of a block of the design share values, so that they are not an independent sample",
 }
 
 
@@ -55,7 +55,7 @@ class Share:
     outside."""
     low: float
     high: float
-    """`low`, `high`: Wilson's score interval of the share, 95 %; NaN where the runs are no random sample."""
+    """`low`, `high`: Wilson's score interval of the share, 95 %; NaN where the runs are not a random sample."""
 
     @property
     def share(self) -> float:

@@ -135,15 +135,13 @@ def runs_done(folder: Path, record: Mapping[str, Any]) -> NDArray[np.bool_]:
         if len(index) and not 0 <= index.min() <= index.max() < runs:
             raise HostError(f"{file} has the run {index.max()}; the study has {runs} runs.")
         if done[index].any() or len(np.unique(index)) < len(index):
-            raise HostError(
-                f"{file} has a run that another part has too; remove it, and its other runs are made again."
-            )
+            raise HostError(f"{file} has a run that another part has too; remove it, and its other runs are repeated.")
         done[index] = True
     return done
 
 
 def forget_rows(folder: Path, record: Mapping[str, Any], kept: Callable[[Any], Any]) -> int:
-    """Take rows out of the parts, so that their runs are made again; how many. `kept`: of a table, which rows stay."""
+    """Take rows out of the parts, so that their runs are repeated; how many. `kept`: of a table, which rows stay."""
     forgotten = 0
     for file in part_files(folder):
         table = read_part(file, record)

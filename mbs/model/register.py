@@ -110,11 +110,11 @@ class Register:
             self._undo = None
 
     def put_off(self, looks: Callable[[], None]) -> None:
-        """Leave what only adds looks until the model is drawn or changes. `looks`: adds shapes to this model."""
+        """Defer shapes until the model is drawn or changes. `looks`: adds the shapes to this model."""
         self._looks.append(looks)
 
     def look(self) -> None:
-        """Add the looks that were put off."""
+        """Add the deferred shapes."""
         if not self._looks:
             return
         looks, self._looks = self._looks, []
@@ -127,8 +127,8 @@ class Register:
             raise
 
     def draw_before_change(self, drawing: Callable[[], object]) -> None:
-        """Call what draws the model as it is before the model changes, if there still is somebody who keeps it; at once
-        where no looks were put off.
+        """Run the deferred drawing before the model changes, if its result is still referenced; immediately where no
+        shapes were deferred.
         """
         if not self._looks:
             drawing()
@@ -182,7 +182,7 @@ class Register:
 
     @staticmethod
     def place_of(things: Sequence[Named], name: object) -> int | None:
-        """Where in a list of a family the thing of a name is; None where there is none."""
+        """Index of a named thing in the list of its family, or None."""
         return next((k for k, thing in enumerate(things) if isinstance(name, str) and thing.name == name), None)
 
     def new_coordinate(self, name: str, kind: str, reference: float, component: int = 0) -> int:

@@ -35,7 +35,7 @@ class SlidingVocabulary(ShapeVocabulary):
     def sliding(
         self: Mechanism, name: str, body: Body | Turning, *, at: ArrayLike, direction: ArrayLike, way: str
     ) -> Sliding:
-        """Something that only its looks slide along a line of a body, such as a rack that a guide moves.
+        """Something that is only drawn as sliding along a line of a body, such as a rack that a guide moves.
 
         Parameters
         ----------
