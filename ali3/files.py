@@ -82,7 +82,7 @@ def _check_file(file: str | os.PathLike[str], target: Path) -> None:
     """Refuse a folder, and a name that no file can have."""
     try:
         if target.is_dir():
-            raise FileError(f"{file} is a folder; a file is to be written there.")
+            raise FileError(f"{file} is a folder; it must be a file.")
     except FileError:
         raise
     except (OSError, ValueError) as error:

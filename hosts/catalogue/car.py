@@ -81,7 +81,7 @@ class TestedCar:
         ------
         HostError
             If the FMU cannot be loaded or started, a name is none of its variables, or a value is out of its range;
-            or an output is no number.
+            or an output is not a number.
         """
         with self.fmu.opened() as fmu:
             manoeuvre = with_names_of(manoeuvre, fmu.variables)
@@ -91,7 +91,7 @@ class TestedCar:
             driven = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
             result = marked(driven, pilot)
             if wrong := result.not_finite():
-                raise FailedFmuError(f"{wrong} Nothing of that run is measured.")
+                raise FailedFmuError(f"{wrong} That run is not evaluated.")
             return result
 
     @cached_property

@@ -88,7 +88,7 @@ class _Watch:
             if time - self._off_since >= _SETTLE:
                 self.begin = time
             if time > _APPROACH:
-                self.end = f"the car did not come to {3.6 * self.first:.3g} km/h within {_APPROACH:g} s."
+                self.end = f"the car did not reach {3.6 * self.first:.3g} km/h within {_APPROACH:g} s."
             return time > _APPROACH
         if abs(senses.get("sideslip", 0.0)) > _SPUN or abs(senses.get("chassis.roll", 0.0)) > ROLLED:
             return True

@@ -32,7 +32,7 @@ _Tried: TypeAlias = int | None
 """How many workers have ended with a chunk that is sent once more; None: it is sent for the first time."""
 _LOST_WITH_WORKERS = (
     "was lost with its worker {} times, the last ones with no other run beside it: it may need more memory than a "
-    "worker has (--memory-limit and --nthreads of dask worker); --again makes it again"
+    "worker has (--memory-limit and --nthreads of dask worker); --again repeats it"
 )
 
 

@@ -83,7 +83,7 @@ class RunReport:
         self.tell(times.text())
         if self._kinds:
             told = ", ".join(f"{kind} {count}" for kind, count in sorted(self._kinds.items()))
-            self.tell(f"what was said: {told}")
+            self.tell(f"messages: {told}")
         if file is not None:
             self._figures |= {"seconds since the start": self._marks, "steps": times.report()}
             self._figures |= {"events": self._events, "event counts": dict(self._kinds)}

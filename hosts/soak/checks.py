@@ -81,7 +81,7 @@ class Watch:
             name = next(
                 (n for n, x in zip(self._outputs, row, strict=True) if not math.isfinite(x)), "a sum of outputs"
             )
-            raise BadStepError("not finite", f"{name} is no finite number.")
+            raise BadStepError("not finite", f"{name} is not a finite number.")
         self._motion(row)
         if self._iterations >= 0:
             counts.most_iterations = max(counts.most_iterations, row[self._iterations])

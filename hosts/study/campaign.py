@@ -204,7 +204,7 @@ def _run(
     kept.into(table)
     if again:
         failed = table.forget(lambda part: part["status"].to_numpy() == FAILED)
-        print(f"{failed} failed runs are made again")
+        print(f"{failed} failed runs are repeated")
     before = int(np.count_nonzero(table.done))
     if before:
         print(f"{before} of {plan.runs} runs are there", flush=True)

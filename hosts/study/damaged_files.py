@@ -21,7 +21,7 @@ def check_signals(folder: Path, record: Mapping[str, Any]) -> None:
 def sound_runs(folder: Path, record: Mapping[str, Any]) -> tuple[NDArray[np.bool_], list[str]]:
     """Which runs have a row, and signals where the study keeps some.
 
-    What is damaged is taken out of the study, so that its runs are made again: a part of the table stays under a name
+    What is damaged is taken out of the study, so that its runs are repeated: a part of the table stays under a name
     that no reader takes for a part. Raises `HostError`: a part has a row that no study has.
 
     Returns
@@ -36,14 +36,14 @@ def sound_runs(folder: Path, record: Mapping[str, Any]) -> tuple[NDArray[np.bool
             table = read_part(file, record)
         except DamagedPartError as error:
             aside = file.replace(file.with_name(f".damaged-{file.name}"))
-            told.append(f"{error.file} is damaged ({error.words}); its runs are made again, it is kept as {aside}.")
+            told.append(f"{error.file} is damaged ({error.words}); its runs are repeated, it is kept as {aside}.")
             continue
         try:
             if record["signals"]:
                 read_signals(file, record)
         except DamagedPartError as error:
             file.unlink()
-            told.append(f"{error.file} is damaged ({error.words}); its runs are made again.")
+            told.append(f"{error.file} is damaged ({error.words}); its runs are repeated.")
         else:
             marked(done, file, table)
     return done, told

@@ -115,7 +115,7 @@ def read_record(folder: Path) -> dict[str, Any] | None:
         return None
     record = read_json(file, HostError, finite=False)
     if not isinstance(record, dict):
-        raise HostError(f"{file} is damaged: it is no JSON object.")
+        raise HostError(f"{file} is damaged: it is not a JSON object.")
     try:
         StudyRecord.model_validate(record)
     except ValidationError as error:

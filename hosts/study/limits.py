@@ -24,9 +24,9 @@ from hosts.study.worker_data import ALL, DONE, FAILED, MISSING
 
 CONFIDENCE = 0.95
 _NO_INTERVAL = {
-    "grid": "the points of a grid are no random sample",
+    "grid": "the points of a grid are not a random sample",
     "table": "how the rows of a table were chosen is unknown",
-    "saltelli": "runs of a block of the design share values, so that they are no independent sample",
+    "saltelli": "runs of a block of the design share values, so that they are not an independent sample",
 }
 
 

@@ -127,7 +127,7 @@ def marked(done: NDArray[np.bool_], file: Path, table: Any) -> None:
     if len(index) and not 0 <= index.min() <= index.max() < len(done):
         raise HostError(f"{file} has the run {index.max()}; the study has {len(done)} runs.")
     if done[index].any() or len(np.unique(index)) < len(index):
-        raise HostError(f"{file} has a run that another part has too; remove it, and its other runs are made again.")
+        raise HostError(f"{file} has a run that another part has too; remove it, and its other runs are repeated.")
     done[index] = True
 
 

@@ -47,14 +47,14 @@ def source_beside(name: str | None, file: Path, fmu: Fmu) -> FmuSource:
 def renamed_variable(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:
     """A variable that can be set, by our name and in our unit; None where it has no name of ours.
 
-    Raises `HostError`: it is no parameter or input.
+    Raises `HostError`: it is not a parameter or input.
     """
     if not isinstance(fmu, NamedFmu) or name not in fmu.table:
         return None
     found = fmu.table[name]
     if found.may_be_set:
         return found
-    raise HostError(f"{where}: '{name}' is no parameter or input of the FMU; it cannot be set.")
+    raise HostError(f"{where}: '{name}' is not a parameter or input of the FMU; it cannot be set.")
 
 
 @dataclass(frozen=True)
@@ -275,5 +275,5 @@ def _notes(study: StudyFile) -> tuple[str, ...]:
         below = 1 << (n.bit_length() - 1)
         notes.append(f"Sobol' points are balanced at powers of two: {below} or {2 * below} would be better than {n}.")
     if not study.measures and study.signals is None and all(m.test is None for m in study.manoeuvres):
-        notes.append("The study has neither measures nor signals: its table will tell only which runs came to an end.")
+        notes.append("The study has neither measures nor signals: its table will only show which runs finished.")
     return tuple(notes)

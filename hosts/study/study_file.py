@@ -40,9 +40,9 @@ class ParameterEntry(_Part):
         if self.range is not None and not self.range[0] < self.range[1]:
             raise ValueError(f"its range is {self.range[0]:g} to {self.range[1]:g}; the lower end comes first")
         if self.log and self.range is None:
-            raise ValueError("log goes with a range")
+            raise ValueError("log needs a range")
         if self.count is not None and self.range is None:
-            raise ValueError("count goes with a range")
+            raise ValueError("count needs a range")
         return self
 
 
@@ -64,7 +64,7 @@ class ManoeuvreEntry(_Part):
         if self.manoeuvre is None and self.test is None and self.stop_time is None:
             raise ValueError("it needs a manoeuvre, a test, or a stop_time (for constant inputs)")
         if self.test is None and self.settings:
-            raise ValueError("settings go with a test")
+            raise ValueError("settings need a test")
         if self.test is None and self.measures is not None:
             raise ValueError("measures here are those of a test that are kept; those of manoeuvres are in [measures]")
         if self.test is not None and self.stop_time is not None:
@@ -90,7 +90,7 @@ class SamplingEntry(_Part):
         if not drawn and self.runs is not None:
             raise ValueError(f"the method {self.method} gives its number of points itself; leave runs out")
         if (self.method == "table") != (self.file is not None):
-            raise ValueError("a file goes with the method table, and this method needs one")
+            raise ValueError("the method table, and no other, needs a file")
         return self
 
 
@@ -129,7 +129,7 @@ class StudyFile(_Part):
                 if self.sampling.method == "grid" and entry.range is not None and entry.count is None:
                     raise ValueError(f"parameters.'{name}' needs a count, how many values of its range the grid has")
                 if self.sampling.method != "grid" and entry.count is not None:
-                    raise ValueError(f"parameters.'{name}' has a count, which goes with the method grid")
+                    raise ValueError(f"parameters.'{name}' has a count, which only the method grid uses")
         both = sorted(set(self.start) & set(self.parameters))
         if both:
             raise ValueError(f"'{both[0]}' is a parameter and in [start]; give it once")

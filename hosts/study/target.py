@@ -328,7 +328,7 @@ def _record(search: _Search, found: Found, lines: list[str], file: Path) -> Path
 def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Path) -> list[str]:
     """What the search has found and what the study sets, as a parameter set of these entries alone.
 
-    Without entries there is no file. Returned is what is no parameter.
+    Without entries there is no file. Returned is what is not a parameter.
     """
     values: dict[str, Any] = {**study.start, by: value}
     values = plan.work.fmu.theirs(values)

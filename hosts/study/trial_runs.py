@@ -54,7 +54,7 @@ def try_out(plan: Plan) -> Trial:
         assert outcome is not None
         if outcome.status == FAILED:
             numbers = ", ".join(str(p * len(work.jobs) + number) for p in points)
-            raise HostError(f"No run of {job.label} that was tried ({numbers}) came to its end: {outcome.reason}")
+            raise HostError(f"No run of {job.label} that was tried ({numbers}) reached its end: {outcome.reason}")
         if outcome.status == INCOMPLETE:
             notes.append(f"Run {point * len(work.jobs) + number}, {job.label}, is incomplete: {outcome.reason}")
         columns |= _columns(outcome.units, job, f"{plan.file}: manoeuvres[{number + 1}]")

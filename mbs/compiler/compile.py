@@ -25,7 +25,7 @@ def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
     """Compile a model.
 
     Linear joint equations are eliminated, dependent rows removed, the elimination order and fronts of the tangent
-    computed, and the start position and velocity solved. Overconstrained loops are closed by least squares before:
+    computed, and the start position and velocity solved. Overconstrained loops are closed by least squares beforehand:
     points and axes of their joints are moved, by as little as possible, to where the loop moves; the System's report
     says by how much, joint by joint (`closed`: distance in m, angle in rad).
 

@@ -21,7 +21,7 @@ NONE = [-1] * 12
 
 @dataclass(frozen=True)
 class Dependents:
-    """Expressions of z, those of tabled bodies and numbers apart from the others."""
+    """Expressions of z, those of lookup-table bodies and numbers apart from the others."""
 
     remaining: list[int]
     """Natural coordinates that are z."""
@@ -82,7 +82,7 @@ def tell_apart(
 
 def refuse_joint(name: str) -> ModelError:
     """The error for a joint on a tabled body."""
-    return ModelError(f"The joint '{name}' is on a tabled body, which takes forces and sensors, and no joints.")
+    return ModelError(f"The joint '{name}' is on a lookup-table body, which accepts forces and sensors but no joints.")
 
 
 def columns_of(model: Model, seen: Sequence[Affine]) -> list[list[int]]:

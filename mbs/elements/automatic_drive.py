@@ -142,10 +142,10 @@ class AutomaticDrive(Element):
         selector : int, optional
             Number of an input: -1 reverse, 0 neutral, 1 drive; without one the drive is in drive.
         request : int, optional
-            Number of an input that asks for a forward gear, from 1; 0: as the drive shifts by itself. Needs a selector.
+            Number of an input that requests a forward gear, from 1; 0: automatic shifting. Needs a selector.
         clutch : int, optional
-            Number of an input, the pedal of a clutch behind the converter, 0 released to 1 pressed: it hands on at most
-            the part 1 - pedal of the largest torque that the drive has in its gear. Needs a selector.
+            Number of an input, the pedal of a clutch behind the converter, 0 released to 1 pressed: it transmits at
+            most the part 1 - pedal of the largest torque that the drive has in its gear. Needs a selector.
 
         Raises
         ------

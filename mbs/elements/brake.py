@@ -69,7 +69,7 @@ class Brake(Element):
         hand : int, optional
             Number of the input of the hand brake, 0 to 1.
         by_size : bool
-            Whether `input` is no pedal but any number from 0 on, and `max_torque` the torque per unit of it.
+            Whether `input` is not a pedal but any number from 0 on, and `max_torque` the torque per unit of it.
         """
         what = self._what(name)
         sized = 1 if flag(by_size, f"The by_size of {what}") else None

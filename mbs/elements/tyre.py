@@ -62,11 +62,11 @@ class TyreCurve:
     slope: AtTwoLoads
     """Initial slope, force per slip, N."""
     max_force: AtTwoLoads
-    """Largest force on a road of the reference friction, N; on another it goes with the friction."""
+    """Largest force on a road of the reference friction, N; otherwise proportional to the friction."""
     max_slip: AtTwoLoads
     """Slip where it is reached, a ratio."""
     slide_force: AtTwoLoads
-    """Force of full sliding, N; it goes with the friction too."""
+    """Force of full sliding, N; proportional to the friction too."""
     slide_slip: AtTwoLoads
     """Slip from which on it slides, a ratio."""
 

@@ -103,7 +103,8 @@ class BodyVocabulary(Register):
             raise ModelError(f"The {what} sits on the ground, which does not move; give it to a body.")
         if body.is_tabled:
             raise ModelError(
-                f"The {what} sits on tabled body '{body.name}', whose mass is part of its table; give it to its base."
+                f"The {what} sits on lookup-table body '{body.name}', whose mass is part of its table; give it to its "
+                "base."
             )
         if point is not None:
             drawn = self.expressions(point, f"The {what}").value(self.drawn())

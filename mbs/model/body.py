@@ -116,7 +116,7 @@ class Body:
         return self._expression(local, 1.0)
 
     def carried(self, position: ArrayLike) -> tuple[AffineVector, ...] | None:
-        """Origin r, axes a, b, c and place x of a point r + A x that is no expression of coordinates.
+        """Origin r, axes a, b, c and place x of a point r + A x that is not an expression of coordinates.
 
         Parameters
         ----------

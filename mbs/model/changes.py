@@ -1,4 +1,4 @@
-"""What undoes a call that is refused, and looks that are put off until somebody asks for them."""
+"""What undoes a call that is refused, and shapes that are deferred until they are needed."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def whole_or_not(method: Callable[Concatenate[C, P], R]) -> Callable[Concatenate
 
 
 class Changes:
-    """Calls that change a `Model` and can be undone, and looks that are put off."""
+    """Calls that change a `Model` and can be undone, and shapes that are deferred."""
 
     def __init__(self) -> None:
         self._undo: list[Callable[[], None]] | None = None
@@ -59,11 +59,11 @@ class Changes:
             self._undo = None
 
     def put_off(self, looks: Callable[[], None]) -> None:
-        """Leave what only adds looks until the model is drawn or changes. `looks`: adds shapes to this model."""
+        """Defer shapes until the model is drawn or changes. `looks`: adds the shapes to this model."""
         self._looks.append(looks)
 
     def look(self) -> None:
-        """Add the looks that were put off."""
+        """Add the deferred shapes."""
         if not self._looks:
             return
         looks, self._looks = self._looks, []
@@ -76,8 +76,8 @@ class Changes:
             raise
 
     def draw_before_change(self, drawing: Callable[[], object]) -> None:
-        """Call what draws the model as it is before the model changes, if there still is somebody who keeps it; at once
-        where no looks were put off.
+        """Run the deferred drawing before the model changes, if its result is still referenced; immediately where no
+        shapes were deferred.
         """
         if not self._looks:
             drawing()

@@ -72,7 +72,7 @@ class ChannelSensorVocabulary(SensorVocabulary):
         Parameters
         ----------
         scale : float
-            Factor on it; by another one than 1 it is no whole number.
+            Factor on it; by another one than 1 it is not a whole number.
         """
         channel = owned_input(self, input, f"The sensor '{name}'")
         unit, integers = self._unit(unit, channel.unit), [channel.index]
@@ -136,7 +136,7 @@ class ChannelSensorVocabulary(SensorVocabulary):
         ----------
         kind : str
             "iterations" and "status" of the last step, "violation" (m) and "residual" (m) after it; since the start
-            "factorizations", "halvings", "energy_error" (J, what the steps gave where no force did) and
+            "factorizations", "halvings", "energy_error" (J, added by the steps without a force) and
             "energy_balance" (see `Report`) and "capped" (steps that ended at `Settings.step_iterations`).
         """
         one_of(kind, SOLVER, f"The kind of solver sensor '{name}'")
@@ -145,9 +145,9 @@ class ChannelSensorVocabulary(SensorVocabulary):
         return self._sense(name, unit, description, SensorType.SOLVER, integers=[value], whole=whole)
 
     def notice(self, sensor: Sensor, text: str) -> Sensor:
-        """Let a run say a sentence when a sensor is not zero, so that users need not look at every output.
+        """Add a sentence to the notices of a run in which a sensor is not zero.
 
-        `Trajectory.notices` has the sentence with the first time and the largest value; the run goes on.
+        `Trajectory.notices` has the sentence with the first time and the largest value; the run continues.
 
         Parameters
         ----------

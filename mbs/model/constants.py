@@ -13,7 +13,7 @@ class ConstantVocabulary(Register):
     def constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Constant:
         """A number about the model that its users need and its equations do not, such as a wheelbase.
 
-        An FMU has it as a constant; it is no output and takes no part in a run.
+        An FMU has it as a constant; it is not an output and takes no part in a run.
 
         Parameters
         ----------

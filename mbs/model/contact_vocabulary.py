@@ -26,15 +26,15 @@ class ContactVocabulary(BodyVocabulary):
 
         They are the point that it was asked for, with which the answer holds whenever it comes, and height, unit
         normal and friction there: ``name_x``, ``name_y``, ``name_height``, ``name_normal_x``, ``name_normal_y``,
-        ``name_normal_z`` and ``name_friction``. The road goes on from there as the plane that they give. They start as
-        level ground at height 0. A step with a normal that is no unit vector upwards is refused.
+        ``name_normal_z`` and ``name_friction``. The road continues from there as the plane that they define. They start
+        as level ground at height 0. A step with a normal that is not a unit vector upwards is refused.
 
         Parameters
         ----------
         friction : float
             Coefficient of friction at the start.
         near : str, optional
-            Name of the sensor of the x of what meets the road there, whose y and z follow it: an FMU tells, once, when
+            Name of the sensor of the x of what meets the road there, whose y and z follow it: an FMU warns once when
             the point of the answer is more than 10 m away from it.
 
         Returns

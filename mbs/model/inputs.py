@@ -97,6 +97,6 @@ class InputVocabulary(Register):
             keeps a value until the next one.
         port : bool
             Whether another program sets it at every step: an FMU then holds its last value, with one warning, where a
-            value is not finite, and says before the first step if it was not set.
+            value is not finite, and warns before the first step if it was not set.
         """
         return new_input(self, name, start, min, max, unit, description, whole, port)

@@ -105,7 +105,7 @@ class JointSensorVocabulary(SensorVocabulary):
         Raises
         ------
         ModelError
-            One of them is no rod or ends elsewhere, or the axis is zero.
+            One of them is not a rod or ends elsewhere, or the axis is zero.
         """
         what = f"The sensor '{name}'"
         along = self.anchor_axis(self.owned(body, what), axis, f"sensor '{name}'")
@@ -131,7 +131,7 @@ def _joint_force(m: SensorVocabulary, name: str, found: Joint, component: str, u
     rows = found.force_equations
     if not rows:
         raise ModelError(
-            f"The joint '{found.name}' ({found.type}) has no force reading; shared points, lines, distances, "
+            f"The joint '{found.name}' ({found.type}) has no readable force; shared points, lines, distances, "
             "drop links, drives, gears, racks and screws have one."
         )
     unit = m._unit(unit, "N m" if found.type == "gear" else "N")

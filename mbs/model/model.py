@@ -141,8 +141,9 @@ class Model(
 
         What is left out follows from the joints: of all velocities that have the given part, the start takes the one
         with the least kinetic energy, and a free body turns or moves only as given. Without both the body starts at
-        rest. Of the given part the joints take away what they do not allow, and no more. Of velocities that they allow
-        each alone but not together the start has means by mass, and `print(system)` and every run tell the numbers.
+        rest. Of the given part the joints remove what they do not allow, and no more. Where several given velocities
+        contradict each other through the joints the start has mass-weighted means, and `print(system)` and every run
+        report the numbers.
 
         Parameters
         ----------

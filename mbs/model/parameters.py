@@ -212,8 +212,7 @@ class ParameterVocabulary(Register):
             Whether it may be set while the model moves; False: before the start only, as masses of payloads, ratios of
             armatures and switches must be.
         works : (float, float), optional
-            Least and largest value, in `unit`, with which the model does what it is made for; an FMU and a
-            `Simulation` say so when another is set.
+            Range, in `unit`, in which such models work; an FMU and a `Simulation` warn when another value is set.
 
         Raises
         ------

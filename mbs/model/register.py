@@ -120,7 +120,7 @@ class Register(ModelCoordinates):
 
     @staticmethod
     def place_of(things: Sequence[Named], name: object) -> int | None:
-        """Where in a list of a family the thing of a name is; None where there is none."""
+        """Index of a named thing in the list of its family, or None."""
         return next((k for k, thing in enumerate(things) if isinstance(name, str) and thing.name == name), None)
 
     @property

@@ -97,7 +97,7 @@ class ShapeVocabulary(BodyVocabulary):
         material: str | None = None,
         opacity: float = 1.0,
     ) -> Shape:
-        """What a body looks like; a body may have several shapes. It does not change its motion.
+        """A shape of a body, for drawing only; a body may have several.
 
         A body without shapes is drawn by its joints: tubes, plates, wheels. The first shape of a body takes the place
         of that; the beams of a flexible body stay, but "none" leaves both away. A spring, a damper, a rod or a joint is
@@ -186,7 +186,7 @@ class ShapeVocabulary(BodyVocabulary):
         axis: ArrayLike,
         angle: Coordinate | Affine | str,
     ) -> Turning:
-        """Something that only its looks turn about an axis of a body, such as a steering wheel or a motor's pulley.
+        """Something that is only drawn as turning about an axis of a body, such as a steering wheel or a pulley.
 
         Parameters
         ----------

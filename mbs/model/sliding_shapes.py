@@ -32,7 +32,7 @@ class SlidingVocabulary(ShapeVocabulary):
     """What slides on a body, and computed meshes."""
 
     def sliding(self, name: str, body: Body | Turning, *, at: ArrayLike, direction: ArrayLike, way: str) -> Sliding:
-        """Something that only its looks slide along a line of a body, such as a rack that a guide moves.
+        """Something that is only drawn as sliding along a line of a body, such as a rack that a guide moves.
 
         Parameters
         ----------

@@ -142,7 +142,7 @@ class Simulation(SteppedSystem):
     def set_parameter(self, name: str, value: float | str | os.PathLike[str]) -> None:
         """Value of a tunable parameter from now on; the next step is the first with it.
 
-        A `ParameterWarning` says where no such model works with the value, see `Model.parameter`.
+        Gives a `ParameterWarning` for a value outside the range in which such models work, see `Model.parameter`.
 
         Parameters
         ----------
@@ -343,14 +343,14 @@ class Simulation(SteppedSystem):
         Raises
         ------
         ValueError
-            The step is not positive or lost in the round-off of the time, or `n` is no whole number.
+            The step is not positive or lost in the round-off of the time, or `n` is not a whole number.
         SimulationError
             A step failed; the state is the last good one.
 
         Warns
         -----
         AccuracyWarning
-            Once, when the energy balance since the start says that the result is wrong.
+            Once, when the energy balance since the start shows that the result is wrong.
         """
         h = check_step(h)
         if not is_finite(n) or n != int(n) or n < 0:
@@ -374,7 +374,7 @@ class Simulation(SteppedSystem):
         estimate_error: bool | float | None = None,
         tolerance: float | Mapping[str, float] | None = None,
     ) -> Trajectory:
-        """Step from the present time to `t_end`; what is by hand in between, such as switches, stays as it is.
+        """Step from the present time to `t_end`; switches and inputs set before stay as they are.
 
         Parameters
         ----------
@@ -383,7 +383,7 @@ class Simulation(SteppedSystem):
         h : float, optional
             Step, s. With a tolerance: interval of the record, by default a 200th of the run.
         inputs : mapping of str to signal, optional
-            Per input a constant, a function of time alone, which is asked ahead, or a pair (times, values); see
+            Per input a constant, a function of time alone, which is sampled ahead, or a pair (times, values); see
             `simulate`. One that begins with another value than the input has now jumps there: the first sample is of
             before the jump. `simulate` gives first values to the start, as ``Simulation(system, inputs=...)`` does.
         every : int
@@ -392,9 +392,8 @@ class Simulation(SteppedSystem):
             None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives
             the share that is done.
         estimate_error : bool or float, optional
-            As of `simulate`, in the first run in doubt, of eight steps or more; its last refined run goes on
-            from run to run with its part of the step and is given the same inputs, parameters and switches, until a
-            step by hand.
+            As of `simulate`, in the first run in doubt, of eight steps or more; its last refined run continues from
+            call to call with the same inputs, parameters and switches, until `step` is called.
         tolerance : float or mapping of str to float, optional
             As of `simulate`, of what this part adds to the error; by the method of the settings.
 
@@ -413,7 +412,7 @@ class Simulation(SteppedSystem):
         Warns
         -----
         AccuracyWarning
-            Once, when a refined run or the energy balance since the start says that the result is wrong; each time,
+            Once, when a refined run or the energy balance since the start shows that the result is wrong; each time,
             when a tolerance is not kept.
         BranchWarning
             When a step jumped to another branch.
@@ -495,7 +494,7 @@ class Simulation(SteppedSystem):
             warnings.warn(f"{text} Take shorter steps.", AccuracyWarning, stacklevel=3)
 
     def save(self) -> bytes:
-        """All that continues bit for bit, in this or another process.
+        """The state, from which a run continues bit for bit, in this or another process.
 
         Returns
         -------

@@ -98,7 +98,7 @@ class CarBuilder:
             Whether `scale` over the value is written, in place of their product.
         """
         quantity = section.quantity(name)
-        assert quantity is not None, f"{section.key(name)} is no quantity"
+        assert quantity is not None, f"{section.key(name)} is not a quantity"
         assert quantity.change is not None, f"{section.key(name)} is of a type that does not change"
         start = getattr(section, name) if value is None else value
         path = section.key(name) + (f".{part}" if part else "")

@@ -210,7 +210,7 @@ class BuiltCar(Understood, CarContent):
         return [replace(echo, title=title) for echo, title in zip(echoes, titles, strict=True)]
 
     def _remade(self, data: dict[str, Any]) -> tuple[CarContent, Rest] | None:
-        """The car of altered content at rest, or None where that is no car."""
+        """The car of altered content at rest, or None where that is not a car."""
         try:
             made = checked_car(type(self), data, self.folder, self.name, at_rest=False)
             return made, made.rest
@@ -321,7 +321,7 @@ def checked_car(
         model.look()
         rest = settled(model, car)
     except ValueError as error:
-        raise CarFileError(_told(what, [f"as drawn it makes no car. {error}"])) from error
+        raise CarFileError(_told(what, [f"as drawn it is not a valid car. {error}"])) from error
     if warn:
         misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
         told = [sentence for echo in car_echo("", car, rest, car._data, car._remade) for sentence in echo.warnings()]

@@ -97,7 +97,7 @@ class Car(BuiltCar):
         Raises
         ------
         CarFileError
-            A key path does not exist, or with the values it is no car; the car that there was is unchanged.
+            A key path does not exist, or with the values it is not a car; the car that there was is unchanged.
         """
         what = f"car '{self.name}'"
         data = changed_content(self._data, values, what)

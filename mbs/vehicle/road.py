@@ -97,7 +97,7 @@ class RoadSection(Section):
 def _range(section: Section, field: str) -> tuple[float, float, str]:
     """Limits and unit of a parameter as the file's type has them."""
     q = section.quantity(field)
-    assert q is not None, f"{section.key(field)} is no quantity"
+    assert q is not None, f"{section.key(field)} is not a quantity"
     return q.least, q.high, q.unit
 
 

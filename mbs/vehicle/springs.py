@@ -67,9 +67,9 @@ def law_faults(
         What the table may be.
     """
     if number is None and table is None:
-        yield f"{section.key(name)} is missing; there must be it or {section.key('table')}, rows of two numbers."
+        yield f"{section.key(name)} is missing; give it or {section.key('table')}, rows of two numbers."
     if number is not None and table is not None:
-        yield f"{section.key(name)} is {number:g}, and there is {section.key('table')} too; there must be one of both."
+        yield f"{section.key(name)} is {number:g}, and there is {section.key('table')} too; give one of them."
     if table is not None and len(table) < 2:
         yield f"{section.key('table')} has {len(table)} rows; it must have two or more."
         return

@@ -119,7 +119,7 @@ def test_a_start_that_has_no_equilibrium_is_refused_by_name():
     [
         ({"k": "60"}, "The parameter 'k' of the equilibrium must be a number, not '60'"),
         ({"k": 1e9}, r"The parameter 'k' of the equilibrium is 1e\+09; it must lie between 50 and 200"),
-        ({"c": 60.0}, "sets 'c', which is no parameter of it"),
+        ({"c": 60.0}, "sets 'c', which is not a parameter of it"),
         ("k", "The equilibrium_parameters of a model must map names to values, not 'k'"),
     ],
 )

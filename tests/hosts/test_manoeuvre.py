@@ -51,7 +51,7 @@ def test_held_inputs_keep_the_value_of_a_row_up_to_the_next(tmp_path: Path) -> N
     recorded = load_manoeuvre(written(tmp_path, "# outputs from: throttle\n" + GOOD))
     assert recorded.at(0.5) == {"steering": 0.0}
     assert recorded.held == {"steering"}
-    with pytest.raises(HostError, match="'brake' is said to be held and is no input of the table"):
+    with pytest.raises(HostError, match="'brake' is listed as held but is not an input of the table"):
         load_manoeuvre(written(tmp_path, "# held: brake\n" + GOOD))
 
 
@@ -105,10 +105,10 @@ def test_a_table_that_begins_late_holds_its_first_row_and_says_so(tmp_path: Path
             r"goes from 1700000000 to 1700000003 s; a run begins at 0 and ends before",
         ),
         ('"time","u"\n-1,0\n1,1\n', r"begins at -1 s; a run begins at 0: add 1 s to all its times"),
-        ('# hold: u\n"time","u"\n0,0\n1,0\n', r"line 1: 'hold:' is no key of a table; did you mean 'held:'"),
+        ('# hold: u\n"time","u"\n0,0\n1,0\n', r"line 1: 'hold:' is not a key of a table; did you mean 'held:'"),
         ('"time"\n0\n', r"the heading is 'time'; it must be"),
-        ('"time","u"\n', r"holds no values"),
-        ("", r"holds no values"),
+        ('"time","u"\n', r"contains no values"),
+        ("", r"contains no values"),
         ('"time","u"\n0,0\n', r"does not say how long"),
         ('# start: speed\n"time","u"\n0,0\n1,0\n', r"line 1: 'speed' is not of the form"),
         ('# start: v=1, v=2\n"time","u"\n0,0\n1,0\n', r"line 1: the start value 'v' is given twice"),
@@ -128,7 +128,7 @@ def test_what_is_no_file_is_no_table(tmp_path: Path) -> None:
 
 def test_binary_tables_are_refused(tmp_path: Path) -> None:
     (tmp_path / "m.csv").write_bytes(bytes(range(128, 256)))
-    with pytest.raises(HostError, match="is no text in UTF-8"):
+    with pytest.raises(HostError, match="is not text in UTF-8"):
         load_manoeuvre(str(tmp_path / "m.csv"))
 
 
@@ -169,7 +169,7 @@ def test_a_table_whose_record_does_not_fit_is_refused(tmp_path: Path) -> None:
         {"lost": "u"},
         {"state": 1},
     ):
-        with pytest.raises(HostError, match="is no whole record of the run"):
+        with pytest.raises(HostError, match="is not a whole record of the run"):
             read(good, **changed)
     (tmp_path / "m.json").write_text('{"mine": NaN} of another kind')
     assert list(load_manoeuvre(written(tmp_path, GOOD)).inputs) == ["steering", "throttle"]
@@ -287,7 +287,7 @@ def test_many_numbers_come_back_to_the_bit(tmp_path: Path) -> None:
         ("[inputs]\ntime = [0]\nu = [0]\n", r"does not say how long"),
         ("stop_time = 1\n[state]\nfile = 'a'\n", r"state.time is missing; it must be a number, s"),
         ("stop_time = 1\n[state]\nfile = 'a.state'\ntime = 0\n", r"the state: 'a\.state' cannot be read"),
-        ("stop_time = \n", r"is no TOML file"),
+        ("stop_time = \n", r"is not a TOML file"),
     ],
 )
 def test_bad_toml_files_are_refused(tmp_path: Path, text: str, message: str) -> None:

@@ -32,7 +32,7 @@ from tests.simulation.many_cars import CARS, SLALOM, system
 pytestmark = [
     pytest.mark.filterwarnings("ignore::mbs.ParameterWarning"),
     pytest.mark.filterwarnings(
-        "ignore:Variant .. At .* too quick:mbs.results.accuracy.AccuracyWarning"
+        "ignore:Variant .. At .* too fast:mbs.results.accuracy.AccuracyWarning"
     ),  # stiff wheels at kerbs
 ]
 

@@ -268,7 +268,7 @@ def test_an_error_beyond_three_tolerances_is_warned_of_with_a_number() -> None:
     m.distance("upper", (m.ground, (0.0, 0.0)), first)
     m.distance("lower", first, second)
     m.sense_position("x", second, None, "x")
-    with pytest.warns(AccuracyWarning, match=r"is guessed as .* of the model's length, more than 3 times .* 1e-10"):
+    with pytest.warns(AccuracyWarning, match=r"is estimated as .* of the model's length, more than 3 times .* 1e-10"):
         run = mbs.simulate(mbs.compile(m), 60.0, tolerance=1e-10, method="runge_kutta_8")
     assert run.control is not None
     assert not run.control.kept

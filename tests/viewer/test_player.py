@@ -307,7 +307,7 @@ def test_a_gap_hides_the_body_and_cuts_the_line(opened: Callable[..., Opened]) -
         assert is_red(page.picture()[row, column]) == there
     data = page("player.plots.charts[0].plot.data[1].slice(50, 101)")
     assert [value is None for value in data] == [False] + 49 * [True] + [False]
-    assert "values that are no numbers" in page.page.inner_text(".a3-notices")
+    assert "values that are not numbers" in page.page.inner_text(".a3-notices")
 
 
 def test_one_time_is_a_picture_that_stands(opened: Callable[..., Opened]) -> None:

@@ -73,8 +73,8 @@ static void say_unchecked(slave *s, double time, const char *why) {
   if (s->event_said || s->unchecked_said) return;
   s->unchecked_said = true;
   slave_say(s, SLAVE_OK,
-            "From %.4g s on steps are not made a second time, so that their error is not known: %s. This is "
-            "said once.",
+            "From %.4g s on no second motion is computed, so that the error is unknown: %s. This is "
+            "reported once.",
             time, why);
 }
 
@@ -178,7 +178,7 @@ static bool begin(slave *s, const slave_late_step *step) {
     if (rests) ali3_snapshot_restore(s->fidelity.kernel, t->start);
     t->left = fmax(t->left, step->span);
   } else if (step->span > 0.0) {
-    say_unchecked(s, step->end, spent(t, step) ? "the time that may be made twice is spent" : "one of them failed");
+    say_unchecked(s, step->end, spent(t, step) ? "the time of the second motion is spent" : "one of them failed");
   }
   return t->left > 0.0;
 }
@@ -198,8 +198,8 @@ static void conclude(slave *s, const slave_late_step *step, double apart) {
     t->foretold = step->end + length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
     snprintf(grows, sizeof grows, ", and this grows as time to the power %.2g", power);
   }
-  snprintf(why, sizeof why, "%smade again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
-           differ(apart) ? "the time that may be made twice is spent; " : "", n, 100.0 * apart, grows);
+  snprintf(why, sizeof why, "%scomputed again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
+           differ(apart) ? "the time of the second motion is spent; " : "", n, 100.0 * apart, grows);
   say_unchecked(s, step->end, why);
 }
 
@@ -318,9 +318,10 @@ static slave_status judge(slave *s) {
   s->event_said = true;
   const bool load = (v->judged.kind & ALI3_JUDGED_LOAD) != 0;
   return slave_say(s, SLAVE_WARNING,
-                   "At %.4g s the motion was too quick for the step: made again with 1/%.0f of it, %s is off by %s "
+                   "At %.4g s the motion was too fast for the step: computed again with 1/%.0f of it, %s is off by %s "
                    "%.*g%s, %.2g %% of "
-                   "the largest %s at communication points. Run again with a step_size of %.2g s%s. This is said once.",
+                   "the largest %s at communication points. Run again with a step_size of %.2g s%s. This is reported "
+                   "once.",
                    t->seen[worst].time, n, v->name, t->n_late > 0 ? "at least" : "about", load ? 15 : 3,
                    load ? round(off) : off, v->unit, 100.0 * error, load ? "force" : "range in its unit",
                    h / n / ceil(error / (n * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
@@ -331,9 +332,9 @@ static slave_status foretell(slave *s, double now) {
   const slave_half_steps *t = &s->half_steps;
   s->event_said = true;
   return slave_say(s, SLAVE_WARNING,
-                   "At %.4g s %s may be off by %.0f %% of the largest range in its unit: made again with 1/%.0f of the "
-                   "step up to %.4g s it was off by %.2g %%, and this grows as it did until then. Compare with a run "
-                   "of half the step_size, %g s. This is said once.",
+                   "At %.4g s %s may be off by %.0f %% of the largest range in its unit: computed again with 1/%.0f of "
+                   "the step up to %.4g s it was off by %.2g %%, and this grows as it did until then. Compare with a "
+                   "run of half the step_size, %g s. This is reported once.",
                    now, slave_the_table.variable[t->variable[t->worst]].name, 100.0 * ALI3_WRONG_ERROR,
                    (double)parts_of(s, t->h), t->checked, 100.0 * error_of(t->then, (double)parts_of(s, t->h)),
                    0.5 * t->h);

@@ -12,8 +12,8 @@ static slave_status watch_energy(slave *s, const ali3_report *report) {
   s->calls.energy_warned = 1;
   return slave_say(
       s, SLAVE_WARNING,
-      "At %.6g s the energy balance is violated: the steps have made or lost %.3g J where no force did, %.2g %% of the "
-      "energy in the motion. The results are not reliable. Run again with a step_size below %g s. This is said once.",
+      "At %.6g s the energy balance is violated: the steps have added or lost %.3g J without a force, %.2g %% of the "
+      "energy in the motion. The results are not reliable. Run again with a step_size below %g s. This is reported once.",
       ali3_time(s->fidelity.kernel), report->energy_error, 100.0 * ali3_energy_balance(report),
       s->value[s->step_reference]);
 }
@@ -23,7 +23,7 @@ static slave_status watch_modes(slave *s, const ali3_report *report) {
   if (s->calls.mode_warned || report->branch_changes == 0) return SLAVE_OK;
   if (ali3_branch_text(s->fidelity.kernel, text, sizeof text) != ALI3_OK) return SLAVE_OK;
   s->calls.mode_warned = 1;
-  return slave_say(s, SLAVE_WARNING, "%s This is said once.", text);
+  return slave_say(s, SLAVE_WARNING, "%s This is reported once.", text);
 }
 
 /* The first step that ended at the limit of its iterations, and the first that left much: the first is often harmless. */
@@ -39,7 +39,8 @@ static slave_status watch_limit(slave *s, const ali3_report *report) {
                    "%g; after this one %s. If that is too much, raise the limit or take a step_size below %g s. %s",
                    ali3_time(s->fidelity.kernel), (long long)report->capped, (long long)report->steps,
                    s->value[s->iterations_reference], off, s->value[s->step_reference],
-                   said == SLAVE_CAPPED ? "This is said again only where it is more than 1 mm." : "This is said once.");
+                   said == SLAVE_CAPPED ? "This is reported again only where it is more than 1 mm."
+                                        : "This is reported once.");
 }
 
 /* A wheel that hit a wall or fell deep into the ground: the step converges, so that nothing else tells it. */
@@ -50,7 +51,7 @@ static slave_status watch_rims(slave *s, const ali3_report *report) {
   if (s->rim_said || !(report->rim_pressed > 0.0)) return SLAVE_OK;
   if (ali3_rim_text(s->fidelity.kernel, &element, text, sizeof text) != ALI3_OK || element < 0) return SLAVE_OK;
   s->rim_said = true;
-  return slave_say(s, SLAVE_WARNING, "%s It is the wheel of '%.64s'. This is said once.", text,
+  return slave_say(s, SLAVE_WARNING, "%s It is the wheel of '%.64s'. This is reported once.", text,
                    t->element[t->first_element[s->fidelity.number] + (size_t)element]);
 }
 
@@ -73,7 +74,7 @@ void slave_watch_outputs(slave *s) {
   slave_say(
       s, SLAVE_WARNING,
       "At %.6g s the vehicle has rolled over: %s is %.4g%s, more than a quarter turn. What follows is a vehicle that "
-      "slides on its body, as far as points of it touch the ground. This is said once.",
+      "slides on its body, as far as points of it touch the ground. This is reported once.",
       ali3_time(s->fidelity.kernel), t->variable[t->roll].name, s->value[t->roll], t->variable[t->roll].unit);
 }
 

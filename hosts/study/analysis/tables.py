@@ -27,7 +27,7 @@ class Row:
 
 
 def no_distribution(data: StudyData, response: Response) -> str:
-    """Why the values of a measure are no random sample from which a distribution can be told; "" if they are."""
+    """Why the values of a measure are not a random sample from which a distribution can be told; "" if they are."""
     count = len(response.values)
     if data.method in ("grid", "table"):
         return f"{count} runs of a {data.method}, no random sample"
@@ -69,7 +69,7 @@ def reasons(data: StudyData, status: str) -> list[tuple[str, list[int]]]:
 
 
 def said(data: StudyData) -> list[tuple[str, list[int]]]:
-    """What the FMU said in its runs and their indices, the most frequent first; of numbers that differ the range."""
+    """Messages of the FMU in its runs and their indices, the most frequent first; of numbers that differ the range."""
     if "messages" not in data.frame:
         return []
     messages = data.frame["messages"].fillna("").astype(str)

@@ -81,14 +81,14 @@ class Expression:
         for signal in sorted(self.signals):
             if signal not in units:
                 raise HostError(
-                    f"The measure '{self.text}' needs '{signal}', which is no input or output{near(signal, units)}"
+                    f"The measure '{self.text}' needs '{signal}', which is not an input or output{near(signal, units)}"
                 )
         time = np.array([0.0, np.finfo(float).max if stop_time is None else stop_time])
         signals = {n: Quantity(n, np.ones(2), units.get(n, "s") or NONE, time) for n in (*self.signals, TIME)}
         try:
             return {self.name: _evaluated(self.text, signals).unit}
         except NotYieldedError as error:
-            raise HostError(f"The measure '{self.text}' cannot be had of any run. {error}") from None
+            raise HostError(f"The measure '{self.text}' cannot be computed for any run. {error}") from None
 
     def evaluate(self, result: Result, parameters: Mapping[str, Value] | None = None) -> list[Measure]:
         """Its value; see there."""
@@ -149,7 +149,7 @@ def _evaluated(text: str, signals: Mapping[str, Quantity]) -> Quantity:
 
 def _number(node: ast.Constant) -> Quantity:
     if isinstance(node.value, bool) or not isinstance(node.value, (int, float)):
-        raise HostError(f"'{ast.unparse(node)}' is no number.")
+        raise HostError(f"'{ast.unparse(node)}' is not a number.")
     try:
         value = float(node.value)
     except OverflowError:
@@ -166,7 +166,7 @@ def _parse(text: str) -> tuple[ast.expr, frozenset[str]]:
         tree = ast.parse(text.strip(), mode="eval").body
         return tree, frozenset(_signals(tree))
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        words = (error.msg if isinstance(error, SyntaxError) else "") or "it is no expression"
+        words = (error.msg if isinstance(error, SyntaxError) else "") or "it is not an expression"
         raise HostError(
             f"The measure '{text}' cannot be read: {words}. Forms: max(abs(chassis.ay), after=2.0), "
             "value(speed, 3.0), range('a name with signs'), file.py:function."

@@ -164,7 +164,7 @@ def _takes_parameters(function: Callable[..., Any], text: str = "") -> bool:
 
 
 def _number(value: Any) -> float:
-    """NaN for what is no number."""
+    """NaN for what is not a number."""
     try:
         number = float(value) if isinstance(value, numbers.Real) or hasattr(value, "__float__") else math.nan
     except (TypeError, ValueError):

@@ -52,7 +52,7 @@ class Rest:
             if abs(found - drawn) > ODD_DEFLECTION:
                 yield (
                     f"{axle.tyre.key('stiffness')} is {axle.tyre.stiffness:g} N/m: at rest the load of "
-                    f"{self.load[name]:.0f} N presses the tyre in by {found:.3g} m, but {axle.tyre.key('radius')} less "
+                    f"{self.load[name]:.0f} N compresses the tyre by {found:.3g} m, but {axle.tyre.key('radius')} less "
                     f"the height of {axle.wheel.key('centre')} is {drawn:.3g} m."
                 )
         if abs(self.lean) > ODD_LEAN:

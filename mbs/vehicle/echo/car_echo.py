@@ -24,7 +24,7 @@ from mbs.vehicle.tyres.magic_formula import MagicFormula
 
 Data: TypeAlias = "dict[str, Any]"
 Remake: TypeAlias = Callable[[Data], "tuple[CarContent, Rest] | None"]
-"""Makes a car of the altered content of its file, and finds its rest; None where that is no car."""
+"""Makes a car of the altered content of its file, and finds its rest; None where that is not a car."""
 FINAL_DRIVE = 4.0
 HEIGHT = 4.0  # m: of a truck
 KILOGRAMS = ("kilograms in place of newtons", GRAVITY)

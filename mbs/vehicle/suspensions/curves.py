@@ -151,7 +151,7 @@ class Curves(SuspensionSection):
             lever = "missing" if self.bar.lever is None else f"{self.bar.lever:g} m"
             yield (
                 f"{self.bar.key('lever')} is {lever}, and the "
-                f"column anti_roll_bar_angle of {self.key('file')} ({self.file}) {both}; there must be one of them."
+                f"column anti_roll_bar_angle of {self.key('file')} ({self.file}) {both}; give one of them."
             )
         if self.compliance is not None:
             yield from self.compliance.fits(self.table.second_name)

@@ -302,11 +302,11 @@ def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path
     [
         (("--seconds", "3:1"), "its times must be finite and in their order"),
         (("--seconds", "now"), "it must be of the form A:B,C:D"),
-        (("--window-every", "1"), "--window-every goes with --windows"),
+        (("--window-every", "1"), "--window-every needs --windows"),
         (("--windows", "9"), "within 4.94 s"),
-        (("--windows", "1", "--skip", "1"), "--skip does not go with --windows"),
+        (("--windows", "1", "--skip", "1"), "--skip cannot be combined with --windows"),
         (("--windows", "2", "--seconds", "0:1"), "No window of 2 s lies in --seconds 0:1"),
-        (("--windows", "1", "--fit", "initial.speed=1:20"), "--fit initial.* does not go with --windows"),
+        (("--windows", "1", "--fit", "initial.speed=1:20"), "--fit initial.* cannot be combined with --windows"),
     ],
 )
 def test_windows_that_cannot_be_are_refused(

@@ -83,7 +83,7 @@ def test_a_damaged_file_is_told_and_its_runs_are_made_again(
         assert run_study(tmp_path / "study.toml", folder, scheduler, None) is not None
         told = capfd.readouterr().err
         assert "is damaged (" in told
-        assert "its runs are made again" in told
+        assert "its runs are repeated" in told
         assert read_study(folder).drop(columns="wall_seconds").equals(rows)
         assert np.array_equal(open_signals(folder)["bob.y"].to_numpy(), samples)
     assert len(list((folder / "runs").glob(".damaged-part-*"))) == 1
@@ -99,7 +99,7 @@ def test_the_runs_of_signals_that_have_gone_are_made_again(
     with pytest.raises(HostError, match="it is not there.*; the same study, started again, makes its runs again"):
         open_signals(folder)
     assert run_study(file, folder, None, 1) is not None
-    assert "part-000001.parquet is damaged (it is not there); its runs are made again." in capfd.readouterr().err
+    assert "part-000001.parquet is damaged (it is not there); its runs are repeated." in capfd.readouterr().err
     assert np.array_equal(open_signals(folder)["bob.y"].to_numpy(), samples)
     (folder / "done").write_bytes(b"")  # as a kill leaves it between the last part and the end of the journal
     assert run_study(file, folder, None, 1) is not None

@@ -229,7 +229,7 @@ def test_what_the_fmu_said(frame: pd.DataFrame, tmp_path: Path) -> None:
     told.attrs = frame.attrs
     assert said(study_data(told)) == [("The step 1 to 64 ms is coarse.", list(range(0, 70, 7)))]
     text = report_of(told, tmp_path, commands)[0].read_text(encoding="utf-8")
-    assert "What the FMU said" in text
+    assert "Messages of the FMU" in text
     assert "The step 1 to 64 ms is coarse." in text
 
 
