@@ -87,7 +87,8 @@ def prepare(options: argparse.Namespace) -> Task:
         set_values = settings_of(opened.table, wishes_with_road(options, options.out)).start
         given = source.ours(set_values)
         sought = {source.called([t.partition("=")[0].strip()])[0] for t in options.fit}
-        used = {*options.signals, "speed"} if options.signals else ()  # the start and --hold-speed need it too
+        # Those that may drive the car, and the speed for its start, are used whatever is compared.
+        used = {*options.signals, "speed", _ANGLE, *ANGLES} if options.signals else ()
         log = log_for(fmu, raw, log_aliases, {*given, *sought}, used)
         notes = log.notes
         inputs, outputs = _chosen(log, fmu, options)

@@ -290,8 +290,13 @@ def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path
     text = aliases.read_text(encoding="utf-8")
     road = '"wheel_FL.steer" = "Rad links"\n"wheel_FR.steer" = "Rad rechts"'
     aliases.write_text(text.replace('steering_wheel_angle = "Lenkrad"', road), encoding="utf-8")
+    lines = log.read_text(encoding="latin-1").split("\n")
+    cells = lines[200].split(";")
+    cells[lines[0].split(";").index("Rad links [rad]")] = "0,5"
+    log.write_text("\n".join([*lines[:200], ";".join(cells), *lines[201:]]), encoding="latin-1")
     by_road = compared(car, log, signals="chassis.wz")[1]
     assert any("at which the standing car turns its wheels as measured" in n for n in by_road["notes"])
+    assert any("1 sample of 'Rad links' (wheel_FL.steer) that no neighbour supports" in n for n in by_road["notes"])
     one, other = (values(r)["chassis.wz.rms"] for r in (by_hand, by_road))
     assert other < one + 0.002
 
