@@ -197,11 +197,13 @@ def test_no_instrument_lies_over_the_world_on_the_map(chromium: Any) -> None:
     with dark_page(chromium) as page:
         open_simulator(page)
         page.evaluate("player.camera('map')")
-        for width, height in ((640, 360), (800, 450), (1280, 720)):
+        page.evaluate("player.cockpit.instruments.tyres.element.style.display = ''")  # as of a car
+        for width, height, half in ((640, 360, 9), (800, 450, 9), (960, 540, 15), (1280, 720, 9)):
             page.set_viewport_size({"width": width, "height": height})
+            page.evaluate("half => { player.cockpit.plan.bounds = [-half, -9, half, 9]; }", half)
             wait_until(page, f"player.cockpit.map._canvas.width === {width}")
             (left, top), (right, bottom) = page.evaluate(
-                "[[-9, 9], [9, -9]].map((point) => player.cockpit.map.pixel(point))"
+                "half => [[-half, 9], [half, -9]].map((point) => player.cockpit.map.pixel(point))", half
             )
             assert min(left, top, width - right, height - bottom) >= 0
             assert bottom - top > 0.5 * height
