@@ -178,24 +178,25 @@ def needed_step(h: float, accuracy: Accuracy) -> float | None:
 
 
 def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) -> str:
-    """What would bring the result near, in a sentence.
+    """The remedy for an inaccurate result, in a sentence.
 
-    `tried`: steps of refined runs, s, the finest last, and about by how much their runs are off, of the range.
+    `tried`: steps of refined runs, s, the finest last, and their estimated errors, relative to the range.
     """
     found = next(((step, off) for step, off in tried if off <= CLEAR), None)
     if found is None:
-        finds = "simulate(..., tolerance=1e-3) in place of a step finds steps that will do."
+        finds = "simulate(..., tolerance=1e-3) in place of a step finds sufficient steps."
         if not tried:
-            return f"How short steps must be was not tried: {finds}"
+            return f"Which step is sufficient was not tried: {finds}"
         step, off = tried[-1]
         nearer = (
             f"are off by about {_percent(off)} at most"
             if off <= UNRESOLVED
-            else "do not show what shorter ones tend to"
+            else "do not show the limit of shorter steps"
         )
         return f"Steps of {step:g} s were tried too, and {nearer}: {finds}"
     better = _higher_orders(system, method)
-    others = f"; longer ones may do with a method of higher order ({' or '.join(map(repr, better))})" if better else ""
+    names = " or ".join(map(repr, better))
+    others = f"; longer steps may be sufficient with a method of higher order ({names})" if better else ""
     return f"Steps of {found[0]:g} s were tried: they are off by about {_percent(found[1])} at most{others}."
 
 

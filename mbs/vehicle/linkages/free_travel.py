@@ -63,8 +63,8 @@ def _of_the_steering(car: CarContent) -> Iterator[str]:
     if told:
         yield (
             f"{stop} is missing: nothing keeps a knuckle from turning over, and the links "
-            f"of the front axle follow {' and '.join(told)}; beyond, a run fails where they would part. A stop that "
-            "bears before that keeps it together."
+            f"of the front axle follow {' and '.join(told)}; beyond, a run fails where they would part. Add a stop "
+            "that acts before that."
         )
 
 

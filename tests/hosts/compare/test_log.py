@@ -265,7 +265,7 @@ BAD = [
     (
         "stamp;bob.x\n" + stamped("{0};{1}").replace("2024-10-27T", "27.10.2024 "),
         '[time]\nname = "stamp"',
-        "no date such as 2024",
+        "a date such as 2024",
     ),
     ("time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.011\n", "invalid\n"), "", "a cell without one is empty"),
     ("time,pull,bob.x\n" + rows("{ms},{f},{x}"), "", '[time] unit = "ms"'),
