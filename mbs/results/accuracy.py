@@ -89,7 +89,8 @@ def doubt(report: Report) -> str:
     """
     if report.balance_wrong or report.branch_changes > 0:
         return FINER
-    whole = report.halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
+    # what an abrupt force does is missed, or hidden in parts of steps
+    whole = report.halvings == report.divisions == report.abrupt_steps == 0
     kept = max(drift(report), abs(report.energy_change)) <= GOAL_ERROR
     return "" if summed_miss(report) <= WRONG_ERROR and kept and whole else COARSER
 

@@ -61,6 +61,9 @@ class Report:
     divisions : int
         Steps that were made in halves, as parts of them may have been again, because a force of a contact or a stop
         changed abruptly in them; and parts of steps that ended where an input jumps or peaks.
+    abrupt_steps : int
+        Steps in which such a force changed by more than a tenth of the largest; without roads that of a spring beyond
+        its stop.
     branch_changes : int
         Changes of the assembly mode of closed loops.
     branch_time : float
@@ -115,6 +118,7 @@ class Report:
     branch_kind: int = 0
     capped: int = 0
     capped_residual: float = 0.0
+    abrupt_steps: int = 0
 
     @classmethod
     def from_kernel(cls, values: Mapping[str, float]) -> Report:

@@ -21,7 +21,7 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
 from mbs.simulation.refined_run import RefinedRuns, TooDearError, Watch
 
-COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
+COUNTED = ("steps", "halvings", "divisions", "abrupt_steps", "branch_changes", "predictor_path")
 
 
 def one_iteration(settings: Settings, compared: Mapping[str, Compared], states: bool) -> bool:

@@ -9,7 +9,6 @@
 static const double PI = 3.141592653589793;
 static const double STANDS = 0.01; /* the same of coordinates: rates and forces of what moves less are those of rest */
 static const double NO_TURN = 1e-3; /* rad: a smaller turn counts only where nothing else moves, 1 mm at 1 m */
-static const double ALIKE = 1e-6; /* of the size: places that differ by less do not move by themselves */
 
 enum { KINDS = 4 }; /* of sizes in a unit: places and rates, loads, each always judged or not */
 
@@ -87,7 +86,7 @@ void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared
     if (others && what[i].unit == ALI3_JUDGED_RAD && size[i] <= NO_TURN) size[i] = 0.0;
     if (!(size[i] > 0.0)) continue;
     loads &= (what[i].kind & ALI3_JUDGED_LOAD) != 0;
-    moves |= what[i].kind & ALI3_JUDGED_PLACE && (!guided || seen[i].gap > ALIKE * size[i]);
+    moves |= what[i].kind & ALI3_JUDGED_PLACE && (!guided || seen[i].gap > ALI3_STILL * size[i]);
   }
   if (loads || moves) leave_out(what, n, ALI3_JUDGED_ALWAYS, size);
 }
