@@ -26,7 +26,7 @@ COLUMNS = {
     "without it": "+.1f",
     "near a bound": "",
 }
-STEP, EVERY = 0.01, 20.0  # s: inner step; from one window to the next: half of the seconds, so that a fit takes minutes
+STEP, EVERY = 0.01, 10.0  # s: inner step; from one window to the next
 
 
 def sought_in(file: Path) -> dict[str, str]:
