@@ -126,7 +126,7 @@ class RefinedRuns:
         stands = bool(seen) and not sizes_of(seen, coordinates, self.length, self.before)
         guided = len(self.system.arrays["gterm_row"]) > 0
         self.compared = compared_in(
-            self.run[0], compared_sensors(self.system), self.length, self.before, stands, guided
+            self.run[0], compared_sensors(self.system), self.length, self.before, stands, guided, report.energy_floor
         )
         self.rests = stands and not self.compared
         if shows_motion(self.compared):

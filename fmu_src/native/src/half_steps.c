@@ -203,6 +203,11 @@ static void conclude(slave *s, const slave_late_step *step, double apart) {
   say_unchecked(s, step->end, why);
 }
 
+static double energy_floor(const slave *s) {
+  ali3_report report;
+  return ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK ? report.energy_floor : 0.0;
+}
+
 /* What both motions differ by at the end of a communication step. */
 static void compare(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
@@ -210,7 +215,7 @@ static void compare(slave *s, const slave_late_step *step) {
   int32_t worst;
   ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->shown);
   ali3_compare(t->what, t->n, 1, &step->end, step->number + inputs_of(s), t->shown, t->seen);
-  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, 0, t->size);
+  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, energy_floor(s), 0, t->size);
   const double apart = ali3_compared_error(t->n, t->seen, t->size, 1, &worst);
   if (apart > t->apart) {
     t->apart = apart;
@@ -305,7 +310,7 @@ static void put_off(slave *s, double now, double span) {
 static slave_status judge(slave *s) {
   slave_half_steps *t = &s->half_steps;
   int32_t worst;
-  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, 0, t->size);
+  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, energy_floor(s), 0, t->size);
   const double n = (double)parts_of(s, t->h), h = t->h, apart = ali3_compared_error(t->n, t->seen, t->size, 0, &worst),
                error = error_of(apart, n);
   const bool met = error <= n * ALI3_WRONG_ERROR; /* by the step of the other motion, by order one, as at a kink */

@@ -98,7 +98,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     ),
     "ali3_compared_sizes": (
         None,
-        [POINTER(JudgedFields), c_int32, POINTER(ComparedFields), c_double, c_int32, _DOUBLES],
+        [POINTER(JudgedFields), c_int32, POINTER(ComparedFields), c_double, c_double, c_int32, _DOUBLES],
     ),
     "ali3_state_size": (c_size_t, [c_void_p]),
     "ali3_snapshot_size": (c_size_t, [c_void_p]),

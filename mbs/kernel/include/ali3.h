@@ -441,9 +441,10 @@ typedef struct { /* of one of them; zero before the first sample */
 ALI3_API void ali3_compare(const ali3_judged *what, int32_t n, int64_t rows, const double *time, const double *one,
                            const double *other, ali3_compared *seen);
 /* What a difference of each is held against, the largest range or force in its unit; 0: it does not count. `length`: of
- * the model, m; `guided`: places that are the same in both motions do not move by themselves. */
+ * the model, m; `energy`, J: forces that do less over the length, or moments over a radian, are none; `guided`: places
+ * that are the same in both motions do not move by themselves. */
 ALI3_API void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared *seen, double length,
-                                  int32_t guided, double *size);
+                                  double energy, int32_t guided, double *size);
 /* The largest difference, or the largest of the last sample, over its size; *worst: whose, -1: none. */
 ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const double *size, int32_t latest,
                                     int32_t *worst);

@@ -88,7 +88,7 @@ ENTRY(ali3_status, ali3_report_get, (const ali3_instance *in, ali3_report *out),
 ENTRY(double, ali3_energy_balance, (const ali3_report *report), (report), NULL)
 ENTRY(int32_t, ali3_balance_wrong, (const ali3_report *report), (report), NULL)
 PROCEDURE(ali3_compare, (const ali3_judged *what, int32_t n, int64_t rows, const double *time, const double *one, const double *other, ali3_compared *seen), (what, n, rows, time, one, other, seen), NULL)
-PROCEDURE(ali3_compared_sizes, (const ali3_judged *what, int32_t n, const ali3_compared *seen, double length, int32_t guided, double *size), (what, n, seen, length, guided, size), NULL)
+PROCEDURE(ali3_compared_sizes, (const ali3_judged *what, int32_t n, const ali3_compared *seen, double length, double energy, int32_t guided, double *size), (what, n, seen, length, energy, guided, size), NULL)
 ENTRY(double, ali3_compared_error, (int32_t n, const ali3_compared *seen, const double *size, int32_t latest, int32_t *worst), (n, seen, size, latest, worst), NULL)
 ENTRY(ali3_status, ali3_run_status, (const ali3_report *report), (report), NULL)
 ENTRY(ali3_status, ali3_branch_text, (const ali3_instance *in, char *text, size_t size), (in, text, size), NULL)

@@ -58,8 +58,8 @@ static void leave_out(const ali3_judged *what, int32_t n, int32_t kind, double *
     if (!(what[i].kind & kind)) size[i] = 0.0;
 }
 
-void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared *seen, double length, int32_t guided,
-                         double *size) {
+void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared *seen, double length, double energy,
+                         int32_t guided, double *size) {
   double largest[ALI3_JUDGED_COUNT * KINDS] = {0.0}, moved[ALI3_JUDGED_COUNT * KINDS] = {0.0};
   bool others = false, loads = true, moves = false;
   for (int32_t i = 0; i < n; i++) {
@@ -74,7 +74,10 @@ void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared
                         : unit == ALI3_JUDGED_RAD        ? 1.0
                         : unit == ALI3_JUDGED_COORDINATE ? fmax(length, 1.0)
                                                          : HUGE_VAL;
-    const double unseen = most < HUGE_VAL ? DBL_EPSILON * most : 0.0; /* of coordinates: less is no motion */
+    const double unseen = most < HUGE_VAL           ? DBL_EPSILON * most /* of coordinates: less is no motion */
+                          : unit == ALI3_JUDGED_N   ? energy / length
+                          : unit == ALI3_JUDGED_N_M ? energy
+                                                    : 0.0;
     const double rest =
         fmax((unit == ALI3_JUDGED_COORDINATE ? STANDS : ALI3_STILL) * fmin(largest[group], most), unseen);
     size[i] = !(moved[group] > rest) || !follows(seen + i) ? 0.0
