@@ -62,8 +62,8 @@ test("a frame is read number by number", () => {
 });
 
 test("what is not a frame is refused", () => {
-  assert.throws(() => readFrame(frame(TEN, [], { magic: 1 })), /no frame/);
-  assert.throws(() => readFrame(new ArrayBuffer(10)), /no frame/);
+  assert.throws(() => readFrame(frame(TEN, [], { magic: 1 })), /not a frame/);
+  assert.throws(() => readFrame(new ArrayBuffer(10)), /not a frame/);
   assert.throws(() => readFrame(frame(TEN, [1, 2]).slice(0, 100)), /2 numbers has 100 bytes/);
 });
 
