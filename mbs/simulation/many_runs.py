@@ -156,10 +156,11 @@ class _Run:
         told = list(self.told_at_start)
         report, end = self.simulation.report, self.t0 + self.steps * self.h
         if accuracy.doubt(report):
-            run.accuracy = fixed_step_run(
+            alone = fixed_step_run(
                 self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None,
                 warned=told,
-            ).accuracy  # fmt: skip
+            )  # fmt: skip
+            run.accuracy, run.notices = alone.accuracy, alone.notices
             if run.accuracy is not None and run.accuracy.message:
                 told.append((AccuracyWarning, run.accuracy.message))
             return told

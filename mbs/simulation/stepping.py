@@ -453,7 +453,7 @@ class Simulation(SteppedSystem):
             self._warned = True
             warnings.warn(found.message, AccuracyWarning, stacklevel=2)
         if estimate_error is not False:
-            self._warn_once()
+            self._warn_once(right=found is not None and bool(found.notice))
         return trajectory
 
     def _to_tolerance(
@@ -480,12 +480,12 @@ class Simulation(SteppedSystem):
     def _at(self, state: bytes) -> SteppedSystem:
         return restored(self.system, self.settings, self.road_paths, state)
 
-    def _warn_once(self) -> None:
-        """The part of `simulate`'s check that costs nothing."""
+    def _warn_once(self, right: bool = False) -> None:
+        """The part of `simulate`'s check that costs nothing; `right`: a refined run shows it despite the balance."""
         if not self._rim_told and (told := self.road_text):
             self._rim_told = True
             warnings.warn(told, RoadWarning, stacklevel=3)
-        if self._warned or not self.instance.balance_wrong():
+        if self._warned or right or not self.instance.balance_wrong():
             return
         driven = len(self.system.arrays["gterm_row"]) > 0
         if accuracy.balance_says(self.report, self.settings.method, driven):

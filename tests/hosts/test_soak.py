@@ -28,7 +28,7 @@ from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.replay import replay
 from hosts.soak import drive as drive_module
-from hosts.soak.checks import BadStepError, Watch
+from hosts.soak.checks import LARGEST_BALANCE, BadStepError, Watch
 from hosts.soak.drive import Failure, Outcome, Task, drive
 from hosts.soak.memory import Memory
 from hosts.soak.soak_roads import Ground, jump_ground, jump_heights
@@ -65,7 +65,7 @@ def test_a_short_soak_test_is_good(car: Path, tmp_path: Path, capfd: pytest.Capt
     for outcome in outcomes:
         assert outcome["simulated"] == pytest.approx(10.0)
         assert outcome["counts"]["steps"] == 5000
-        assert 0.0 < outcome["counts"]["largest_balance"] < 0.04
+        assert 0.0 < outcome["counts"]["largest_balance"] < LARGEST_BALANCE
         assert outcome["messages"] == {}
     assert max(outcome["counts"]["top_speed"] for outcome in outcomes) > 20.0
 

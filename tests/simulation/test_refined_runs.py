@@ -12,7 +12,7 @@ import mbs
 from benchmarks.references.cases import system_of
 from mbs.kernel.header.enumerations import Status
 from mbs.kernel.header.limits import WRONG_ERROR
-from mbs.results.accuracy import Accuracy
+from mbs.results.accuracy import RIGHT, Accuracy
 from mbs.results.comparison import Compared
 from mbs.results.convergence import extrapolated, seen_order, unsure
 from mbs.simulation.fixed_steps import check
@@ -181,3 +181,21 @@ def test_an_open_balance_is_told_where_that_of_the_refined_run_is_open_too(finer
     assert ("J of work" in known.message) == told
     assert ("J of work" in known.notice) != told
     assert known.error == pytest.approx(0.031 if finer else 0.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("many", [False, True])
+def test_an_energy_that_jumps_in_a_right_run_is_a_notice_of_it(many: bool) -> None:
+    """7.8 % in steps of 0.1 s, beside positions that are right; warnings are errors here."""
+    system, end, h = system_of("double_four_bar"), 0.8, 0.1
+    run = mbs.simulate(system, end, h, every=2, progress=False)
+    other = (
+        mbs.simulate_many(system, [mbs.Variant()], end, h, every=2, progress=False).trajectories[0]
+        if many
+        else mbs.Simulation(system).run(end, h, every=2, progress=False)
+    )
+    assert other is not None
+    for made in (run, other):
+        (told,) = [text for text in made.notices if "J of work, 7.8 %" in text]
+        assert told.endswith(RIGHT)
+        assert told in str(made)
+    assert other.notices == run.notices

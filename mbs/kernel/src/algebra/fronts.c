@@ -7,7 +7,7 @@
 #include "processor.h"
 
 enum { PANELS = 3 };     /* that a column loses while it is in hand: twelve factors of sixteen registers */
-_Static_assert(PANELS *PANEL <= ALI3_LOCAL, "columns of panels go to in->local");
+_Static_assert(PANELS *PANEL <= ALI3_LOCAL, "columns of panels go to in->tangent.local");
 enum { FOUR_SUMS = 16 }; /* coordinates of a front from which on back substitution makes four sums */
 
 #ifdef ALI3_WIDTH

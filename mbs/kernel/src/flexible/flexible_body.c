@@ -186,7 +186,7 @@ ALI3_BY_PROCESSOR(in->system, void, flexible_tangent,
                   (const ali3_instance *in, double wM, double wC, double wK, real *F), (in, wM, wC, wK, F))
 
 #ifndef ALI3_WIDTH /* of one instance alone */
-/* K eta with the amplitudes eta of x, which stay in in->flex_work. */
+/* K eta with the amplitudes eta of x, which stay in in->flexible.work. */
 ALI3_INLINED const double *elastic_force(const ali3_instance *in, const ali3_flexible *f, const double *x) {
   double *eta = in->flexible.work, *force = eta + f->n;
   ali3_amplitudes(f, x, eta);

@@ -96,7 +96,7 @@ static void beside_start(ali3_instance *in, double t, double h, double when) {
   ali3_work_beside(in, when - t);
 }
 
-/* in->next by a step of the method from the start or the centre; in->now, the end, waits in in->coarse. */
+/* in->next by a step of the method from the start or the centre; in->now, the end, waits in in->kept.coarse. */
 static ali3_status side_step(ali3_instance *in, double t, double h, double when) {
   const ali3_report before = in->report;
   const double middle = t + 0.5 * h;

@@ -34,7 +34,7 @@ static void scale(ali3_instance *in, const ali3_vectors *v) {
 }
 
 /* What a System with flexible bodies carries: v->own goes to the rows with the tangent of the step, which is
- * unsymmetric and spreads what is taken away by A. Needs Phi_q in in->J. */
+ * unsymmetric and spreads what is taken away by A. Needs Phi_q in in->tangent.J. */
 void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weight) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
@@ -56,7 +56,7 @@ void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weigh
  * move velocities along M^-1 Phi_q', and any other direction would leave driven motion with one order less. v->qdd and
  * v->lam are those of the forces there: of the order of positions and velocities, and of nothing but the state,
  * whatever steps led to it. Middles of past steps would give them less accurately: the error of the carried velocity
- * along rows of prescribed motion changes its sign from step to step. Needs Phi_q in in->J. */
+ * along rows of prescribed motion changes its sign from step to step. Needs Phi_q in in->tangent.J. */
 ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   const int64_t factorizations = in->report.factorizations, solves = in->report.solves;

@@ -10,7 +10,7 @@
 #include "../rows/constraints.h"
 
 /* Whether Phi_q v, which is in in->step.mu, and b together are below the tolerance times the largest of v, or below
- * `known`; their sum, of the size *violation, stays in in->mu. */
+ * `known`; their sum, of the size *violation, stays in in->step.mu. */
 ALI3_INLINED truth rates_below(ali3_instance *in, const real *b, const real *v, double tolerance, double known,
                                real *violation) {
   const ali3_system *S = in->system;

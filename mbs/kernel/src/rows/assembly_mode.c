@@ -57,7 +57,7 @@ ALI3_INLINED void angle(const ali3_system *S, const double *q, const int32_t *t,
   put(t[KIND], nn * det * fabs(det), c * fabs(c), nn * nn * dot(a, a) * dot(b, b), sine, cosine);
 }
 
-/* Of all triads, signed squares of sines in in->branch.sine and of cosines in in->mode_cosine. */
+/* Of all triads, signed squares of sines in in->branch.sine and of cosines in in->branch.cosine. */
 ALI3_INLINED void mode_angles(ali3_instance *in, const double *q) {
   const int32_t *t = in->system->mode_triad, *end = t + in->system->n_mode_triad;
   for (double *sine = in->branch.sine, *cosine = in->branch.cosine; t < end; t += ITEMS)

@@ -49,7 +49,7 @@ ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v) {
   return ali3_finite(v->qdd, nq) ? ALI3_OK : ALI3_NOT_FINITE;
 }
 
-/* F = M(q) + ALPHA Phi_q' Phi_q, factorised; Phi_q in in->J. */
+/* F = M(q) + ALPHA Phi_q' Phi_q, factorised; Phi_q in in->tangent.J. */
 ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q) {
   ali3_bodies_prepare(in, q);
   ali3_mass_to_fronts(in, in->tangent.F);

@@ -26,7 +26,7 @@ static double depth(const ali3_instance *in, const ali3_road *roads, const doubl
   return in->system->el_kind[e]->depth(&a, raised, part);
 }
 
-/* Depths of the drawing on the roads of the file, in in->potential_work. True where any element touches. */
+/* Depths of the drawing on the roads of the file, in in->element.potential. True where any element touches. */
 static bool drawn_depths(ali3_instance *in) {
   const ali3_system *S = in->system;
   bool touching = false;

@@ -52,7 +52,7 @@ ali3_status ali3_inputs_aim(ali3_instance *in, double h, const double *end) {
   return ALI3_OK;
 }
 
-/* Inputs at both ends of a step, or a part of one, of size h that ends at time t: in->inputs.begin and in->input. */
+/* Inputs at both ends of a step, or a part of one, of size h that ends at time t: in->inputs.begin and in->inputs.set. */
 ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   in->inputs.part_time = in->clock.now;
