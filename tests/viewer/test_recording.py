@@ -34,7 +34,7 @@ def test_a_whole_recording_draws_all() -> None:
     [
         ([], r"shape \(0,\)"),
         ([[0.0]], r"shape \(1, 1\)"),
-        (["a"], "no numbers"),
+        (["a"], "not numbers"),
         ([0.0, np.nan], "time 1 .* is nan"),
         ([0.0, 2.0, 1.0], "go back from 2 s to 1 s"),
     ],
