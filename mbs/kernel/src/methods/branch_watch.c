@@ -21,8 +21,7 @@
 
 static const double IN_LINE = 0.25; /* square of the largest sine of a ring whose branches may be near */
 static const double APART = 0.5; /* of the change in the step: the parts come out elsewhere; of that: they agree */
-static const double MOST_TURNED =
-    0.2; /* sine of a triad in a controlled step past a place where branches may be near */
+static const double MOST_TURNED = 0.2; /* sine of a ring in a controlled step past a place where branches may be near */
 static const double SAFE = 0.65, APART_AGAIN = 0.25; /* of MOST_TURNED; of a step that ends elsewhere than its parts */
 enum { FEW = 4, MANY = 8, LOOKS = 8 };
 
@@ -32,13 +31,17 @@ static double root(double signed_square) { return signed_square < 0.0 ? -sqrt(-s
 
 static bool watches(const ali3_instance *in) { return in->system->n_mode_triad > 0; }
 
+static bool same_ring(const ali3_instance *in, int32_t j, int32_t k) {
+  const int32_t *ring = in->system->mode_triad + RING;
+  return ring[ITEMS * j] == ring[ITEMS * k];
+}
+
 /* Whether triad k and all others of its ring, at least one, are nearly in line. */
 static bool in_line(const ali3_instance *in, const double *sine, int32_t k, int32_t first, int32_t end) {
-  const int32_t *ring = in->system->mode_triad + RING;
   int32_t n = 0;
   if (!(fabs(sine[k]) < IN_LINE)) return false;
   for (int32_t j = first; j < end; j++) {
-    if (ring[ITEMS * j] != ring[ITEMS * k]) continue;
+    if (!same_ring(in, j, k)) continue;
     if (!(fabs(sine[j]) < IN_LINE)) return false;
     n++;
   }
@@ -168,12 +171,14 @@ static void left_modes(ali3_instance *in, double t) {
   }
 }
 
-/* How far the controlled step turns a triad that changes its sign on the way where its ring is nearly in line: the change
- * of its sine, 0 where none does. *look: the eighth of the step in which it does, from 1 on. */
+/* How far the controlled step turns a ring that is nearly in line where one of its triads changes its sign on the way:
+ * the largest change of a sine of it, 0 where none does. Folded arms change their sign by interpolation alone, or turn
+ * little while the other joint of the ring passes to the other branch. *look: the eighth of the step in which the sign
+ * changes, from 1 on. */
 static double passed(ali3_instance *in, double h, int *look) {
   const ali3_system *S = in->system;
   const size_t all = (size_t)ali3_triad_count(S) * sizeof(double);
-  int32_t found = -1;
+  int32_t found = -1, first = 0, end = 0;
   ali3_mode_angles(in, in->kept.origin.q);
   memcpy(in->branch.sine_few, in->branch.sine, all);
   for (int n = 1; n <= LOOKS && found < 0; n++) {
@@ -181,7 +186,8 @@ static double passed(ali3_instance *in, double h, int *look) {
     ali3_interpolate(in, h, 2.0 * n / LOOKS - 1.0, &in->next);
     ali3_mode_angles(in, in->next.q);
     for (int64_t loop = 0; loop < ali3_loop_count(S) && found < 0; loop++) {
-      const int32_t first = S->mode_triad_ptr[loop] / ITEMS, end = S->mode_triad_ptr[loop + 1] / ITEMS;
+      first = S->mode_triad_ptr[loop] / ITEMS;
+      end = S->mode_triad_ptr[loop + 1] / ITEMS;
       for (int32_t k = first; k < end && found < 0; k++)
         if (in->branch.sine_before[k] * in->branch.sine[k] < 0.0 &&
             (in_line(in, in->branch.sine_before, k, first, end) || in_line(in, in->branch.sine, k, first, end)))
@@ -191,7 +197,10 @@ static double passed(ali3_instance *in, double h, int *look) {
   }
   if (found < 0) return 0.0;
   ali3_mode_angles(in, in->now.q);
-  return fmax(1e-300, fabs(root(in->branch.sine[found]) - root(in->branch.sine_few[found])));
+  double turned = 1e-300;
+  for (int32_t k = first; k < end; k++)
+    if (same_ring(in, k, found)) turned = fmax(turned, fabs(root(in->branch.sine[k]) - root(in->branch.sine_few[k])));
+  return turned;
 }
 
 /* Whether the accepted step of in->kept.origin, in->kept.centre and in->now may have jumped where branches are near: it
