@@ -13,7 +13,8 @@ static slave_status watch_energy(slave *s, const ali3_report *report) {
   return slave_say(
       s, SLAVE_WARNING,
       "At %.6g s the energy balance is violated: the steps have added or lost %.3g J without a force, %.2g %% of the "
-      "energy in the motion. The results are not reliable. Run again with a step_size below %g s. This is reported once.",
+      "energy in the motion. The results are not reliable. Run again with a step_size below %g s. This is reported "
+      "once.",
       ali3_time(s->fidelity.kernel), report->energy_error, 100.0 * ali3_energy_balance(report),
       s->value[s->step_reference]);
 }
