@@ -138,8 +138,8 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         raise HostError(f"{others[0]} cannot be combined with {others[-1]}.")
     if reference and options.reference.is_file() and (of_folder := given_of(parser, options, _OF_FOLDER)):
         raise HostError(
-            f"{of_folder[0]} goes with a folder of tables, of which those that are done are kept; {options.reference} "
-            "is one table."
+            f"{of_folder[0]} needs a folder of tables, of which those that are done are kept; {options.reference} is "
+            "one table."
         )
     if (of_check := given_of(parser, options, _OF_CHECK)) and others:
         raise HostError(f"{of_check[0]} is of the check alone.")

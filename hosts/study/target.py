@@ -245,7 +245,7 @@ class _Search:
             lines.append(f"Wanted: {self.y_words(self.wanted)}, to within {TOLERANCE:g} of it.")
         else:
             lines += self._not_met(found, found.best)
-        if found.best is not None and math.isfinite(found.slope):
+        if found.best is not None and math.isfinite(found.slope) and not self._is_flat(found):
             slope, one, other = self.shown.factor * found.slope, *map(self.x_words, found.between)
             change = number_in(0.01 * found.best.x * slope, self.shown.unit, ".5g")
             lines.append(f"Sensitivity: 1 % more of {by} changes it by {change} (from runs at {one} and {other}).")

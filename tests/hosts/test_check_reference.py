@@ -121,7 +121,7 @@ def test_a_stopped_check_of_a_folder_goes_on_with_the_tables_that_are_left(
 def test_of_one_table_nothing_is_kept(fmu: Path, result: Path, given: tuple[str, ...]) -> None:
     done = run(main, fmu, "--reference", result, *given)
     assert (done.returncode, done.stdout) == (2, "")
-    assert f"{given[0]} goes with a folder of tables" in done.stderr
+    assert f"{given[0]} needs a folder of tables" in done.stderr
     assert f"{result} is one table." in done.stderr
 
 
