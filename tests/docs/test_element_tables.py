@@ -47,6 +47,7 @@ def test_ranges_and_defaults_are_those_of_the_class() -> None:
 
 
 def test_the_site_has_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("sphinx")
     monkeypatch.syspath_prepend(ROOT / "docs" / "_site")
     monkeypatch.delitem(sys.modules, "made_tables", raising=False)
     made = importlib.import_module("made_tables")
