@@ -203,9 +203,9 @@ def test_the_watch_sees_what_is_wrong() -> None:
     assert kind(speed=float("nan")) == "not finite: speed is not a finite number."
     assert kind(speed=float("inf")).startswith("not finite")
     assert kind(chassis_z=-6.0).startswith("left the road")
-    assert kind(99, solver_energy_balance=0.05) == ""
-    assert kind(100, solver_energy_balance=0.05).startswith("energy: solver.energy_balance is 0.05")
-    assert kind(100, solver_energy_balance=0.039) == ""
+    assert kind(99, solver_energy_balance=0.06) == ""
+    assert kind(100, solver_energy_balance=0.06).startswith("energy: solver.energy_balance is 0.06")
+    assert kind(100, solver_energy_balance=0.049) == ""
 
 
 def test_the_watch_counts() -> None:
