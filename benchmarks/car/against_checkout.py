@@ -59,8 +59,7 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
     if not sources:
         raise RuntimeError(
             f"{checkout} is not a working tree of this project: it has no mbs/kernel/src; git worktree add FOLDER "
-            "COMMIT "
-            "makes one."
+            "COMMIT makes one."
         )
     what = f"the program that repeats steps, with the kernel of {checkout},"
     include = (kernel / "include",)

@@ -27,6 +27,13 @@ static bool spent(const slave_half_steps *t, const slave_late_step *step) {
 static double error_of(double apart, double n) { return apart * n * n / (n * n - 1.0); }
 
 /* Steps so far that were halved, or in which a force changed abruptly. */
+/* Of the kernel; zeros where it has none. */
+static ali3_report report_of(const slave *s) {
+  ali3_report report;
+  if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) memset(&report, 0, sizeof report);
+  return report;
+}
+
 static int64_t abrupt_steps(const ali3_report *report) { return report->abrupt_steps + report->halvings; }
 
 /* Whether two motions that differ by this much do not agree. */
@@ -81,7 +88,6 @@ static void say_unchecked(slave *s, double time, const char *why) {
 /* From the state that is there now nothing is made twice, but for a start. */
 void slave_half_steps_begin(slave *s) {
   slave_half_steps *t = &s->half_steps;
-  ali3_report report;
   if (t->left > 0.0 || t->n_late > 0) say_unchecked(s, ali3_time(s->fidelity.kernel), "a state was set");
   t->left = 0.0;
   t->sure = -HUGE_VAL; /* a run may start at any time */
@@ -98,7 +104,7 @@ void slave_half_steps_begin(slave *s) {
   if (t->begins) memset(t->seen, 0, (size_t)t->n * sizeof *t->seen);
   if (t->begins && ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->shown) == ALI3_OK)
     ali3_compare(t->what, t->n, 1, NULL, NULL, t->shown, t->seen);
-  if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) memset(&report, 0, sizeof report);
+  const ali3_report report = report_of(s);
   t->abrupt = abrupt_steps(&report);
   t->iterations = report.iterations;
 }
@@ -203,11 +209,6 @@ static void conclude(slave *s, const slave_late_step *step, double apart) {
   say_unchecked(s, step->end, why);
 }
 
-static double energy_floor(const slave *s) {
-  ali3_report report;
-  return ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK ? report.energy_floor : 0.0;
-}
-
 /* What both motions differ by at the end of a communication step. */
 static void compare(slave *s, const slave_late_step *step) {
   slave_half_steps *t = &s->half_steps;
@@ -215,7 +216,7 @@ static void compare(slave *s, const slave_late_step *step) {
   int32_t worst;
   ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->shown);
   ali3_compare(t->what, t->n, 1, &step->end, step->number + inputs_of(s), t->shown, t->seen);
-  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, energy_floor(s), 0, t->size);
+  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, report_of(s).energy_floor, 0, t->size);
   const double apart = ali3_compared_error(t->n, t->seen, t->size, 1, &worst);
   if (apart > t->apart) {
     t->apart = apart;
@@ -234,11 +235,6 @@ static void compare(slave *s, const slave_late_step *step) {
   if (!(t->left > 0.0)) conclude(s, step, apart);
 }
 
-static int64_t iterations(const slave *s) {
-  ali3_report report;
-  return ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK ? report.iterations : 0;
-}
-
 /* One inner step of the other motion, which the kernel has, in the communication step that waits longest, unless that one
  * is not made twice. Returns the iterations. */
 static int64_t follow(slave *s) {
@@ -246,9 +242,9 @@ static int64_t follow(slave *s) {
   const slave_late_step *step = t->late + t->first;
   int64_t cost = 0;
   if (t->made > 0 || begin(s, step)) {
-    const int64_t before = iterations(s);
+    const int64_t before = report_of(s).iterations;
     const bool good = make(s, step) == ALI3_OK;
-    cost = iterations(s) - before;
+    cost = report_of(s).iterations - before;
     if (good && t->made < parts_of(s, step->h) * step->n) return cost;
     if (good)
       compare(s, step);
@@ -310,7 +306,7 @@ static void put_off(slave *s, double now, double span) {
 static slave_status judge(slave *s) {
   slave_half_steps *t = &s->half_steps;
   int32_t worst;
-  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, energy_floor(s), 0, t->size);
+  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, report_of(s).energy_floor, 0, t->size);
   const double n = (double)parts_of(s, t->h), h = t->h, apart = ali3_compared_error(t->n, t->seen, t->size, 0, &worst),
                error = error_of(apart, n);
   const bool met = error <= n * ALI3_WRONG_ERROR; /* by the step of the other motion, by order one, as at a kink */
