@@ -36,7 +36,7 @@ ROOMS = (
     "files",
 )
 """Rooms of the kernel; each may include headers of those behind it."""
-SHARED = ("method.h", "request.h", "instance.h", "system.h", "system_arrays.h")
+SHARED = ("method.h", "request.h", "instance.h", "system.h", "generated.h", "system_arrays.h")
 """Contract of methods and data that all rooms share: each header may include those behind it, and none of a room."""
 PUBLIC = "../include/ali3.h"
 STANDARD = ("fmi2FunctionTypes.h", "fmi3FunctionTypes.h")

@@ -75,13 +75,39 @@ ALI3_INLINED bool judge(ali3_instance *in) {
   return ali3_judge(in, x);
 }
 
-/* The tangent (23) of the present iterate, factorised. */
-static ali3_status tangent(ali3_instance *in, double alpha) {
+/* The tangent (23) of the present iterate, by generated code. */
+static void assemble_generated(ali3_instance *in, double alpha) {
   const ali3_system *S = in->system;
+  const ali3_tangent_parts parts = {.front_mass = in->front_mass,
+                                    .J = in->J,
+                                    .lam = in->next.lam,
+                                    .s = in->next.s,
+                                    .hess_val = S->hess_val,
+                                    .gterm_h = S->gterm_h,
+                                    .sig_val = S->sig_val,
+                                    .S = in->S,
+                                    .idle = in->idle,
+                                    .square = in->rule.c * alpha,
+                                    .geometric = in->rule.c};
+  S->generated.tangent(&parts, in->F);
+}
+
+/* The tangent goes to the fronts. */
+static void assemble(ali3_instance *in, double alpha) {
+  if (in->system->generated.tangent != NULL && in->settings.geometric) {
+    assemble_generated(in, alpha);
+    return;
+  }
   ali3_mass_to_fronts(in, in->F);
   ali3_rows_square(in, in->J, in->rule.c * alpha, in->F);
   if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, in->rule.c, in->F);
   ali3_forces_tangent(in, in->F);
+}
+
+/* That tangent, factorised. */
+static ali3_status tangent(ali3_instance *in, double alpha) {
+  const ali3_system *S = in->system;
+  assemble(in, alpha);
   double *J = in->J;
   in->J = in->J_tangent;
   in->J_tangent = J;

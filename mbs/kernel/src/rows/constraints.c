@@ -97,7 +97,8 @@ ALI3_INLINED void all_rows(ali3_instance *in, const real *q, const real *s, real
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
   const double *row_lin = S->row_lin;
   if (S->size.has_pose) q = near_origin(in, q);
-  for (int32_t k = 0; k < S->size.nc; k++) {
+  const bool generated = ALI3_GENERATED(S, rows, (row_lin, S->row_const, S->hess_val, q, Phi, J));
+  for (int32_t k = generated ? S->size.nc : 0; k < S->size.nc; k++) {
     real value = {0};
     int32_t i = ptr[k];
     const int32_t single = singles && S->row_single[k] ? ptr[k + 1] : i;
@@ -193,7 +194,8 @@ ALI3_INLINED void all_gamma(ali3_instance *in, const real *q, const real *qd, co
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
   if (S->size.has_pose) q = near_origin(in, q);
-  for (int32_t k = 0; k < S->size.nc; k++) {
+  const bool generated = ALI3_GENERATED(S, gamma, (S->hess_val, qd, gamma));
+  for (int32_t k = generated ? S->size.nc : 0; k < S->size.nc; k++) {
     real value = {0};
     int32_t i = ptr[k];
     const int32_t single = singles && S->row_single[k] ? ptr[k + 1] : i;
@@ -430,6 +432,7 @@ ALI3_INLINED void times(const ali3_system *S, const real *J, const real *x, real
 }
 
 ALI3_INLINED void rows_times(const ali3_system *S, const real *J, const real *x, real *out) {
+  if (ALI3_GENERATED(S, rows_times, (J, x, out))) return;
   if (S->n_flexible > 0)
     times(S, J, x, out, true);
   else
@@ -440,6 +443,7 @@ ALI3_BY_PROCESSOR(S, void, rows_times, (const ali3_system *S, const real *J, con
 
 ALI3_INLINED void rows_times_both(const ali3_system *S, const real *J, const real *x, const real *y, real *out_x,
                                   real *out_y) {
+  if (ALI3_GENERATED(S, rows_times, (J, x, out_x)) && ALI3_GENERATED(S, rows_times, (J, y, out_y))) return;
   const int32_t *ptr = S->row_ptr, *col = S->row_col, *stretch = S->n_flexible > 0 ? S->row_stretch : ptr + 1;
   for (int32_t k = 0; k < S->size.nc; k++) {
     real sum_x = {0}, sum_y = {0};
@@ -506,6 +510,7 @@ ALI3_INLINED void transposed_by_columns(const ali3_system *S, const real *J, con
 }
 
 ALI3_INLINED void rows_transposed(const ali3_system *S, const real *J, const real *w, real *out) {
+  if (ALI3_GENERATED(S, rows_transposed, (J, w, out))) return;
   if (S->by_columns)
     transposed_by_columns(S, J, w, out);
   else if (S->n_flexible > 0)
