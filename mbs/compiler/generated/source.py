@@ -61,11 +61,10 @@ def source(arrays: Mapping[str, Any], structure: int, *, avx2: bool) -> str:
 
 
 def _of_signals(pattern: Pattern) -> dict[str, _Function]:
-    """Sums over many modes, and what hangs on tables or angles, stay loops."""
+    """Sums over many modes, and what hangs on tables, stay loops."""
     if len(pattern.array["flex_front"]) or not pattern.elements:
         return {}
-    whole = pattern.is_rigid and not len(pattern.array["angle_row"])
-    return _SIGNALS | (_TANGENT if whole else {})
+    return _SIGNALS | (_TANGENT if pattern.is_rigid else {})
 
 
 def _written(pattern: Pattern, functions: Mapping[str, _Function]) -> dict[str, list[str]]:

@@ -6,13 +6,14 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mbs.compiler.generated import angles
 from mbs.compiler.generated.fronts import pieces
 from mbs.compiler.generated.pattern import Element, Front, Pattern
 from mbs.compiler.generated.text import follow, function, vector
 
 FRONT = (
     "APART void tangent{0}_{1}(const ali3_tangent_parts *restrict parts, const double *restrict w, "
-    "const double *restrict factor, const double *restrict guide, double *restrict F)"
+    "const double *restrict factor, const double *restrict guide, const double *restrict angle, double *restrict F)"
 )
 WHOLE = "APART void tangent{0}(const ali3_tangent_parts *restrict parts, double *restrict F)"
 
@@ -42,7 +43,9 @@ def tangent(pattern: Pattern) -> list[str]:
         twice = pattern.array["gterm_a"][t] == pattern.array["gterm_b"][t]
         by = f"parts->gterm_h[{t}] * parts->s[{g}]" + (f" * parts->s[{g}]" if power != 1 else "")
         body.append(f"  guide[{t}] = factor[{row}] * ({by}){' * 2.0' if twice else ''};")
-    body += [f"  tangent{pattern.suffix}_{front.number}(parts, w, factor, guide, F);" for front in pattern.fronts]
+    body += angles.lines(pattern)
+    calls = [f"tangent{pattern.suffix}_{front.number}(parts, w, factor, guide, angle, F);" for front in pattern.fronts]
+    body += [f"  {call}" for call in calls]
     return lines + function(WHOLE.format(pattern.suffix), body)
 
 
@@ -73,7 +76,7 @@ class _OfFront:
         return found
 
     def _bends(self) -> dict[tuple[int, int], list[tuple[str, int, int]]]:
-        """Per place the second derivatives of rows, then of terms with guides, in turn."""
+        """Per place the second derivatives of rows, then of terms with guides, then of angles, in turn."""
         pattern = self.pattern
         found: dict[tuple[int, int], list[tuple[str, int, int]]] = defaultdict(list)
         a, b, ptr = (pattern.array[name] for name in ("quad_a", "quad_b", "quad_ptr"))
@@ -86,12 +89,15 @@ class _OfFront:
             if pattern.array["row_front"][k] == self.front.number and other >= 0:
                 at = pattern.row_place(k, pattern.row_ptr[k] + one, pattern.row_ptr[k] + other)
                 found[pattern.place[at][1:]].append(("guide", t, -1))
+        for number, (row, place) in enumerate(angles.places(pattern)):
+            if pattern.array["row_front"][row] == self.front.number:
+                found[pattern.place[place][1:]].append(("angle", number, -1))
         return found
 
     def function(self) -> list[str]:
         """C of the front."""
         lines = ["  const double *J = parts->J, *hess = parts->hess_val, *val = parts->sig_val;",
-                 "  (void)J, (void)hess, (void)val, (void)w, (void)factor, (void)guide;"]  # fmt: skip
+                 "  (void)J, (void)hess, (void)val, (void)w, (void)factor, (void)guide, (void)angle;"]  # fmt: skip
         self.used: set[str] = set()
         blocks = [self._block(_Block(rows, columns)) for q, columns in enumerate(self.groups)
                   for rows in self.groups[q:]]  # fmt: skip
@@ -224,7 +230,7 @@ class _OfFront:
 
     def _number(self, term: tuple[str, int, int]) -> str:
         array, at, k = term
-        return f"factor[{k}] * hess[{at}]" if array == "hess" else f"guide[{at}]"
+        return f"factor[{k}] * hess[{at}]" if array == "hess" else f"{array}[{at}]"
 
     def _single(self, block: _Block, places: Sequence[tuple[int, int]]) -> list[str]:
         lines = []

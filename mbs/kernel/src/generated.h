@@ -13,7 +13,9 @@ enum { ALI3_GENERATED_VERSION = 1 };
 
 /* What the tangent is the sum of; names as in the System and its instance. */
 typedef struct {
-  const double *front_mass, *J, *lam, *s, *hess_val, *gterm_h, *sig_val, *S;
+  const double *front_mass, *J, *lam, *s, *hess_val, *gterm_h, *angle_hc, *angle_hs, *sig_val, *S;
+  const double *q; /* near the origin, as the rows were evaluated */
+  double (*cosine)(double), (*sine)(double);
   const unsigned char *idle;
   double square, geometric; /* weights of J' J and of the second derivatives */
 } ali3_tangent_parts;

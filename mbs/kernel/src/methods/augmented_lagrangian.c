@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../algebra/elementary.h"
 #include "../algebra/finite.h"
 #include "../algebra/fronts.h"
 #include "../algebra/processor.h"
@@ -84,6 +85,11 @@ static void assemble_generated(ali3_instance *in, double alpha) {
                                     .s = in->next.s,
                                     .hess_val = S->hess_val,
                                     .gterm_h = S->gterm_h,
+                                    .angle_hc = S->angle_hc,
+                                    .angle_hs = S->angle_hs,
+                                    .q = ali3_near_origin(in, in->next.q),
+                                    .cosine = ali3_cos,
+                                    .sine = ali3_sin,
                                     .sig_val = S->sig_val,
                                     .S = in->S,
                                     .idle = in->idle,

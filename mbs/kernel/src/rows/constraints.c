@@ -174,6 +174,11 @@ ALI3_BY_PROCESSOR(in->system, void, rigid_rows, (ali3_instance * in, const real 
 ALI3_BY_PROCESSOR(in->system, void, flexible_rows,
                   (ali3_instance * in, const real *q, const real *s, real *Phi, real *J), (in, q, s, Phi, J))
 
+/* The coordinates at which rows are evaluated. */
+const real *ali3_near_origin(ali3_instance *in, const real *q) {
+  return in->system->size.has_pose ? near_origin(in, q) : q;
+}
+
 void ali3_constraints(ali3_instance *in, const real *q, const real *s, real *Phi, real *J) {
   (in->system->n_flexible > 0 ? ali3_flexible_rows : ali3_rigid_rows)(in, q, s, Phi, J);
 }
