@@ -62,9 +62,9 @@ def source(arrays: Mapping[str, Any], structure: int, *, avx2: bool) -> str:
 
 def _of_signals(pattern: Pattern) -> dict[str, _Function]:
     """Sums over many modes, and what hangs on tables, stay loops."""
-    if len(pattern.array["flex_front"]) or not pattern.elements:
+    if len(pattern.array["flex_front"]):
         return {}
-    return _SIGNALS | (_TANGENT if pattern.is_rigid else {})
+    return (_SIGNALS if pattern.elements else {}) | (_TANGENT if pattern.is_rigid else {})
 
 
 def _written(pattern: Pattern, functions: Mapping[str, _Function]) -> dict[str, list[str]]:

@@ -33,7 +33,7 @@ def tangent(pattern: Pattern) -> list[str]:
         lines += _OfFront(pattern, front).function()
     n, guides = len(pattern.row_col), len(pattern.array["gterm_row"])
     body = [
-        f"  double w[{n + 1}], factor[{pattern.nc}], guide[{max(guides, 1)}];",
+        f"  double w[{n + 1}], factor[{max(pattern.nc, 1)}], guide[{max(guides, 1)}];",
         f"  for (int i = 0; i < {n}; i++) w[i] = parts->square * parts->J[i];",
         f"  w[{n}] = 0.0;",
         f"  for (int i = 0; i < {pattern.nc}; i++) factor[i] = parts->geometric * parts->lam[i];",
