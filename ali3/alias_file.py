@@ -12,7 +12,7 @@ from ali3.errors import UserError
 from ali3.reading import is_file, read_toml
 
 CONSTANTS = "constants"
-"""The table of an alias file that says what the FMU does not tell of its car, such as ``vehicle.wheelbase``."""
+"""The table of an alias file that says what the FMU does not provide of its car, such as ``vehicle.wheelbase``."""
 NEEDS = "needs"
 """The table that says which constants depend on the car, each with a text."""
 EXTENDS = "extends"

@@ -52,7 +52,7 @@ class Archive:
     file : path
         A regular file.
     error : type of exception
-        What is raised, with one sentence: it is no archive, it is damaged, or it has a fault of `faults_of`.
+        What is raised, with one sentence: it is not an archive, it is damaged, or it has a fault of `faults_of`.
     name, kind : str
         How the sentence calls the file, by default by its path, and what it should be.
     largest, unpacked : int
@@ -198,7 +198,7 @@ def _fault_of(info: zipfile.ZipInfo) -> Fault | None:
     if ".." in parts:
         return Fault(f"has {what}, which leads out of its folder")
     if not raw.isprintable() or "" in parts or "." in parts or any(len(p.encode()) > _LONGEST_NAME for p in parts):
-        return Fault(f"has {what}, which is no name of a file")
+        return Fault(f"has {what}, which is not a file name")
     if info.flag_bits & 1:
         return Fault(f"has {what}, which is encrypted", "ISO/IEC 21320-1")
     if info.compress_type not in _METHODS:

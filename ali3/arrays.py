@@ -52,7 +52,7 @@ def _array(stream: IO[bytes], size: int, error: Error, name: str) -> NDArray[np.
     except Exception as fault:  # what a damaged header does to its parser is not declared
         raise error(f"{name} cannot be read as an array: {reader_stops(fault)}") from None
     if kind.hasobject:
-        raise error(f"{name} holds objects of Python, which are not read.")
+        raise error(f"{name} contains Python objects, which are not read.")
     count, there = math.prod(shape), size - stream.tell()
     if any(n < 0 for n in shape) or count * kind.itemsize != there:
         raise error(

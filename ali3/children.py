@@ -50,7 +50,7 @@ def how_ended(code: int | None, said: str = "", call: str = "") -> str:
         known = {int(number): number.name for number in signal.Signals}
         name = known.get(-code, f"signal {-code}")
         if name == "SIGKILL":  # no program does that to itself
-            return f"was killed (SIGKILL){call}, by a user or by the system for want of memory"
+            return f"was killed (SIGKILL){call}, by a user or by the system because memory ran out"
         return f"crashed ({name}){words}" if name in _CRASHES else f"was ended by {name}{words}"
     if sys.platform == "win32" and code is not None and code >= _WINDOWS_CRASH:
         return f"crashed (0x{code:08X}){words}"

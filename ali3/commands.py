@@ -23,7 +23,7 @@ COMMANDS = (
         "car",
         "mbs.vehicle.command",
         "",
-        "copy a car, check a car file, draw the kinematics of its axles, or find its cheapest level within tolerances",
+        "copy a car, check a car file, draw the kinematics of its axles, or find its cheapest sufficient fidelity",
     ),
     Command(
         "run", "hosts.run.command", "hosts", "run an FMU or drive a car through a manoeuvre; tables and charts of it"
@@ -32,7 +32,7 @@ COMMANDS = (
         "view",
         "hosts.view.command",
         "hosts",
-        "show a result or an FMU moving, or running live, in a page; pictures, films",
+        "animate a result or an FMU in a page, or run an FMU live in it; pictures, films",
     ),
     Command(
         "simulator",
@@ -50,10 +50,10 @@ COMMANDS = (
         "catalogue",
         "hosts.catalogue.command",
         "hosts",
-        "do standard tests with cars side by side and report their measures",
+        "run standard tests with cars side by side and report their measures",
     ),
     Command(
-        "compare", "hosts.compare.command", "study", "hold an FMU against a log of a test drive, and fit parameters"
+        "compare", "hosts.compare.command", "study", "compare an FMU with a log of a test drive, and fit parameters"
     ),
     Command(
         "study",

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from ali3.errors import FileError, reason
 from ali3.temporary import temporary_folder
@@ -45,6 +47,11 @@ def write_text(file: str | os.PathLike[str], text: str) -> None:
         made.write_text(text, encoding="utf-8")
 
 
+def write_json(file: str | os.PathLike[str], content: Any) -> None:
+    """Write a whole JSON file in UTF-8, whose numbers are finite; see `whole_file`."""
+    write_text(file, json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
+
+
 def make_folder(folder: str | os.PathLike[str]) -> Path:
     """Make a folder and its parents unless they are there. Raises `FileError` with the folder and the reason."""
     path = Path(folder)
@@ -75,7 +82,7 @@ def _check_file(file: str | os.PathLike[str], target: Path) -> None:
     """Refuse a folder, and a name that no file can have."""
     try:
         if target.is_dir():
-            raise FileError(f"{file} is a folder; a file is to be written there.")
+            raise FileError(f"{file} is a folder; it must be a file.")
     except FileError:
         raise
     except (OSError, ValueError) as error:

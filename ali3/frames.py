@@ -24,7 +24,7 @@ MOST_TEXT, MOST_BYTES = 200_000_000, 8_000_000_000
 
 
 class FrameError(Exception):
-    """What was read is no frame, or has no value of the type that was asked for."""
+    """What was read is not a frame, or has no value of the type that was asked for."""
 
 
 def write_frame(stream: IO[bytes], kind: int, value: Any) -> None:

@@ -149,7 +149,7 @@ class _Process:
         if self.unread:
             how = self.unread
         elif self.flooded:
-            how = f"was ended{call}, for it had printed more than {_MOST_PRINTED / 1e6:g} MB"
+            how = f"was ended{call} because it printed more than {_MOST_PRINTED / 1e6:g} MB"
         else:
             code = self.process.returncode
             code = 128 - code if self._confined and code > 128 else code  # as bubblewrap tells signals
@@ -277,7 +277,7 @@ class Isolated(Generic[T, R]):
 
     @property
     def folder(self) -> Path | None:
-        """Folder of the process that works, which goes with it."""
+        """Folder of the process that works, which is removed with it."""
         return None if self._process is None else self._process.folder
 
     def send(self, word: Any) -> None:

@@ -36,9 +36,9 @@ def json_of(data: bytes, error: Error, name: str, finite: bool = True) -> Any:
     except _TwiceError as fault:
         raise error(f"{name} has the key {brief(str(fault))} twice in a table.") from None
     except json.JSONDecodeError as fault:
-        raise error(f"{name} is no JSON file: {one_line(str(fault))}.") from None
+        raise error(f"{name} is not a JSON file: {one_line(str(fault))}.") from None
     except ValueError:
-        raise error(f"{name} is no JSON file that can be read: a whole number has more than 19 digits.") from None
+        raise error(f"{name} is not a readable JSON file: a whole number has more than 19 digits.") from None
     except RecursionError:
         too_deep(error, name)
     check_content(content, error, name, finite)

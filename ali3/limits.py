@@ -14,7 +14,7 @@ VARIABLE = "ALI3_LIMITS"
 
 
 def factor() -> float:
-    """By how much limits are raised. Raises `UserError`: the variable is no number of at least 1."""
+    """By how much limits are raised. Raises `UserError`: the variable is not a number of at least 1."""
     text = os.environ.get(VARIABLE, "1")
     found = 0.0
     with suppress(ValueError):

@@ -33,7 +33,7 @@ class NamedFiles:
         except (OSError, ValueError, RuntimeError) as fault:  # a circle of links is a RuntimeError
             if isinstance(fault, self._error):
                 raise
-            raise self._error(f"{place}{brief(name)} is no name of a file.") from None
+            raise self._error(f"{place}{brief(name)} is not a file name.") from None
         self._count += 1
         if self._count > raised(MOST_FILES):
             raise self._error(

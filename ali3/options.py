@@ -61,7 +61,7 @@ def folder(text: str) -> Path:
     """A folder to be written to; `argparse.ArgumentTypeError` for a name that has the suffix of a file."""
     path = Path(text)
     if path.suffix.lower() in _SUFFIXES:
-        raise argparse.ArgumentTypeError(f"{text} is the name of a file; --out names the folder of what is written")
+        raise argparse.ArgumentTypeError(f"{text} is the name of a file; --out names the output folder")
     return path
 
 
@@ -92,29 +92,28 @@ _SUFFIXES = (
 )
 
 SHARED: dict[str, Option] = {
-    "--out": Option("DIR", "folder of what is written", folder),
-    "--json": Option("FILE", "write all numbers there too", Path),
-    "--picture": Option("FILE", "draw what was read as PNG", Path),
-    "--list": Option("", "list what there is to choose from, and stop"),
-    "--again": Option("", "make again what an earlier call has left"),
+    "--out": Option("DIR", "output folder", folder),
+    "--json": Option("FILE", "also write all numbers there", Path),
+    "--picture": Option("FILE", "draw the input as PNG", Path),
+    "--list": Option("", "list the choices, and stop"),
+    "--again": Option("", "redo what earlier calls have completed"),
     "--no-open": Option("", "do not open a browser"),
     "--show-parameters": Option("", "print the parameters"),
-    "--jobs": Option("N", "processes at a time", count),
-    "--fidelity": Option("N", "how much of the model is computed, where there is a choice", number),
+    "--jobs": Option("N", "number of parallel processes", count),
+    "--fidelity": Option("N", "level of detail of the model, where there is a choice", number),
     "--step": Option("H", "communication step, s", quantity("s")),
-    "--interval": Option("T", "time between rows that are recorded, a whole multiple of the step, s", quantity("s")),
-    "--stop-time": Option("T", "how long a run is, s", quantity("s")),
-    "--from": Option("T", "use what was recorded from this time on, s", quantity("s")),
-    "--to": Option("T", "use what was recorded up to this time, s", quantity("s")),
-    "--seed": Option("S", "a driver moves the inputs at random, the same for the same whole number", int),
+    "--interval": Option("T", "time between recorded rows, a whole multiple of the step, s", quantity("s")),
+    "--stop-time": Option("T", "duration of a run, s", quantity("s")),
+    "--from": Option("T", "use the record from this time on, s", quantity("s")),
+    "--to": Option("T", "use the record up to this time, s", quantity("s")),
+    "--seed": Option("S", "a random driver moves the inputs; the same number gives the same drive", int),
     "--manoeuvre": Option(
         "NAME|FILE",
-        "what the inputs do: the name of a manoeuvre, its TOML file, a CSV table over time, or the folder of a "
-        "recording",
+        "inputs over time: the name of a manoeuvre, its TOML file, a CSV table over time, or the folder of a recording",
         str,
         ("-m", "--input"),
     ),
-    "--parameters": Option("SSV", "parameter set (SSV file) that is set before the start; repeatable", Path),
+    "--parameters": Option("SSV", "parameter set (SSV file) that is applied before the start; repeatable", Path),
     "--set": Option(
         "NAME=VALUE",
         "value of a parameter or input at the start, in the unit of the FMU or with one, as 20kN/m; wins over "
@@ -123,7 +122,7 @@ SHARED: dict[str, Option] = {
     ),
     "--aliases": Option(
         "FILE",
-        "our names for the variables of an FMU that has others: a TOML file, or chrono, carmaker, carsim, osi or "
+        "our names for the variables of an FMU with other names: a TOML file, or chrono, carmaker, carsim, osi or "
         "vehicle_interfaces, which come with the package",
         Path,
     ),
@@ -133,9 +132,9 @@ SHARED: dict[str, Option] = {
         "washboard.road), or what 'ali3 road' makes one of",
     ),
     "--confined": Option(
-        "", "run the FMU without network, home and other files: by bubblewrap, on Linux; else nothing is run"
+        "", "run the FMU without network, home and other files: by bubblewrap, on Linux; otherwise the command stops"
     ),
-    "--world": Option("NAME|FILE", "a world, by its name or the file of its description"),
+    "--world": Option("NAME|FILE", "a world, by its name or its description file"),
 }
 
 

@@ -64,7 +64,7 @@ def _parsed(file: str | os.PathLike[str]) -> Any:
     except etree.XMLSyntaxError as error:
         if is_lack_of_memory(error):
             raise MemoryError from None
-        raise ParameterSetError(f"{file} is no XML document: {_words(error.msg or 'it is empty')}.") from None
+        raise ParameterSetError(f"{file} is not an XML document: {_words(error.msg or 'it is empty')}.") from None
     if root.getroottree().docinfo.doctype:
         raise ParameterSetError(f"{file} has a document type declaration; a parameter set has none.")
     return root
@@ -78,7 +78,7 @@ def _schema(root: Any, file: object) -> Any:
     if root.tag != f"{{{ModelicaStandard.namespaces['ssv']}}}ParameterSet":
         what = etree.QName(root).localname
         raise ParameterSetError(
-            f"{file} is no SSV file: its root is '{what}' where ParameterSet of the SSP standard must be."
+            f"{file} is not an SSV file: its root is '{what}' where ParameterSet of the SSP standard must be."
         )
     form = root.get("version", "")
     if form[:1] not in _SCHEMAS:

@@ -38,7 +38,7 @@ _MOST_DOTS = 200  # of a key: the time of the parser grows with their square
 
 
 def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileError, name: str = "") -> Path:
-    """Refuse what is no regular file, or too large, before it is opened.
+    """Refuse what is not a regular file, or too large, before it is opened.
 
     `largest`: bytes, which `ali3.limits` raises; `error`: what is raised, with one sentence; `name`: how the sentence
     calls the file; by default its path.
@@ -51,7 +51,7 @@ def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileEr
     except OSError as fault:
         raise error(f"{name} cannot be read: {reason(fault)}.") from None
     except ValueError as fault:
-        raise error(f"{brief(name)} is no name of a file: {fault}.") from None
+        raise error(f"{brief(name)} is not a file name: {fault}.") from None
     if not stat.S_ISREG(found.st_mode):
         raise error(_no_regular(name, found.st_mode))
     if found.st_size > raised(largest):
@@ -135,13 +135,13 @@ def toml_of(data: bytes, error: Error, name: str) -> dict[str, Any]:
     text = file_text(data, error, name)
     bare = re.sub(r"\"[^\"\n]*\"|'[^'\n]*'|#[^\n]*", "", text)  # without texts and comments
     if any(part.count(".") > _MOST_DOTS for part in re.split(r"[,=\[\]{}\n]", bare)):
-        raise error(f"{name} is no TOML file that can be read: a key has more than {_MOST_DOTS} parts.")
+        raise error(f"{name} is not a readable TOML file: a key has more than {_MOST_DOTS} parts.")
     try:
         content = tomllib.loads(text)
     except tomllib.TOMLDecodeError as fault:
-        raise error(f"{name} is no TOML file: {one_line(str(fault)).rstrip('.')}.") from None
+        raise error(f"{name} is not a TOML file: {one_line(str(fault)).rstrip('.')}.") from None
     except ValueError:  # of `int`, which has a limit of its own
-        raise error(f"{name} is no TOML file that can be read: a whole number has more than 19 digits.") from None
+        raise error(f"{name} is not a readable TOML file: a whole number has more than 19 digits.") from None
     except RecursionError:
         too_deep(error, name)
     check_content(content, error, name, finite=True)
@@ -155,7 +155,7 @@ def file_text(data: bytes, error: Error, name: str) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as fault:
-        raise error(f"{name} is no text in UTF-8: byte {fault.start} is not.") from None
+        raise error(f"{name} is not text in UTF-8: byte {fault.start} is not.") from None
 
 
 def other_encoding(data: bytes) -> str:

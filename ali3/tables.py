@@ -97,7 +97,7 @@ class TextTable:
         self._lines = self._read(file, largest, whole)
         self._first = next(self._lines, None)
         if self._first is None:
-            raise error(f"{self.name} holds no values; it needs a heading and at least one row.")
+            raise error(f"{self.name} contains no values; it needs a heading and at least one row.")
         bare = re.sub(r'"[^"]*"', "", self._first[1])  # a name in quotation marks may have any mark
         mark = next((mark for mark in _MARKS if mark in bare), None)
         self._mark = mark if mark is not None or headed is not False else " "
@@ -150,7 +150,7 @@ class TextTable:
         for row in self.rows(every):
             held.extend(self.numbers(row, finite))
         if len(held) < least * self.width:
-            raise self.error(f"{self.name} holds no values; it needs a heading and at least one row.")
+            raise self.error(f"{self.name} contains no values; it needs a heading and at least one row.")
         return np.array(held).reshape(-1, self.width)
 
     def _read(self, file: str | os.PathLike[str], largest: int, whole: bool) -> Iterator[tuple[int, str]]:
@@ -165,14 +165,14 @@ class TextTable:
                     if len(text) > LONGEST_LINE:
                         raise self.error(f"{self.name}, line {line} has more than {LONGEST_LINE} characters.")
                     if "\0" in text:
-                        raise self.error(f"{self.name} is no text: there is a zero byte in line {line}.")
+                        raise self.error(f"{self.name} is not text: there is a zero byte in line {line}.")
                     bare = text.strip()
                     if bare.startswith("#"):
                         self.comments.append((line, bare))
                     elif bare and (text.endswith("\n") or not whole):
                         yield line, text.rstrip("\r\n")
         except UnicodeDecodeError:
-            raise self.error(f"{self.name} is no text in UTF-8, from about line {line + 1} on.") from None
+            raise self.error(f"{self.name} is not text in UTF-8, from about line {line + 1} on.") from None
         except OSError as fault:
             if isinstance(fault, self.error):
                 raise
@@ -246,7 +246,7 @@ def cells_of(line: str, mark: str) -> list[str]:
         try:
             cells = next(csv.reader([line], delimiter=mark, skipinitialspace=True, strict=True), [])
         except csv.Error as fault:
-            raise ValueError(f"this is no line of a CSV file: {fault}") from None
+            raise ValueError(f"this is not a line of a CSV file: {fault}") from None
     else:
         cells = line.split(mark)
     if len(line) > _LONGEST_CELL and (longest := max(map(len, cells))) > _LONGEST_CELL:

@@ -1,4 +1,4 @@
-"""Temporary folders that go with the program that made them, however it ends."""
+"""Temporary folders that are removed with the program that made them, however it ends."""
 
 from __future__ import annotations
 

@@ -144,7 +144,8 @@ def words(annotation: Any) -> str:
         limits += [m for item in inner[1:] if isinstance(item, FieldInfo) for m in item.metadata]
         return words(inner[0]) + _limit_words(limits)
     if origin in (Union, types.UnionType):
-        return " or ".join(dict.fromkeys(words(item) for item in inner if item is not NOTHING))
+        whole = {int} if float in inner else set()  # a whole number is a number
+        return " or ".join(dict.fromkeys(words(item) for item in inner if item is not NOTHING and item not in whole))
     if origin is Literal:
         return " or ".join(map(repr, inner))
     if origin in (tuple, list):

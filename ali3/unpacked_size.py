@@ -84,7 +84,7 @@ class Unpacked(io.RawIOBase):
     def _check(self, data: bytes) -> None:
         self.taken += len(data)
         if b"\0" in data and not self._zeros:
-            raise self._error(f"{self._name} is no text: there is a zero byte in it.")
+            raise self._error(f"{self._name} is not text: there is a zero byte in it.")
         self._cells += data.count(self._mark) if self._mark else 0
         check_memory(self.taken + _CELL * self._cells, self._error, self._name, self._most)
         end = data.rfind(b"\n")

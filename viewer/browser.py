@@ -61,7 +61,7 @@ def find_chromium() -> Path:
     if named:
         found = shutil.which(named)
         if found is None:
-            raise BrowserError(f"The environment variable {VARIABLE} names {named}, which is no program.")
+            raise BrowserError(f"The environment variable {VARIABLE} names {named}, which is not a program.")
         return Path(found)
     for name in _NAMES:
         found = shutil.which(name)

@@ -88,7 +88,7 @@ def thinned(recordings: Recording | Sequence[Recording], most: int = MOST_TIMES)
 def _listed(recordings: Recording | Sequence[Recording]) -> list[Recording]:
     listed = [recordings] if isinstance(recordings, Recording) else list(recordings)
     if not listed:
-        raise ViewerError("There is no recording to be shown.")
+        raise ViewerError("There is no recording to show.")
     for item in listed:
         if not isinstance(item, Recording):
             raise ViewerError(f"A page shows objects of the class Recording; this is one of {type(item).__name__}.")

@@ -125,7 +125,7 @@ def _times(
     if target.suffix.lower() not in SUFFIXES:
         raise ViewerError(f"{target} must end with .mp4, .webp or .gif.")
     if recording.scene is None:
-        raise ViewerError(f"{recording.name!r} has no scene: there is nothing to be filmed.")
+        raise ViewerError(f"{recording.name!r} has no scene: there is nothing to film.")
     _check_number("fps", fps, 1.0, 120.0)
     _check_number("speed", speed, 1e-4, 1e4)
     _check_size(target, size)
@@ -136,7 +136,7 @@ def _times(
     first = first if begin is None else float(begin)
     last = last if end is None else float(end)
     if first > last:
-        raise ViewerError(f"The film is to begin at {first:g} s and to end before that, at {last:g} s.")
+        raise ViewerError(f"The film must begin at {first:g} s and to end before that, at {last:g} s.")
     count = math.floor((last - first) / speed * fps * (1.0 + 1e-9)) + 1
     if count > MOST_FRAMES:
         raise ViewerError(

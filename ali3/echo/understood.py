@@ -17,9 +17,7 @@ def echo_of(thing: Any) -> Sequence[Echo]:
 
     Raises `TypeError`: the room that reads such things was not imported.
     """
-    raise TypeError(
-        f"Nothing is known that sums up a {type(thing).__name__}; import the package that reads such files."
-    )
+    raise TypeError(f"There is no summary for a {type(thing).__name__}; import the package that reads such files.")
 
 
 class Understood:

@@ -25,7 +25,7 @@ def decoded(text: str, kind: str) -> NDArray[Any]:
     """
     data = _bytes(text)
     if len(data) % 4:
-        raise ValueError(f"has {len(data)} bytes, which is no multiple of 4")
+        raise ValueError(f"has {len(data)} bytes, which is not a multiple of 4")
     return np.frombuffer(data, f"<{kind}4")
 
 

@@ -40,4 +40,4 @@ def drawer() -> Drawer:
     """The drawer that is installed. Raises `ViewerError`: there is none."""
     for point in entry_points(group=GROUP):
         return cast(Drawer, point.load())
-    raise ViewerError('Nothing that draws is installed; pip install "ali3[viewer]" in the folder of its source.')
+    raise ViewerError('No viewer is installed; pip install "ali3[viewer]" in the folder of its source.')

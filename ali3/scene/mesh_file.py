@@ -63,7 +63,7 @@ def read_mesh(
     """
     points, triangles = _merged(read_corners(path, scale).reshape(-1, 3))
     if not len(triangles):
-        raise MeshError(f"{path} is no mesh: none of its triangles has an area.")
+        raise MeshError(f"{path} is not a mesh: none of its triangles has an area.")
     if len(triangles) > most_triangles:
         points, triangles = _thinned(path, points, triangles, most_triangles)
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
@@ -88,17 +88,17 @@ def read_corners(path: str | os.PathLike[str], scale: float = 1.0, extra: str = 
     points = np.asarray(mesh.vertices, dtype=float) * factor
     triangles = np.asarray(mesh.faces, dtype=np.int64)
     if not len(triangles):
-        raise MeshError(f"{path} is no mesh: it has no triangles.")
+        raise MeshError(f"{path} is not a mesh: it has no triangles.")
     if points.ndim != 2 or points.shape[1] != 3:
-        raise MeshError(f"{path} is no mesh: its points have not three coordinates each.")
+        raise MeshError(f"{path} is not a mesh: its points have not three coordinates each.")
     if triangles.min() < 0 or triangles.max() >= len(points):
-        raise MeshError(f"{path} is no mesh: a triangle has a point that is not there.")
+        raise MeshError(f"{path} is not a mesh: a triangle has a point that is not there.")
     used = points[triangles]
     largest = float(np.finfo(np.float32).max)
     bad = int((~(np.abs(used) < largest).all(axis=(1, 2))).sum())
     if bad:
         raise MeshError(
-            f"{path} is no mesh: {bad} of its {len(triangles)} triangles have coordinates that are no number."
+            f"{path} is not a mesh: {bad} of its {len(triangles)} triangles have coordinates that are not numbers."
         )
     return used
 

@@ -97,7 +97,7 @@ class Recording:
         Raises
         ------
         ViewerError
-            `most` is no whole number from 2 on.
+            `most` is not a whole number from 2 on.
         """
         if not isinstance(most, (int, np.integer)) or isinstance(most, bool) or most < 2:
             raise ViewerError(f"A recording was to be thinned to {most} times; it must be a whole number from 2 on.")
@@ -201,7 +201,7 @@ class Recording:
             listed = ", ".join(f"'{name}'" for name in who[:_NAMED]) + more
             self.notes.append(
                 f"The column{'s' * (len(who) > 1)} {listed} {'have each' if len(who) > 1 else 'has'} {bad.sum()} of "
-                f"{len(self.t)} values that are no numbers, the first at {self.t[bad.argmax()]:g} s; there is nothing "
+                f"{len(self.t)} values that are not numbers, the first at {self.t[bad.argmax()]:g} s; there is nothing "
                 "drawn for them."
             )
 
@@ -232,7 +232,7 @@ def _times(t: ArrayLike, name: str) -> NDArray[np.float64]:
     try:
         times = np.asarray(t, dtype=np.float64)
     except (TypeError, ValueError):
-        raise ViewerError(f"The times of {name!r} are no numbers.") from None
+        raise ViewerError(f"The times of {name!r} are not numbers.") from None
     if times.ndim != 1 or len(times) == 0:
         raise ViewerError(f"The times of {name!r} have the shape {times.shape}; it must be (n,) with n of 1 or more.")
     if not np.isfinite(times).all():
@@ -250,7 +250,7 @@ def _times(t: ArrayLike, name: str) -> NDArray[np.float64]:
 def _column(name: str, values: ArrayLike, count: int) -> NDArray[np.float64]:
     found = np.asarray(values)
     if found.dtype.kind not in "fiub":
-        raise ViewerError(f"The column {name!r} holds no numbers, but {found.dtype}.")
+        raise ViewerError(f"The column {name!r} contains no numbers, but {found.dtype}.")
     if found.shape != (count,):
         raise ViewerError(
             f"The column {name!r} has the shape {found.shape}; there are {count} times, so it must be ({count},)."

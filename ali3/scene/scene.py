@@ -37,7 +37,7 @@ def scene_errors(scene: Any) -> list[str]:
 
 
 def check_scene(scene: Any, source: str = "The scene") -> None:
-    """Refuse what is no scene.
+    """Refuse what is not a scene.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def read_scene(source: str | bytes | PathLike[str], name: str = "") -> dict[str,
     Raises
     ------
     SceneError
-        It cannot be read, is no JSON, or not of the format.
+        It cannot be read, is not JSON, or not of the format.
     """
     if isinstance(source, bytes):
         data, name = source, name or "The scene"

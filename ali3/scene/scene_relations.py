@@ -44,7 +44,7 @@ def _known(scene: Mapping[str, Any]) -> list[str]:
 
 def _no_frame(scene: Mapping[str, Any], path: tuple[str | int, ...], name: str) -> str:
     known = some_of(map(repr, _known(scene)), 8)
-    return f"{place(path)} is {value_words(name)}, which is no frame; there are {known}."
+    return f"{place(path)} is {value_words(name)}, which is not a frame; there are {known}."
 
 
 def _frames(scene: Mapping[str, Any]) -> Iterator[str]:
@@ -105,7 +105,7 @@ def _shape(scene: Mapping[str, Any], shape: Mapping[str, Any], path: tuple[str |
     yield from _users(scene, shape, path)
     if shape["kind"] == "mesh" and shape["mesh"] not in (scene.get("meshes") or {}):
         names = ", ".join(map(repr, scene.get("meshes") or {})) or "none"
-        yield f"{place((*path, 'mesh'))} is {value_words(shape['mesh'])}, which is no mesh; there are {names}."
+        yield f"{place((*path, 'mesh'))} is {value_words(shape['mesh'])}, which is not a mesh; there are {names}."
     if shape.get("axes") is not None:
         axes = np.array(shape["axes"], float)
         if not np.abs(axes @ axes.T - np.eye(3)).max() <= _UNIT or np.linalg.det(axes) < 0.0:
@@ -127,7 +127,7 @@ def _array(text: str, kind: str, path: tuple[str | int, ...], size: int | None =
     if size is not None and len(numbers) != size:
         yield f"{place(path)} has {len(numbers)} numbers where {size} belong."
     elif kind == "f" and not np.isfinite(numbers).all():
-        yield f"{place(path)} holds {int((~np.isfinite(numbers)).sum())} values that are no numbers."
+        yield f"{place(path)} holds {int((~np.isfinite(numbers)).sum())} values that are not numbers."
 
 
 def _mesh(mesh: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:

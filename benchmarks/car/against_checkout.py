@@ -52,13 +52,14 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
     Raises
     ------
     RuntimeError
-        It is no working tree of this project, its kernel does not compile, or its packages do not make the scenes.
+        It is not a working tree of this project, its kernel does not compile, or its packages do not make the scenes.
     """
     kernel, program = checkout / "mbs" / "kernel", folder / "run_system"
     sources = build.sources(lanes=False, kernel=kernel)
     if not sources:
         raise RuntimeError(
-            f"{checkout} is no working tree of this project: it has no mbs/kernel/src; git worktree add FOLDER COMMIT "
+            f"{checkout} is not a working tree of this project: it has no mbs/kernel/src; git worktree add FOLDER "
+            "COMMIT "
             "makes one."
         )
     what = f"the program that repeats steps, with the kernel of {checkout},"

@@ -13,7 +13,7 @@ import mbs
 from benchmarks.methods.honesty_scenes import SCENES
 from benchmarks.methods.kernel_methods import TITLES
 from benchmarks.shared.pages import Row, table
-from mbs.kernel.header.limits import BALANCE_WRONG, WRONG_ERROR
+from mbs.kernel.header.limits import WRONG_ERROR
 
 LONG = 12.0  # s of processor time beyond which a method is not run with a finer step
 QUICK = {"pendulum": (0.2, 0.05, 0.01), "printed_crank_slider": (1e-3, 2e-5), "tumbling_body": (0.01, 0.0002)}
@@ -82,7 +82,7 @@ def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
                 "false alarms": sum(r["verdict"] == VERDICTS[1] for r in done),
                 "wrong": len(done) - len(right),
                 "missed": sum(r["verdict"] == VERDICTS[3] for r in done),
-                "found by the balance": sum((r["balance"] or 0.0) > BALANCE_WRONG for r in done),
+                "found by the balance": sum((r["balance"] or 0.0) > WRONG_ERROR for r in done),
                 "right without a repeat": once / len(right) if right else None,
                 "above the estimate": sum(r["error"] > FACTOR * r["estimate"] for r in estimated),
             }

@@ -18,7 +18,7 @@ from mbs.model.carried import SlidingPoint, Spin, WrittenAxis
 from mbs.model.joints.joint import Joint
 from mbs.model.perpendicular import perpendicular
 from mbs.scenes import double_four_bar, prototype_car
-from mbs.vehicle import car
+from mbs.vehicle import built_car
 
 ROD_MASS = 0.5  # kg
 H, DURATION = 0.01, 3.0  # s
@@ -118,7 +118,7 @@ def _naive(module: Any) -> Iterator[None]:
 
 def naive_car() -> Model:
     """The rigid car: twelve bodies more than it needs."""
-    with _naive(car):
+    with _naive(built_car):
         m = prototype_car.build()
     m.start_in_equilibrium = False
     return m

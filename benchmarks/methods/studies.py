@@ -228,14 +228,16 @@ def plan_alone(case: str, fmu: Path, runs: int, method: str, folder: Path) -> Ro
 
 def rows_written(case: str, fmu: Path, rows: int, folder: Path) -> Row:
     """The one writer, alone: rows that no run has made, in chunks of 20 as they come from workers; and finding them."""
-    from hosts.study.parts import PartWriter, part_files, runs_done
+    from hosts.study.damaged_files import sound_runs
+    from hosts.study.outcome_table import OutcomeTable
+    from hosts.study.parts import part_files
     from hosts.study.store import read_study
 
     plan = plan_of(case, fmu, rows, 1.0, folder)
     begin_study(folder, plan.record, b"", plan.fmu)
-    rng, chunk, part = np.random.default_rng(0), 20, 50_000
+    rng, chunk = np.random.default_rng(0), 20
     numbers = rng.random((rows, len(plan.work.columns))).tolist()
-    writer, spent = PartWriter(folder, plan.record), 0.0
+    table, spent = OutcomeTable(folder, plan.record), 0.0
     for first in range(0, rows, chunk):
         indices = list(range(first, min(first + chunk, rows)))
         made = [
@@ -244,17 +246,17 @@ def rows_written(case: str, fmu: Path, rows: int, folder: Path) -> Row:
         ]
         begin = time.perf_counter()
         for run, outcome in zip(plan.runs_at(indices), made, strict=True):
-            writer.add(run, outcome)
-        if len(writer) >= part:
-            writer.flush()
+            table.take("", (run, outcome))
+        if table.is_full:
+            table.write()
         spent += time.perf_counter() - begin
     begin = time.perf_counter()
-    writer.flush()
+    table.write()
     spent += time.perf_counter() - begin
-    del writer, numbers
+    del table, numbers
     size = sum(f.stat().st_size for f in part_files(folder))
     begin = time.perf_counter()
-    assert runs_done(folder, plan.record).all()
+    assert sound_runs(folder, plan.record)[0].all()
     found = time.perf_counter() - begin
     begin, before = time.perf_counter(), psutil.Process().memory_info().rss
     frame = read_study(folder)

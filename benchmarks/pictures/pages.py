@@ -125,7 +125,7 @@ def _chromium() -> Iterator[Any]:
 
 @contextmanager
 def _served(name: str, folder: Path) -> Iterator[tuple[str, str]]:
-    """The address of a page, and its text where it is no page of the simulator."""
+    """The address of a page, and its text where it is not a page of the simulator."""
     shown = PAGES[name]
     if shown.runs == (SIMULATOR,):
         with simulator(_car(), ["--place", "slalom"]) as address:

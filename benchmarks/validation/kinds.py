@@ -113,7 +113,7 @@ def of_car(
     found: Mapping[str, Family],
 ) -> dict[str, Any]:
     """A row of `COLUMNS` of the multibody car: by the numbers that `refit` seeks, from those of its file."""
-    ranges = sought_in(bounds)[0]
+    ranges = sought_in(bounds)
     task = task_of(car, log, aliases, settings, _all(drive))
     unknowns = wanted_parameters([f"{n}={span}" for n, span in ranges.items()], task.parameters, task.set_values)
     outputs = {name: task.outputs[name] for name in (YAW, LATERAL)}

@@ -26,17 +26,15 @@ COLUMNS = {
     "without it": "+.1f",
     "near a bound": "",
 }
-STEP, EVERY = 0.01, 20.0  # s: inner step; from one window to the next: half of the seconds, so that a fit takes minutes
+STEP, EVERY = 0.01, 10.0  # s: inner step; from one window to the next
 
 
-def sought_in(file: Path) -> tuple[dict[str, str], dict[str, float]]:
-    """What is sought: by name, its range as ``--fit`` takes it; and values that are given in place of the car's.
+def sought_in(file: Path) -> dict[str, str]:
+    """What is sought: by name, its range as ``--fit`` takes it.
 
-    `file`: TOML: of each number a table with ``low`` and ``high``, and one ``given`` of values.
+    `file`: TOML: of each number a table with ``low`` and ``high``.
     """
-    tables = read_toml(file, UserError)
-    given: Mapping[str, Any] = tables.pop("given", {})
-    return {n: f"{float(t['low'])!r}:{float(t['high'])!r}" for n, t in tables.items()}, {**given}
+    return {n: f"{float(t['low'])!r}:{float(t['high'])!r}" for n, t in read_toml(file, UserError).items()}
 
 
 def refit(car: str, log: Path, aliases: Path, bounds: Path) -> list[dict[str, Any]]:
@@ -44,10 +42,10 @@ def refit(car: str, log: Path, aliases: Path, bounds: Path) -> list[dict[str, An
 
     `car`: what ``ali3 compare`` takes; `bounds`: a file for `sought_in`. Raises `UserError`: the command did not fit.
     """
-    ranges, given = sought_in(bounds)
+    ranges = sought_in(bounds)
     with tempfile.TemporaryDirectory() as folder:
         record = Path(folder, "record.json")
-        arguments = [*arguments_of(car, log, aliases, {"step_size": STEP} | given), "--windows", f"{LENGTH:g}"]
+        arguments = [*arguments_of(car, log, aliases, {"step_size": STEP}), "--windows", f"{LENGTH:g}"]
         arguments += ["--window-every", f"{EVERY:g}", "--seconds", text_of(FITTED), "--jobs", "1"]
         arguments += [part for name, span in ranges.items() for part in ("--fit", f"{name}={span}")]
         compare([*arguments, "--out", folder, "--json", str(record)])

@@ -11,6 +11,7 @@ from sphinx.errors import ExtensionError
 
 from benchmarks.car.variable_tables import blocks
 from benchmarks.car.variable_tables import tables as variable_tables
+from mbs.elements.tables import element_table, law_table, number_table
 from mbs.kernel.read_headers import PARTS, array_table, sensor_table, size_table, status_table
 from mbs.vehicle.reference import tables
 
@@ -25,6 +26,9 @@ def _variables() -> dict[str, str]:
 VARIABLES = ("car inputs", "car parameters", "car outputs", "car constants")
 MAKERS: dict[str, Callable[[], str]] = {
     "car file": tables,
+    "elements": element_table,
+    "numbers of elements": number_table,
+    "laws of elements": law_table,
     "sensors": sensor_table,
     "sizes of a System": size_table,
     "statuses": status_table,

@@ -19,7 +19,7 @@ def systems_by_number(system: Systems) -> dict[int, mbs.System]:
     """The Systems of an FMU by fidelity, ascending from 0.
 
     `system`: the numbers may be members of an enumeration, which they stay. Raises `mbs.ArgumentTypeError`: something
-    is no System. Raises `ValueError`: there is none, or the numbers are not 0, 1, 2 and on.
+    is not a System. Raises `ValueError`: there is none, or the numbers are not 0, 1, 2 and on.
     """
     given: Any = system
     if isinstance(given, (list, tuple)):

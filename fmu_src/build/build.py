@@ -110,7 +110,7 @@ def build_fmu(
         The file cannot be written.
     """
     if not isinstance(kind, str) or kind not in KINDS:
-        raise ValueError(f"There is no kind of FMU '{kind}'; the kinds are {', '.join(KINDS)}.")
+        raise ValueError(f"There is no FMU kind '{kind}'; the kinds are {', '.join(KINDS)}.")
     chosen = known_platforms(platforms, able_platforms(kind), kind)
     file = folder(out) / f"{fmu_name(instance_of(str, name, 'the name of an FMU', 'text'), kind)}.fmu"
     check_writable(file)

@@ -47,7 +47,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         "--fmu",
         type=Path,
         metavar="FMU",
-        help="an FMU of the kind native: it is compiled for the --platforms from the sources in it, what it has stays",
+        help="an FMU of the kind native: its own sources are compiled for the --platforms, existing binaries stay",
     )
     what.add_argument("--kernel", action="store_true", help="the C kernel in place of an FMU, in a clone")
     add_option(parser, "--out", "dist; of the kernel: its place in the package")
@@ -74,14 +74,14 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     parser.add_argument(
         "--ports",
         metavar="LIST",
-        help="inputs of a CAR at which other programs take the place of its parts, as torque,brakes=pressure: torque "
+        help="inputs of a CAR that replace parts of it by other programs, such as torque,brakes=pressure: torque "
         "(=half_shafts or =hub_motors), brakes (=torque or =pressure), steering (=rack_position or =rack_force), road, "
         "forces (=earth or =vehicle), wind, tyre, gear, clutch, and outputs, which has none",
     )
     parser.add_argument(
         "--names",
         metavar="NAMES",
-        help="the names and units that another program has for the variables: carmaker, carsim, chrono, osi, "
+        help="names and units of variables as in another program: carmaker, carsim, chrono, osi, "
         "vehicle_interfaces, or an alias file",
     )
     add_option(parser, "--fidelity", "the FMU of a car offers all; with N it has this one alone")
@@ -143,7 +143,7 @@ def _build(options: argparse.Namespace) -> int:
 
     kinds = list(dict.fromkeys(options.kind.split(",")))
     if set(kinds) - set(KINDS):
-        raise UserError(f"There is no kind of FMU '{options.kind}'; the kinds are {', '.join(KINDS)}.")
+        raise UserError(f"There is no FMU kind '{options.kind}'; the kinds are {', '.join(KINDS)}.")
     here = this_platform()
     platforms = _platforms(options.platforms, here)
     if "python" in kinds:
@@ -259,7 +259,7 @@ def _write_parameters(parameters: ParameterSet, file: Path) -> bool:
     if write_beside(parameters, file):
         print(f"{file}: {len(parameters.entries)} parameters, to be edited and set by --parameters", flush=True)
     else:
-        print(f"{file}: has other values than a build writes, and is kept", flush=True)
+        print(f"{file}: differs from what a build writes, and is kept", flush=True)
     return True
 
 

@@ -27,7 +27,7 @@ LOG_CATEGORIES = {
     "logStatusDiscard": "Steps that were refused; the last good state is kept",
     "logStatusError": "Values and calls that were refused",
     "logStatusFatal": "Failures after which the instance cannot be used",
-    "logNotComputed": "Outputs that were read and that no System of this FMU computes; a warning, said once",
+    "logNotComputed": "Outputs that were read but are not computed by this FMU; a warning, given once",
     "logAll": "Everything",
 }
 

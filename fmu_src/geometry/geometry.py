@@ -62,7 +62,7 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
 
 
 def _stiff(part: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Tubes of a flexible part whose amplitudes are no outputs."""
+    """Tubes of a flexible part whose amplitudes are not outputs."""
     frame, nodes = part["frame"], part["nodes"]
     return [
         {"kind": "tube", "points": [[frame, nodes[i]], [frame, nodes[j]]], "radius": radius, "body": frame}

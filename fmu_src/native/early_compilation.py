@@ -1,11 +1,10 @@
-"""Compiles ahead: the compilers fill their cache while the model is compiled and probed.
+"""Compiles in advance: fills the cache of the compilers while the model is compiled and probed.
 
-What takes a compiler long does not depend on the model: all C files but the table of variables. A build starts their
-compilation for each platform in the background, several at a time. The compiler keeps each object under a hash of its
-source, its headers and the options; the build of the FMU, which comes later with the table, finds them there, or waits
-for the one that is being made. Nothing that is made here goes into an FMU.
+All C files but the table of variables are independent of the model. A build starts their compilation for each platform
+in the background. The compiler stores each object under a hash of its source, headers and options; the later build of
+the FMU finds them there or waits for them. Nothing that is made here becomes part of an FMU.
 
-A build that has ended well leaves a file beside that cache, and of the same sources nothing is begun again.
+A successful build leaves a file beside that cache, so that the same sources are not compiled in advance again.
 """
 
 from __future__ import annotations
@@ -35,8 +34,8 @@ _VARIABLE = Variable("nothing", "local", "constant", "1", "", "constant", 0, 0.0
 def compiled_ahead(work: Sequence[tuple[str, str]]) -> Iterator[None]:
     """A context in whose background libraries are compiled.
 
-    `work`: faces, see `compile_library`, and platforms; the first is wanted first. What has not been begun when the
-    context is left is left out, what has is ended.
+    `work`: faces, see `compile_library`, and platforms, in the order in which they are needed. When the context ends,
+    running compilers are terminated and the others are not started.
     """
     with temporary_folder() as folder:
         table = Path(folder, "table.c")
@@ -70,7 +69,7 @@ def _backwards(command: Sequence[str]) -> list[str]:
 
 @contextmanager
 def _compilers(commands: Sequence[Sequence[str]]) -> Iterator[None]:
-    """As many compilers at once as there are processors. What goes wrong is for the build to find, and to say."""
+    """As many compilers at once as there are processors. Errors are ignored here; the build itself reports them."""
     environment, lock, ended = build.compiler_environment(), threading.Lock(), threading.Event()
     running: list[subprocess.Popen[bytes]] = []
 

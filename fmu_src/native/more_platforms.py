@@ -36,12 +36,12 @@ def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling
     Raises
     ------
     ali3.errors.UserError
-        The file is no FMU of the kind ``native``.
+        The file is not an FMU of the kind ``native``.
     """
     files = _files(fmu)
     name = _identifier(fmu, files)
     if any(source not in files for source in _SOURCES):
-        raise UserError(f"{fmu} is no FMU of ALi3 of the kind native (FMI 2.0 in C); only those can be compiled again.")
+        raise UserError(f"{fmu} is not an FMU of ALi3 of the kind native (FMI 2.0 in C); only these can be recompiled.")
     added = [p for p in platforms if f"binaries/{p}/{name}{SUFFIXES[p]}" not in files]
     with temporary_folder() as folder:
         for platform in added:

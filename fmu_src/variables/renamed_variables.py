@@ -90,7 +90,7 @@ def _theirs(v: Variable, entry: Entry, content: Content, values: Mapping[str, Va
     if scale == 0.0:
         raise UserError(f"{entry.where}: factor is 0; it must be another number.")
     if scale != 1.0 and (v.source not in _SCALED or v.whole):
-        return f"'{value['name']}' is in another unit, which only inputs and outputs that are no whole numbers can have"
+        return f"'{value['name']}' is in another unit, which only real inputs and outputs can have"
     ends = [None if end is None else scale * end for end in (v.min, v.max)]
     low, high = ends if scale > 0.0 else reversed(ends)
     return replace(

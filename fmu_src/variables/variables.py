@@ -20,7 +20,7 @@ _NUMBERED = re.compile(r"\.(?=\d)", re.ASCII)
 _POSE = (
     ("initial.x", "m", "Where the origin of the scene's drawing starts along the earth's x axis"),
     ("initial.y", "m", "Where the origin of the scene's drawing starts along the earth's y axis"),
-    ("initial.z", "m", "Initial height above the position as drawn or of rest; positive drops the scene"),
+    ("initial.z", "m", "Initial height above the position as drawn or at rest; positive drops the scene"),
     ("initial.yaw", "rad", "Initial turn about the origin of the drawing, positive to the left of the earth's x axis"),
     ("initial.speed", "m/s", "Initial speed along the heading, wheels rolling"),
     ("initial.lateral_speed", "m/s", "Initial speed of the origin of the drawing to the left of the heading"),
@@ -34,14 +34,14 @@ STEP_ITERATIONS = "solver.step_iterations"
 _MOST_ITERATIONS, _LONGEST_LEAD = 1000.0, 10.0
 # Name, number in the kernel (ALI3_SOLVER_*), unit, whether it is a whole number, description.
 _SOLVER = (
-    ("solver.status", 5, "1", True, "What the last step ended with: 0 good, else a code of the solver"),
-    ("solver.halvings", 4, "1", True, "How often inner steps had to be halved since the start"),
+    ("solver.status", 5, "1", True, "Status of the last step: 0 good, else a code of the solver"),
+    ("solver.halvings", 4, "1", True, "Number of halved inner steps since the start"),
     (
         "solver.energy_error",
         6,
         "J",
         False,
-        "Violation of the energy balance since the start: energy that the steps have made or lost where no force did",
+        "Violation of the energy balance since the start: energy that the steps have added or lost without a force",
     ),
     (
         *("solver.energy_balance", 7, "1", False),
@@ -117,7 +117,7 @@ _CAPPED_RESIDUAL = Variable(
     "output",
     "continuous",
     "m",
-    f"How far steps of the last communication step that ended at {STEP_ITERATIONS} may be off, at most; 0 if none did",
+    f"Largest residual of steps of the last communication step that ended at {STEP_ITERATIONS}; 0 if none did",
     "capped_residual",
     0,
 )
@@ -176,7 +176,7 @@ def variable_table(
             "parameter",
             "fixed",
             "s",
-            "Inner step aimed at; a communication step is divided into equal inner steps next to it",
+            "Desired inner step; a communication step is divided into equal inner steps of about this length",
             "step_size",
             0,
             step_size,
@@ -191,7 +191,7 @@ def variable_table(
         table.append(
             Variable(FIDELITY, "parameter", "fixed", "1", text, FIDELITY, 0, float(fidelity), 0.0, last, whole=True)
         )
-    text = "Most iterations of an inner step, which is then accepted as it is and counted; 0: as many as it needs"
+    text = "Largest number of iterations of an inner step, which is then accepted as it is and counted; 0: no limit"
     table.append(
         Variable(
             *(STEP_ITERATIONS, "parameter", "fixed", "1", text, "step_iterations", 0, 0.0, 0.0, _MOST_ITERATIONS),
@@ -199,10 +199,10 @@ def variable_table(
         )
     )
     if pose:
-        text = "How long the start's horizontal motion is held beforehand while tyres, springs and steering settle"
+        text = "Time for which the horizontal motion is held before the start while tyres, springs and steering settle"
         table.append(Variable(SETTLING, "parameter", "fixed", "s", text, "settling", 0, 0.0, 0.0, LONGEST_SETTLING))
     if meta.get("ahead"):
-        text = "How many communication steps ahead the points are where the road is to be asked for"
+        text = "Number of communication steps by which the points at which the road is evaluated lie ahead"
         table.append(Variable(LEAD, "parameter", "fixed", "1", text, "lead", 0, 1.0, 0.0, _LONGEST_LEAD))
     table += [_sensor(entry, k) for k, entry in enumerate(meta["sensors"])]
     sensed = {entry["name"] for entry in meta["sensors"]}

@@ -83,7 +83,7 @@ static functions functions_of(void *library) {
 
 static double number(const char *text, char **end) {
   const double value = strtod(text, end);
-  if (*end == text) stop(1, "'%s' is no number.", text);
+  if (*end == text) stop(1, "'%s' is not a number.", text);
   return value;
 }
 

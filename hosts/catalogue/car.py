@@ -32,7 +32,7 @@ class CarFacts:
     units: Mapping[str, str]
     """Of all variables by our names."""
     constants: Mapping[str, float]
-    """Of the FMU and of the alias file, by our names."""
+    """Of the FMU and of the alias file, which wins; by our names."""
     step: float
     """Communication step, s."""
     token: str = ""
@@ -81,7 +81,7 @@ class TestedCar:
         ------
         HostError
             If the FMU cannot be loaded or started, a name is none of its variables, or a value is out of its range;
-            or an output is no number.
+            or an output is not a number.
         """
         with self.fmu.opened() as fmu:
             manoeuvre = with_names_of(manoeuvre, fmu.variables)
@@ -91,7 +91,7 @@ class TestedCar:
             driven = run(fmu, replace(manoeuvre, start=start), step, pilot, until=until, every=every)
             result = marked(driven, pilot)
             if wrong := result.not_finite():
-                raise FailedFmuError(f"{wrong} Nothing of that run is measured.")
+                raise FailedFmuError(f"{wrong} That run is not evaluated.")
             return result
 
     @cached_property
@@ -112,23 +112,3 @@ class TestedCar:
     def path(self) -> Path:
         """Of the FMU."""
         return self.fmu.path
-
-    @property
-    def inputs(self) -> tuple[str, ...]:
-        """Our names of inputs."""
-        return self.facts.inputs
-
-    @property
-    def outputs(self) -> tuple[str, ...]:
-        """Our names of real and whole outputs."""
-        return self.facts.outputs
-
-    @property
-    def parameters(self) -> tuple[str, ...]:
-        """Our names of real and whole parameters."""
-        return self.facts.parameters
-
-    @property
-    def constants(self) -> Mapping[str, float]:
-        """Of the FMU and of the alias file, which wins; by our names."""
-        return self.facts.constants

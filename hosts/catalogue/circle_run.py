@@ -88,7 +88,7 @@ class _Watch:
             if time - self._off_since >= _SETTLE:
                 self.begin = time
             if time > _APPROACH:
-                self.end = f"the car did not come to {3.6 * self.first:.3g} km/h within {_APPROACH:g} s."
+                self.end = f"the car did not reach {3.6 * self.first:.3g} km/h within {_APPROACH:g} s."
             return time > _APPROACH
         if abs(senses.get("sideslip", 0.0)) > _SPUN or abs(senses.get("chassis.roll", 0.0)) > ROLLED:
             return True
@@ -139,8 +139,8 @@ def drive_circle(
 def _pilot(
     car: TestedCar, side: float, method: float, radius: float, ratio: float, steering: SteeringInput, watch: _Watch
 ) -> Pilot:
-    brakes = "brake" in car.inputs
-    wheelbase = car.constants["vehicle.wheelbase"]
+    brakes = "brake" in car.facts.inputs
+    wheelbase = car.facts.constants["vehicle.wheelbase"]
     if method == CONSTANT_RADIUS:
         full = steering.largest if math.isfinite(steering.largest) else 2.0 * math.pi
         limit = full * steering.per_radian

@@ -95,7 +95,7 @@ class Stop:
 
     @property
     def lateral_acceleration(self) -> NDArray[np.float64]:
-        """Towards the left, m/s2; speed times yaw rate where the car does not tell it."""
+        """Towards the left, m/s2; speed times yaw rate where the car does not provide it."""
         r = self.result
         return r["chassis.ay"] if "chassis.ay" in r else r["speed"] * r["chassis.wz"]
 
@@ -133,7 +133,7 @@ class Stop:
 
     @property
     def locks(self) -> bool | None:
-        """Whether a wheel locks; None where the car does not tell slips."""
+        """Whether a wheel locks; None where the car does not provide slips."""
         slip = at_wheels(self.result, "slip")
         if slip is None:
             return None

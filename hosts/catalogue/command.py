@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from hosts.catalogue.task import Outcome, Task
     from hosts.experiment.store import Kept
 
-_PENDING = "Not done yet: the command is at work, or was stopped."
+_PENDING = "Not done yet: the command is still running, or was stopped."
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -> int:
@@ -41,7 +41,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
     add_option(
         parser,
         "--aliases",
-        "none; one file is for all FMUs, else one for each in their order or 'none'",
+        "none; one file for all FMUs, or one for each in their order or 'none'",
         action="append",
     )
     parser.add_argument(
@@ -63,8 +63,8 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
         help="setting of a test; repeatable",
     )
     add_option(parser, "--step", "that of the FMU")
-    add_option(parser, "--jobs", "as there are cores that it may use")
-    add_option(parser, "--again", "tests that are done already in the folder are kept")
+    add_option(parser, "--jobs", "the number of available cores")
+    add_option(parser, "--again", "tests that are already complete in the folder are kept")
     parser.add_argument(
         "--limits",
         type=Path,
@@ -100,7 +100,7 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     from hosts.measures.limits import read_limits
 
     if not options.fmus:
-        raise HostError("There is no FMU to be tested; give one or several. --list shows the tests.")
+        raise HostError("There is no FMU to test; name one or more. --list shows the tests.")
     names = [name.strip() for part in options.tests for name in part.split(",") if name.strip()] or list(TESTS)
     tests = [standard_test(name) for name in dict.fromkeys(names)]
     given = _test_settings(options.test_setting, [test.name for test in tests])
@@ -108,7 +108,7 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     asked = GivenLimits() if options.limits is None else GivenLimits(options.limits, read_limits(options.limits))
     limits = asked.of_tests(list(settings))
     if others := ", ".join(name for name in asked.entries if name not in limits.entries):
-        print(f"{options.limits}: not judged are limits of tests that --tests leaves out: {others}", flush=True)
+        print(f"{options.limits}: limits of tests that --tests leaves out are not evaluated: {others}", flush=True)
     for file in ("measures.csv", "measures.json", "report.html"):
         check_writable(options.out / file)
     fmus = [fmu_file(path).absolute() for path in options.fmus]
@@ -166,7 +166,7 @@ def _do(
         pending = sum(outcome == _PENDING for by_car in outcomes.values() for outcome in by_car.values())
         if pending:
             left = "1 test is" if pending == 1 else f"{pending} tests are"
-            print(f"{left} not done yet; the same command goes on from here.", flush=True)
+            print(f"{left} not done yet; the same command resumes here.", flush=True)
     return _verdict(judged, faults)
 
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from ali3.columns import in_columns
-from ali3.files import write_text
+from ali3.files import write_json, write_text
 from ali3.units import typeset
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
@@ -102,8 +101,7 @@ def write_measures(
     """Write ``measures.csv`` and ``measures.json`` into a folder."""
     table, record = out / "measures.csv", out / "measures.json"
     write_text(table, measures_csv(tests, outcomes))
-    content = measures_record(tests, cars, outcomes, settings)
-    write_text(record, json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
+    write_json(record, measures_record(tests, cars, outcomes, settings))
     return [table, record]
 
 

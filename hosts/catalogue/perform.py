@@ -39,7 +39,7 @@ def settings_of_test(test: StandardTest, given: Mapping[str, float]) -> dict[str
 
 def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float]) -> Reason | None:
     """Why a test cannot be done with a car, from what its FMU tells; None if it can."""
-    missing = lacking(test, {*car.inputs, *car.outputs, *car.parameters, *car.constants})
+    missing = lacking(test, {*car.facts.inputs, *car.facts.outputs, *car.facts.parameters, *car.facts.constants})
     if not missing:
         return test.why_not(car, settings)
     words = " and no ".join(" or ".join(_names(need)) for need in missing)
@@ -79,7 +79,7 @@ def perform(
 
 
 def _said(record: TestRecord) -> list[str]:
-    """What the FMU said in which runs, each sentence once."""
+    """Messages of the FMU in which runs, each sentence once."""
     runs: dict[str, list[str]] = {}
     for name, result in record.runs.items():
         for message in dict.fromkeys(" ".join(m.split()) for m in result.messages):
@@ -88,7 +88,7 @@ def _said(record: TestRecord) -> list[str]:
     for message, names in list(runs.items())[:_MOST_MESSAGES]:
         where = "every run" if len(names) == len(record.runs) > 1 else some_of(names, _MOST_NAMES)
         words = message if len(message) <= _LONGEST else f"{message[:_LONGEST]}..."
-        said.append(f"The FMU said in {where}: {words}")
+        said.append(f"The FMU reported in {where}: {words}")
     if len(runs) > _MOST_MESSAGES:
-        said.append(f"The FMU said {len(runs) - _MOST_MESSAGES} other sentences.")
+        said.append(f"The FMU reported {len(runs) - _MOST_MESSAGES} other messages.")
     return said

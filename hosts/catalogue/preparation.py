@@ -72,4 +72,4 @@ class RunUp:
 
 def early_end(run: str, result: Result) -> tuple[str, ...]:
     """A sentence where the FMU refused a step."""
-    return (f"{run}: {result.refusal}; what comes later is not measured.",) if result.refusal else ()
+    return (f"{run}: {result.refusal}; what follows is not evaluated.",) if result.refusal else ()

@@ -28,7 +28,7 @@ class SteeringInput:
     per_radian: float
     """Of the input, per radian of the steering wheel."""
     largest: float
-    """Angle of the steering wheel at full lock, rad; infinite where the car does not tell it."""
+    """Angle of the steering wheel at full lock, rad; infinite where the car does not provide it."""
     is_angle: bool = True
     """Whether angles are angles; else they are in units of the input, and `note` says so."""
     note: str = ""
@@ -50,7 +50,7 @@ class SteeringInput:
         if full > 0.0:
             return cls("steering", 1.0 / full, full)
         note = (
-            f"The car tells no constant {LARGEST}: angles of the steering wheel are in units of the input 'steering', "
+            f"The car has no constant {LARGEST}: angles of the steering wheel are in units of the input 'steering', "
             "-1 to 1. [constants] of an alias file can give it."
         )
         return cls("steering", 1.0, 1.0, False, note)

@@ -27,19 +27,21 @@ def steering_ratio(car: TestedCar) -> float:
     Where the car tells the angles of its wheels, the slope of a regression while the steering wheel is turned to 30°
     to both sides at 3 m/s; else the constant of the car; NaN where it has none.
     """
-    if any(name not in car.outputs for name in WHEELS):
-        return car.constants.get(RATIO, math.nan)
+    if any(name not in car.facts.outputs for name in WHEELS):
+        return car.facts.constants.get(RATIO, math.nan)
     steering = SteeringInput.of(car.facts)
     if not steering.is_angle:
-        return car.constants.get(RATIO, math.nan)
+        return car.facts.constants.get(RATIO, math.nan)
     times = np.array([0.0, 1.0, 3.0, 7.0])
     table = steering.per_radian * _ANGLE * np.array([0.0, 0.0, 1.0, -1.0])
-    pilot = Together(SpeedHolder(_SPEED, brakes="brake" in car.inputs), SteeringTable(times, table, steering.name))
+    pilot = Together(
+        SpeedHolder(_SPEED, brakes="brake" in car.facts.inputs), SteeringTable(times, table, steering.name)
+    )
     result = car.drive(
         Manoeuvre("steering ratio", np.zeros(0), {}, 7.0, start_at(car, _SPEED)), pilot, record_step=0.02
     )
     wheels = 0.5 * (result[WHEELS[0]] + result[WHEELS[1]])
     rows = result.time > 1.0
     if rows.sum() < 10 or not np.ptp(wheels[rows]) > 1e-3:
-        return car.constants.get(RATIO, math.nan)
+        return car.facts.constants.get(RATIO, math.nan)
     return 1.0 / float(stats.linregress(steering.measured(result, car.facts.step)[rows], wheels[rows]).slope)

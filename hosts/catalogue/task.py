@@ -57,9 +57,7 @@ def do(task: Task, progress: Callable[[float], None]) -> Outcome:
         return "The memory was not enough."
     except Exception as error:
         place = traceback.extract_tb(error.__traceback__)[-1]
-        return (
-            f"The test broke off, which it should not: {error!r} in {Path(place.filename).name}, line {place.lineno}."
-        )
+        return f"The test ended with an internal error: {error!r} in {Path(place.filename).name}, line {place.lineno}."
 
 
 def write_runs(task: Task, record: TestRecord) -> None:

@@ -235,7 +235,7 @@ def other_steps(subject: Subject) -> Finding:
     words = f"{near} of {len(moving)} outputs end within {100 * _SUBSTEP_SHARE:g} % of their range"
     if not all(math.isfinite(v) for v in last):
         return Finding(
-            "steps of any size", "bad", f"an output is no number; {words} {subject.clause('4.2.2', '4.2.1')}"
+            "steps of any size", "bad", f"an output is not a number; {words} {subject.clause('4.2.2', '4.2.1')}"
         )
     if 2 * near < len(moving):
         words += "; step by the length that is asked for, or say that only one is allowed"

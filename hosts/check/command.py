@@ -40,6 +40,7 @@ _OF_CHECK = ("steps", "time_limit", "thorough")
 _OF_PARAMETERS = ("show_parameters", "save_parameters", "diff")
 _OF_SOAK = ("drives", "seed", "stop_time", "world", "json")
 _OF_REFERENCE = ("manoeuvre", "bound")
+_OF_FOLDER = ("again", "out")
 _OF_BOTH = ("fidelity", "step", "jobs", "again", "out")
 
 
@@ -60,20 +61,20 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "--time-limit", type=number, metavar="S", help=f"seconds that a check may take; default: {_TIME_LIMIT:g}"
     )
     parser.add_argument(
-        "--junit", type=Path, metavar="FILE", help="write the verdict there too, of the check or of --reference"
+        "--junit", type=Path, metavar="FILE", help="also write the verdict of the check or of --reference there"
     )
-    parser.add_argument("--sarif", type=Path, metavar="FILE", help="write the verdict there too, as SARIF 2.1.0")
+    parser.add_argument("--sarif", type=Path, metavar="FILE", help="also write the verdict there, as SARIF 2.1.0")
     parser.add_argument("--thorough", action="store_true", help=f"runs of {_THOROUGH} steps, up to a minute in all")
     add_setting_options(parser)
     add_option(parser, "--confined")
     table = parser.add_argument_group("parameters, of FMI 2.0 or 3.0, in place of the check")
     add_option(table, "--show-parameters")
-    table.add_argument("--save-parameters", type=Path, metavar="SSV", help="write all, with what is set, to this file")
+    table.add_argument("--save-parameters", type=Path, metavar="SSV", help="write all of them to this file, as set")
     table.add_argument(
         "--diff",
         type=Path,
         metavar="SSV",
-        help="print only where this set has other values than the FMU or what is set",
+        help="print only where this set differs from the FMU and the given values",
     )
     reference = parser.add_argument_group(
         "against a reference, in place of the check",
@@ -98,16 +99,16 @@ def _parser(prog: str) -> argparse.ArgumentParser:
         "A drive is a seed: runs of 15 to 60 s from random starts, up to 40 m/s and 100 km away, with jumps, sudden "
         "turns, roll-overs, resets and rewinds, all in one process. Every step is checked.",
     )
-    soak.add_argument("--soak", action="store_true", help="drive a car so, for hours")
+    soak.add_argument("--soak", action="store_true", help="drive a car like this, for hours")
     soak.add_argument("--drives", type=count, metavar="N", help="how many; default: 10 seeds of every fidelity")
     add_option(soak, "--seed", "1; further drives have the following ones")
     add_option(soak, "--stop-time", "1000")
     add_option(soak, "--fidelity", "0 and 2; with --reference that of the FMU", action="append")
     add_option(soak, "--step", "0.002; with --reference that of the FMU, or what divides its times")
     add_option(soak, "--world", "roads with ramps, and those in the FMU", action="append")
-    add_option(soak, "--jobs", "as there are cores that it may use")
+    add_option(soak, "--jobs", "the number of available cores")
     add_option(
-        soak, "--again", "drives that are done already in the folder are kept, and tables of a call that was stopped"
+        soak, "--again", "drives that are already complete in the folder are kept, and so are tables of a stopped call"
     )
     add_option(soak, "--out", "out/soak; with --reference out/reference")
     add_option(soak, "--json")
@@ -130,18 +131,23 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     ):
         given = given_of(parser, options, names)
         if given and not there:
-            raise HostError(f"{given[0]} goes with {what}.")
+            raise HostError(f"{given[0]} needs {what}.")
     table = given_of(parser, options, _OF_PARAMETERS)
     others = [*table, *(["--reference"] if reference else []), *(["--soak"] if options.soak else [])]
     if (options.soak or reference) and len(others) > 1:
-        raise HostError(f"{others[0]} does not go with {others[-1]}.")
+        raise HostError(f"{others[0]} cannot be combined with {others[-1]}.")
+    if reference and options.reference.is_file() and (of_folder := given_of(parser, options, _OF_FOLDER)):
+        raise HostError(
+            f"{of_folder[0]} needs a folder of tables, of which those that are done are kept; {options.reference} is "
+            "one table."
+        )
     if (of_check := given_of(parser, options, _OF_CHECK)) and others:
         raise HostError(f"{of_check[0]} is of the check alone.")
     written = {name: getattr(options, name) for name in ("junit", "sarif") if getattr(options, name) is not None}
     if written and (table or options.soak):
-        raise HostError(f"--{next(iter(written))} does not go with {others[0]}.")
+        raise HostError(f"--{next(iter(written))} cannot be combined with {others[0]}.")
     if options.confined and (table or options.soak):
-        raise HostError(f"--confined does not go with {others[0]}.")
+        raise HostError(f"--confined cannot be combined with {others[0]}.")
     if options.soak:
         command_needs("simulator")
         from hosts.soak.soak import soak

@@ -50,7 +50,7 @@ class Deviation:
 
     @property
     def good(self) -> bool:
-        """Whether it is within its bound; what is no number is not."""
+        """Whether it is within its bound; what is not a number is not."""
         return self.share <= self.bound
 
     @property

@@ -116,7 +116,7 @@ def check_references(
     ------
     HostError
         There is no table, or no output that a bound fits; or, when all tables have been tried, the first of what a
-        table raises: it has no output of the FMU, or times that are no communication points, or the FMU does not start
+        table raises: it has no output of the FMU, or times that are not communication points, or the FMU does not start
         with its values.
     """
     files = sorted(place.glob("*.csv")) if place.is_dir() else [place]
@@ -135,7 +135,7 @@ def check_references(
 
     with ExitStack() as held:
         fmu = held.enter_context(Fmu(path))
-        kept = held.enter_context(Kept[_Compared](out, _Compared, "checks an FMU", again)) if len(files) > 1 else None
+        kept = held.enter_context(Kept[_Compared](out, _Compared, "checks an FMU", again)) if place.is_dir() else None
         references = []
         for file in files:
             try:
@@ -298,7 +298,7 @@ def _check_times(times: NDArray[np.float64], step: float, file: Path) -> None:
     worst = int(np.argmax(off))
     if off[worst] > _ROUND_OFF:
         raise HostError(
-            f"{file} has a row at {times[worst]:.9g} s, which is no communication point of a run from 0 "
+            f"{file} has a row at {times[worst]:.9g} s, which is not a communication point of a run from 0 "
             f"s in steps of {step:g} s; --step gives one that divides all times."
         )
 

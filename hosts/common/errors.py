@@ -11,6 +11,6 @@ class HostError(UserError):
 
 
 class FailedFmuError(HostError):
-    """The FMU has failed: its process has ended, or what it gives is no number; when and where is in the sentence."""
+    """The FMU has failed: its process has ended, or a value is not a number; the sentence says when and where."""
 
     status = NOT_GOOD

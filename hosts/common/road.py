@@ -38,7 +38,7 @@ def road_value(given: str, out: Path) -> str:
 
     `given`: a road file here; the name of one in the FMU; or what ``ali3 road`` makes one of without further options;
     `out`: folder that takes the road file that is made. Returns the path of the file, or the name as it is. Raises
-    `HostError`: the file is no road; with the words of ``ali3 road``.
+    `HostError`: the file is not a road; with the words of ``ali3 road``.
     """
     path = Path(given)
     if path.suffix.lower() not in MADE_OF:

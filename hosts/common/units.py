@@ -61,7 +61,7 @@ def conversion(unit: str, other: str, where: str = "the unit") -> float:
         return 1.0
     first, second = unit_definition(unit, where), unit_definition(other, where)
     if not same_quantity(first, second) or first.offset != second.offset:
-        raise HostError(f"{where}: '{unit}' is no unit of what is measured in {other}.")
+        raise HostError(f"{where}: '{unit}' is not a unit of what is measured in {other}.")
     pairs = ((unit, second), (other, first))
     turns = [math.tau if _is_hertz(name) and "rad" in of.exponents else 1.0 for name, of in pairs]
     return turns[0] * first.factor / (turns[1] * second.factor)

@@ -56,7 +56,7 @@ def make_world(given: str, tell: Callable[[str], None], thin: bool = False) -> W
 
     `given`: a name of the package, or a file that ``ali3 road --world`` takes; `tell`: takes lines that say how far it
     is, where it is made for the first time; `thin`: few and round numbers, as a page carries it. Raises `HostError`: it
-    is no world; with the words of ``ali3 road --world``.
+    is not a world; with the words of ``ali3 road --world``.
     """
     file = Path(given)
     room = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:12] if is_file(file) else "named"

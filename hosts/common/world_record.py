@@ -17,12 +17,12 @@ def read_world_record(file: Path) -> dict[str, Any]:
     """Read the record of a world.
 
     Result: with ``name``, ``road``, ``bounds``, ``places``, ``roads`` and ``scenery``. Raises `HostError`: it cannot be
-    read, or is no world of this version.
+    read, or is not a world of this version.
     """
     content: dict[str, Any] = read_json(file, HostError)
     found = (content.get("format"), content.get("version")) if isinstance(content, dict) else (None, None)
     if found != (FORMAT, VERSION):
-        raise HostError(f"{file} is no world of version {VERSION}, which this version of ali3 reads; {_REMEDY}")
+        raise HostError(f"{file} is not a world of version {VERSION}, which this version of ali3 reads; {_REMEDY}")
     return content
 
 

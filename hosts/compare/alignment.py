@@ -67,7 +67,7 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
         return Alignment(*5 * (math.nan,), "no signal moves in both")
     coarse, peak, other, level = _coarse(pairs, longest)
     if peak < _LEAST_CORRELATION:
-        return Alignment(*4 * (math.nan,), peak, f"at best the signals correlate by {peak:.2f}: no delay can be told")
+        return Alignment(*4 * (math.nan,), peak, f"the best correlation is {peak:.2f}: no delay can be determined")
     if level:
         words = f"signals correlate by {peak:.3f}, and nearly as well with any delay that so short a log can have"
         return Alignment(*4 * (math.nan,), peak, words)

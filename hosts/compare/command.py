@@ -35,7 +35,7 @@ def parser_of(prog: str = "ali3 compare") -> Parser:
     add_option(parser, "--aliases")
     parser.add_argument("--signals", type=_names, metavar="NAME,...", help="compare only these outputs; default: all")
     parser.add_argument(
-        "--ignore", type=_names, default=[], metavar="NAME,...", help="inputs of the log that are not replayed"
+        "--ignore", type=_names, default=[], metavar="NAME,...", help="inputs of the log that are not used"
     )
     parser.add_argument(
         "--hold-speed", action="store_true", help="a driver holds the measured speed in place of the measured pedals"
@@ -52,7 +52,7 @@ def parser_of(prog: str = "ali3 compare") -> Parser:
         help="drive windows of this length, each from its measured state, s",
     )
     parser.add_argument("--window-every", type=_SECONDS, metavar="T", help="from one window to the next, s; default: T")
-    parser.add_argument("--skip", type=_SECONDS, default=0.0, metavar="T", help="first seconds that are not compared")
+    parser.add_argument("--skip", type=_SECONDS, default=0.0, metavar="T", help="first seconds, which are not compared")
     add_option(parser, "--step", "that of the FMU")
     parser.add_argument(
         "--longest-gap",
@@ -61,27 +61,27 @@ def parser_of(prog: str = "ali3 compare") -> Parser:
         metavar="T",
         help="without samples of an input, s; default 0.2",
     )
-    parser.add_argument("--longest-delay", type=_SECONDS, default=1.0, metavar="T", help="looked for, s; default 1")
+    parser.add_argument("--longest-delay", type=_SECONDS, default=1.0, metavar="T", help="largest delay, s; default 1")
     parser.add_argument(
         "--fit",
         action="extend",
         type=_names,
         default=[],
         metavar="NAME[=LOW:HIGH],...",
-        help="find these parameters; repeatable; default range: from half to twice the value",
+        help="fit these parameters; repeatable; default range: from half to twice the value",
     )
     parser.add_argument(
         "--nuisance",
         type=_names,
         default=[],
         metavar="WHAT,...",
-        help="found together with the parameters: delay (of all signals), delays (of each), drift, bias, gain (of "
+        help="fitted together with the parameters: delay (of all signals), delays (of each), drift, bias, gain (of "
         "each)",
     )
-    parser.add_argument("--starts", type=count, default=1, metavar="N", help="fit from so many points; default 1")
-    parser.add_argument("--fit-step", type=_SECONDS, metavar="T", help="inner step of the FMU while it is fitted, s")
-    add_option(parser, "--jobs", "as there are cores that it may use, for windows of a minute and more")
-    parser.add_argument("--anyway", action="store_true", help="fit even where a signal looks like one in a wrong unit")
+    parser.add_argument("--starts", type=count, default=1, metavar="N", help="start points of the fit; default 1")
+    parser.add_argument("--fit-step", type=_SECONDS, metavar="T", help="inner step of the FMU during the fit, s")
+    add_option(parser, "--jobs", "the number of available cores, for windows of a minute and more")
+    parser.add_argument("--anyway", action="store_true", help="fit even if a signal seems to have a wrong unit")
     add_option(parser, "--out", "out/compare", default=Path("out", "compare"))
     add_option(parser, "--json")
     add_setting_options(parser)

@@ -57,8 +57,8 @@ def find_dialect(path: Path, stated: Dialect) -> FoundDialect:
         _refuse_units(path, lines, stated)
         tried = "' or '".join(repr(d)[1:-1] for d, *_ in found)
         raise HostError(
-            f"The log {path} is no table of numbers with a time and signals, divided by '{tried}'; its first line is "
-            f'{lines[0].strip()[:60]!r}. [file] delimiter = "..." of the alias file names another.'
+            f"The log {path} is not a table of numbers with a time and signals, divided by '{tried}'; its first line "
+            f'is {lines[0].strip()[:60]!r}. [file] delimiter = "..." of the alias file names another.'
         )
     heading, unit_line = _heading(path, lines, delimiter, first, width, stated)
     names, units = [], {}
@@ -104,7 +104,7 @@ def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
     if words := other_encoding(content):
         raise HostError(f"The log {path} is {words}.")
     if b"\0" in content:
-        raise HostError(f"The log {path} is no text; logs are read as CSV or Parquet (MDF files can be converted).")
+        raise HostError(f"The log {path} is not text; logs are read as CSV or Parquet (MDF files can be converted).")
     for name in (encoding,) if encoding else ("utf-8-sig", "latin-1"):
         try:
             text = content[: content.rfind(b"\n") + 1 or None].decode(name)

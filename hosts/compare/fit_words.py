@@ -106,8 +106,8 @@ def _of(found: Found) -> list[str]:
     if found.bound:
         limit = u.low if found.bound == "lower" else u.high
         lines.append(
-            f"{u.name} lies at its {found.bound} bound, {number_in(limit, u.unit)}: its interval says nothing; give it "
-            "a wider range if that makes sense, or look for what else differs."
+            f"{u.name} lies at its {found.bound} bound, {number_in(limit, u.unit)}: its interval is meaningless; give "
+            "it a wider range if that makes sense, or look for what else differs."
         )
     elif not math.isfinite(found.half_width):
         lines.append(f"{u.name} cannot be identified: the compared signals do not determine it.")
@@ -124,7 +124,9 @@ def fit_notes(fit: Fit) -> list[str]:
     notes = []
     for i, j in _pairs(fit):
         a, b = fit.found[i].unknown.name, fit.found[j].unknown.name
-        notes.append(f"{a} and {b} are known together only: their errors correlate by {fit.correlation[i, j]:.2f}.")
+        notes.append(
+            f"{a} and {b} can only be determined together: their errors correlate ({fit.correlation[i, j]:.2f})."
+        )
     idle = [f.unknown.name for f in fit.found if f.without <= 1.0]
     if idle:
         notes.append(

@@ -81,7 +81,7 @@ def _range(variable: Variable, start: float, text: str) -> tuple[float, float]:
 def _usual_range(variable: Variable, start: float) -> tuple[float, float]:
     if start == 0.0:
         raise HostError(
-            f"--fit: '{variable.name}' is 0 in the FMU, so that no range can be guessed; write "
+            f"--fit: '{variable.name}' is 0 in the FMU, so that there is no default range; write "
             f"--fit {variable.name}=LOW:HIGH."
         )
     low, high = sorted((0.5 * start, 2.0 * start))

@@ -61,7 +61,7 @@ def log_for(
     """The signals of a log that an FMU has too; a tunable parameter of the FMU is driven as an input is.
 
     `chosen`: parameters that are set or sought: the log does not drive them; `used`: outputs with notes; all where it
-    is empty. Raises `HostError`: a column is not there, is no signal of the FMU, or its unit or clock is wrong; one
+    is empty. Raises `HostError`: a column is not there, is not a signal of the FMU, or its unit or clock is wrong; one
     sentence.
     """
     tunable = fmu.tunable
@@ -120,7 +120,7 @@ def _columns(
                 )
             why = fmu.why_missing(ours)
             hint = f": {why.rstrip('.')}" if why else _near(ours, [*inputs, *outputs])
-            raise HostError(f"{where} is no input or output of {fmu.path.name}{hint}.")
+            raise HostError(f"{where} is not an input or output of {fmu.path.name}{hint}.")
         for name in (column.name, column.time):
             if name is not None and name not in there:
                 raise HostError(f"{where}: the log {raw.path.name} has no column '{name}'{_near(name, there)}.")
@@ -220,9 +220,9 @@ def _moments(raw: RawLog, name: str, unit: str | None) -> NDArray[np.float64]:
         wrong = wrong & pd.to_numeric(raw.table[name], errors="coerce").isna()
     if wrong.any():
         row = int(np.argmax(wrong.to_numpy()))
-        what = "date of ISO 8601" if unit == "iso" else "number, and no date such as 2024-05-03T12:00:00.010"
+        what = "date of ISO 8601" if unit == "iso" else "number or a date such as 2024-05-03T12:00:00.010"
         cell = str(raw.table[name].iloc[row])
-        raise raw.error(row, name, unit_behind(cell) or f"the time {brief(cell)} is no {what}.")
+        raise raw.error(row, name, unit_behind(cell) or f"the time {brief(cell)} is not a {what}.")
     first = moments.dropna().iloc[0]
     return np.array((moments - first) / pd.Timedelta(seconds=1), dtype=np.float64)
 
@@ -257,7 +257,7 @@ def _signal(
         written = heading if heading and known_unit(heading) is not None else None
         if heading and written is None:
             notes.append(
-                f"What stands with '{column.name}' of the log is no unit that is known, {brief(heading)}: its numbers "
+                f"What stands with '{column.name}' of the log is not a known unit, {brief(heading)}: its numbers "
                 f"are taken in '{unit}', that of '{ours}'; the alias file can give another unit."
             )
     if written is not None and written != unit:

@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, FiniteFloat, ValidationError, model_validator
 
 from ali3.reading import is_file, read_toml
 from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
-from hosts.measures.limit_entry import Number
 
 TIME_UNITS: Mapping[str, float | None] = {
     "s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "epoch": 1.0, "epoch_ms": 1e-3,
@@ -32,8 +31,8 @@ class _Table(BaseModel):
 
 
 class _Scaled(_Table):
-    factor: Annotated[Number, AfterValidator(_not_zero)] = Field(default=1.0, title="a finite number other than 0")
-    offset: Number = Field(default=0.0, title="a finite number")
+    factor: Annotated[FiniteFloat, AfterValidator(_not_zero)] = Field(default=1.0, title="a finite number other than 0")
+    offset: FiniteFloat = Field(default=0.0, title="a finite number")
 
 
 class Column(_Scaled):

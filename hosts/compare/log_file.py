@@ -59,7 +59,7 @@ class RawLog:
     def numbers(self, name: str) -> NDArray[np.float64]:
         """Values of a column of shape (n,), NaN where there is none.
 
-        Raises `HostError`: a cell is no number; with its row.
+        Raises `HostError`: a cell is not a number; with its row.
         """
         column = self.table[name]
         numbers = pd.to_numeric(column, errors="coerce")
@@ -68,7 +68,7 @@ class RawLog:
             row = int(np.argmax(wrong.to_numpy()))
             cell = str(column.iloc[row])
             raise self.error(
-                row, name, unit_behind(cell) or f"{brief(cell)} is no number; a cell without one is empty."
+                row, name, unit_behind(cell) or f"{brief(cell)} is not a number; a cell without one is empty."
             )
         values = np.array(numbers, dtype=np.float64)
         values[~np.isfinite(values)] = np.nan
@@ -133,7 +133,7 @@ def read_log(path: Path, dialect: Dialect) -> RawLog:
         if cells := re.search(r"Expected (\d+) fields in line (\d+), saw (\d+)", str(error)):
             width, line, seen = cells.groups()
             raise HostError(f"The log {path}, line {line}: {seen} cells; the heading has {width}.") from None
-        raise HostError(f"The log {path} is no table: {one_line(str(error).strip()).rstrip('.')}.") from None
+        raise HostError(f"The log {path} is not a table: {one_line(str(error).strip()).rstrip('.')}.") from None
     return RawLog(path, table, found.units, found.first_row)
 
 
@@ -147,7 +147,7 @@ def _read_parquet(path: Path) -> RawLog:
         table = content.replace_schema_metadata(None).to_pandas()
         table = table[[name for name in table if not name.startswith("__index_level_")]]
     except (ArrowException, OSError, ValueError, KeyError) as error:
-        raise HostError(f"The log {path} is no Parquet file: {one_line(str(error)).rstrip('.')}.") from None
+        raise HostError(f"The log {path} is not a Parquet file: {one_line(str(error)).rstrip('.')}.") from None
     units = {
         f.name: f.metadata[b"unit"].decode(errors="replace")
         for f in content.schema

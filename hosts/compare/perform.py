@@ -57,7 +57,7 @@ def perform(options: argparse.Namespace) -> int:
                 problems = [*problems, f"The fit was stopped after {replay.runs} runs; nothing is fitted."]
                 _write(options, task, Outcome(before, None, None, task.notes, problems), paths)
                 raise
-    notes = task.notes + [f"In {n} of {replay.runs} runs the FMU said: {what}" for what, n in replay.said.items()]
+    notes = task.notes + [f"In {n} of {replay.runs} runs the FMU reported: {what}" for what, n in replay.said.items()]
     if wanted is not None and found is not None and after is not None:
         print("with the fitted parameters" + (" and sensors:" if wanted.nuisances else ":"))
         print(table(after))
@@ -77,14 +77,14 @@ def _write(options: argparse.Namespace, task: Task, outcome: Outcome, paths: dic
 
 
 def _check(options: argparse.Namespace, task: Task) -> None:
-    """Refuse options that do not go with others."""
+    """Refuse options that cannot be combined."""
     if options.nuisance and not options.fit:
-        raise HostError("--nuisance goes with --fit; delays and drift are estimated without both.")
+        raise HostError("--nuisance needs --fit; delays and drift are estimated without both.")
     for option, given in {"--starts": options.starts > 1, "--fit-step": options.fit_step is not None}.items():
         if given and not options.fit:
-            raise HostError(f"{option} goes with --fit; without it no parameters are sought.")
+            raise HostError(f"{option} needs --fit; without it no parameters are fitted.")
     if task.windowed and any(t.startswith("initial.") for t in options.fit):
-        raise HostError("--fit initial.* does not go with --windows: each window begins in its own measured state.")
+        raise HostError("--fit initial.* cannot be combined with --windows: each window begins in its measured state.")
 
 
 def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Comparison, list[str]]:

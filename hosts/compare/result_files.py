@@ -1,16 +1,15 @@
-"""The files of a comparison: signals side by side as CSV, all numbers as JSON."""
+"""The files of a comparison: signals side by side as CSV, measures for JSON."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from ali3.files import whole_file, write_text
+from ali3.files import whole_file
 from hosts.common.numbers import or_null
 from hosts.compare.comparison import Comparison
 from hosts.measures.measure import Measure
@@ -38,8 +37,3 @@ def measure_records(measures: Sequence[Measure]) -> list[dict[str, Any]]:
     return [
         {"name": m.name, "value": or_null(m.value), "unit": m.unit, "text": m.text, "note": m.note} for m in measures
     ]
-
-
-def write_json(record: Mapping[str, Any], file: Path) -> None:
-    """Write a record."""
-    write_text(file, json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n")

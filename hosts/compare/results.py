@@ -9,14 +9,14 @@ from pathlib import Path
 from typing import Any
 
 from ali3.charts import drawing
-from ali3.files import check_writable
+from ali3.files import check_writable, write_json
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.numbers import or_null
 from hosts.compare.comparison import Comparison, measures
 from hosts.compare.fit_result import Fit
 from hosts.compare.page import comparison_figure
 from hosts.compare.report import write_report
-from hosts.compare.result_files import measure_records, write_json, write_signals
+from hosts.compare.result_files import measure_records, write_signals
 from hosts.compare.task import Task
 from hosts.compare.windows import bins, windows
 from hosts.fmu.fmu import described
@@ -72,7 +72,7 @@ def write_outcome(
         parameters = parameter_set_of(Variables(description), description.modelName, values)
         write_parameter_set(parameters, paths[".ssv"], as_built=False)
     if ".json" in paths:
-        write_json(_record(outcome, task), paths[".json"])
+        write_json(paths[".json"], _record(outcome, task))
     return [file for kind, file in paths.items() if kind != ".ssv" or outcome.fit is not None]
 
 

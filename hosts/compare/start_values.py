@@ -95,7 +95,7 @@ def measured_start(
 def reference_point(fmu: FmuSource, start: Mapping[str, Value]) -> tuple[float, float]:
     """Where the reference point of the car at rest lies from the origin of its drawing, forward and to the left, m.
 
-    `start`: start values; those of pose and speed are not used. Result: zero where the FMU does not tell its place.
+    `start`: start values; those of pose and speed are not used. Result: zero where the FMU does not provide its place.
     """
     return fmu.done_apart(_reference_point, dict(start), tuple[float, float], start)
 

@@ -87,7 +87,8 @@ def prepare(options: argparse.Namespace) -> Task:
         set_values = settings_of(opened.table, wishes_with_road(options, options.out)).start
         given = source.ours(set_values)
         sought = {source.called([t.partition("=")[0].strip()])[0] for t in options.fit}
-        used = {*options.signals, "speed"} if options.signals else ()  # the start and --hold-speed need it too
+        # Those that may drive the car, and the speed for its start, are used whatever is compared.
+        used = {*options.signals, "speed", _ANGLE, *ANGLES} if options.signals else ()
         log = log_for(fmu, raw, log_aliases, {*given, *sought}, used)
         notes = log.notes
         inputs, outputs = _chosen(log, fmu, options)
@@ -164,7 +165,7 @@ def _parts(options: argparse.Namespace, wanted: Spans | None, end: float) -> lis
     begin = options.begin or 0.0
     if options.windows is None:
         if options.window_every is not None:
-            raise HostError("--window-every goes with --windows, the length of a window.")
+            raise HostError("--window-every needs --windows, the length of a window.")
         return [(0.0, end)]
     every = options.windows if options.window_every is None else options.window_every
     if not (0.0 < options.windows <= end and every > 0.0):
@@ -172,7 +173,7 @@ def _parts(options: argparse.Namespace, wanted: Spans | None, end: float) -> lis
             f"--windows {options.windows:g}, one every {every:g} s; both must be positive, within {end:g} s."
         )
     if options.skip:
-        raise HostError("--skip does not go with --windows: each begins in its measured state.")
+        raise HostError("--skip cannot be combined with --windows: each begins in its measured state.")
     last = begin + end + 1e-9
     found = [t for t in begins(wanted or ((begin, last),), options.windows, every) if t >= begin]
     found = [t - begin for t in found if t + options.windows <= last]
@@ -226,12 +227,12 @@ def _chosen(log: Log, fmu: NamedFmu, options: argparse.Namespace) -> tuple[dict[
         for name in options.signals:
             if name not in outputs:
                 hint = did_you_mean(name, outputs, f"it has {', '.join(outputs) or 'none'}")
-                what = "is no output of the FMU" if name not in fmu.names("output") else "is not in the log"
+                what = "is not an output of the FMU" if name not in fmu.names("output") else "is not in the log"
                 raise HostError(f"--signals: '{name}' {what}{hint}")
         outputs = {n: outputs[n] for n in options.signals}
     for name in options.ignore:
         if name not in inputs:
-            raise HostError(f"--ignore: '{name}' is no input in the log; it has {', '.join(inputs) or 'none'}.")
+            raise HostError(f"--ignore: '{name}' is not an input in the log; it has {', '.join(inputs) or 'none'}.")
         del inputs[name]
     if not outputs:
         raise HostError(

@@ -56,7 +56,7 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
     for name, constant in CONSTANTS.items():
         if name not in numbers:
             raise HostError(
-                f"The driver needs the {name.replace('_', ' ')} of the car, which this FMU does not tell (it has no "
+                f"The driver needs the {name.replace('_', ' ')} of the car, which this FMU does not provide (it has no "
                 f"constant '{constant}'); give it as --driver {name}=NUMBER, or in [driver] of the manoeuvre."
             )
     values = DriverSettings(**numbers)
@@ -94,7 +94,7 @@ def check_drivable(inputs: Collection[str], outputs: Collection[str], whose: str
 def driver_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> Driver | None:
     """The driver of a manoeuvre, who knows what the FMU tells of its car; None where inputs are given over time.
 
-    Raises `HostError` if the FMU is no car for a driver, or a setting is wrong or missing.
+    Raises `HostError` if the FMU is not a car for a driver, or a setting is wrong or missing.
     """
     if not manoeuvre.driver:
         return None

@@ -16,7 +16,7 @@ from hosts.common.numbers import Value
 INITIAL_SPEED = "initial.speed"
 """Parameter of a car that starts at a speed, m/s."""
 ON_TIME = 1e-9
-"""By which a row may miss the time that is meant, s."""
+"""Tolerance of times of rows, s."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Manoeuvre:
 
     name: str
     time: NDArray[np.float64]
-    """Shape (n,): s, not decreasing; a time that stands twice is a step."""
+    """Shape (n,): s, not decreasing; a time that occurs twice is a step."""
     inputs: dict[str, NDArray[np.float64]]
     """Each of shape (n,): values at `time`, linear in between, by variable name."""
     stop_time: float
@@ -52,7 +52,7 @@ class Manoeuvre:
         return self.at(0.0, held)
 
     def late_begin(self, acts: Collection[str] = ()) -> tuple[str, str] | None:
-        """What is told of a table that begins after 0 s. `acts`: inputs that a driver overrules."""
+        """The note on a table that begins after 0 s, or None. `acts`: inputs that a driver controls."""
         held = [f"{name} at {values[0]:g}" for name, values in self.inputs.items() if name not in acts]
         if not held or self.time[0] <= ON_TIME:
             return None
@@ -62,7 +62,7 @@ class Manoeuvre:
         """Inputs at time `t`; outside the table its ends.
 
         `t`: s; `held`: names of more inputs that keep the value of a row up to the next one, such as whole numbers;
-        `before`: whether, at a step, the value before it is meant, and not that behind it.
+        `before`: at a step, return the value before it instead of the one after it.
         """
         held = {*held, *self.held}
         # Times add up with rounding errors; a step must not be missed for them.
@@ -96,7 +96,7 @@ def _between(one: float, other: float, part: float) -> float:
 
 
 def digest(manoeuvre: Manoeuvre) -> str:
-    """A hash of all that a manoeuvre does, its table and its state included; its name does not count."""
+    """A hash of the content of a manoeuvre, its table and its state included, without its name."""
     m = manoeuvre
     told = m.stop_time, m.start, m.driver, m.state_time, m.find_throttle, sorted(m.held), list(m.inputs)
     parts = repr(told).encode(), m.time.tobytes(), m.state or b"", *(values.tobytes() for values in m.inputs.values())

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError, model_validator
 
 from ali3.near_names import did_you_mean
 from ali3.reading import LARGEST_TEXT, is_file, no_file, read_toml
+from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
-from hosts.common.numbers import text_of
+from hosts.common.numbers import Value, text_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_table import read_table
 from hosts.driving.manoeuvres import FOLDER, manoeuvre_names
@@ -23,7 +24,6 @@ from hosts.driving.state_file import read_state
 
 SUFFIXES = (".toml", ".csv")
 """Of files that hold manoeuvres."""
-_KEYS = ("stop_time", "held", "find_throttle", "start", "driver", "inputs", "state")
 
 
 def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
@@ -64,42 +64,63 @@ def check_manoeuvre(manoeuvre: str) -> None:
     raise HostError(f"There is no manoeuvre '{manoeuvre}'{near}")
 
 
+class _Typed(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class _State(_Typed):
+    file: str = Field(title="the name of a file beside it")
+    time: FiniteFloat = Field(title="a number, s")
+
+
+class _ManoeuvreFile(_Typed):
+    stop_time: FiniteFloat | None = Field(default=None, gt=0.0, title="a positive number, s")
+    held: list[str] = Field(default=[], title="a list of names of [inputs]")
+    find_throttle: bool = Field(default=False, title="true or false")
+    start: dict[str, Value] = Field(default={}, title="a table, values by names of variables")
+    driver: dict[str, Value] = Field(default={}, title="a table, settings of a driver")
+    inputs: dict[str, Annotated[list[FiniteFloat], Field(min_length=1, title="a list of numbers")]] = Field(
+        default={}, title="a table with lists of numbers: time, and inputs"
+    )
+    state: _State | None = Field(default=None, title="a table with the name of a file, and a time")
+
+    @model_validator(mode="after")
+    def _fits(self) -> _ManoeuvreFile:
+        if self.inputs and ("time" not in self.inputs or len(self.inputs) < 2):
+            raise ValueError(f"[inputs] has {', '.join(self.inputs)}; it must have time and inputs")
+        time = self.inputs.get("time", [])
+        for name, column in self.inputs.items():
+            if len(column) != len(time):
+                raise ValueError(f"inputs: '{name}' has {len(column)} values where time has {len(time)}")
+        if back := next(((a, b) for a, b in pairwise(time) if b < a), None):
+            raise ValueError(f"inputs: time goes back from {back[0]:g} s to {back[1]:g} s")
+        if odd := next((name for name in self.held if name == "time" or name not in self.inputs), None):
+            raise ValueError(f"held has '{odd}'; it must be a list of names of [inputs]")
+        if self.find_throttle and (self.driver or "throttle" in self.inputs):
+            what = "[driver]" if self.driver else "throttle in [inputs]"
+            raise ValueError(f"with find_throttle there is no {what}")
+        return self
+
+
 def _read_toml(path: Path) -> Manoeuvre:
-    content = read_toml(path, HostError, largest=LARGEST_TEXT)
-    unknown = next((key for key in content if key not in _KEYS), None)
-    if unknown is not None:
-        raise HostError(f"{path} has '{unknown}'; known are {', '.join(_KEYS)}.")
-    time, inputs = _inputs(_table(content, "inputs", path), path)
-    start = _table(content, "start", path)
-    for name, value in start.items():
-        _check(value, f"{path}, start value '{name}'")
-    driver = _table(content, "driver", path)
-    for name, value in driver.items():
-        _check(value, f"{path}, driver: {name}")
-    stop_time = float(time[-1]) if len(time) else math.nan
-    if "stop_time" in content:
-        stop_time = _number(content["stop_time"], f"{path}: stop_time")
-        if stop_time <= 0.0:
-            raise HostError(f"{path}: stop_time is {stop_time:g} s; it must be positive.")
-    words = {name: value if isinstance(value, str) else text_of(value) for name, value in driver.items()}
-    state = _state(_table(content, "state", path), path)
-    held = content.get("held", [])
-    if not isinstance(held, list) or any(not isinstance(name, str) or name not in inputs for name in held):
-        raise HostError(f"{path}: held must be a list of names of [inputs].")
-    find = content.get("find_throttle", False)
-    if not isinstance(find, bool):
-        raise HostError(f"{path}: find_throttle is {json.dumps(find, default=str)[:40]}; it must be true or false.")
-    if find and (words or "throttle" in inputs):
-        raise HostError(f"{path}: with find_throttle there is no {'[driver]' if words else 'throttle in [inputs]'}.")
-    return Manoeuvre(path.stem, time, inputs, stop_time, start, words, *state, frozenset(held), find)
-
-
-def _table(content: Mapping[str, Any], key: str, path: Path) -> dict[str, Any]:
-    """A table by whole names: ``initial.speed = 1`` is a table ``initial`` for TOML."""
-    table = content.get(key, {})
-    if not isinstance(table, dict):
-        raise HostError(f"{path}: {key} must be a table, [{key}].")
-    return dict(_whole(table))
+    # ``initial.speed = 1`` is a table ``initial`` for TOML
+    content = {
+        key: dict(_whole(value)) if isinstance(value, dict) else value
+        for key, value in read_toml(path, HostError, largest=LARGEST_TEXT).items()
+    }
+    try:
+        given = _ManoeuvreFile.model_validate(content)
+    except ValidationError as error:
+        raise HostError(f"{path}: {Sentences(_ManoeuvreFile, content).of(error)[0]}") from None
+    inputs = {name: np.array(column, dtype=np.float64) for name, column in given.inputs.items()}
+    time = inputs.pop("time", np.zeros(0))
+    stop_time = given.stop_time or (float(time[-1]) if len(time) else math.nan)
+    words = {name: value if isinstance(value, str) else text_of(value) for name, value in given.driver.items()}
+    state: tuple[bytes | None, float] = None, 0.0
+    if given.state is not None:
+        state = read_state(path.parent, given.state.file, str(path)), given.state.time
+    held = frozenset(given.held)
+    return Manoeuvre(path.stem, time, inputs, stop_time, given.start, words, *state, held, given.find_throttle)
 
 
 def _whole(table: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
@@ -108,42 +129,3 @@ def _whole(table: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
             yield from ((f"{key}.{rest}", inner) for rest, inner in _whole(value))
         else:
             yield key, value
-
-
-def _inputs(table: Mapping[str, Any], path: Path) -> tuple[NDArray[np.float64], dict[str, NDArray[np.float64]]]:
-    if not table:
-        return np.zeros(0), {}
-    if "time" not in table or len(table) < 2:
-        raise HostError(f"{path}: [inputs] has {', '.join(table)}; it must have time and inputs.")
-    columns = {}
-    for name, values in table.items():
-        if not isinstance(values, list) or not values:
-            raise HostError(f"{path}, inputs: '{name}' must be a list of numbers.")
-        columns[name] = np.array([_number(value, f"{path}, inputs: '{name}'") for value in values])
-    for name, column in columns.items():
-        if len(column) != len(columns["time"]):
-            raise HostError(f"{path}, inputs: '{name}' has {len(column)} values where time has {len(columns['time'])}.")
-    time = columns.pop("time")
-    back = np.flatnonzero(np.diff(time) < 0.0)
-    if len(back):
-        raise HostError(f"{path}, inputs: time goes back from {time[back[0]]:g} s to {time[back[0] + 1]:g} s.")
-    return time, columns
-
-
-def _number(value: Any, where: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise HostError(f"{where}: {json.dumps(value, default=str)[:40]} is not a number.")
-    return float(value)
-
-
-def _check(value: Any, where: str) -> None:
-    if not isinstance(value, (bool, int, float, str)):
-        raise HostError(f"{where}: it must be a number, true, false or a text.")
-
-
-def _state(table: Mapping[str, Any], path: Path) -> tuple[bytes | None, float]:
-    if not table:
-        return None, 0.0
-    if set(table) != {"file", "time"} or not isinstance(table["file"], str):
-        raise HostError(f"{path}: [state] must have the name of a file and a time.")
-    return read_state(path.parent, table["file"], str(path)), _number(table["time"], f"{path}, time of the state")

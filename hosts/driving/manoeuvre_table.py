@@ -58,7 +58,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
         if len(rows) > 1 and rows[-1][0] < rows[-2][0]:
             raise HostError(f"{path}, line {row.line}: time goes back from {rows[-2][0]:g} s to {rows[-1][0]:g} s.")
     if not rows:
-        raise HostError(f"{path} holds no values; it needs a heading and at least one row.")
+        raise HostError(f"{path} contains no values; it needs a heading and at least one row.")
     check_begin(rows[0][0], rows[-1][0], path)
     record = record_of(path)
     recorded, start, held, state = record.outputs_from, dict(record.start), record.held, record.state
@@ -85,7 +85,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
             held = {name.strip() for name in rest.split(",")}
         elif rest and (meant := near_names(key.strip(), _KEYS, 1, LIKE)):
             raise HostError(
-                f"{where}: {brief(key.strip() + ':')} is no key of a table; did you mean '{meant[0]}:'? In a remark "
+                f"{where}: {brief(key.strip() + ':')} is not a key of a table; did you mean '{meant[0]}:'? In a remark "
                 "leave the colon out."
             )
     if recorded and recorded not in names[1:]:
@@ -102,7 +102,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     columns = {name: values[:, k] for k, name in enumerate(inputs, start=1) if known is None or name in known}
     kept = frozenset(inputs if held is None and recorded else held or ())
     if not kept <= set(inputs):
-        raise HostError(f"{path}: {brief(min(kept - set(inputs)))} is said to be held and is no input of the table.")
+        raise HostError(f"{path}: {brief(min(kept - set(inputs)))} is listed as held but is not an input of the table.")
     start = {name: value for name, value in (start | given).items() if name not in columns}
     return Manoeuvre(
         path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept & set(columns), step=step

@@ -74,7 +74,7 @@ class Result:
         return f"the FMU refused the step at {self.simulated:.5g} s{said}"
 
     def not_finite(self) -> str:
-        """The first value that is no number, in a sentence; empty where all are."""
+        """The first value that is not a number, in a sentence; empty where all are."""
         wrong = ~np.isfinite(self.values)
         if not wrong.any():
             return ""
@@ -86,7 +86,7 @@ class Result:
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         if name not in self.names:
-            raise HostError(f"The car does not tell {name}.")
+            raise HostError(f"The car does not provide {name}.")
         return np.asarray(self.values[:, self.names.index(name)])
 
     def continuous(self, name: str) -> NDArray[np.float64]:

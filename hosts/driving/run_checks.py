@@ -47,8 +47,8 @@ def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | No
 def steps_of(interval: float, step: float, what: str) -> int:
     """How many communication steps an interval has.
 
-    `interval`, `step`: in s; `what`: how messages call the interval. Raises `HostError`: it is no whole multiple of the
-    step.
+    `interval`, `step`: in s; `what`: how messages call the interval. Raises `HostError`: it is not a whole multiple of
+    the step.
     """
     every = round(interval / step) if math.isfinite(interval) else 0
     if every < 1 or abs(every * step - interval) > 1e-6 * interval:
@@ -58,8 +58,8 @@ def steps_of(interval: float, step: float, what: str) -> int:
 
 
 def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
-    """Refuse a table with a column that is no input and no tunable parameter of the FMU, not of its kind, or beyond
-    its range, and a table that begins after the end of the run.
+    """Refuse a table with a column that is neither an input nor a tunable parameter of the FMU, not of its kind, or
+    beyond its range, and a table that begins after the end of the run.
 
     Raises `HostError` with the column, and what it would have to be.
     """
@@ -78,7 +78,7 @@ def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
             )
         if name not in inputs and name not in tunable:
             raise HostError(
-                f"{what}, which is no input of {fmu.path.name}; its inputs are: {', '.join(inputs) or 'none'}"
+                f"{what}, which is not an input of {fmu.path.name}; its inputs are: {', '.join(inputs) or 'none'}"
                 f"{f'; a tunable parameter, such as {tunable[0]}, can be a column too' if tunable else ''}. "
                 "Where an input has another name, an alias file says which (--aliases)."
             )

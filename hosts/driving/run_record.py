@@ -73,4 +73,4 @@ def record_of(path: Path) -> RunRecord:
         begun = saved[0], float(saved[1])
         return RunRecord(first, start, set(held), jumps, begun, float(step), interval, tuple(lost))
     except (AttributeError, KeyError, TypeError, ValueError):
-        raise HostError(f"{file} is no whole record of the run whose result is {path.name}; run it again.") from None
+        raise HostError(f"{file} is not a whole record of the run whose result is {path.name}; run it again.") from None

@@ -32,7 +32,7 @@ _Tried: TypeAlias = int | None
 """How many workers have ended with a chunk that is sent once more; None: it is sent for the first time."""
 _LOST_WITH_WORKERS = (
     "was lost with its worker {} times, the last ones with no other run beside it: it may need more memory than a "
-    "worker has (--memory-limit and --nthreads of dask worker); --again makes it again"
+    "worker has (--memory-limit and --nthreads of dask worker); --again repeats it"
 )
 
 
@@ -146,10 +146,11 @@ class ClusterRuns(Closing, Generic[T, R]):
                 results = [Lost(_LOST_WITH_WORKERS.format(killed))]
         except WrongWorkerError:
             raise
-        except (CancelledError, OSError) as error:
-            self._flying[future] = chunk, tried
-            raise SchedulerLostError from error
         except Exception as error:
+            # of a worker an error is the chunk's, of whatever kind
+            if isinstance(error, (CancelledError, OSError)) and future.status != "error":
+                self._flying[future] = chunk, tried
+                raise SchedulerLostError from error
             if tried is None:
                 self._suspects.append((chunk, 0))
             else:

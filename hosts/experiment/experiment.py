@@ -77,7 +77,7 @@ class Experiment(Generic[T, R]):
         """Make runs under a bar; give each result with its task and the number of that, from 0, as soon as it is there.
 
         `runner`: is closed with the iteration; `told`: called with the number of a task and how much of it is done;
-        `whole`, `before`: sizes of all tasks, where `tasks` is no sequence, and of those that are done already.
+        `whole`, `before`: sizes of all tasks, where `tasks` is not a sequence, and of those that are done already.
         """
         if whole is None:
             tasks = list(tasks)

@@ -1,4 +1,4 @@
-"""What the outcome of a run depends on, as a key under which it is kept."""
+"""The key under which the outcome of a run is stored: a hash of everything that it depends on."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from hosts.common.program import program_digest
 
 
 def run_key(fmu: Path, *told: object, files: Iterable[Path] = ()) -> str:
-    """A hash of the content of an FMU, of what a run is told, by its `repr`, and of the program.
+    """A hash of the content of an FMU, of the settings of a run (their `repr`), and of the program.
 
-    `files`: whose content counts too, such as roads; those that are not there count by their names in `told` alone.
+    `files`: other files that a run reads, such as roads; missing ones count by their names in `told` alone.
     """
     contents = [_file_hash(file, (state := file.stat()).st_size, state.st_mtime_ns) for file in _there(fmu, files)]
     return hashlib.sha256(f"{contents} {told!r} {program_digest()}".encode()).hexdigest()

@@ -98,4 +98,4 @@ class Kept(Closing, Generic[R]):
 def tell_kept(there: int, of: int, what: str) -> None:
     """Say how many results need not be made again; `what`: they are, such as ``tests``."""
     if there:
-        print(f"{there} of {of} {what} are there; --again makes them again.", flush=True)
+        print(f"{there} of {of} {what} are there; --again repeats them.", flush=True)

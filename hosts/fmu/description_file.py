@@ -94,11 +94,11 @@ class _Bounds:
         self._parser.StartDoctypeDeclHandler = self._doctype
 
     def check(self, content: bytes) -> None:
-        """Raises `HostError`: it is no XML, or too deep, or has too many elements."""
+        """Raises `HostError`: it is not XML, or too deep, or has too many elements."""
         try:
             self._parser.Parse(content, True)
         except expat.ExpatError as error:
-            self._refuse(f"is no XML that can be read ({error})")
+            self._refuse(f"is not readable XML ({error})")
         except (ValueError, LookupError) as error:
             self._refuse(f"is in an encoding that is not read ({one_line(str(error))})")
 

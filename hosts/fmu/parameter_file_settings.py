@@ -16,7 +16,7 @@ from hosts.fmu.variables import Variable, Variables, kind_words
 def settings_of_file(file: Path, variables: Variables) -> list[Setting]:
     """Values of an SSV file.
 
-    Raises `HostError`: a name, value, kind or unit is wrong. Raises `ParameterSetError`: the file is no parameter set.
+    Raises `HostError`: a name, value, kind or unit is wrong. Raises `ParameterSetError`: it is not a parameter set.
     """
     parameters = read_parameter_set(file)
     return [_of_entry(entry, parameters, variables, file.name) for entry in parameters.entries]

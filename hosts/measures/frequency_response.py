@@ -79,7 +79,8 @@ def frequency_response(
         )
     if not 0.0 < frequency[0] <= frequency[-1] < 0.5 / interval:
         raise ValueError(
-            f"Responses at {frequency[0]:g} to {frequency[-1]:g} Hz cannot be had from samples each {interval:g} s."
+            f"Responses at {frequency[0]:g} to {frequency[-1]:g} Hz cannot be obtained from samples each {interval:g} "
+            "s."
         )
     # zeros behind the record make its lines closer than the bands are wide
     padded = 4 * len(given)

@@ -31,7 +31,7 @@ def _wheels(result: Result, quantity: str) -> NDArray[np.float64]:
     """A quantity of the four wheels, shape (n, 4). Raises `HostError` where a wheel lacks it."""
     values = at_wheels(result, quantity)
     if values is None:
-        raise HostError(f"The car does not tell wheel_{WHEELS[0]}.{quantity} and its like.")
+        raise HostError(f"The car does not provide wheel_{WHEELS[0]}.{quantity} and the like.")
     return values
 
 

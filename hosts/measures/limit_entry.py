@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, TypeAlias
-
-from pydantic import BaseModel, ConfigDict, Field, model_validator
-
-Number: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, model_validator
 
 
 class LimitEntry(BaseModel):
@@ -14,8 +10,8 @@ class LimitEntry(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
-    min: Number | None = Field(default=None, title="a number, the least value")
-    max: Number | None = Field(default=None, title="a number, the largest value")
+    min: FiniteFloat | None = Field(default=None, title="a number, the least value")
+    max: FiniteFloat | None = Field(default=None, title="a number, the largest value")
     unit: str | None = Field(default=None, title="the unit of these numbers, as text; default: that of the measure")
 
     @model_validator(mode="before")

@@ -172,7 +172,7 @@ class Car(Closing):
         Raises
         ------
         HostError
-            They are no numbers or not as many, or one is refused; nothing has changed then.
+            They are not numbers or not as many, or one is refused; nothing has changed then.
         hosts.fmu.fmu.StepRefusedError
             The FMU refused the step; the state before it is kept.
         """
@@ -231,7 +231,7 @@ class Car(Closing):
         """
         self._check_open()
         if not (isinstance(saved, Saved) and isinstance(saved.content, bytes) and is_finite(saved.time)):
-            raise HostError(f"{brief(saved)} is no state of a car; save() gives one.")
+            raise HostError(f"{brief(saved)} is not a state of a car; save() gives one.")
         self.fmu.restore_bytes(saved.content)
         self._steps = saved.steps
         self._start_time = saved.time - saved.steps * self.step_length

@@ -32,7 +32,7 @@ class Lane:
     Raises
     ------
     HostError
-        They are no line, or the width is no positive number.
+        They are no line, or the width is not a positive number.
     """
 
     def __init__(self, points: ArrayLike, width: float = 3.5) -> None:

@@ -127,13 +127,13 @@ class LapDriver:
     Raises
     ------
     HostError
-        The car does not tell its dimensions.
+        The car does not provide its dimensions.
     """
 
     def __init__(self, environment: ProvingGroundLap, speed: float) -> None:
         constants = environment.car.fmu.constants()
         if missing := [name for name in CONSTANTS.values() if name not in constants]:
-            raise HostError(f"The driver needs constants that the car does not tell: {', '.join(missing)}.")
+            raise HostError(f"The driver needs constants that the car does not provide: {', '.join(missing)}.")
         known = {name: constants[constant] for name, constant in CONSTANTS.items()}
         self.environment, wanted = environment, positive(speed, "The speed of the driver", "m/s")
         self.driver = CourseFollower(_Straightened(environment.lane), DriverSettings(speed=wanted, **known))

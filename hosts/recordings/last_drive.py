@@ -85,7 +85,7 @@ def _path(drive: RecordedDrive) -> list[_Row]:
 def recorded_manoeuvre(folder: Path) -> Manoeuvre:
     """The last drive of a recording as a manoeuvre; where it begins with a saved state, so does the manoeuvre.
 
-    Raises `HostError`: it is no recording, or there is no step in it.
+    Raises `HostError`: it is not a recording, or there is no step in it.
     """
     drive = read_recording(folder)
     last = last_drive(drive)

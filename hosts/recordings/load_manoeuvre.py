@@ -24,6 +24,6 @@ def load_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
 
 
 def check_asked(given: str | None) -> None:
-    """Refuse a word that is no manoeuvre, before an FMU is built for it. `given`: as of `load_manoeuvre`, if any."""
+    """Refuse a word that is not a manoeuvre, before an FMU is built for it. `given`: as of `load_manoeuvre`, if any."""
     if given is not None and not is_recording(Path(given)):
         check_manoeuvre(given)

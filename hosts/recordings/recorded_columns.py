@@ -22,7 +22,7 @@ def recorded_columns(
     the amplitudes of flexible parts, about every 25 ms, others at every fourth of these rows.
 
     `step`: communication step, s; `interval`: of all outputs, s, a whole multiple of the step. Raises `HostError`: the
-    interval is no whole multiple of the step.
+    interval is not a whole multiple of the step.
     """
     every = dict.fromkeys(inputs, 1)
     if interval is not None:

@@ -185,16 +185,16 @@ class RecordedDrive:
 def read_recording(folder: Path) -> RecordedDrive:
     """Read a recording; its rows are read when they are asked for. `folder`: or its file `recording.json`.
 
-    Raises `HostError`: it is no recording; one sentence with the file and the reason.
+    Raises `HostError`: it is not a recording; one sentence with the file and the reason.
     """
     folder = folder.parent if folder.name == DESCRIPTION else folder
     file = folder / DESCRIPTION
     if not file.is_file():
-        what = "has no" if folder.is_dir() else "is no folder with a"
+        what = "has no" if folder.is_dir() else "is not a folder with a"
         raise HostError(f"{folder} {what} {DESCRIPTION}; name the folder of a recording.")
     meta = read_json(file, HostError)
     if not isinstance(meta, dict) or meta.get("format") != FORMAT:
-        raise HostError(f"{file} is no recording of the simulator: its format is not {FORMAT!r}.")
+        raise HostError(f"{file} is not a recording of the simulator: its format is not {FORMAT!r}.")
     if meta.get("version") != VERSION:
         raise HostError(f"{file} is a recording of version {brief(meta.get('version'))}; this program reads {VERSION}.")
     for key, kind in _KEYS.items():
@@ -222,5 +222,5 @@ def _events(file: Path) -> list[dict[str, Any]]:
         found = event if isinstance(event, dict) else {}
         words = isinstance(found.get("kind"), str) and isinstance(found.get("text"), str)
         if not words or not isinstance(found.get("time"), (int, float)):
-            raise HostError(f"{file}, line {k} is no event: it needs a kind, a time and a text.")
+            raise HostError(f"{file}, line {k} is not an event: it needs a kind, a time and a text.")
     return events

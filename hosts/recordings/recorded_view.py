@@ -38,7 +38,7 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     told = list(drive.notes)
     count = sum(len(rows) for rows in drive.shown())
     if not count:
-        raise HostError(f"{folder} holds no row yet.")
+        raise HostError(f"{folder} contains no rows yet.")
     every = 1  # doubled, so that rows with the seldom outputs stay among those that are read
     while count * len(drive.names) > every * _MOST_VALUES:
         every *= 2

@@ -67,7 +67,7 @@ def recording_meta(
     Raises
     ------
     HostError
-        It is no FMU.
+        It is not an FMU.
     """
     description = described(fmu)
     causalities = [v.causality for v in description.modelVariables if v.type in ("Real", "Integer")]

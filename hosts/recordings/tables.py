@@ -108,7 +108,7 @@ def parquet_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:
     try:
         with opened_parquet(file, by_parts=True) as table:
             if not all(pa.types.is_floating(f.type) or pa.types.is_integer(f.type) for f in table.schema_arrow):
-                raise HostError(f"{file} is no table of a recording: a column does not hold numbers.")
+                raise HostError(f"{file} is not a table of a recording: a column does not hold numbers.")
             _check_names(file, table.schema_arrow.names, names)
             for batch in table.iter_batches(_BLOCK):
                 time, count, epoch, *values = (column.to_numpy(zero_copy_only=False) for column in batch.columns)
@@ -126,7 +126,7 @@ def _csv_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:
     full = (row._replace(cells=row.cells[:keys] + [cell or "nan" for cell in row.cells[keys:]]) for row in rows)
     while block := [table.numbers(row, finite=False) for row in islice(full, _BLOCK)]:
         if not (np.abs([line[:keys] for line in block]) < 2.0**53).all():  # that are whole numbers for sure
-            raise HostError(f"{file}: a time, count or epoch is no number that a recording has.")
+            raise HostError(f"{file}: a time, count or epoch is not a number that a recording has.")
         yield _of_lines(block)
 
 

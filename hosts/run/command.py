@@ -42,7 +42,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
         default=[],
         type=_driver_setting,
         metavar="NAME=VALUE",
-        help="a setting of the manoeuvre's driver, such as wheelbase=2.6 where the FMU does not tell it; repeatable",
+        help="a setting of the manoeuvre's driver, such as wheelbase=2.6 where the FMU does not provide it; repeatable",
     )
     parser.add_argument(
         "--kerb",
@@ -67,7 +67,7 @@ def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
     given = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "aliases", "road", "driver"))
     if given:
-        raise HostError(f"{given[0]} does not go with --kerb, which says what is driven.")
+        raise HostError(f"{given[0]} cannot be combined with --kerb, which defines the drive.")
     if options.fmu is not None and is_car(options.fmu):
         raise HostError(
             f"--kerb runs the scene kerb_test; --manoeuvre kerb_drop drives the car {options.fmu} down a kerb."

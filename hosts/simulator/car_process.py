@@ -58,7 +58,7 @@ def run_car(order: Order, tell: Callable[[str], None]) -> None:
         loop.run()
     except Exception as error:
         traceback.print_exc()
-        raise HostError(f"The car's process met an error of its own ({type(error).__name__}: {error}).") from error
+        raise HostError(f"The car's process met an internal error ({type(error).__name__}: {error}).") from error
     finally:
         car.close()
 

@@ -73,7 +73,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(parser, "--interval", "about 0.025 of what is drawn, 0.1 of other outputs; inputs at every step")
     add_option(parser, "--json")
     page = parser.add_argument_group("with a page")
-    page.add_argument("--port", type=int, metavar="N", help="of the server; default: the first free one from 8765 on")
+    page.add_argument("--port", type=int, metavar="N", help="port of the server; default: the first free from 8765 on")
     page.add_argument(
         "--listen",
         default=_LOCAL,
@@ -88,8 +88,8 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     add_option(alone, "--manoeuvre")
     add_option(alone, "--seed")
     recorded = parser.add_argument_group("recordings")
-    recorded.add_argument("--recording", type=Path, metavar="DIR", help="of --record: say what it holds")
-    recorded.add_argument("--replay", action="store_true", help="repeat it in the FMU and compare every bit")
+    recorded.add_argument("--recording", type=Path, metavar="DIR", help="a recording: print its content")
+    recorded.add_argument("--replay", action="store_true", help="repeat the recording in the FMU and compare every bit")
     recorded.add_argument(
         "--save-manoeuvre", type=Path, metavar="FILE.csv", help="write its last drive as a manoeuvre for ali3 run"
     )

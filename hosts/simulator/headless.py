@@ -46,7 +46,7 @@ class OfManoeuvre:
     def __init__(self, manoeuvre: Manoeuvre, car: AliasedCar) -> None:
         if (unknown := next((name for name in manoeuvre.inputs if name not in car.inputs), None)) is not None:
             raise HostError(
-                f"The manoeuvre '{manoeuvre.name}' has a column '{unknown}', which is no input of this FMU; the "
+                f"The manoeuvre '{manoeuvre.name}' has a column '{unknown}', which is not an input of this FMU; the "
                 f"simulator moves inputs only: {', '.join(car.inputs) or 'none'}."
             )
         if manoeuvre.find_throttle:
@@ -122,7 +122,7 @@ def run_headless(car: AliasedCar, driver: HeadlessDriver, seconds: float, tell: 
                 if moment.count != last:
                     last, since = moment.count, now
                 elif now - since > _STILL:
-                    raise HostError(f"The car has computed no step for {_STILL:g} s; the run is given up.")
+                    raise HostError(f"The car has computed no step for {_STILL:g} s; the run is aborted.")
                 _act(car, driver, places)
                 time.sleep(_PERIOD)
     finally:

@@ -12,7 +12,7 @@ from hosts.simulator.driven_fmu import DrivenFmu, Told
 from hosts.simulator.step_times import TimesRecord
 
 NOT_FINITE = "not finite"
-"""Kind of what is said of a value that is no number."""
+"""Kind of what is said of a value that is not a number."""
 _EVERY = 1.0
 _WORTH = 1e-4
 """Of a residual that is left nothing is said up to here, m."""
@@ -41,7 +41,7 @@ class Notices:
             self._before = float(car.values[self._capped])
 
     def of_step(self, car: DrivenFmu) -> list[Told]:
-        """What is to be said after this step; that a value is no number, once."""
+        """What is to be said after this step; that a value is not a number, once."""
         if self._zeros is not None and np.dot(car.values, self._zeros) != 0.0:  # NaN, of an infinite one too
             self._zeros = None
             place = int(np.flatnonzero(~np.isfinite(car.values))[0])

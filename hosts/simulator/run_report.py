@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ali3.files import write_text
+from ali3.files import write_json
 from hosts.simulator.notices import NOT_FINITE
 from hosts.simulator.process_messages import RECORDING_CUT
 
@@ -84,9 +83,9 @@ class RunReport:
         self.tell(times.text())
         if self._kinds:
             told = ", ".join(f"{kind} {count}" for kind, count in sorted(self._kinds.items()))
-            self.tell(f"what was said: {told}")
+            self.tell(f"messages: {told}")
         if file is not None:
             self._figures |= {"seconds since the start": self._marks, "steps": times.report()}
             self._figures |= {"events": self._events, "event counts": dict(self._kinds)}
-            write_text(file, json.dumps(self._figures, indent=1, allow_nan=False) + "\n")
+            write_json(file, self._figures)
             self.tell(f"report: {file}")

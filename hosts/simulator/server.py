@@ -262,7 +262,7 @@ class Server:
                 self._tell_all("told", self._car.latest().time, self._said.popleft())
             for page in list(self._pages.values()):
                 if page.stalls():
-                    self._let_go(page, "says nothing any more")
+                    self._let_go(page, "no longer sends messages")
             shown = self._show_devices(shown)
             await asyncio.sleep(_PUMP_PERIOD)
 

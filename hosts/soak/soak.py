@@ -88,7 +88,7 @@ def _files(task: Task) -> list[Path]:
 
 
 def _driven(tasks: Sequence[Task], outcomes: list[Outcome], left: Sequence[int], jobs: int) -> Generator[int]:
-    """Make the drives at these places; gives the place of each that came to its end.
+    """Make the drives at these places; gives the place of each that reached its end.
 
     Of one that did not, its outcome has the seconds that it was driven.
     """

@@ -110,12 +110,12 @@ def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
 def world_ground(name: str, folder: Path) -> Ground:
     """The road of a world, by ``ali3 road --world``; its places are driven at.
 
-    Raises `HostError`: it is no world; with the words of ``ali3 road --world``.
+    Raises `HostError`: it is not a world; with the words of ``ali3 road --world``.
     """
     run_ali3("road", "--world", name, "--out", str(make_folder(folder)))
     files = sorted(folder.glob("*.json"), key=lambda file: file.stat().st_mtime)
     if not files:
-        raise HostError(f"{name} is no world.")
+        raise HostError(f"{name} is not a world.")
     world = read_json(files[-1], HostError)
     places = tuple(Target(place["x"], place["y"], place["yaw"]) for place in world["places"])
     return Ground(str((folder / world["road"]).absolute()), places)

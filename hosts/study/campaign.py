@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time as clock
-from collections.abc import Generator, Mapping
+from collections.abc import Generator
 from contextlib import ExitStack, closing, nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
@@ -35,7 +35,7 @@ from hosts.study.folder import (
     read_record,
 )
 from hosts.study.outcome_table import OutcomeTable, Row
-from hosts.study.parts import forget_rows, part_files, runs_done
+from hosts.study.parts import part_files
 from hosts.study.plan import Plan, make_plan
 from hosts.study.study_file import StudyFile, read_study_file
 from hosts.study.study_runs import experiment_of, outcome_of, tell_start
@@ -86,23 +86,25 @@ def run_study(
         check_same(folder, before, plan.record)
         plan = _with_limits(plan, study)
     with nullcontext() if dry else Kept[Row](folder, Row, "runs a study") as kept:
-        if before is not None and not dry:
-            from hosts.study.damaged_files import set_damaged_aside
+        done = np.zeros(plan.runs, dtype=np.bool_)
+        if before is not None and kept is not None:
+            from hosts.study.damaged_files import sound_runs
 
-            for line in set_damaged_aside(folder, before):
+            done, told = sound_runs(folder, before)
+            for line in told:
                 print(f"note: {line}", file=sys.stderr)
-        if before is not None and kept is not None and not again and runs_done(folder, before).all():
-            kept.clear()  # a kill between a table and its journal leaves both
-            keep_limits(folder, before, plan.record["limits"], content)
-            print(f"{plan.runs} of {plan.runs} runs are there: {folder}")
-            return Ended(folder, True, 0)
+            if not again and done.all():
+                kept.clear()  # a kill between a table and its journal leaves both
+                keep_limits(folder, before, plan.record["limits"], content)
+                print(f"{plan.runs} of {plan.runs} runs are there: {folder}")
+                return Ended(folder, True, 0)
         trial = try_out(plan)
         for note in trial.notes:
             print(f"note: {note}", file=sys.stderr)
         plan = _with_limits(with_columns(plan, trial.columns), study)
         plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
         _print_plan(plan, trial, folder, scheduler, workers)
-        return None if kept is None else _run(plan, trial, folder, content, scheduler, workers, again, kept)
+        return None if kept is None else _run(plan, trial, folder, content, scheduler, workers, again, kept, done)
 
 
 def _before(folder: Path) -> dict[str, Any] | None:
@@ -188,6 +190,7 @@ def _run(
     workers: int | None,
     again: bool,
     kept: Kept[Row],
+    done: NDArray[np.bool_],
 ) -> Ended:
     record = read_record(folder)
     if record is None:
@@ -197,22 +200,18 @@ def _run(
     else:
         check_same(folder, record, plan.record)
         record = keep_limits(folder, record, plan.record["limits"], content)
-    kept.into(OutcomeTable(folder, record))
+    table = OutcomeTable(folder, record, done)
+    kept.into(table)
     if again:
-        failed = forget_rows(folder, record, _has_not_failed)
-        print(f"{failed} failed runs are made again")
-    done = runs_done(folder, record)
-    before = int(np.count_nonzero(done))
+        failed = table.forget(lambda part: part["status"].to_numpy() == FAILED)
+        print(f"{failed} failed runs are repeated")
+    before = int(np.count_nonzero(table.done))
     if before:
         print(f"{before} of {plan.runs} runs are there", flush=True)
         _check_space(bytes_of(plan) * (plan.runs - before) / plan.runs, folder)
     if before == plan.runs:
         return Ended(folder, True, 0)
-    return _make(folder, record, kept, _outcomes(plan, trial, done, scheduler, workers), scheduler)
-
-
-def _has_not_failed(table: Any) -> list[bool]:
-    return [status != FAILED for status in table["status"].to_pylist()]
+    return _make(folder, table, kept, _outcomes(plan, trial, table.done.copy(), scheduler, workers), scheduler)
 
 
 def _check_space(needed: float, folder: Path) -> None:
@@ -226,7 +225,7 @@ def _check_space(needed: float, folder: Path) -> None:
 
 def _make(
     folder: Path,
-    record: dict[str, Any],
+    table: OutcomeTable,
     kept: Kept[Row],
     outcomes: Generator[Row],
     scheduler: str | None,
@@ -245,10 +244,10 @@ def _make(
                 raise
         kept.write()
     except KeyboardInterrupt:
-        print(_kept(folder, record), file=sys.stderr)
+        print(_kept(table.done), file=sys.stderr)
         raise
     except FileError as error:
-        raise FileError(f"{error} {_kept(folder, record)}") from None
+        raise FileError(f"{error} {_kept(table.done)}") from None
     except HostError:
         raise
     except Exception:  # of processes that were killed Dask raises many kinds
@@ -256,8 +255,8 @@ def _make(
             raise
         lost = True
     seconds = clock.monotonic() - begin
-    if lost and not runs_done(folder, record).all():
-        print(f"The scheduler at {scheduler} has gone. {_kept(folder, record)}", file=sys.stderr)
+    if lost and not table.done.all():
+        print(f"The scheduler at {scheduler} has gone. {_kept(table.done)}", file=sys.stderr)
         return Ended(folder, False, counts.failed)
     rate = counts.made / seconds
     words = f"{counts.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {counts.failed} failed"
@@ -322,6 +321,5 @@ def on_cluster(client: Any, plan: Plan, trial: Trial, left: int) -> ClusterRuns[
     return ClusterRuns(client, brought, left, size)
 
 
-def _kept(folder: Path, record: Mapping[str, Any]) -> str:
-    count, runs = int(np.count_nonzero(runs_done(folder, record))), record["runs"]
-    return f"{count} of {runs} runs are written and stay; the same command makes the others."
+def _kept(done: NDArray[np.bool_]) -> str:
+    return f"{np.count_nonzero(done)} of {len(done)} runs are written and stay; the same command makes the others."

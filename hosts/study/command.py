@@ -26,18 +26,18 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 study") -> in
         metavar="ADDRESS",
         help="a scheduler of Dask, tls://HOST:PORT with the certificates of its configuration; default: workers here",
     )
-    add_option(parser, "--jobs", "as there are cores that it may use")
-    parser.add_argument("--dry-run", action="store_true", help="check all, print the plan and stop")
+    add_option(parser, "--jobs", "the number of available cores")
+    parser.add_argument("--dry-run", action="store_true", help="check everything, print the plan and stop")
     add_option(parser, "--confined")
-    add_option(parser, "--again", "runs that failed are kept as failed")
-    parser.add_argument("--run", type=int, metavar="INDEX", help="print the commands that repeat a run of the results")
+    add_option(parser, "--again", "failed runs are not repeated")
+    parser.add_argument("--run", type=int, metavar="INDEX", help="print the commands that repeat a run")
     both = argparse.BooleanOptionalAction
-    parser.add_argument("--report", action=both, help="only write the report of the results; or none at the end")
+    parser.add_argument("--report", action=both, help="write only the report of existing results; or write none")
     parser.add_argument(
         "--target",
         action="append",
         metavar="MEASURE=VALUE",
-        help="find the value of a parameter that gives this, such as 'understeer_gradient=1.3 deg/g', by few runs",
+        help="find the value of a parameter that gives a measure, such as 'understeer_gradient=1.3 deg/g', by few runs",
     )
     parser.add_argument("--by", metavar="PARAMETER", help="the parameter of --target")
     parser.add_argument(
@@ -57,7 +57,7 @@ def _study(options: argparse.Namespace, prog: str) -> int:
     if options.jobs is not None and options.scheduler is not None:
         raise HostError("--jobs are processes of this machine, --scheduler has its own; give one of them.")
     if options.by is not None or options.between is not None:
-        raise HostError("--by and --between go with --target MEASURE=VALUE.")
+        raise HostError("--by and --between need --target MEASURE=VALUE.")
     if options.run is not None:
         return _repeat(options)
     if options.report:
@@ -92,7 +92,7 @@ def _target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int
 
     others = given_of(parser, options, ("scheduler", "jobs", "dry_run", "again", "run", "report"))
     if others:
-        raise HostError(f"{others[0]} does not go with --target, which makes its own runs.")
+        raise HostError(f"{others[0]} cannot be combined with --target, which makes its own runs.")
     if len(options.target) > 1:
         told = " and ".join(options.target)
         raise HostError(f"--target is given {len(options.target)} times, {told}; one parameter meets one value.")

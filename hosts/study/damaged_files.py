@@ -6,7 +6,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from hosts.study.parts import DamagedPartError, part_files, read_part, read_signals
+import numpy as np
+from numpy.typing import NDArray
+
+from hosts.study.parts import DamagedPartError, marked, part_files, read_part, read_signals
 
 
 def check_signals(folder: Path, record: Mapping[str, Any]) -> None:
@@ -15,24 +18,32 @@ def check_signals(folder: Path, record: Mapping[str, Any]) -> None:
         read_signals(file, record)
 
 
-def set_damaged_aside(folder: Path, record: Mapping[str, Any]) -> list[str]:
-    """Take what is damaged out of a study, and the rows of its runs, so that they are made again; a sentence for each.
+def sound_runs(folder: Path, record: Mapping[str, Any]) -> tuple[NDArray[np.bool_], list[str]]:
+    """Which runs have a row, and signals where the study keeps some.
 
-    A part of the table stays under a name that no reader takes for a part.
+    What is damaged is taken out of the study, so that its runs are repeated: a part of the table stays under a name
+    that no reader takes for a part. Raises `HostError`: a part has a row that no study has.
+
+    Returns
+    -------
+    ndarray of bool of shape (runs,)
+    list of str
+        What was taken out, a sentence for each.
     """
-    told = []
+    done, told = np.zeros(record["runs"], dtype=np.bool_), []
     for file in part_files(folder):
         try:
-            read_part(file, record)
+            table = read_part(file, record)
         except DamagedPartError as error:
             aside = file.replace(file.with_name(f".damaged-{file.name}"))
-            told.append(f"{error.file} is damaged ({error.words}); its runs are made again, it is kept as {aside}.")
-            continue
-        if not record["signals"]:
+            told.append(f"{error.file} is damaged ({error.words}); its runs are repeated, it is kept as {aside}.")
             continue
         try:
-            read_signals(file, record)
+            if record["signals"]:
+                read_signals(file, record)
         except DamagedPartError as error:
             file.unlink()
-            told.append(f"{error.file} is damaged ({error.words}); its runs are made again.")
-    return told
+            told.append(f"{error.file} is damaged ({error.words}); its runs are repeated.")
+        else:
+            marked(done, file, table)
+    return done, told

@@ -11,7 +11,7 @@ from itertools import chain
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError, model_validator
 
 from ali3.archives import LARGEST_ARCHIVE
 from ali3.columns import some_of
@@ -21,7 +21,6 @@ from ali3.reading import no_file, read_bytes
 from ali3.typed_sentences import Sentences
 from ali3.words import VALUE, one_line
 from hosts.common.errors import HostError
-from hosts.measures.limit_entry import Number
 from hosts.study.study_file import SamplingEntry, Setting, SignalsEntry
 
 RECORD = "study.json"
@@ -51,8 +50,8 @@ class _Parameter(_Part):
         title="Real, Integer, Enumeration, Boolean or String"
     )
     unit: str | None = Field(title="text")
-    low: Number | None = Field(default=None, title="a number")
-    high: Number | None = Field(default=None, title="a number")
+    low: FiniteFloat | None = Field(default=None, title="a number")
+    high: FiniteFloat | None = Field(default=None, title="a number")
     log: bool = Field(default=False, title="true or false")
     values: list[Setting] = Field(default=[], title="a list of values")
 
@@ -61,13 +60,13 @@ class _Manoeuvre(BaseModel):
     model_config = ConfigDict(extra="allow", frozen=True, strict=True)  # with what the study file says of it
 
     name: str = Field(title="text")
-    step: Number | None = Field(gt=0.0, title="a positive number, s")
+    step: FiniteFloat | None = Field(gt=0.0, title="a positive number, s")
     sha256: Hash
 
 
 class _Limit(_Part):
-    min: Number | None = Field(title="a number")
-    max: Number | None = Field(title="a number")
+    min: FiniteFloat | None = Field(title="a number")
+    max: FiniteFloat | None = Field(title="a number")
     unit: str = Field(title="text")
 
 
@@ -116,7 +115,7 @@ def read_record(folder: Path) -> dict[str, Any] | None:
         return None
     record = read_json(file, HostError, finite=False)
     if not isinstance(record, dict):
-        raise HostError(f"{file} is damaged: it is no JSON object.")
+        raise HostError(f"{file} is damaged: it is not a JSON object.")
     try:
         StudyRecord.model_validate(record)
     except ValidationError as error:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -15,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.stats import binomtest
 
 from ali3.columns import in_columns
-from ali3.files import whole_file, write_text
+from ali3.files import whole_file, write_json
 from ali3.units import typeset
 from hosts.common.display_units import shown_in
 from hosts.common.numbers import or_null
@@ -23,14 +22,11 @@ from hosts.measures.measure import Limit
 from hosts.study.store import read_study
 from hosts.study.worker_data import ALL, DONE, FAILED, MISSING
 
-if TYPE_CHECKING:
-    import pandas as pd
-
 CONFIDENCE = 0.95
 _NO_INTERVAL = {
-    "grid": "the points of a grid are no random sample",
+    "grid": "the points of a grid are not a random sample",
     "table": "how the rows of a table were chosen is unknown",
-    "saltelli": "runs of a block of the design share values, so that they are no independent sample",
+    "saltelli": "runs of a block of the design share values, so that they are not an independent sample",
 }
 
 
@@ -42,9 +38,10 @@ class Share:
     """Its column; `ALL` for variants, the points of the study, that keep every limit in all their runs."""
     manoeuvre: str
     """Empty for `ALL`."""
-    limit: Limit
-    """In `unit`."""
+    lowest: float
+    highest: float
     unit: str
+    """`lowest`, `highest`: of the limit, in this unit; infinite where there is none."""
     within: int
     outside: int
     """`within`, `outside`: runs, of `ALL` points."""
@@ -53,15 +50,11 @@ class Share:
     absent: int
     """Runs in which there is no such measure, as the critical speed of a car that understeers; neither within nor
     outside."""
-    low: float
-    high: float
-    """`low`, `high`: Wilson's score interval of the share, 95 %; NaN where the runs are no random sample."""
-
-    @property
-    def share(self) -> float:
-        """Part of the runs that count, 0 to 1; NaN where none does."""
-        count = self.within + self.outside
-        return self.within / count if count else math.nan
+    share: float
+    """Part of the runs that count, 0 to 1; NaN where none does."""
+    share_low: float
+    share_high: float
+    """`share_low`, `share_high`: its interval, see `interval_of_share`; NaN where the runs are no random sample."""
 
 
 def shares(frame: pd.DataFrame) -> list[Share]:
@@ -81,22 +74,22 @@ def shares(frame: pd.DataFrame) -> list[Share]:
     lost = broken.copy()
     manoeuvres = frame["manoeuvre"].astype(str).to_numpy()
     for column, record in about["limits"].items():
-        limit = Limit("the study file", *limit_ends(record))
+        lowest, highest = ends = limit_ends(record)
         values = frame[column].to_numpy(dtype=np.float64)
         for name in _of_column(column, about):
             mine = manoeuvres == name
             finite = np.isfinite(values)
-            within = mine & finite & (values >= limit.lowest) & (values <= limit.highest)
+            within = mine & finite & (values >= lowest) & (values <= highest)
             bare = mine & ~finite & _should_be(column, frame)
             outside = bare | (mine & finite & ~within)
             absent = int((mine & ~finite & ~bare).sum())
             broken[points[outside]] = lost[points[bare]] = True
             known[points[within | outside]] = True
-            found.append(_share(column, name, limit, record["unit"], (within, outside, bare), absent, about))
+            found.append(_share(column, name, ends, record["unit"], (within, outside, bare), absent, about))
     if found:
         sets = (known & ~broken, broken, lost)
         absent = len(np.unique(points)) - int(known.sum())
-        found.append(_share(ALL, "", Limit("the study file"), "1", sets, absent, about))
+        found.append(_share(ALL, "", limit_ends(None), "1", sets, absent, about))
     return found
 
 
@@ -125,18 +118,23 @@ def _of_column(column: str, about: Mapping[str, Any]) -> list[str]:
 def _share(
     measure: str,
     manoeuvre: str,
-    limit: Limit,
+    ends: tuple[float, float],
     unit: str,
     sets: tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]],
     absent: int,
     about: Mapping[str, Any],
 ) -> Share:
     within, outside, bare = (int(s.sum()) for s in sets)
-    low = high = math.nan
-    if within + outside and why_no_interval(about) == "":
-        interval = binomtest(within, within + outside).proportion_ci(CONFIDENCE, method="wilson")
-        low, high = float(interval.low), float(interval.high)
-    return Share(measure, manoeuvre, limit, unit, within, outside, bare, absent, low, high)
+    count = within + outside
+    interval = interval_of_share(within, count) if count and not why_no_interval(about) else (math.nan, math.nan)
+    share = within / count if count else math.nan
+    return Share(measure, manoeuvre, *ends, unit, within, outside, bare, absent, share, *interval)
+
+
+def interval_of_share(count: int, of: int) -> tuple[float, float]:
+    """Wilson's score interval of a share, 95 %."""
+    interval = binomtest(count, of).proportion_ci(CONFIDENCE, method="wilson")
+    return float(interval.low), float(interval.high)
 
 
 def why_no_interval(about: Mapping[str, Any]) -> str:
@@ -157,14 +155,14 @@ def share_rows(found: Sequence[Share], about: Mapping[str, Any]) -> list[tuple[s
         if s.absent:
             count += f"; {s.absent} more do not have it"
         share = "–" if math.isnan(s.share) else f"{100.0 * s.share:.1f} %"
-        interval = "–" if math.isnan(s.low) else f"{100.0 * s.low:.1f} to {100.0 * s.high:.1f} %"
+        interval = "–" if math.isnan(s.share_low) else f"{100.0 * s.share_low:.1f} to {100.0 * s.share_high:.1f} %"
         rows.append((label, _allowed(s), count, share, interval))
     return rows
 
 
 def _allowed(s: Share) -> str:
     unit, factor = shown_in(s.unit, s.measure)
-    shown = Limit("", factor * s.limit.lowest, factor * s.limit.highest)
+    shown = Limit("", factor * s.lowest, factor * s.highest)
     return "" if s.measure == ALL else shown.words(typeset(unit))
 
 
@@ -181,27 +179,11 @@ def share_notes(found: Sequence[Share], about: Mapping[str, Any]) -> list[str]:
 
 def write_shares(found: Sequence[Share], folder: Path) -> list[Path]:
     """Write ``limits.csv`` and ``limits.json`` into the folder of a study, in the units of the measures."""
-    rows = [
-        {
-            "measure": s.measure,
-            "manoeuvre": s.manoeuvre,
-            "lowest": or_null(s.limit.lowest),
-            "highest": or_null(s.limit.highest),
-            "unit": s.unit,
-            "within": s.within,
-            "outside": s.outside,
-            "without_result": s.without_result,
-            "absent": s.absent,
-            "share": or_null(s.share),
-            "share_low": or_null(s.low),
-            "share_high": or_null(s.high),
-        }
-        for s in found
-    ]
+    rows = [{n: or_null(x) if isinstance(x, float) else x for n, x in asdict(s).items()} for s in found]
     table, record = folder / "limits.csv", folder / "limits.json"
     with whole_file(table) as made:
         pd.DataFrame(rows).to_csv(made, index=False)
-    write_text(record, json.dumps(rows, indent=1, allow_nan=False) + "\n")
+    write_json(record, rows)
     return [table, record]
 
 

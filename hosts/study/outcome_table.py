@@ -1,36 +1,107 @@
-"""The outcomes of a study in its folder, as a table of a `Kept`."""
+"""The outcomes of a study in its folder, as a table of a `Kept`: rows wait in memory, and are written as parts."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from hosts.study.parts import PartWriter, runs_done
-from hosts.study.worker_data import Outcome, Run
+import numpy as np
+import pyarrow as pa
+from numpy.typing import NDArray
+
+from hosts.study.folder import RUNS
+from hosts.study.parts import part_files, read_part, signal_schema, signals_beside, table_schema, write_part
+from hosts.study.worker_data import MISSING, Outcome, Run, seed_of
 
 Row: TypeAlias = tuple[Run, Outcome]
 
+_NAME = "part-{:06d}.parquet"
 _MOST_ROWS = 50_000  # of a part
 _MOST_BYTES = 200e6  # of signals that are kept before they are written
 
 
 class OutcomeTable:
-    """Where a `Kept` writes rows; the name of one is the number of its run."""
+    """Where a `Kept` writes rows; the name of one is the number of its run.
 
-    def __init__(self, folder: Path, record: Mapping[str, Any]) -> None:
-        self._done = runs_done(folder, record)
-        self._writer = PartWriter(folder, record)
+    `done`: which runs have a row, shape (runs,), see `hosts.study.damaged_files.sound_runs`; None: none.
+    """
+
+    def __init__(self, folder: Path, record: Mapping[str, Any], done: NDArray[np.bool_] | None = None) -> None:
+        self.done = np.zeros(record["runs"], dtype=np.bool_) if done is None else done
+        self._folder, self._record = folder, record
+        self._schema = table_schema(record)
+        self._labels = [m["name"] for m in record["manoeuvres"]]
+        self._rows: dict[str, list[Any]] = {name: [] for name in self._schema.names}
+        self._signals = signal_schema(record) if record["signals"] else None
+        self._samples: list[tuple[int, NDArray[np.float64]]] = []
+        self._bytes = 0
+        files = part_files(folder)
+        self._next = int(files[-1].stem.rpartition("-")[2]) + 1 if files else 1
 
     @property
     def is_full(self) -> bool:
-        return len(self._writer) >= _MOST_ROWS or self._writer.bytes > _MOST_BYTES
+        return len(self._rows["index"]) >= _MOST_ROWS or self._bytes > _MOST_BYTES
 
     def lacks(self, name: str) -> bool:
-        return name.isdecimal() and int(name) < len(self._done) and not self._done[int(name)]
+        return name.isdecimal() and int(name) < len(self.done) and not self.done[int(name)]
 
     def take(self, name: str, row: Row) -> None:
-        self._writer.add(*row)
+        run, outcome = row
+        point, number = divmod(run.index, len(self._labels))
+        cells: dict[str, Any] = {
+            "index": run.index,
+            "point": point,
+            "manoeuvre": self._labels[number],
+            "seed": seed_of(self._record["seed"], point),
+            **{name: outcome.measures.get(name, np.nan) for name in self._record["measures"]},
+            **{name: getattr(outcome, name) for name in ("status", "reason", "simulated")},
+            "missing": MISSING.join(outcome.missing),
+            "messages": " ".join(outcome.messages),
+            "wall_seconds": outcome.wall,
+        }
+        for name in self._record["parameters"]:
+            value, is_text = run.values[name], self._schema.field(name).type == pa.string()
+            cells[name] = str(value) if is_text else value
+        for name, value in cells.items():
+            self._rows[name].append(value)
+        if self._signals is not None and outcome.signals is not None:
+            self._samples.append((run.index, outcome.signals))
+            self._bytes += outcome.signals.nbytes
 
     def write(self) -> None:
-        self._writer.flush()
+        """Write a part, after the signals of its runs, so that each row that is there has its own; see `Table`."""
+        if not self._rows["index"]:
+            return
+        file = self._folder / RUNS / _NAME.format(self._next)
+        if self._signals is not None:
+            index = pa.array([index for index, _ in self._samples], pa.int64())
+            columns = [_lists([x[:, k] for _, x in self._samples]) for k in range(len(self._signals) - 1)]
+            write_part(pa.Table.from_arrays([index, *columns], schema=self._signals), signals_beside(file))
+        arrays = [pa.array(self._rows[field.name], field.type, from_pandas=False) for field in self._schema]
+        write_part(pa.Table.from_arrays(arrays, schema=self._schema), file)
+        self._next += 1
+        self.done[self._rows["index"]] = True
+        self._samples.clear()
+        self._bytes = 0
+        for column in self._rows.values():
+            column.clear()
+
+    def forget(self, goes: Callable[[Any], NDArray[np.bool_]]) -> int:
+        """Take rows out of the parts, so that their runs are made again; how many. `goes`: of a part, which of them."""
+        before = np.count_nonzero(self.done)
+        for file in part_files(self._folder):
+            table = read_part(file, self._record)
+            gone = goes(table)
+            self.done[table["index"].to_numpy()[gone]] = False
+            if gone.all():
+                file.unlink()
+            elif gone.any():
+                write_part(table.filter(pa.array(~gone)), file)
+        return int(before - np.count_nonzero(self.done))
+
+
+def _lists(rows: list[NDArray[np.float64]]) -> Any:
+    """A column of lists."""
+    ends = np.cumsum([0, *map(len, rows)], dtype=np.int32)
+    return pa.ListArray.from_arrays(pa.array(ends), pa.array(np.concatenate([np.zeros(0), *rows])))

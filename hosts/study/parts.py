@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,10 +19,8 @@ from ali3.words import one_line
 from hosts.common.errors import HostError
 from hosts.common.parquet import opened_parquet
 from hosts.study.folder import RUNS, SIGNALS, sync
-from hosts.study.worker_data import MISSING, Outcome, Run, seed_of
 
 _TYPES = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.int64(), "Boolean": pa.bool_()}
-_NAME = "part-{:06d}.parquet"
 
 
 def table_schema(record: Mapping[str, Any]) -> Any:
@@ -123,105 +121,14 @@ def _is_laid_out(metadata: Any) -> bool:
     return True
 
 
-def runs_done(folder: Path, record: Mapping[str, Any]) -> NDArray[np.bool_]:
-    """Which runs have a row, of shape (runs,).
-
-    Raises `HostError`: a part is damaged, or has a row that no study has.
-    """
-    runs = record["runs"]
-    done = np.zeros(runs, dtype=np.bool_)
-    for file in part_files(folder):
-        index = read_part(file, record)["index"].to_numpy()
-        if len(index) and not 0 <= index.min() <= index.max() < runs:
-            raise HostError(f"{file} has the run {index.max()}; the study has {runs} runs.")
-        if done[index].any() or len(np.unique(index)) < len(index):
-            raise HostError(
-                f"{file} has a run that another part has too; remove it, and its other runs are made again."
-            )
-        done[index] = True
-    return done
-
-
-def forget_rows(folder: Path, record: Mapping[str, Any], kept: Callable[[Any], Any]) -> int:
-    """Take rows out of the parts, so that their runs are made again; how many. `kept`: of a table, which rows stay."""
-    forgotten = 0
-    for file in part_files(folder):
-        table = read_part(file, record)
-        left = table.filter(pa.array(kept(table)))
-        forgotten += len(table) - len(left)
-        if len(left) == 0:
-            file.unlink()
-        elif len(left) < len(table):
-            write_part(left, file)
-    return forgotten
-
-
-class PartWriter:
-    """Writes rows as parts, each of them at once."""
-
-    def __init__(self, folder: Path, record: Mapping[str, Any]) -> None:
-        self._folder, self._record = folder, record
-        self._schema = table_schema(record)
-        self._labels = [m["name"] for m in record["manoeuvres"]]
-        self._rows: dict[str, list[Any]] = {name: [] for name in self._schema.names}
-        self._signals = signal_schema(record) if record["signals"] else None
-        self._samples: list[tuple[int, NDArray[np.float64]]] = []
-        self.bytes = 0
-        """Of signals that are kept for the next part."""
-        files = part_files(folder)
-        self._next = int(files[-1].stem.rpartition("-")[2]) + 1 if files else 1
-
-    def __len__(self) -> int:
-        return len(self._rows["index"])
-
-    def add(self, run: Run, outcome: Outcome) -> None:
-        """Keep a row for the next part."""
-        point, number = divmod(run.index, len(self._labels))
-        row: dict[str, Any] = {
-            "index": run.index,
-            "point": point,
-            "manoeuvre": self._labels[number],
-            "seed": seed_of(self._record["seed"], point),
-            **{name: outcome.measures.get(name, np.nan) for name in self._record["measures"]},
-            **{name: getattr(outcome, name) for name in ("status", "reason", "simulated")},
-            "missing": MISSING.join(outcome.missing),
-            "messages": " ".join(outcome.messages),
-            "wall_seconds": outcome.wall,
-        }
-        for name in self._record["parameters"]:
-            value, is_text = run.values[name], self._schema.field(name).type == pa.string()
-            row[name] = str(value) if is_text else value
-        for name, value in row.items():
-            self._rows[name].append(value)
-        if self._signals is not None and outcome.signals is not None:
-            self._samples.append((run.index, outcome.signals))
-            self.bytes += outcome.signals.nbytes
-
-    def flush(self) -> None:
-        """Write the kept rows as a part, after their signals, so that each row that is there has its own.
-
-        Raises `FileError`: it cannot be written; the parts before it stay.
-        """
-        if not len(self):
-            return
-        file = self._folder / RUNS / _NAME.format(self._next)
-        if self._signals is not None:
-            index = pa.array([index for index, _ in self._samples], pa.int64())
-            columns = [_lists([x[:, k] for _, x in self._samples]) for k in range(len(self._signals) - 1)]
-            write_part(pa.Table.from_arrays([index, *columns], schema=self._signals), signals_beside(file))
-        arrays = [pa.array(self._rows[field.name], field.type, from_pandas=False) for field in self._schema]
-        write_part(pa.Table.from_arrays(arrays, schema=self._schema), file)
-        self._next += 1
-        self._samples.clear()
-        self.bytes = 0
-        for column in self._rows.values():
-            column.clear()
-
-
-def _lists(rows: list[NDArray[np.float64]]) -> Any:
-    """A column of lists."""
-    ends = np.cumsum([0, *map(len, rows)], dtype=np.int32)
-    return pa.ListArray.from_arrays(pa.array(ends), pa.array(np.concatenate([np.zeros(0), *rows])))
+def marked(done: NDArray[np.bool_], file: Path, table: Any) -> None:
+    """Mark the runs of the rows of a part. Raises `HostError`: no study, or another part, has such a row."""
+    index = table["index"].to_numpy()
+    if len(index) and not 0 <= index.min() <= index.max() < len(done):
+        raise HostError(f"{file} has the run {index.max()}; the study has {len(done)} runs.")
+    if done[index].any() or len(np.unique(index)) < len(index):
+        raise HostError(f"{file} has a run that another part has too; remove it, and its other runs are repeated.")
+    done[index] = True
 
 
 def write_part(table: Any, file: Path) -> None:

@@ -47,14 +47,14 @@ def source_beside(name: str | None, file: Path, fmu: Fmu) -> FmuSource:
 def renamed_variable(fmu: SimulatedFmu, name: str, where: str) -> Variable | None:
     """A variable that can be set, by our name and in our unit; None where it has no name of ours.
 
-    Raises `HostError`: it is no parameter or input.
+    Raises `HostError`: it is not a parameter or input.
     """
     if not isinstance(fmu, NamedFmu) or name not in fmu.table:
         return None
     found = fmu.table[name]
     if found.may_be_set:
         return found
-    raise HostError(f"{where}: '{name}' is no parameter or input of the FMU; it cannot be set.")
+    raise HostError(f"{where}: '{name}' is not a parameter or input of the FMU; it cannot be set.")
 
 
 @dataclass(frozen=True)
@@ -126,13 +126,8 @@ class Plan:
     fmu: Path
     work: Work
     points: Points
-    kinds: dict[str, str]
-    """``Real``, ``Integer``, ... of the parameters."""
-    units: dict[str, str]
-    """Of all columns and signals that have one."""
     outputs: tuple[str, ...]
     """Inputs and outputs of the FMU: all that a run records."""
-    seed: int
     record: dict[str, Any]
     """All of it for JSON; two plans with the same are the same study."""
     notes: tuple[str, ...] = ()
@@ -186,9 +181,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         study.sampling.seed,
         time_limit=study.time_limit,
     )
-    known = {name: units[name] for name in (*parameters, *signals)}
-    all_units = {**known, **columns, "simulated": "s", "wall_seconds": "s", "time": "s"}
-    kinds = {name: fmu.table[name].kind for name in parameters}
+    known = {name: units[name] for name in (*parameters, *signals)} | columns
     name = study.name or file.stem
     record = {
         "name": name,
@@ -208,13 +201,12 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         "points": points.count,
         "runs": points.count * len(jobs),
         "points_sha256": digest(points),
-        "units": all_units,
+        "units": {**known, "simulated": "s", "wall_seconds": "s", "time": "s"},
         "versions": versions(),
         "program": work.program,
         "file": str(file.absolute()),
     }
-    seed, notes = study.sampling.seed, _notes(study)
-    return Plan(name, file, fmu_path, work, points, kinds, all_units, outputs, seed, record, notes)
+    return Plan(name, file, fmu_path, work, points, outputs, record, _notes(study))
 
 
 def _job_record(entry: ManoeuvreEntry, job: Job) -> dict[str, Any]:
@@ -283,5 +275,5 @@ def _notes(study: StudyFile) -> tuple[str, ...]:
         below = 1 << (n.bit_length() - 1)
         notes.append(f"Sobol' points are balanced at powers of two: {below} or {2 * below} would be better than {n}.")
     if not study.measures and study.signals is None and all(m.test is None for m in study.manoeuvres):
-        notes.append("The study has neither measures nor signals: its table will tell only which runs came to an end.")
+        notes.append("The study has neither measures nor signals: its table will only show which runs finished.")
     return tuple(notes)

@@ -111,7 +111,7 @@ def table_points(
     variables = [variable_of(name, f"{file}, heading") for name in names]
     unknown = next((name for name in entries if name not in names), None)
     if unknown is not None:
-        raise HostError(f"parameters.'{unknown}' is no column of {file}; its columns are {', '.join(names)}.")
+        raise HostError(f"parameters.'{unknown}' is not a column of {file}; its columns are {', '.join(names)}.")
     columns: dict[str, list[Value]] = {name: [] for name in names}
     for row in table.rows():
         for variable, cell in zip(variables, row.cells, strict=True):

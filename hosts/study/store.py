@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
 
 def study_record(folder: str | os.PathLike[str]) -> dict[str, Any]:
-    """What is known of a study, as in its file ``study.json``. Raises `HostError`: it is no folder of a study."""
+    """What is known of a study, as in its file ``study.json``. Raises `HostError`: it is not a study folder."""
     record = read_record(Path(folder))
     if record is None:
-        raise HostError(f"{folder} is no folder of a study: there is no {RECORD} in it.")
+        raise HostError(f"{folder} is not a study folder: there is no {RECORD} in it.")
     return record
 
 
@@ -34,7 +34,7 @@ def read_study(folder: str | os.PathLike[str]) -> pd.DataFrame:
     by their names in the FMU, the measures, ``status`` (``done``, ``incomplete`` where a measure is missing,
     ``failed``), ``reason``, ``missing`` (names of measures that there should be; other NaN are of measures that the run
     has not, as a critical speed), ``messages`` of the FMU, ``simulated`` and ``wall_seconds``. ``attrs`` has units of
-    columns and the rest of what is known of the study. Raises `HostError`: it is no folder of a study, or a part is
+    columns and the rest of what is known of the study. Raises `HostError`: it is not a study folder, or a part is
     damaged.
     """
     record = study_record(folder)

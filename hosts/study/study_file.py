@@ -6,16 +6,16 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError, model_validator
 
 from ali3.reading import LARGEST_TOML, read_bytes, toml_of
 from ali3.typed_sentences import Sentences
 from hosts.common.errors import HostError
-from hosts.measures.limit_entry import LimitEntry, Number
+from hosts.measures.limit_entry import LimitEntry
 
 METHODS = ("grid", "latin_hypercube", "sobol", "saltelli", "table")
 
-Setting: TypeAlias = bool | int | Number | str
+Setting: TypeAlias = bool | int | FiniteFloat | str
 Name: TypeAlias = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_.\- ]*$", max_length=100)]
 NAME_WORDS = "up to 100 letters, digits, spaces, dots, minus signs and underscores, a letter first"
 
@@ -27,7 +27,7 @@ class _Part(BaseModel):
 class ParameterEntry(_Part):
     """How a parameter of the FMU is varied."""
 
-    range: list[Number] | None = Field(default=None, min_length=2, max_length=2, title="two numbers, low and high")
+    range: list[FiniteFloat] | None = Field(default=None, min_length=2, max_length=2, title="two numbers, low and high")
     values: list[Setting] | None = Field(default=None, min_length=1, title="a list of at least one value")
     count: int | None = Field(default=None, ge=1, title="a whole number, how many values of the range a grid has")
     unit: str | None = Field(default=None, title="the unit of the FMU or a display unit of it, as text")
@@ -40,9 +40,9 @@ class ParameterEntry(_Part):
         if self.range is not None and not self.range[0] < self.range[1]:
             raise ValueError(f"its range is {self.range[0]:g} to {self.range[1]:g}; the lower end comes first")
         if self.log and self.range is None:
-            raise ValueError("log goes with a range")
+            raise ValueError("log needs a range")
         if self.count is not None and self.range is None:
-            raise ValueError("count goes with a range")
+            raise ValueError("count needs a range")
         return self
 
 
@@ -52,9 +52,9 @@ class ManoeuvreEntry(_Part):
     name: Name | None = Field(default=None, title=NAME_WORDS)
     manoeuvre: str | None = Field(default=None, title="a manoeuvre of the command run: its name or a file")
     test: str | None = Field(default=None, title="the name of a test of the command catalogue")
-    settings: dict[str, Number] = Field(default_factory=dict, title="numbers by the name of a test's setting")
+    settings: dict[str, FiniteFloat] = Field(default_factory=dict, title="numbers by the name of a test's setting")
     measures: list[str] | None = Field(default=None, min_length=1, title="a list of at least one measure of a test")
-    stop_time: Number | None = Field(default=None, gt=0.0, title="a positive number, s")
+    stop_time: FiniteFloat | None = Field(default=None, gt=0.0, title="a positive number, s")
     start: dict[str, Setting] = Field(default_factory=dict, title="values by names of parameters or inputs")
 
     @model_validator(mode="after")
@@ -64,7 +64,7 @@ class ManoeuvreEntry(_Part):
         if self.manoeuvre is None and self.test is None and self.stop_time is None:
             raise ValueError("it needs a manoeuvre, a test, or a stop_time (for constant inputs)")
         if self.test is None and self.settings:
-            raise ValueError("settings go with a test")
+            raise ValueError("settings need a test")
         if self.test is None and self.measures is not None:
             raise ValueError("measures here are those of a test that are kept; those of manoeuvres are in [measures]")
         if self.test is not None and self.stop_time is not None:
@@ -90,7 +90,7 @@ class SamplingEntry(_Part):
         if not drawn and self.runs is not None:
             raise ValueError(f"the method {self.method} gives its number of points itself; leave runs out")
         if (self.method == "table") != (self.file is not None):
-            raise ValueError("a file goes with the method table, and this method needs one")
+            raise ValueError("the method table, and no other, needs a file")
         return self
 
 
@@ -98,7 +98,7 @@ class SignalsEntry(_Part):
     """What is kept over time."""
 
     names: list[str] = Field(min_length=1, title="a list of at least one name of an input or output")
-    interval: Number = Field(gt=0.0, title="a positive number, s")
+    interval: FiniteFloat = Field(gt=0.0, title="a positive number, s")
 
 
 class StudyFile(_Part):
@@ -108,8 +108,8 @@ class StudyFile(_Part):
     fmu: str | None = Field(default=None, title="the path of an FMU")
     car: str | None = Field(default=None, title="a car of the package by its name, or a car file")
     aliases: str | None = Field(default=None, title="an alias file, or the name of one of the package")
-    step: Number | None = Field(default=None, gt=0.0, title="a positive number, s")
-    time_limit: Number | None = Field(default=None, gt=0.0, title="a positive number, s, that a run may take")
+    step: FiniteFloat | None = Field(default=None, gt=0.0, title="a positive number, s")
+    time_limit: FiniteFloat | None = Field(default=None, gt=0.0, title="a positive number, s, that a run may take")
     start: dict[str, Setting] = Field(default_factory=dict, title="values by names of parameters or inputs")
     manoeuvres: list[ManoeuvreEntry] = Field(min_length=1, title="at least one table [[manoeuvres]]")
     sampling: SamplingEntry = Field(default=SamplingEntry(), title="a table")
@@ -129,7 +129,7 @@ class StudyFile(_Part):
                 if self.sampling.method == "grid" and entry.range is not None and entry.count is None:
                     raise ValueError(f"parameters.'{name}' needs a count, how many values of its range the grid has")
                 if self.sampling.method != "grid" and entry.count is not None:
-                    raise ValueError(f"parameters.'{name}' has a count, which goes with the method grid")
+                    raise ValueError(f"parameters.'{name}' has a count, which only the method grid uses")
         both = sorted(set(self.start) & set(self.parameters))
         if both:
             raise ValueError(f"'{both[0]}' is a parameter and in [start]; give it once")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from dataclasses import asdict, dataclass, replace
@@ -16,7 +15,7 @@ from matplotlib import pyplot as plt
 from ali3.chart_style import BLUE, RED, STYLE
 from ali3.charts import drawing
 from ali3.decimal_number import parse_number
-from ali3.files import make_folder, write_text
+from ali3.files import make_folder, write_json
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.display_units import Shown, number_in, shown_in, titled
 from hosts.common.errors import HostError
@@ -169,7 +168,7 @@ class _Search:
         self.processes: OneProcess
         self.unit, self.wanted, self.shown = "", target.value, Shown("", 1.0)
         if not is_test:
-            self._take_unit(plan.units[self.column])
+            self._take_unit(plan.record["units"][self.column])
         self._made: dict[float, Outcome] = {}
         self._count = 0
 
@@ -177,7 +176,7 @@ class _Search:
         """The manoeuvre that yields the measure, and its column."""
         name, jobs = self.target.measure, self.plan.work.jobs
         named = [job for job in jobs if job.manoeuvre is None and name.startswith(f"{job.label}.")]
-        own = {c: self.plan.units[c] for c in self.plan.work.columns}
+        own = {c: self.plan.record["measures"][c] for c in self.plan.work.columns}
         fit = named or [job for job in jobs if (job.manoeuvre is not None) == (name in own)]
         if not fit:
             name, fit = column_of(name, own, "--target"), list(jobs)
@@ -322,14 +321,14 @@ def _record(search: _Search, found: Found, lines: list[str], file: Path) -> Path
         "runs": [{**asdict(run), "y": or_null(run.y)} for run in found.runs],
         "words": lines,
     }
-    write_text(file, json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
+    write_json(file, record)
     return file
 
 
 def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Path) -> list[str]:
     """What the search has found and what the study sets, as a parameter set of these entries alone.
 
-    Without entries there is no file. Returned is what is no parameter.
+    Without entries there is no file. Returned is what is not a parameter.
     """
     values: dict[str, Any] = {**study.start, by: value}
     values = plan.work.fmu.theirs(values)

@@ -5,10 +5,9 @@ from __future__ import annotations
 import contextlib
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 TOLERANCE = 1e-3
@@ -18,9 +17,7 @@ MOST = 24
 _CLOSEST = 1e-4  # part of the range that is not divided any more
 _INWARD = (0.0, 0.0625, 0.125, 0.25, 0.5, 0.75, 1.0)  # parts of the range, where the run at an end fails
 _EXTREMUM, _SEEN = 0.02, 8  # part of the range, and runs, to which an extremum is found
-_APART, _PART = 0.01, 0.02  # of the range, or of the value, between runs that tell a slope
-_FAR = 0.25  # of the distance to the neighbour on the other side: that one is too far
-_NEAR = 0.05  # of the range, or of the value: farther ones tell another slope
+_BESIDE = 0.01  # of the value, or of the range where that is less: to the run that tells the slope
 
 
 @dataclass(frozen=True)
@@ -47,10 +44,10 @@ class Found:
     tolerance: float
     """In the unit of the measure."""
     slope: float
-    """Change of the measure by that of the parameter at `best`: of the parabola through it and its neighbours, or of
-    the line where there is one neighbour; NaN without any."""
+    """Change of the measure by that of the parameter, of two runs where it is met, 1 % of the parameter or of the range
+    apart; NaN where it is not met, or one of them fails."""
     between: tuple[float, float]
-    """Values of the parameter of these neighbours."""
+    """Values of the parameter of these runs."""
     rises: bool
     falls: bool
     """`rises`, `falls`: whether the measure does so anywhere between neighbouring runs, by more than the tolerance or
@@ -78,9 +75,9 @@ def seek(
 ) -> Found:
     """Seek a value of a parameter.
 
-    The ends of the range come first. Where the wanted value lies between theirs, Brent's method follows; else a run in
-    the middle: unless the three show that the value is not met, the extremum nearest to it is sought by Brent's
-    minimisation, and his method again if a run is beyond the value.
+    The ends of the range come first. Where the wanted value lies between theirs, Brent's method follows; else the
+    extremum nearest to it is sought by Brent's minimisation, and his method again if a run is beyond the value. Where
+    it is met, a run beside tells the slope.
 
     Parameters
     ----------
@@ -122,23 +119,13 @@ class _Search:
     def found(self) -> Found:
         with contextlib.suppress(_End):
             self._from_the_ends()
+        if (best := self._best()) is None or abs(best.y - self._wanted) > self._tolerance:
+            return self._result(())
+        (low, high), aside = self._ends, _BESIDE * min(abs(best.x) or math.inf, self._ends[1] - self._ends[0])
+        place = self._place(best.x + aside if best.x + aside <= high else max(best.x - aside, low))
         with contextlib.suppress(_End):
-            self._near_the_best()
-        return self._result()
-
-    def _near_the_best(self) -> None:
-        """One more run beside what meets the value, where none is near enough to tell its slope."""
-        met = [(u, run) for u, run in self._sorted() if abs(run.y - self._wanted) <= self._tolerance]
-        if not met:
-            return
-        place, best = met[0]
-        others = [(u, run) for u, run in self._sorted() if run is not best]
-        if any(abs(u - place) <= _NEAR or 0.0 < abs(run.x - best.x) <= _NEAR * abs(best.x) for u, run in others):
-            return
-        aside = 2.0 * _APART
-        if best.x > 0.0:
-            aside = min(aside, abs(self._place((1.0 + 2.0 * _PART) * best.x) - place))
-        self._at(place + aside if place < 0.5 else place - aside)
+            self._at(place)
+        return self._result([best, *([self._runs[place]] if place in self._runs else [])])
 
     def _x(self, u: float) -> float:
         low, high = self._ends
@@ -165,10 +152,7 @@ class _Search:
         first, last = (self._inward(end) for end in (0.0, 1.0))
         if self._wanted == 0.0:
             self._tolerance = TOLERANCE * abs(self._at(last) - self._at(first))
-        middle = 0.5 * (first + last)
-        if not self._brackets() and not self._at(middle) * self._at(first) < 0.0:
-            if self._is_plain(first, middle, last):
-                return
+        if not self._brackets():
             self._to_the_extremum(first, last)
         tried: set[tuple[float, float]] = set()
         while brackets := [b for b in self._brackets() if b not in tried and b[1] - b[0] > _CLOSEST]:
@@ -196,23 +180,6 @@ class _Search:
     def _failed(self, bracket: tuple[float, float]) -> float:
         return next(u for u, run in self._runs.items() if bracket[0] < u < bracket[1] and math.isnan(run.y))
 
-    def _is_plain(self, *places: float) -> bool:
-        """Whether three places show that the value is not met: the measure does not change, or goes one way and a
-        parabola through them leaves more than half of what is missing.
-        """
-        first, middle, last = distances = [abs(self._at(u)) for u in places]
-        if not np.isfinite(distances).all() or np.ptp(distances) <= self._tolerance:
-            return bool(np.isfinite(distances).all())
-        if min(abs(first - middle), abs(last - middle)) <= self._least() or (first - middle) * (middle - last) < 0.0:
-            return False
-        a, b, c = (float(x) for x in np.polyfit(places, distances, 2))
-        u = -0.5 * b / a if a > 0.0 else places[0]
-        return not (places[0] < u < places[2] and c + u * (b + u * a) < 0.5 * min(distances))
-
-    def _least(self) -> float:
-        """Of a change that is one; what is wanted may be far off."""
-        return min(self._tolerance, TOLERANCE * max(abs(run.y) for _, run in self._sorted()))
-
     def _to_the_extremum(self, first: float, last: float) -> None:
         sign = math.copysign(1.0, self._at(first))
 
@@ -230,51 +197,32 @@ class _Search:
                 options={"xatol": _EXTREMUM, "maxiter": _SEEN},
             )
 
-    def _sorted(self) -> list[tuple[float, Run]]:
-        return sorted((u, run) for u, run in self._runs.items() if math.isfinite(run.y))
-
     def _brackets(self) -> list[tuple[float, float]]:
         """Neighbouring runs on different sides of what is wanted, with no failed one between them."""
         known = sorted(self._runs.items())
         pairs = itertools.pairwise(known)
         return [(a, b) for (a, one), (b, other) in pairs if (one.y - self._wanted) * (other.y - self._wanted) < 0.0]
 
-    def _result(self) -> Found:
-        runs, known = tuple(self._runs.values()), self._sorted()
-        if not known:
-            nothing = (math.nan, math.nan)
-            return Found(runs, None, False, self._tolerance, math.nan, nothing, False, False, False)
-        made = list(self._runs)  # of equal ones the last: at a jump the nearest to it
-        place, best = min(known, key=lambda item: (abs(item[1].y - self._wanted), -made.index(item[0])))
-        changes = [b.y - a.y for (_, a), (_, b) in itertools.pairwise(known)]
-        least = self._least()
-        apart = [(u, run) for u, run in known if abs(u - place) >= _APART or _are_apart(run.x, best.x)]
-        below = [run for u, run in apart if u < place] or [best]
-        above = [run for u, run in apart if u > place] or [best]
-        one, other = below[-1], above[0]
-        if 0.0 < best.x - one.x < _FAR * (other.x - best.x):
-            other = best
-        elif 0.0 < other.x - best.x < _FAR * (best.x - one.x):
-            one = best
+    def _best(self) -> Run | None:
+        """Of equal ones the last: at a jump the nearest to it."""
+        yielded = [run for run in reversed(self._runs.values()) if math.isfinite(run.y)]
+        return min(yielded, key=lambda run: abs(run.y - self._wanted), default=None)
+
+    def _result(self, near: Sequence[Run]) -> Found:
+        """`near`: two runs that tell the slope, or fewer."""
+        known = [run for _, run in sorted(self._runs.items()) if math.isfinite(run.y)]
+        changes = [b.y - a.y for a, b in itertools.pairwise(known)]
+        largest = max((abs(run.y) for run in known), default=0.0)
+        least, best = min(self._tolerance, TOLERANCE * largest), self._best()  # what is wanted may be far off
+        x, y = [run.x for run in near], [run.y for run in near]
         return Found(
-            runs,
+            tuple(self._runs.values()),
             best,
-            abs(best.y - self._wanted) <= self._tolerance,
+            best is not None and abs(best.y - self._wanted) <= self._tolerance,
             self._tolerance,
-            _slope(one, best, other),
-            (one.x, other.x),
+            (y[1] - y[0]) / (x[1] - x[0]) if len(near) > 1 else math.nan,
+            (x[0], x[-1]) if near else (math.nan, math.nan),
             any(c > least for c in changes),
             any(c < -least for c in changes),
-            min(run.y for _, run in known) <= self._wanted <= max(run.y for _, run in known),
+            bool(known) and min(run.y for run in known) <= self._wanted <= max(run.y for run in known),
         )
-
-
-def _are_apart(x: float, best: float) -> bool:
-    return abs(x - best) >= _PART * abs(best) > 0.0
-
-
-def _slope(one: Run, best: Run, other: Run) -> float:
-    """The derivative at the middle one of three runs; the outer ones may be it too."""
-    runs = list({run.x: run for run in (one, best, other)}.values())
-    x, y = [run.x for run in runs], [run.y for run in runs]
-    return float(np.gradient(y, x)[runs.index(best)]) if len(runs) > 1 else math.nan

@@ -54,7 +54,7 @@ def try_out(plan: Plan) -> Trial:
         assert outcome is not None
         if outcome.status == FAILED:
             numbers = ", ".join(str(p * len(work.jobs) + number) for p in points)
-            raise HostError(f"No run of {job.label} that was tried ({numbers}) came to its end: {outcome.reason}")
+            raise HostError(f"No run of {job.label} that was tried ({numbers}) reached its end: {outcome.reason}")
         if outcome.status == INCOMPLETE:
             notes.append(f"Run {point * len(work.jobs) + number}, {job.label}, is incomplete: {outcome.reason}")
         columns |= _columns(outcome.units, job, f"{plan.file}: manoeuvres[{number + 1}]")
@@ -116,7 +116,7 @@ def with_columns(plan: Plan, columns: Mapping[str, str]) -> Plan:
         "measures": {**plan.record["measures"], **columns},
         "units": {**plan.record["units"], **columns},
     }
-    return replace(plan, work=replace(plan.work, columns=names), record=record, units=record["units"])
+    return replace(plan, work=replace(plan.work, columns=names), record=record)
 
 
 def bytes_of(plan: Plan) -> float:

@@ -73,7 +73,7 @@ class Outcome:
     units: dict[str, str] = field(default_factory=dict)
     """Of the measures of a test, where it is not yet known which there are."""
     messages: tuple[str, ...] = ()
-    """What the FMU said, and notes of a test; each sentence once."""
+    """Messages of the FMU, and notes of a test; each sentence once."""
     missing: tuple[str, ...] = ()
     """Measures that there should be and that the run did not yield; other NaN are of measures that it has not."""
 

@@ -179,7 +179,7 @@ class CoupledFmus(Closing):
 
         `duration`: a whole number of communication steps, s; `names`: what is read at each communication point; `act`:
         called before each step, to set inputs of parts. Raises `hosts.fmu.fmu.StepRefusedError` or `HostError` as of
-        `step`; or the time is no whole number of steps. Returns an array of shape (steps + 1, len(names)).
+        `step`; or the time is not a whole number of steps. Returns an array of shape (steps + 1, len(names)).
         """
         steps = duration / self.step_length if is_finite(duration) else np.nan
         if not (0.0 <= steps < np.inf and abs(steps - round(steps)) < 1e-6 * max(steps, 1.0)):
@@ -257,7 +257,7 @@ class CoupledFmus(Closing):
         for name, value in zip(p.outputs, values, strict=True):
             if not np.isfinite(value) and name not in p.told:
                 p.told.add(name)
-                self._own.append(f"{p.name}: at {time:.6g} s '{name}' is {value:g}. This is said once.")
+                self._own.append(f"{p.name}: at {time:.6g} s '{name}' is {value:g}. This is reported once.")
         return {(p.name, name): value for name, value in zip(p.outputs, values, strict=True)}
 
 

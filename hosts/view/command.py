@@ -34,13 +34,11 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 view") -> int
 def _parser(prog: str) -> argparse.ArgumentParser:
     parser = Parser(prog=prog, description=__doc__)
     parser.add_argument(
-        "what", nargs="+", type=Path, metavar="RESULT|FMU|CAR", help="table of a result, a recording, or what is run"
+        "what", nargs="+", type=Path, metavar="RESULT|FMU|CAR", help="table of a result, a recording, or an FMU to run"
     )
     add_option(parser, "--out", "beside the first result, or out")
     add_option(parser, "--no-open")
-    parser.add_argument(
-        "--plot", action="append", default=[], metavar="NAME", help="signal that is plotted; repeatable"
-    )
+    parser.add_argument("--plot", action="append", default=[], metavar="NAME", help="signal to plot; repeatable")
     fmu = parser.add_argument_group("of an FMU that is run")
     add_option(fmu, "--manoeuvre", "of a car double_lane_change, else none")
     add_option(fmu, "--stop-time", "that of the manoeuvre, else that of the FMU")
@@ -55,9 +53,9 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     live.add_argument(
         "--name", action="append", default=[], metavar="TEXT", help="over a picture; once for each FMU, in their order"
     )
-    live.add_argument("--paused", action="store_true", help="the page waits until somebody starts it")
+    live.add_argument("--paused", action="store_true", help="the page waits until it is started")
     shown = parser.add_argument_group("shown: what was recorded")
-    shown.add_argument("--geometry", type=Path, metavar="FILE", help="FMU (or scene) that results are drawn with")
+    shown.add_argument("--geometry", type=Path, metavar="FILE", help="FMU (or scene) with which results are drawn")
     add_option(shown, "--from", dest="begin")
     add_option(shown, "--to", dest="end")
     shown.add_argument("--most", type=int, default=5001, metavar="N", help="times in the page at most; default: 5001")
@@ -65,7 +63,7 @@ def _parser(prog: str) -> argparse.ArgumentParser:
     shown.add_argument("--at", type=quantity("s"), metavar="T", help="time at the start, and of the picture, s")
     shown.add_argument("--arrows", action="store_true", help="draw forces as arrows")
     shown.add_argument("--stress", action="store_true", help="colour flexible frames by their stress")
-    shown.add_argument("--deformation", type=number, metavar="N", help="deformations are drawn N times; default: 1")
+    shown.add_argument("--deformation", type=number, metavar="N", help="deformations are magnified N times; default: 1")
     shown.add_argument("--png", type=Path, metavar="FILE", help="write a picture at the time --at, and no page")
     shown.add_argument("--mp4", type=Path, metavar="FILE", help="write a film, and no page")
     shown.add_argument("--gltf", type=Path, metavar="FILE", help="write the first as an animation, .glb or .gltf")
@@ -77,7 +75,7 @@ def _view(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     foreign = _OF_SHOWN if options.live else _OF_LIVE
     given = given_of(parser, options, foreign)
     if given:
-        raise HostError(f"{given[0]} {'does not go with' if options.live else 'goes with'} --live.")
+        raise HostError(f"{given[0]} {'cannot be combined with' if options.live else 'needs'} --live.")
     if options.live:
         from hosts.view.live import live
 

@@ -120,7 +120,8 @@ def _manoeuvre(fmus: Sequence[FmuParts], given: str | None) -> Manoeuvre | None:
     unknown = next((name for name in manoeuvre.inputs if name not in known), None)
     if unknown is not None:
         raise HostError(
-            f"The manoeuvre '{manoeuvre.name}' has a column '{unknown}', which is no input and no tunable parameter of "
+            f"The manoeuvre '{manoeuvre.name}' has a column '{unknown}', which is neither an input nor a tunable "
+            "parameter of "
             f"{' or '.join(fmu.path.name for fmu in fmus)}."
         )
     return manoeuvre
@@ -164,7 +165,7 @@ def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict
     shown = {n for fmu in fmus for n in known if _plottable(fmu, n)}
     for name in options.plot:
         if name not in shown:
-            raise HostError(f"--plot: {name!r} is no input or output of {' or '.join(f.name for f in fmus)}.")
+            raise HostError(f"--plot: {name!r} is not an input or output of {' or '.join(f.name for f in fmus)}.")
     if options.plot:
         found["plots"] = list(options.plot)
     return found

@@ -85,7 +85,7 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
     """Read an FMU for a page.
 
     `road`: of the parameter `road.file`: the name of a road in the FMU, or a road file, which goes into the page.
-    Raises `HostError`: it is no FMU that a page can run; with what would help.
+    Raises `HostError`: it is not an FMU that a page can run; with what would help.
     """
     description = described(path)
     _check_kind(path, description)

@@ -41,7 +41,7 @@ def read_table(path: Path) -> Table:
     text = TextTable(path, HostError, known=("time",), units=True)
     if text.names[0] != "time":
         raise HostError(
-            f"{path} is no table of results: its heading begins with {brief(text.names[0])}; it must be time."
+            f"{path} is not a table of results: its heading begins with {brief(text.names[0])}; it must be time."
         )
     if text.width < 2:
         raise HostError(f"{path} has a column of times and no other.")

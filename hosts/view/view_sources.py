@@ -162,7 +162,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
     recording = Recording(scene, table.t, table.columns, units, name)
     if scene is not None and recording.scene is not None and scene["shapes"] and not recording.scene["shapes"]:
         why = recording.missing[-1]["why"].rstrip(".") if recording.missing else "no shape has a pose"
-        told.append(f"{table_file} holds no poses that could be drawn ({why}); its signals can be plotted.")
+        told.append(f"{table_file} contains no poses that could be drawn ({why}); its signals can be plotted.")
     recording.notes += [table.note] if table.note else []
     return recording, told
 

@@ -154,7 +154,7 @@ def text(value: object, what: str, error: Error = ModelError, lines: bool = Fals
         return str(value)
     for c in value:
         if unicodedata.category(c) in ("Cc", "Cs") and not (lines and c in "\n\t"):
-            raise error(f"{capital(what)} is {value!r}; {c!r} is no character that a file can hold.")
+            raise error(f"{capital(what)} is {value!r}; {c!r} is not a character that a file can hold.")
     return str(value)
 
 

@@ -12,16 +12,16 @@ from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.compiler.polynomial import substitute
 from mbs.kernel.header.enumerations import ParameterTarget
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 
-def written_armatures(model: Mechanism) -> list[int]:
+def written_armatures(model: Model) -> list[int]:
     """Numbers of the armatures whose ratio a parameter writes; all others are in the mass matrix for good."""
     targets = [where for p in model.parameters for where in p.targets]
     return sorted({k for family, k, *_ in targets if family == ParameterTarget.ARMATURE})
 
 
-def armature_arrays(model: Mechanism, full: Sequence[Affine], new: NDArray[np.int64]) -> dict[str, Any]:
+def armature_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64]) -> dict[str, Any]:
     """The `armature_` arrays; the mass matrix has their inertia with the ratio as drawn."""
     columns, inertias, ratios = [], [], []
     for armature in (model.armatures[k] for k in written_armatures(model)):

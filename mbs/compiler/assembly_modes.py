@@ -26,7 +26,7 @@ from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.tables import Signals, ragged
 from mbs.compiler.trace import TURN, trace
 from mbs.compiler.triads import Triad, triads
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.perpendicular import perpendicular
 
 Array = NDArray[np.float64]
@@ -45,7 +45,7 @@ assert TURN < DEFINITE  # no combination of signs is stepped over
 
 
 def mode_arrays(
-    model: Mechanism, rows: Sequence[RowTerms], full: Sequence[Affine], q: Array, guides: Array, signals: Signals
+    model: Model, rows: Sequence[RowTerms], full: Sequence[Affine], q: Array, guides: Array, signals: Signals
 ) -> tuple[dict[str, Any], Callable[[], dict[str, Any]]]:
     """The `mode_` arrays of the triads, and what traces their loops for those of the modes: only steps need these.
 

@@ -12,7 +12,7 @@ from mbs.common.affine import Affine
 from mbs.compiler.loops import Block
 from mbs.compiler.polynomial import RowTerms, substitute
 from mbs.model.body import Body
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
@@ -50,7 +50,7 @@ class Quadratics:
 
 
 def moving_part(
-    model: Mechanism, block: Block, rows: Sequence[tuple[RowTerms, set[int]]], full: Sequence[Affine]
+    model: Model, block: Block, rows: Sequence[tuple[RowTerms, set[int]]], full: Sequence[Affine]
 ) -> MovingPart:
     """Coordinates and rows of a block, of all rows with their columns; drives are let go, deformations stay."""
     moving_bodies = [b for v in block.vertices if v is not block.held for b in v.bodies]
@@ -76,7 +76,7 @@ def moving_part(
     return MovingPart(sorted(moving), tied, bends, driven, _sprung(model, moving, full))
 
 
-def _sprung(model: Mechanism, moving: set[int], full: Sequence[Affine]) -> bool:
+def _sprung(model: Model, moving: set[int], full: Sequence[Affine]) -> bool:
     """Whether a spring acts on a moving body."""
     springs = [e for e in model.elements if e.elastic]
     return any(moving & set(substitute(signal, full).terms) for e in springs for signal in e.signals)

@@ -14,7 +14,7 @@ from mbs.compiler.model_to_system import checked, compiled
 from mbs.compiler.overconstrained import TOLERANCE, closed_loops
 from mbs.compiler.ports import with_ports_of
 from mbs.compiler.tree import tree_arrays
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.system.compiled_model import CompiledModel
 from mbs.system.drawing import Drawing
 from mbs.system.system import System
@@ -23,11 +23,11 @@ Correction = Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]
 """Makes a context in which joints are drawn as their loops close, of the corrections by joint: m and rad."""
 
 
-def compile(model: Mechanism, *, tolerance: float = TOLERANCE, native: bool = False) -> System:
+def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False) -> System:
     """Compile a model.
 
     Linear joint equations are eliminated, dependent rows removed, the elimination order and fronts of the tangent
-    computed, and the start position and velocity solved. Overconstrained loops are closed by least squares before:
+    computed, and the start position and velocity solved. Overconstrained loops are closed by least squares beforehand:
     points and axes of their joints are moved, by as little as possible, to where the loop moves; the System's report
     says by how much, joint by joint (`closed`: distance in m, angle in rad).
 
@@ -74,7 +74,7 @@ def compile(model: Mechanism, *, tolerance: float = TOLERANCE, native: bool = Fa
     return system
 
 
-def _closed(model: Mechanism, closing: Callable[[Mechanism], Correction]) -> tuple[Correction, CompiledModel]:
+def _closed(model: Model, closing: Callable[[Model], Correction]) -> tuple[Correction, CompiledModel]:
     """What a model is compiled to with its loops closed, and the context in which they are."""
     corrected = closing(checked(model))
     with corrected() as closed:

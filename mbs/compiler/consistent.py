@@ -89,7 +89,7 @@ def close_position(
     largest = max([OPEN * fine, *gaps.values()])
     listed = sorted((item for item in gaps.items() if item[1] > 0.01 * largest), key=lambda item: -item[1])[:6]
     raise ModelError(
-        "The assembly cannot be closed; open stay the joints "
+        "The assembly cannot be closed; these joints stay open: "
         + ", ".join(f"'{n}' by {v:.3g} m" for n, v in listed)
         + "."
     )

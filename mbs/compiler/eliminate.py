@@ -91,7 +91,7 @@ def eliminate(
         columns = [j for j, v in row.items() if abs(v) >= least and j not in locked]
         if not columns:
             raise ModelError(
-                f"The joint '{equations[i][0]}' fixes an angle or spin coordinate; drive it by a guide instead."
+                f"The joint '{equations[i][0]}' fixes an angle or spin coordinate; prescribe it by m.drive instead."
             )
         late, count, other, j = min((first_only and j not in first, len(users[j]), j not in first, j) for j in columns)
         return late, (len(rows[i]) - 1) * (count - 1), other, j

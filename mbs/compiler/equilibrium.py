@@ -50,7 +50,7 @@ def equilibrium(
     unknown = [name for name in parameters if name not in names]
     if unknown:
         raise ModelError(
-            f"The equilibrium of '{system.meta['name']}' sets '{unknown[0]}', which is no parameter of it."
+            f"The equilibrium of '{system.meta['name']}' sets '{unknown[0]}', which is not a parameter of it."
         )
     for name, value in parameters.items():
         entry, what = system.meta["parameters"][names.index(name)], f"The parameter '{name}' of the equilibrium"

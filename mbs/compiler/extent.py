@@ -11,7 +11,7 @@ from mbs.common.checks import Vector
 from mbs.common.errors import ModelError
 from mbs.compiler.polynomial import RowTerms
 from mbs.model.body import Body
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 SPIN = 0.1
 """Radius of a wheel in parts of the length: its spin has no lever of its own."""
@@ -22,12 +22,12 @@ SMALL, LARGE = 0.1, 100.0
 """Lengths of a model, m, below and above which tolerances in m are those of these lengths in parts of them."""
 
 
-def model_length(model: Mechanism) -> float:
+def model_length(model: Model) -> float:
     """The stated length, or the drawn one, m: what errors are told in parts of."""
     return drawn_length(model) if model.length is None else model.length
 
 
-def drawn_length(model: Mechanism) -> float:
+def drawn_length(model: Model) -> float:
     """The diagonal of the box around all bodies and joints as drawn, m.
 
     A single body without joints has twice its radius of gyration, several have that of their mean by mass, so that an
@@ -41,7 +41,7 @@ def drawn_length(model: Mechanism) -> float:
     return found if found > 0.0 else 1.0
 
 
-def check_near(model: Mechanism, rows: Sequence[RowTerms], kinds: Sequence[str], length: float) -> None:
+def check_near(model: Model, rows: Sequence[RowTerms], kinds: Sequence[str], length: float) -> None:
     """Raises `ModelError`: the model is drawn so far from the origin that squares of its coordinates lose its shape.
 
     `kinds`: of the coordinates z of the rows; `length`: of the model as drawn, m.
@@ -75,13 +75,13 @@ def coordinate_lengths(kinds: list[str], units: list[bool], length: float) -> li
     return [length if unit else of_kind.get(kind, 1.0) for kind, unit in zip(kinds, units, strict=True)]
 
 
-def unit_vectors(model: Mechanism, numbers: list[int]) -> list[bool]:
+def unit_vectors(model: Model, numbers: list[int]) -> list[bool]:
     """Whether full coordinates are components of unit vectors, as of flexible bodies and bases; others are in m."""
     axes = {b.start + k for b in model.bodies if b.flexibility is not None or b.is_base for k in range(3, 12)}
     return [k in axes for k in numbers]
 
 
-def _all_points(model: Mechanism) -> list[Vector]:
+def _all_points(model: Model) -> list[Vector]:
     return [p for body in (model.ground, *model.bodies) for p in _points(body)]
 
 

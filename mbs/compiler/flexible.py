@@ -13,7 +13,7 @@ from mbs.common.affine import Affine
 from mbs.compiler.front_arrays import Locate
 from mbs.model.body import Body
 from mbs.model.flexibility import Flexibility
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 PAIRS = ((1, 2), (2, 0), (0, 1))
@@ -22,22 +22,22 @@ TIME = 0.1
 """What moves within this time, s, should deform bodies as little as possible when the start is made consistent."""
 
 
-def flexible_bodies(model: Mechanism) -> list[tuple[Body, Flexibility]]:
+def flexible_bodies(model: Model) -> list[tuple[Body, Flexibility]]:
     """Flexible bodies of a model, and how they bend."""
     return [(b, b.flexibility) for b in model.bodies if b.flexibility is not None]
 
 
-def flexible_coordinates(model: Mechanism) -> set[int]:
+def flexible_coordinates(model: Model) -> set[int]:
     """Full coordinates that are never eliminated: frames and amplitudes."""
     return {i for b, _ in flexible_bodies(model) for i in range(b.start, b.start + b.size)}
 
 
-def flexible_cliques(model: Mechanism, full: Sequence[Affine]) -> list[list[int]]:
+def flexible_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that each body couples in the tangent."""
     return [_places(b, full) for b, _ in flexible_bodies(model)]
 
 
-def deformation_metric(model: Mechanism, full: Sequence[Affine], new: NDArray[np.int64]) -> sparse.csr_matrix:
+def deformation_metric(model: Model, full: Sequence[Affine], new: NDArray[np.int64]) -> sparse.csr_matrix:
     """Stiffness of the flexible bodies times TIME^2, kg, in elimination order, shape (nq, nq)."""
     rows, columns, values = [np.zeros(0, int)], [np.zeros(0, int)], [np.zeros(0)]
     for body, bending in flexible_bodies(model):
@@ -49,9 +49,7 @@ def deformation_metric(model: Mechanism, full: Sequence[Affine], new: NDArray[np
     return sparse.coo_matrix((np.concatenate(values), places_of), shape=(len(new), len(new))).tocsr()
 
 
-def flexible_arrays(
-    model: Mechanism, full: Sequence[Affine], new: NDArray[np.int64], front_of: Locate
-) -> dict[str, Any]:
+def flexible_arrays(model: Model, full: Sequence[Affine], new: NDArray[np.int64], front_of: Locate) -> dict[str, Any]:
     """The `flex_` arrays; amplitudes in the order of their coordinates."""
     counts, frames, modes, fronts, locs = [0], [], [], [], []
     data: dict[str, list[Array]] = {name: [] for name in ("gravity", "P", "c", "T", "K", "C")}

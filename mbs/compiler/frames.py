@@ -8,10 +8,10 @@ from scipy import sparse
 
 from mbs.common.frames import FlexibleShapes, Frames
 from mbs.compiler.tabled_bodies import tabled_coordinates
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 
-def frames_of(model: Mechanism, T: sparse.csr_matrix, constant: NDArray[np.float64]) -> Frames:
+def frames_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64]) -> Frames:
     """Frames of a model whose full coordinates are ``T q + constant``."""
     points: list[int] = []
     vectors: list[int] = []

@@ -14,13 +14,13 @@ from mbs.compiler.natural import NaturalCoordinates
 from mbs.compiler.polynomial import RowTerms, cleaned, substitute
 from mbs.model.coordinate import CoordinateInfo
 from mbs.model.equation import Equation
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
 
 def reduce_coordinates(
-    model: Mechanism, natural: NaturalCoordinates, linear: Sequence[Equation], stay: set[int], length: float
+    model: Model, natural: NaturalCoordinates, linear: Sequence[Equation], stay: set[int], length: float
 ) -> tuple[NaturalCoordinates, list[int], list[Affine], list[Affine], int, list[RowTerms]]:
     """Eliminate the linear equations.
 
@@ -92,7 +92,7 @@ def transformation(full: Sequence[Affine], nz: int) -> tuple[sparse.csr_matrix, 
     return sparse.csr_matrix((values, columns, pointer), shape=(len(full), nz)), np.array([e.constant for e in full])
 
 
-def full_mass(model: Mechanism, weights: Mapping[int, Array] | None = None) -> sparse.csr_matrix:
+def full_mass(model: Model, weights: Mapping[int, Array] | None = None) -> sparse.csr_matrix:
     """Mass matrix of the full coordinates, or one of the blocks in `weights` by the number of their body."""
     rows, columns, values = [], [], []
     for k, body in enumerate(model.bodies):
@@ -114,7 +114,7 @@ def full_mass(model: Mechanism, weights: Mapping[int, Array] | None = None) -> s
     return sparse.coo_matrix((v, (i.astype(np.int64), j.astype(np.int64))), shape=(n, n)).tocsr()
 
 
-def full_gravity(model: Mechanism) -> Array:
+def full_gravity(model: Model) -> Array:
     """Generalised gravity of the full coordinates: m g on r, first moments times g on the axes."""
     force = np.zeros(len(model.coordinates))
     d = model.dimension

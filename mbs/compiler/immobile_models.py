@@ -14,7 +14,7 @@ from mbs.common.errors import ModelError
 from mbs.compiler.dependent_rows import DEPENDENT
 from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.structure import rank_at
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
@@ -22,7 +22,7 @@ IMPOSSIBLE = 1e-6
 """Part of the largest rate a condition asks for that may stay open."""
 
 
-def locked_gears(model: Mechanism) -> str:
+def locked_gears(model: Model) -> str:
     """A sentence about gears that form a ring round which the ratios contradict each other; empty where there is none.
 
     Raises
@@ -63,7 +63,7 @@ def locked_gears(model: Mechanism) -> str:
 
 
 def locked_parts(
-    model: Mechanism,
+    model: Model,
     full: Sequence[Affine],
     new: NDArray[np.int64],
     rows: Sequence[RowTerms],
@@ -107,7 +107,7 @@ def locked_parts(
 
 
 def check_motion(
-    model: Mechanism, rows: Sequence[RowTerms], Phiq: sparse.csr_matrix, phi_t: Array, qd: Array, mass_diagonal: Array
+    model: Model, rows: Sequence[RowTerms], Phiq: sparse.csr_matrix, phi_t: Array, qd: Array, mass_diagonal: Array
 ) -> None:
     """Refuse a model that cannot move at its reference position although it is asked to, or not as its drives ask.
 

@@ -20,7 +20,7 @@ from mbs.compiler.biconnected import blocks_of
 from mbs.compiler.spanning_tree import frame_along
 from mbs.model.body import Body, Ground
 from mbs.model.joints.joint import Drawing, Joint
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
@@ -89,7 +89,7 @@ class Loops:
         is redundant in every position, and never contradicts the others.
     """
 
-    def __init__(self, model: Mechanism, joints: list[Joint], welded: Welded) -> None:
+    def __init__(self, model: Model, joints: list[Joint], welded: Welded) -> None:
         self.planar = model.dimension == 2
         self.bodies = _bodies(joints, welded)
         self._welded = welded
@@ -263,7 +263,7 @@ class Loops:
         return np.array(values), np.array(G).reshape(-1, 12), arms
 
 
-def loops_of(model: Mechanism, most_bodies: int) -> list[Loops]:
+def loops_of(model: Model, most_bodies: int) -> list[Loops]:
     """The parts of a model in which every two joints between rigid bodies are in one closed loop, if they have
     no more than so many bodies.
     """

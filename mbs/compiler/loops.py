@@ -13,7 +13,7 @@ from mbs.common.affine import AffineVector
 from mbs.compiler.biconnected import blocks_of
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 
 @dataclass(eq=False)
@@ -65,7 +65,7 @@ class Block:
     """Against which its motion is seen: the ground, else the vertex with the most edges in the model."""
 
 
-def blocks_of_loops(model: Mechanism) -> list[Block]:
+def blocks_of_loops(model: Model) -> list[Block]:
     """The blocks that close a ring; joints with a switch are left out, they are not always closed."""
     found = []
     for edges in blocks_of({v: [(e, w) for w, e in v.edges.items()] for v in _graph(model)}):
@@ -107,7 +107,7 @@ def rings(block: Block) -> list[list[Vertex]]:
     return sorted(found.values(), key=lambda ring: any(v.is_rod for v in ring))
 
 
-def _graph(model: Mechanism) -> list[Vertex]:
+def _graph(model: Model) -> list[Vertex]:
     """All vertices, with their edges."""
     joints = [j for j in model.joints if j.ends is not None and j.switch is None]
     leader: dict[int, int] = {}

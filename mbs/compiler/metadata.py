@@ -9,11 +9,11 @@ from typing import Any
 from mbs.common.checks import flag, positive
 from mbs.compiler.polynomial import RowTerms
 from mbs.kernel.header.enumerations import ParameterTarget
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.records import Parameter
 
 
-def _built_in_road(model: Mechanism, parameter: Parameter) -> dict[str, int]:
+def _built_in_road(model: Model, parameter: Parameter) -> dict[str, int]:
     """The road whose own form a parameter sets, so that it says nothing of a road from a file."""
     roads = {road for family, road, *_ in parameter.targets if family == ParameterTarget.ROAD}
     others = any(
@@ -25,7 +25,7 @@ def _built_in_road(model: Mechanism, parameter: Parameter) -> dict[str, int]:
 
 
 def metadata(
-    model: Mechanism,
+    model: Model,
     coordinates: list[str],
     rows: list[RowTerms],
     report: dict[str, Any],

@@ -54,30 +54,30 @@ from mbs.compiler.written_axes import axis_arrays, axis_cliques, axis_room
 from mbs.compiler.written_inertias import inertia_arrays, inertia_cliques
 from mbs.kernel.header.arrays import ARRAYS
 from mbs.model.equation import Equation
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.system.compiled_model import CompiledModel
 
 Array = NDArray[np.float64]
 Tables = dict[str, Any]
 Corrections = dict[str, tuple[float, float]]
 LoopWatch = Callable[
-    [Mechanism, Sequence[RowTerms], Sequence[Affine], Array, Array, Signals], tuple[Tables, Callable[[], Tables]]
+    [Model, Sequence[RowTerms], Sequence[Affine], Array, Array, Signals], tuple[Tables, Callable[[], Tables]]
 ]
-Trees = Callable[[Mechanism, Signals, Sequence[int], NDArray[np.int64]], tuple[Tables, str]]
+Trees = Callable[[Model, Signals, Sequence[int], NDArray[np.int64]], tuple[Tables, str]]
 NO_TREE: Tables = {name: [] for name in ARRAYS if name.startswith("tree_")}
 """Of a System that has no open tree."""
 
 
-def checked(model: Mechanism) -> Mechanism:
+def checked(model: Model) -> Model:
     """What can be compiled: a Model with a body."""
-    instance_of(Mechanism, model, "What compile takes", "a Model")
+    instance_of(Model, model, "What compile takes", "a Model")
     if not model.bodies:
         raise ModelError(f"The model '{model.name}' has no bodies.")
     return model
 
 
 def compiled(
-    model: Mechanism, closed: Corrections | None = None, *, watch: LoopWatch | None = None, trees: Trees | None = None
+    model: Model, closed: Corrections | None = None, *, watch: LoopWatch | None = None, trees: Trees | None = None
 ) -> CompiledModel:
     """The arrays and names of a model, of which `compile` makes the System.
 
@@ -122,7 +122,7 @@ class _Reduced:
     """Of the model as drawn, m."""
 
 
-def _reduced(model: Mechanism, closed: Corrections) -> _Reduced:
+def _reduced(model: Model, closed: Corrections) -> _Reduced:
     """Linear equations are eliminated; what is left are rows, without those that follow from others."""
     linear, others = _equations(model)
     natural = natural_coordinates(model)
@@ -167,7 +167,7 @@ class _Ordered:
     tangent_nonzeros: int
 
 
-def _ordered(model: Mechanism, reduced: _Reduced) -> _Ordered:
+def _ordered(model: Model, reduced: _Reduced) -> _Ordered:
     known, rows = reduced.known, reduced.rows
     T, z0 = transformation(known.full, len(known.remaining))
     M_full = full_mass(model)
@@ -199,7 +199,7 @@ class _Start:
     """What joints hold fast."""
 
 
-def _start(model: Mechanism, reduced: _Reduced, ordered: _Ordered) -> _Start:
+def _start(model: Model, reduced: _Reduced, ordered: _Ordered) -> _Start:
     known, rows, new = reduced.known, reduced.rows, ordered.new
     T, z0, mass, order = ordered.T, ordered.z0, ordered.mass, ordered.fronts.order
     guides, guide_rates = guide_start(model)
@@ -221,7 +221,7 @@ def _start(model: Mechanism, reduced: _Reduced, ordered: _Ordered) -> _Start:
 
 
 def _tables(
-    model: Mechanism,
+    model: Model,
     reduced: _Reduced,
     ordered: _Ordered,
     start: _Start,
@@ -287,14 +287,14 @@ def _tables(
     return tables, no_tree, modes
 
 
-def _pose(model: Mechanism, reduced: _Reduced, ordered: _Ordered, q: Array) -> Mapping[str, Any]:
+def _pose(model: Model, reduced: _Reduced, ordered: _Ordered, q: Array) -> Mapping[str, Any]:
     """Arrays by which a pose is set, at a position."""
     known, new = reduced.known, ordered.new
     return pose_arrays(model, reduced.natural, known.remaining, known.of_z, q[new], ordered.fronts.order)
 
 
 def _metadata(
-    model: Mechanism, reduced: _Reduced, ordered: _Ordered, start: _Start, closed: Corrections, no_tree: str
+    model: Model, reduced: _Reduced, ordered: _Ordered, start: _Start, closed: Corrections, no_tree: str
 ) -> Tables:
     report = {
         **structure_report(model, ordered.fronts, start.rank, len(reduced.rows)),
@@ -313,7 +313,7 @@ def _metadata(
     return metadata(model, [c.name for c in info], reduced.rows, report, lengths)
 
 
-def _equations(model: Mechanism) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:
+def _equations(model: Model) -> tuple[list[Equation], list[tuple[int, int, Equation]]]:
     """Joint equations to be eliminated, and those that become rows with the numbers of joint and equation."""
     linear, others = [], []
     for j, joint in enumerate(model.joints):
@@ -329,13 +329,13 @@ def _equations(model: Mechanism) -> tuple[list[Equation], list[tuple[int, int, E
     return linear, others
 
 
-def _added_mass(model: Mechanism, full: Sequence[Affine]) -> list[list[int]]:
+def _added_mass(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) between which parameters change the mass matrix."""
     return payload_cliques(model, full) + inertia_cliques(model, full) + axis_cliques(model, full)
 
 
 def _symbolic(
-    model: Mechanism, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix, known: Dependents
+    model: Model, rows: list[RowTerms], full: list[Affine], mass: sparse.csr_matrix, known: Dependents
 ) -> tuple[Fronts, int]:
     """Elimination order and fronts of the tangent, and the non-zeros of its lower triangle."""
     entries = mass.tocoo()

@@ -17,7 +17,7 @@ from mbs.common.affine import Affine
 from mbs.compiler.local_vectors import SHORT, body_length, distinct
 from mbs.model.body import Body
 from mbs.model.coordinate import CoordinateInfo
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ class NaturalCoordinates:
     """The coordinates of the model (centre of mass and unit axes) as expressions of these."""
 
 
-def natural_coordinates(model: Mechanism) -> NaturalCoordinates:
+def natural_coordinates(model: Model) -> NaturalCoordinates:
     """Choose the points and vectors of every body."""
     info = [*model.coordinates]
     expressions = [Affine({i: 1.0}) for i in range(len(info))]

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.model.body import Body
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
 
-def joint_gaps(model: Mechanism, q_full: Array) -> dict[str, float]:
+def joint_gaps(model: Model, q_full: Array) -> dict[str, float]:
     """Gap of each joint whose equations are linear, m, with every body rigid again next to where `q_full` has it."""
     rigid = np.array(q_full, dtype=float)
     for body in model.bodies:
@@ -32,7 +32,7 @@ def joint_gaps(model: Mechanism, q_full: Array) -> dict[str, float]:
     return gaps
 
 
-def joints_of_bodies(model: Mechanism) -> dict[str, list[str]]:
+def joints_of_bodies(model: Model) -> dict[str, list[str]]:
     """Names of the joints at each body, by its name."""
     owner = {i: body.name for body in model.bodies for i in range(body.start, body.start + body.size)}
     found: dict[str, list[str]] = {body.name: [] for body in model.bodies}

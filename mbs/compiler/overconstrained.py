@@ -30,7 +30,7 @@ from mbs.common.errors import ModelError
 from mbs.compiler.loop_conditions import EXACT, Condition, Loops, Places, loops_of
 from mbs.compiler.mobility import Closed, close, motion
 from mbs.model.joints.joint import Joint
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
@@ -76,7 +76,7 @@ class Corrected:
     correction: Correction
 
 
-def corrected_joints(model: Mechanism, tolerance: float = TOLERANCE) -> list[Corrected]:
+def corrected_joints(model: Model, tolerance: float = TOLERANCE) -> list[Corrected]:
     """The joints of overconstrained loops that move only if their drawing is corrected, with what they should be.
 
     `tolerance`: largest correction, parts of the size of a loop's drawing (m/m) and rad; 0 takes every drawing as it
@@ -89,7 +89,7 @@ def corrected_joints(model: Mechanism, tolerance: float = TOLERANCE) -> list[Cor
 
 def closed_loops(
     tolerance: float,
-) -> Callable[[Mechanism], Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]]:
+) -> Callable[[Model], Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]]:
     """What finds the corrections of a model's drawing, and gives a context in which it is drawn so; see `compile`.
 
     `tolerance`: see `corrected_joints`. Raises `ModelError`: the tolerance is not in its range.

@@ -14,10 +14,10 @@ from mbs.common.vectors import in_space
 from mbs.compiler.polynomial import substitute
 from mbs.compiler.tables import Signals
 from mbs.kernel.header.enumerations import SensorType
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 
-def payload_cliques(model: Mechanism, full: Sequence[Affine]) -> list[list[int]]:
+def payload_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that each component of a payload couples in the mass matrix."""
     return [sorted(substitute(s, full).terms) for p in model.payloads for s in p.point.components]
 
@@ -31,7 +31,7 @@ def with_room(mass: sparse.csr_matrix, cliques: Sequence[Sequence[int]]) -> spar
     return sparse.coo_matrix((np.concatenate([old.data, np.zeros(len(rows))]), places), shape=mass.shape).tocsr()
 
 
-def payload_arrays(model: Mechanism, signals: Signals) -> dict[str, Any]:
+def payload_arrays(model: Model, signals: Signals) -> dict[str, Any]:
     """The `payload_` arrays; in the plane the third component is 0."""
     _check_ports(model)
     numbers = []
@@ -45,7 +45,7 @@ def payload_arrays(model: Mechanism, signals: Signals) -> dict[str, Any]:
     }
 
 
-def _check_ports(model: Mechanism) -> None:
+def _check_ports(model: Model) -> None:
     """A quasi-static output sees what acts at the ports; a payload beside them would be missing from it."""
     for sensor in model.sensors:
         if sensor.type != SensorType.QUASI_STATIC:

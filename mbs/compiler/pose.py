@@ -11,7 +11,7 @@ from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.compiler.natural import NaturalCoordinates
 from mbs.compiler.tables import Signals
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -20,7 +20,7 @@ NAMES = ("pose_0", "pose_cos", "pose_sin", "pose_x", "pose_y", "pose_z", "pose_s
 
 
 def pose_arrays(
-    model: Mechanism,
+    model: Model,
     natural: NaturalCoordinates,
     remaining: Sequence[int],
     of_z: Sequence[Affine],
@@ -70,7 +70,7 @@ def pose_arrays(
 
 
 def pose_partners(
-    model: Mechanism,
+    model: Model,
     natural: NaturalCoordinates,
     remaining: Sequence[int],
     of_z: Sequence[Affine],

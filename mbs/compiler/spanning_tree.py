@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.vectors import in_space
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint, JointPlaces
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.perpendicular import perpendicular
 
 Array = NDArray[np.float64]
@@ -69,7 +69,7 @@ class Cut:
     groups: tuple[Group, Group]
 
 
-def spanning_tree(model: Mechanism) -> tuple[list[Group], list[Cut]]:
+def spanning_tree(model: Model) -> tuple[list[Group], list[Cut]]:
     """Groups in depth-first order, the ground first, and the joints that are cut.
 
     Raises `NoTreeError`: with the reason.
@@ -122,7 +122,7 @@ def spanning_tree(model: Mechanism) -> tuple[list[Group], list[Cut]]:
     return _depth_first(ground), cuts
 
 
-def check(model: Mechanism) -> None:
+def check(model: Model) -> None:
     """Raise `NoTreeError` for what is not a matter of rigid bodies and their joints."""
     for body in model.bodies:
         if body.is_flexible or body.is_point:
@@ -137,7 +137,7 @@ def check(model: Mechanism) -> None:
             raise NoTreeError(f"joint '{joint.name}' is neither revolute, prismatic, spherical nor a weld")
 
 
-def turning(model: Mechanism, groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
+def turning(model: Model, groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
     """The joints whose coordinates add up to a relative angle, by the numbers of their bodies, and their signs.
 
     Raises `NoTreeError`: where a joint between its bodies turns about another axis.
@@ -159,12 +159,12 @@ def turning(model: Mechanism, groups: list[Group], joint: Joint) -> list[tuple[i
     return sorted(found.items())
 
 
-def rows_of(model: Mechanism, cut: Cut) -> tuple[int, int]:
+def rows_of(model: Model, cut: Cut) -> tuple[int, int]:
     """Rows of a cut joint: of points and of axes."""
     return model.dimension, 0 if cut.places.axes is None else 2
 
 
-def _check_size(model: Mechanism, n_joints: int, cuts: list[Cut]) -> None:
+def _check_size(model: Model, n_joints: int, cuts: list[Cut]) -> None:
     rows = sum(sum(rows_of(model, cut)) for cut in cuts)
     if n_joints > MOST_JOINTS or rows > MOST_CUT_ROWS:
         raise NoTreeError(
@@ -175,7 +175,7 @@ def _check_size(model: Mechanism, n_joints: int, cuts: list[Cut]) -> None:
             raise NoTreeError(f"the prismatic joint '{cut.joint.name}' closes a loop of prismatic joints")
 
 
-def _welded(model: Mechanism) -> dict[int, Group]:
+def _welded(model: Model) -> dict[int, Group]:
     """The group of every body by its identity."""
     group_of = {id(body): Group([body]) for body in (model.ground, *model.bodies)}
     for joint in model.joints:

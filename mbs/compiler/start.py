@@ -16,7 +16,7 @@ from mbs.compiler.row_arrays import RowArrays
 from mbs.compiler.start_velocities import GivenVelocity, contradiction, given_velocities
 from mbs.kernel.header.enumerations import GuideType
 from mbs.model.guides import of_table
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -26,7 +26,7 @@ ARM = 0.1
 
 
 def reference_position(
-    model: Mechanism,
+    model: Model,
     natural: NaturalCoordinates,
     remaining: list[int],
     T: sparse.csr_matrix,
@@ -42,7 +42,7 @@ def reference_position(
     return np.atleast_1d(z)
 
 
-def guide_start(model: Mechanism) -> tuple[Array, Array]:
+def guide_start(model: Model) -> tuple[Array, Array]:
     """Value and rate of the guides at time zero."""
     values = np.array([g.start for g in model.guides], dtype=float)
     rates = np.zeros(len(model.guides))
@@ -60,7 +60,7 @@ def guide_start(model: Mechanism) -> tuple[Array, Array]:
 
 
 def velocity(
-    model: Mechanism,
+    model: Model,
     full: list[Affine],
     T: sparse.csr_matrix,
     z: Array,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
@@ -55,7 +55,7 @@ class GivenVelocity:
         return sparse.csr_matrix((self.weight.ravel(), (rows.ravel(), columns.ravel())), shape=(n, n))
 
 
-def given_velocities(model: Mechanism, position: Array, mass: float) -> Iterator[GivenVelocity]:
+def given_velocities(model: Model, position: Array, mass: float) -> Iterator[GivenVelocity]:
     """All that were asked for, at full coordinates; `mass`: of a coordinate that has none, kg."""
     d, turns = model.dimension, 1 if model.dimension == 2 else 3
     for k, (linear, angular) in model.body_velocities.items():
@@ -77,7 +77,7 @@ def given_velocities(model: Mechanism, position: Array, mass: float) -> Iterator
 
 
 def contradiction(
-    model: Mechanism, given: list[GivenVelocity], reached: Array, alone: Callable[[GivenVelocity], Array]
+    model: Model, given: list[GivenVelocity], reached: Array, alone: Callable[[GivenVelocity], Array]
 ) -> str:
     """A sentence on velocities each of which the joints allow alone, but not together; empty where there are none.
 

@@ -9,7 +9,7 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from mbs.compiler.fronts import Fronts
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 RANK_TOLERANCE = 1e-7
 """Singular values of the mass-normalised rows below this part of the largest count as zero."""
@@ -43,7 +43,7 @@ def rank_at(Phiq: sparse.csr_matrix, mass_diagonal: np.ndarray) -> int | None:
     return nc - int(np.sum(factor.U.diagonal() < 0.0))
 
 
-def structure_report(model: Mechanism, fronts: Fronts, rank: int | None, rows: int) -> dict[str, Any]:
+def structure_report(model: Model, fronts: Fronts, rank: int | None, rows: int) -> dict[str, Any]:
     """Counts of the System and its factor."""
     return {
         "bodies": len(model.bodies),

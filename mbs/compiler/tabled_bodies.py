@@ -13,7 +13,7 @@ from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.compiler.front_arrays import Locate
 from mbs.compiler.polynomial import RowTerms
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.tabled import TabledBody, TabledNumber
 
 NONE = [-1] * 12
@@ -21,7 +21,7 @@ NONE = [-1] * 12
 
 @dataclass(frozen=True)
 class Dependents:
-    """Expressions of z, those of tabled bodies and numbers apart from the others."""
+    """Expressions of z, those of lookup-table bodies and numbers apart from the others."""
 
     remaining: list[int]
     """Natural coordinates that are z."""
@@ -34,12 +34,12 @@ class Dependents:
     """Linear equations between coordinates that stay, over z."""
 
 
-def tabled_coordinates(model: Mechanism) -> list[int]:
+def tabled_coordinates(model: Model) -> list[int]:
     """Full coordinates that tables give, in the order of dependents."""
     return [i for t in model.tabled for i in _own(t)]
 
 
-def base_coordinates(model: Mechanism) -> set[int]:
+def base_coordinates(model: Model) -> set[int]:
     """Full coordinates of bodies that tables stand on, and parameters: never eliminated."""
     bases = [b for b in model.bodies if b.is_base]
     return {i for b in bases for i in range(b.start, b.start + b.size)} | {
@@ -47,7 +47,7 @@ def base_coordinates(model: Mechanism) -> set[int]:
     }
 
 
-def carried_mass(model: Mechanism) -> NDArray[np.float64]:
+def carried_mass(model: Model) -> NDArray[np.float64]:
     """What tabled bodies as drawn add to the diagonal mass of their bases: these may be lighter; shape (n_full,)."""
     mass = np.zeros(len(model.coordinates))
     for t in model.tabled:
@@ -59,7 +59,7 @@ def carried_mass(model: Mechanism) -> NDArray[np.float64]:
 
 
 def tell_apart(
-    model: Mechanism, remaining: list[int], full: list[Affine], of_z: list[Affine], left: list[RowTerms]
+    model: Model, remaining: list[int], full: list[Affine], of_z: list[Affine], left: list[RowTerms]
 ) -> Dependents:
     """Number the dependents behind z."""
     tabled = {i: d for d, i in enumerate(tabled_coordinates(model))}
@@ -82,15 +82,15 @@ def tell_apart(
 
 def refuse_joint(name: str) -> ModelError:
     """The error for a joint on a tabled body."""
-    return ModelError(f"The joint '{name}' is on a tabled body, which takes forces and sensors, and no joints.")
+    return ModelError(f"The joint '{name}' is on a lookup-table body, which accepts forces and sensors but no joints.")
 
 
-def columns_of(model: Mechanism, seen: Sequence[Affine]) -> list[list[int]]:
+def columns_of(model: Model, seen: Sequence[Affine]) -> list[list[int]]:
     """For each dependent the coordinates of z that it depends on."""
     return [_places(t, seen) for t in model.tabled for _ in _own(t)]
 
 
-def tabled_cliques(model: Mechanism, seen: Sequence[Affine]) -> list[list[int]]:
+def tabled_cliques(model: Model, seen: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that each table couples in the tangent."""
     return [sorted(_places(t, seen)) for t in model.tabled]
 
@@ -114,7 +114,7 @@ def locator_of(locate: Locate, of: Sequence[Sequence[int]], nz: int) -> Locate:
     return found
 
 
-def tabled_arrays(model: Mechanism, seen: Sequence[Affine], new: NDArray[np.int64]) -> Mapping[str, Any]:
+def tabled_arrays(model: Model, seen: Sequence[Affine], new: NDArray[np.int64]) -> Mapping[str, Any]:
     """The `tabled_` arrays; none where there are no tables."""
     if not model.tabled:
         return {}

@@ -16,7 +16,7 @@ from mbs.compiler.polynomial import substitute
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.sensor import MOST_FACTORS, Sensor
 
 Arrays = dict[str, NDArray[Any]]
@@ -79,7 +79,7 @@ def ragged(name: str, groups: Sequence[Sequence[float]], dtype: type) -> Arrays:
     return {f"{name}_ptr": pointer([len(g) for g in groups]), name: np.array(flat, dtype=dtype)}
 
 
-def element_cliques(model: Mechanism, full: Sequence[Affine], room: Mapping[int, frozenset[int]]) -> list[list[int]]:
+def element_cliques(model: Model, full: Sequence[Affine], room: Mapping[int, frozenset[int]]) -> list[list[int]]:
     """Coordinates (before ordering) that each element couples in the tangent; `room` as that of `Signals`."""
     found = []
     for element in model.elements:
@@ -89,7 +89,7 @@ def element_cliques(model: Mechanism, full: Sequence[Affine], room: Mapping[int,
     return found
 
 
-def element_arrays(model: Mechanism, signals: Signals, front_of: Locate) -> Arrays:
+def element_arrays(model: Model, signals: Signals, front_of: Locate) -> Arrays:
     """The `el_` arrays and `y0`; `front_of(columns)` returns the front and the local indices of columns."""
     numbers, fronts, locals_ = [], [], []
     for element in model.elements:
@@ -117,7 +117,7 @@ def element_arrays(model: Mechanism, signals: Signals, front_of: Locate) -> Arra
     }
 
 
-def sensor_arrays(model: Mechanism, signals: Signals, row_of: dict[tuple[int, int], int]) -> Arrays:
+def sensor_arrays(model: Model, signals: Signals, row_of: dict[tuple[int, int], int]) -> Arrays:
     """The `sen_` arrays; `row_of` maps (joint, equation) to its row."""
     joints = {id(j): k for k, j in enumerate(model.joints)}
     ints = []
@@ -163,7 +163,7 @@ def sensor_arrays(model: Mechanism, signals: Signals, row_of: dict[tuple[int, in
     }
 
 
-def channel_arrays(model: Mechanism) -> Arrays:
+def channel_arrays(model: Model) -> Arrays:
     """Inputs, guides, roads and parameters."""
     element_start = pointer([len(e.real) for e in model.elements])
     guide_start = pointer([len(g.reals) for g in model.guides])

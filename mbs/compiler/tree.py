@@ -27,7 +27,7 @@ from mbs.compiler.spanning_tree import (
 )
 from mbs.compiler.tables import Signals
 from mbs.model.body import Body
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 Array = NDArray[np.float64]
 
@@ -38,7 +38,7 @@ CARRIED = 5
 
 
 def tree_arrays(
-    model: Mechanism, signals: Signals, remaining: Sequence[int], new: NDArray[np.int64]
+    model: Model, signals: Signals, remaining: Sequence[int], new: NDArray[np.int64]
 ) -> tuple[dict[str, Any], str]:
     """The `tree_` arrays; none, with the reason in words, where the model has no tree.
 
@@ -74,7 +74,7 @@ def tree_arrays(
         return {}, str(reason)
 
 
-def _refuse_written(model: Mechanism) -> None:
+def _refuse_written(model: Model) -> None:
     """Trees take inertias as constant, and know no wheels."""
     for k in written_armatures(model):
         raise NoTreeError(f"a parameter writes the ratio of armature '{model.armatures[k].name}'")
@@ -133,7 +133,7 @@ def _components(body: Body, drawn: Array, is_point: bool) -> AffineVector:
 
 
 def _coordinates(
-    model: Mechanism, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]
+    model: Model, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]
 ) -> dict[str, Any]:
     """The points (1) and vectors (0) whose components are coordinates of the System: body, local components, places."""
     owner = {id(body): group for group in groups for body in group.bodies}
@@ -154,7 +154,7 @@ def _coordinates(
     return {"out_body": bodies, "out_local": _joined(locals_), "out_col": columns}
 
 
-def _payloads(model: Mechanism, groups: Sequence[Group]) -> dict[str, Any]:
+def _payloads(model: Model, groups: Sequence[Group]) -> dict[str, Any]:
     """Bodies of the payloads and places in their frames."""
     owner = {body.start: group for group in groups for body in group.bodies if not body.is_ground}
     on = [owner[p.body.start] for p in model.payloads]
@@ -167,9 +167,7 @@ def _payloads(model: Mechanism, groups: Sequence[Group]) -> dict[str, Any]:
     return {"payload_body": [g.number for g in on], "payload_place": _joined(places)}
 
 
-def _angles(
-    model: Mechanism, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]
-) -> dict[str, Any]:
+def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:
     """Relative angles: place of the coordinate, joints that add up to it with their signs, inertia on it."""
     place = {i: int(new[z]) for z, i in enumerate(remaining)}
     arrays: dict[str, list[Any]] = {"col": [], "ptr": [0], "joint": [], "sign": [], "inertia": []}
@@ -199,7 +197,7 @@ def _one_path(groups: Sequence[Group], numbers: Sequence[int]) -> bool:
     return path.issuperset(numbers)
 
 
-def _cut_arrays(model: Mechanism, cuts: Sequence[Cut]) -> dict[str, Any]:
+def _cut_arrays(model: Model, cuts: Sequence[Cut]) -> dict[str, Any]:
     """Bodies, numbers of rows, point and normals of the axis on the first body, point and axis on the second."""
     bodies: list[int] = []
     rows: list[int] = []

@@ -12,13 +12,13 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.compiler.polynomial import substitute
 from mbs.kernel.header.enumerations import ParameterTarget
 from mbs.model.carried import WrittenAxis
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 ROUND = 1e-12
 """rad, by which a value that a parameter writes may differ from the drawn one in its last bits."""
 
 
-def axis_room(model: Mechanism, full: Sequence[Affine]) -> dict[int, frozenset[int]]:
+def axis_room(model: Model, full: Sequence[Affine]) -> dict[int, frozenset[int]]:
     """Coordinates of z, before ordering, that components of the vectors of such wheels may have, by their identity."""
     found: dict[int, frozenset[int]] = {}
     for axis in model.written_axes:
@@ -27,7 +27,7 @@ def axis_room(model: Mechanism, full: Sequence[Affine]) -> dict[int, frozenset[i
     return found
 
 
-def axis_cliques(model: Mechanism, full: Sequence[Affine]) -> list[list[int]]:
+def axis_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that a wheel couples in the mass matrix of its carrier."""
     axes = [a for a in model.written_axes if not a.spin.carrier.is_tabled]
     return [sorted(_room(axis, k, full)) for axis in axes for k in range(3)]
@@ -38,7 +38,7 @@ def _room(axis: WrittenAxis, k: int, full: Sequence[Affine]) -> frozenset[int]:
     return frozenset(j for v in axis.frame for j in substitute(v.components[k], full).terms)
 
 
-def axis_arrays(model: Mechanism, signals: Any, seen: Sequence[Affine], new: NDArray[np.int64]) -> Mapping[str, Any]:
+def axis_arrays(model: Model, signals: Any, seen: Sequence[Affine], new: NDArray[np.int64]) -> Mapping[str, Any]:
     """The `axis_` arrays, of `mbs.compiler.tables.Signals` and expressions of z."""
     tables = {id(t): k for k, t in enumerate(model.tabled)}
     axes = model.written_axes
@@ -58,7 +58,7 @@ def axis_arrays(model: Mechanism, signals: Any, seen: Sequence[Affine], new: NDA
     }
 
 
-def _reals(model: Mechanism) -> list[float]:
+def _reals(model: Model) -> list[float]:
     """As drawn, with the last bits that parameters write: an instance knows by these that nothing has changed."""
     found = [list(a.reals) for a in model.written_axes]
     for p in model.parameters:

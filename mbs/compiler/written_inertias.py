@@ -9,10 +9,10 @@ from mbs.common.affine import Affine
 from mbs.common.vectors import in_space
 from mbs.compiler.polynomial import substitute
 from mbs.compiler.tables import Signals
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 
-def inertia_cliques(model: Mechanism, full: Sequence[Affine]) -> list[list[int]]:
+def inertia_cliques(model: Model, full: Sequence[Affine]) -> list[list[int]]:
     """Coordinates of z (before ordering) that each component of the vectors of a body couples in the mass matrix."""
     return [
         sorted({j for v in body.vectors for j in substitute(v.components[k], full).terms})
@@ -21,7 +21,7 @@ def inertia_cliques(model: Mechanism, full: Sequence[Affine]) -> list[list[int]]
     ]
 
 
-def inertia_arrays(model: Mechanism, signals: Signals) -> dict[str, Any]:
+def inertia_arrays(model: Model, signals: Signals) -> dict[str, Any]:
     """The `inertia_` arrays."""
     return {
         "inertia_real": [r for body in model.written_inertias for r in body.reals],

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Annotated
 
 from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import positive
+from mbs.common.checks import not_negative, positive
 from mbs.common.errors import ModelError
 from mbs.elements.element import Element
 from mbs.elements.integers import Integer, an_input
-from mbs.elements.reals import NotNegative, Positive, reals_of
+from mbs.elements.reals import NotNegative, Positive, Real, each_real, reals_of
 from mbs.elements.record import ElementRecord, Output
 from mbs.elements.record_checks import several
 from mbs.elements.wheel_signals import carrier_signals
@@ -21,8 +22,12 @@ from mbs.elements.wheel_signals import carrier_signals
 class AutomaticDrive(Element):
     """Drive of two wheels by an engine with a torque converter and gears that shift automatically.
 
-    The speed of the turbine is the ratio times the mean speed of the wheels. Ratio of reverse, speed and time to engage
-    are used where there is a selector.
+    The speed of the turbine is the ratio times the mean speed of the wheels, that of the engine, which has no inertia,
+    ``sqrt(w_s^2 + w_t^2)`` of stall and turbine speed. Its torque is ``min(T_max, P_max/w)`` times a linear factor of
+    the converter. Gears shift between steps, by speed or by request, and blend over the ramp; a clutch behind the
+    converter passes on at most the share of the largest torque that its pedal leaves, and slips beyond. Both wheels
+    have equal torques, the carrier their reaction. Ratio of reverse, speed and time to engage are used where there is a
+    selector.
     """
 
     max_torque: NotNegative
@@ -47,19 +52,19 @@ class AutomaticDrive(Element):
     """Wheel speed where the creep torque has faded, rad/s."""
     drag_torque: NotNegative = 20.0
     """Torque of the engine at its limit speed with closed throttle, N m."""
-    up_closed: NotNegative = 230.0
+    up_closed: Annotated[float, Real(not_negative, words="upshift speed with closed throttle")] = 230.0
     """Speed of the turbine at which it shifts up with closed throttle, rad/s."""
-    up_open: NotNegative = 540.0
+    up_open: Annotated[float, Real(not_negative, words="upshift speed with open throttle")] = 540.0
     """Speed of the turbine at which it shifts up with open throttle, rad/s."""
-    down_closed: NotNegative = 110.0
+    down_closed: Annotated[float, Real(not_negative, words="downshift speed with closed throttle")] = 110.0
     """Speed of the turbine at which it shifts down with closed throttle, rad/s."""
-    down_open: NotNegative = 270.0
+    down_open: Annotated[float, Real(not_negative, words="downshift speed with open throttle")] = 270.0
     """Speed of the turbine at which it shifts down with open throttle, rad/s."""
-    dwell: NotNegative = 0.6
+    dwell: Annotated[float, Real(not_negative, words="time between shifts")] = 0.6
     """Least time between shifts, s."""
-    ramp: NotNegative = 0.2
+    ramp: Annotated[float, Real(not_negative, words="shift duration")] = 0.2
     """Duration of a shift, s."""
-    locking: NotNegative = 0.0
+    locking: Annotated[float, Real(not_negative, words="locking share")] = 0.0
     """Share of the torque by which the slower driven wheel can have more than the faster; 0: open differential."""
     ratios: Sequence[float] = (10.5, 5.9, 4.0)
     """Total ratio of each gear, first gear first."""
@@ -137,10 +142,10 @@ class AutomaticDrive(Element):
         selector : int, optional
             Number of an input: -1 reverse, 0 neutral, 1 drive; without one the drive is in drive.
         request : int, optional
-            Number of an input that asks for a forward gear, from 1; 0: as the drive shifts by itself. Needs a selector.
+            Number of an input that requests a forward gear, from 1; 0: automatic shifting. Needs a selector.
         clutch : int, optional
-            Number of an input, the pedal of a clutch behind the converter, 0 released to 1 pressed: it hands on at most
-            the part 1 - pedal of the largest torque that the drive has in its gear. Needs a selector.
+            Number of an input, the pedal of a clutch behind the converter, 0 released to 1 pressed: it transmits at
+            most the part 1 - pedal of the largest torque that the drive has in its gear. Needs a selector.
 
         Raises
         ------
@@ -153,8 +158,9 @@ class AutomaticDrive(Element):
             if number is not None and selector is None:
                 raise ModelError(f"T{what[1:]} has a {asked} and no selector; give it one.")
         reals_of(self, what)
+        words = {field: called for field, _, called in each_real(type(self))}
         for field, wrong in self.faults():
-            raise ModelError(f"The {field.replace('_', ' ')} of {what} {wrong}.")
+            raise ModelError(f"The {words.get(field, field)} of {what} {wrong}.")
         record = self._record(
             name,
             (left, right, *carrier_signals(f, g, what)),

@@ -15,7 +15,11 @@ from mbs.elements.wheel_signals import carrier_signals
 
 @dataclass(frozen=True)
 class Brake(Element):
-    """Elastoplastic friction torque between a wheel and its carrier."""
+    """Elastoplastic friction torque between a wheel and its carrier.
+
+    Spring and damper in series with a slider: ``k z + c z'``, at most pedal times largest torque times share, plus hand
+    brake times its torque; ``z'`` is the spin against the carrier while it sticks.
+    """
 
     max_torque: NotNegative
     """Torque at full pedal, N m."""
@@ -65,7 +69,7 @@ class Brake(Element):
         hand : int, optional
             Number of the input of the hand brake, 0 to 1.
         by_size : bool
-            Whether `input` is no pedal but any number from 0 on, and `max_torque` the torque per unit of it.
+            Whether `input` is not a pedal but any number from 0 on, and `max_torque` the torque per unit of it.
         """
         what = self._what(name)
         sized = 1 if flag(by_size, f"The by_size of {what}") else None

@@ -16,7 +16,10 @@ LargestForce = Annotated[float, Real(not_negative, words="largest force")]
 
 @dataclass(frozen=True)
 class CoordinateFriction(Element):
-    """Elastoplastic friction on a coordinate: it holds below its largest force and slides at it."""
+    """Elastoplastic friction on a coordinate: it holds below its largest force and slides at it.
+
+    Spring and damper in series with a slider, as in a brake.
+    """
 
     largest: LargestForce
     """Force at which it slides, N m of an angle, N of a length."""

@@ -16,11 +16,12 @@ from mbs.elements.wheel_signals import carrier_signals
 class ElectricDrive(Element):
     """Drive of two wheels by an electric motor: constant torque, then constant power, then the limit speed.
 
-    Speeds and torques are those of the motor where nothing else is said. The throttle sets its part of the largest
-    torque at the speed, less the other part of the torque of regeneration. Where a torque works against the motion the
-    motor gives electric power: that of the battery is that of the shaft over the efficiency under drive, times it in
-    regeneration. The loss of the gears fades below 5 rad/s. The rotor's inertia belongs to the spins of the wheels, see
-    `Model.armature`.
+    Speeds and torques are those of the motor where nothing else is said. Its torque T is the throttle times
+    ``min(T_max, P_max/|w|)``, to zero beyond the limit speed, less the rest of the throttle times ``min(T_r, P_r/|w|)
+    r(w)`` of regeneration, r an odd smooth step around standstill. With the ratio N both wheels have ``N T/2``, the
+    carrier the reaction. Where a torque works against the motion the motor gives electric power: that of the battery is
+    that of the shaft over the efficiency under drive, times it in regeneration. The loss of the gears fades below 5
+    rad/s. The inertia J of the rotor is ``J N^2/2`` on each spin, see `Model.armature`.
     """
 
     max_torque: NotNegative

@@ -54,7 +54,7 @@ def header(kind: type[Element]) -> str:
     lines = [
         "/* clang-format off */",
         *_comment(f"Numbers of {words}. Written by `python -m mbs.elements.fields_in_c` from {kind.__name__}."),
-        *_comment(f"Signals: {_signals(kind)}."),
+        *_comment(f"Signals: {signals_of(kind)}."),
         *_comment("Outputs: " + ("; ".join(f"{o.name} ({o.unit}), {o.description}" for o in kind._outputs) or "none")),
         f"#ifndef ALI3_{upper}_FIELDS_H",
         f"#define ALI3_{upper}_FIELDS_H",
@@ -110,7 +110,8 @@ def _enumeration(kind: type[Element], size: str, own: int, more: bool) -> list[s
     return [*lines, *([] if more else [f"  {size}{follows}"]), "};"]
 
 
-def _signals(kind: type[Element]) -> str:
+def signals_of(kind: type[Element]) -> str:
+    """Its signals with the components of each."""
     if kind._signals is None:
         return "any number"
     return ", ".join(f"{s} ({' or '.join(map(str, n)) if isinstance(n, tuple) else n})" for s, n in kind._signals)

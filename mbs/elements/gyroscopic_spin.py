@@ -13,7 +13,10 @@ from mbs.elements.wheel_signals import carrier_signals
 
 @dataclass(frozen=True)
 class GyroscopicSpin(Element):
-    """Moment -I Omega d(f x g)/dt on the carrier of an axisymmetric wheel."""
+    """Moment -I Omega d(f x g)/dt on the carrier of an axisymmetric wheel.
+
+    With the absolute axial rate Omega as the coordinate: the forces ``-I Omega g'`` on f and ``I Omega f'`` on g.
+    """
 
     spin_inertia: Positive
     """Moment of inertia about the axis, kg m^2."""

@@ -16,7 +16,8 @@ from mbs.elements.wheel_signals import WHEEL, wheel_signals
 class HubWrench(Element):
     """Force and moment at the centre of a wheel that is reduced to its spin, earth axes.
 
-    The part of the moment about the axis of the wheel turns the wheel, the rest acts on its carrier.
+    F acts on the centre, ``M.e`` on the spin about the axis e, and ``M x e`` on e, which is the rest of the moment on
+    the carrier.
     """
 
     inputs: Sequence[int]

@@ -49,7 +49,7 @@ class Integer:
             return -1
         said = f"{capital(self.called)} of {what}"
         if self.of is not Of.NUMBERS:
-            return index(value, said)  # type: ignore[arg-type]  # refuses what is no number
+            return index(value, said)  # type: ignore[arg-type]  # refuses what is not a number
         return whole(value, said, self.least, self.most)
 
 

@@ -17,7 +17,11 @@ from mbs.elements.wind import Wind
 
 @dataclass(frozen=True)
 class Lift(Element):
-    """Lift rho A v^2 / 2 of a body in the air; several, one per axle, make a pitching moment too."""
+    """Lift rho A v^2 / 2 of a body in the air; several, one per axle, make a pitching moment too.
+
+    It acts along the upward axis of the body; v is the speed of the point along the forward one, with two inputs that
+    over air that moves at the speed and to the heading that they give.
+    """
 
     lift_area: Number
     """Lift coefficient times frontal area, m^2; a negative one gives downforce."""

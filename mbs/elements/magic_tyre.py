@@ -62,13 +62,13 @@ class MagicTyre(Element):
     """Coefficient of friction of the road on which the coefficients hold."""
     friction_factor: NotNegative = 1.0
     """Multiplies the friction of the road."""
-    lmux: Positive = 1.0
+    lmux: Annotated[float, Real(positive, words="factor on LMUX")] = 1.0
     """Factor on LMUX of the file, the largest longitudinal force."""
-    lmuy: Positive = 1.0
+    lmuy: Annotated[float, Real(positive, words="factor on LMUY")] = 1.0
     """Factor on LMUY of the file, the largest lateral force."""
-    lkx: Positive = 1.0
+    lkx: Annotated[float, Real(positive, words="factor on LKX")] = 1.0
     """Factor on LKX of the file, the longitudinal slip stiffness."""
-    lky: Positive = 1.0
+    lky: Annotated[float, Real(positive, words="factor on LKY")] = 1.0
     """Factor on LKY of the file, the cornering stiffness."""
     pressure: Number = 0.0
     """Inflation pressure over the nominal one, less 1, a ratio."""

@@ -25,7 +25,7 @@ class _NamedNumbers(ABC):
     real_checks: ClassVar[tuple[Check, ...]]
 
     def __init_subclass__(cls, order: Sequence[str] = (), **others: Check) -> None:
-        """`order` where it is not that of the fields; `others` are numbers that follow from what is no number."""
+        """`order` where it is not that of the fields; `others` are numbers that follow from what is not a number."""
         checks = {name: real.check for name, real, _ in each_real(cls)} | others
         cls.real_names = tuple(order or checks)
         cls.real_checks = tuple(checks[name] for name in cls.real_names)

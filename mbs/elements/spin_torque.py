@@ -14,7 +14,10 @@ from mbs.elements.wheel_signals import carrier_signals
 
 @dataclass(frozen=True)
 class SpinTorque(Element):
-    """Torque on a wheel that is reduced to its spin; the carrier takes the reaction."""
+    """Torque on a wheel that is reduced to its spin; the carrier takes the reaction.
+
+    T of the input on the spin, ``-T g/2`` on f and ``T f/2`` on g: the moment ``-T f x g`` on the carrier.
+    """
 
     input: int
     gain: Number = 1.0

@@ -95,7 +95,8 @@ def given_stops(stops: EndStops | None, what: str) -> EndStops:
 class SpringDamper(Element):
     """Linear spring and damper along the line between two points; force = k (L - L0) + c dL/dt, tension positive.
 
-    For a spring or a damper by points see `SpringDamperTable`.
+    k and c are stiffness and damping times their factors; the stops add theirs. For a spring or a damper by points see
+    `SpringDamperTable`.
     """
 
     stiffness: NotNegative

@@ -33,7 +33,7 @@ class SpringDamperTable(Element):
 
     Between the points the curve is a monotone cubic (F. N. Fritsch, R. E. Carlson, SIAM Journal on Numerical Analysis
     17, 1980, 238-246; the slopes are those of scipy's PchipInterpolator), beyond the ends a straight line. The energy
-    of the spring is the integral of the curve.
+    of the spring is the integral of the curve, its mean over a step by Simpson's rule on each piece, exact.
     """
 
     spring: Annotated[float | Rows, Real(not_negative, name="stiffness")]

@@ -14,7 +14,8 @@ from mbs.elements.record import ElementRecord, Output
 class TorsionBar(Element):
     """Spring and damper between steering wheel and pinion, whose torque T controls an assistance on the pinion.
 
-    The assistance is ``a T / sqrt(1 + (a T / limit)^2)`` with the factor a; there is none with a limit of 0.
+    ``T = k x + c x'`` of the twist x. The assistance is ``a T / sqrt(1 + (a T / limit)^2)`` with the factor a; there is
+    none with a limit of 0.
     """
 
     stiffness: Positive

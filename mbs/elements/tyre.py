@@ -62,11 +62,11 @@ class TyreCurve:
     slope: AtTwoLoads
     """Initial slope, force per slip, N."""
     max_force: AtTwoLoads
-    """Largest force on a road of the reference friction, N; on another it goes with the friction."""
+    """Largest force on a road of the reference friction, N; otherwise proportional to the friction."""
     max_slip: AtTwoLoads
     """Slip where it is reached, a ratio."""
     slide_force: AtTwoLoads
-    """Force of full sliding, N; it goes with the friction too."""
+    """Force of full sliding, N; proportional to the friction too."""
     slide_slip: AtTwoLoads
     """Slip from which on it slides, a ratio."""
 
@@ -97,9 +97,9 @@ class Tyre(Element):
     """Lateral force over lateral slip."""
     trail: SignedAtTwoLoads
     """Dynamic trail over contact length at zero slip, a ratio."""
-    trail_zero: AtTwoLoads
+    trail_zero: Annotated[Pair, Real(positive, LOADS, "slip of zero trail")]
     """Lateral slip where the trail first vanishes, a ratio."""
-    trail_end: AtTwoLoads
+    trail_end: Annotated[Pair, Real(positive, LOADS, "end slip of the trail")]
     """Lateral slip where it ends, a ratio."""
     carcass_stiffness: AlongAxes
     """Longitudinal and lateral stiffness of the carcass, N/m."""

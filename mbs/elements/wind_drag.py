@@ -15,7 +15,10 @@ from mbs.elements.wind import Wind
 
 @dataclass(frozen=True, kw_only=True)
 class WindDrag(Drag):
-    """Drag of a point in space over air that moves over the ground."""
+    """Drag of a point in space over air that moves over the ground.
+
+    That of `Drag` with the velocity over air that moves at the speed and to the heading of two inputs.
+    """
 
     wind: Wind
     """How the air moves."""

@@ -93,7 +93,7 @@ def grid_points(path: Path, folder: str | Path | None = None) -> dict[int, tuple
         given, own = ((card if card.field(k) else default).whole(k) for k in (1, 5))
         points[number] = systems.basic(card.numbers(2, 3), given, card.line), own
     if not points:
-        raise ModelError(f"{path.name} holds no grid points.")
+        raise ModelError(f"{path.name} contains no grid points.")
     return dict(sorted(points.items()))
 
 

@@ -55,7 +55,7 @@ class FixedInterface:
                 parts.insert(0, model.freedoms(node))
             for part in parts:
                 if np.isin(part, self.held).any():
-                    raise ModelError(f"The reference node {model.names[node]!r} does not move: it is no interface.")
+                    raise ModelError(f"The reference node {model.names[node]!r} does not move: it is not an interface.")
             numbers.extend(parts)
         self.boundary = np.concatenate(numbers) if numbers else np.zeros(0, int)
         check_connected(model, reference)

@@ -40,7 +40,7 @@ class Material:
         strength = self.yield_strength
         if strength is not None and not (is_finite(strength) and YIELD_RANGE[0] <= strength <= YIELD_RANGE[1]):
             raise ModelError(
-                f"The yield strength {shown(strength)} is no strength in Pa (structural steel: 2.35e8 Pa)."
+                f"The yield strength {shown(strength)} is not a strength in Pa (structural steel: 2.35e8 Pa)."
             )
 
     @property

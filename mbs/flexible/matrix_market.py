@@ -84,7 +84,7 @@ def read_sparse_arrays(path: Path) -> sp.csc_array:
         raise ValueError(f"a matrix '{form[:20]}' of {data.dtype} is not read")
     places = [arrays[name] for name in names]
     if any(place.ndim != 1 or place.dtype.kind not in "iu" for place in places):
-        raise ValueError(f"its {' or '.join(names)} are no list of whole numbers")
+        raise ValueError(f"its {' or '.join(names)} are not a list of whole numbers")
     check_memory(24 * _COPIES * data.size + 8 * sum(shape), ModelError, path.name)
     if form == "coo":
         i, j = (place.astype(int) for place in places)

@@ -67,7 +67,7 @@ def modes_for_output(
     Raises
     ------
     ModelError
-        The tolerance is no fraction, or the candidates leave a larger error.
+        The tolerance is not a fraction, or the candidates leave a larger error.
     """
     flag(inertia_modes, "inertia_modes")
     candidates = whole(candidates, "The number of candidates", 0, 10**6)

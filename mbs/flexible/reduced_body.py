@@ -36,7 +36,7 @@ class ReducedBody(ModalBody, Understood):
         Raises
         ------
         ModelError
-            The node is no interface; the message lists what there is.
+            The node is not an interface; the message lists what there is.
         """
         if not isinstance(name, str) or name not in self.interfaces:
             raise ModelError(f"Node {shown(name)} is not an interface; these are: {', '.join(self.interfaces)}.")
@@ -53,7 +53,7 @@ class ReducedBody(ModalBody, Understood):
         Raises
         ------
         ModelError
-            The node is no interface; the message lists what there is.
+            The node is not an interface; the message lists what there is.
         """
         return np.asarray(self.node_translations[self.interface(name).node])
 

@@ -27,7 +27,6 @@ ENUMERATIONS = {
     "ParameterTarget": (SYSTEM, "ALI3_TARGET_ELEMENT", "ALI3_TARGET_", "What a parameter writes to."),
     "GuideType": ("src/rows/guides.h", "ALI3_GUIDE_OF_TIME", "ALI3_GUIDE_", "Types of guides."),
     "RoadType": ("src/elements/road.h", "ALI3_ROAD_PLANE", "ALI3_ROAD_", "Types of roads."),
-    "Doubt": (PUBLIC, "ALI3_DOUBT_NONE", "ALI3_DOUBT_", "`ali3_doubt`: why the results of a run may be wrong."),
     "JudgedUnit": (PUBLIC, "ALI3_JUDGED_M", "ALI3_JUDGED_", "`ali3_judged.unit`."),
     "JudgedKind": (PUBLIC, "ALI3_JUDGED_PLACE", "ALI3_JUDGED_", "Bits of `ali3_judged.kind`."),
 }
@@ -44,13 +43,10 @@ LIMITS = {
     "ALI3_FASTEST": "Largest speed of a start, m/s or rad/s, and its yaw, rad.",
     "ALI3_POSE": "Numbers of a pose.",
     "ALI3_LONGEST_SETTLING": "Longest time for which a start may settle, s.",
-    "ALI3_BALANCE_WRONG": "Energy balance above which, at any time, no run was right that was tried.",
     "ALI3_STILL": "Of the largest value in a unit, or of the length: a smaller range is rest.",
     "ALI3_WRONG_ERROR": "Of the size of what is judged: above it a run is wrong.",
     "ALI3_AGREED": "Of what would be wrong: two motions that differ by less agree.",
     "ALI3_MOST_PARTS": "By which the step of a second motion is longer, or half of it shorter, at most.",
-    "ALI3_EVENT_ORDER": "Order of errors behind abrupt events.",
-    "ALI3_HALVINGS_SUSPECT": "Halvings per step above which a run is suspect.",
     "ALI3_SYSTEM_VERSION": "Of the System file.",
 }
 ROADS = "src/roads/road_file.h"
@@ -282,7 +278,7 @@ _ENTRIES = """/* The functions of the kernel for callers that may round in anoth
 /* An instance keeps what its caller has, for the function that it is asked for inputs. */
 static ali3_float_control set_for(ali3_instance *in) {
   const ali3_float_control before = ali3_float_control_set();
-  if (in != NULL) in->host_control = before;
+  if (in != NULL) in->inputs.host_control = before;
   return before;
 }
 

@@ -64,7 +64,7 @@ class AirVocabulary(BodyVocabulary):
         point : array_like, shape (dimension,)
             Earth axes in the reference configuration, m.
         forward, up : array_like, shape (dimension,)
-            Axes of the body, as drawn, of any length: lift goes with the square of the point's speed along the first
+            Axes of the body, as drawn, of any length: lift is proportional to the square of the speed along the first
             and acts along the second.
         lift_area : float
             Lift coefficient times frontal area, m2; negative: downforce.

@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.common.affine import AffineVector
 from mbs.common.checks import (
-    Vector,
     capital,
     direction,
     not_negative,
@@ -18,10 +17,11 @@ from mbs.common.checks import (
     vector,
 )
 from mbs.common.errors import ModelError
-from mbs.model.body import Body, Ground, same_place, size_about
+from mbs.model.body import Body, same_place, size_about
 from mbs.model.carried import Payload, WrittenInertia
-from mbs.model.core import ModelCore
+from mbs.model.ends import FixedEnd, body_and_point
 from mbs.model.inertia import inertia_matrix
+from mbs.model.register import Register
 
 SIZES = (1e-12, 1e8)
 """Radii of gyration, m."""
@@ -29,14 +29,8 @@ ROTATION = 1e-9
 """How far a matrix of axes may be from a rotation."""
 
 
-class BodyVocabulary(ModelCore):
+class BodyVocabulary(Register):
     """The bodies of a model."""
-
-    def __init__(self, name: str, dimension: int, gravity: ArrayLike | None, length: float | None) -> None:
-        super().__init__(name, dimension, gravity, length)
-        self.ground: Body = Ground(self, "ground", np.zeros(self.dimension), 0)
-        self.bodies: list[Body] = []
-        self.body_velocities: dict[int, tuple[Vector | None, Vector | None]] = {}  # None: left to the joints
 
     def body(self, name: str, *, mass: float, com: ArrayLike, inertia: ArrayLike) -> Body:
         """A rigid body.
@@ -109,7 +103,8 @@ class BodyVocabulary(ModelCore):
             raise ModelError(f"The {what} sits on the ground, which does not move; give it to a body.")
         if body.is_tabled:
             raise ModelError(
-                f"The {what} sits on tabled body '{body.name}', whose mass is part of its table; give it to its base."
+                f"The {what} sits on lookup-table body '{body.name}', whose mass is part of its table; give it to its "
+                "base."
             )
         if point is not None:
             drawn = self.expressions(point, f"The {what}").value(self.drawn())
@@ -227,6 +222,11 @@ class BodyVocabulary(ModelCore):
             self.remember(body)
             body.joint_axes.append(unit)
         return body.vector(unit)
+
+    def _end(self, end: FixedEnd, what: str) -> AffineVector:
+        """Where a force acts on a body that does not slide there."""
+        body, point = body_and_point(end, what)
+        return self.owned(body, f"The {what}").point(point)
 
     def _register(self, body: Body) -> None:
         self.coordinates += body.coordinates()

@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, vector
 from mbs.model.coordinate import CoordinateInfo
+from mbs.model.coordinates import ModelCoordinates
 from mbs.model.flexibility import Flexibility
-from mbs.model.register import Register
 
 SAME_PLACE = 1e-6
 """A point is one of a body, such as a node or a port, if it is no farther from it, m; see `same_place`."""
@@ -54,7 +54,7 @@ class Body:
     bends = False  # its vectors turn with its deformation
     flexibility: Flexibility | None = None  # of a body with nodes
 
-    def __init__(self, model: Register, name: str, com: Vector, start: int) -> None:
+    def __init__(self, model: ModelCoordinates, name: str, com: Vector, start: int) -> None:
         self.model = model
         self.name = name
         self.com = com
@@ -116,7 +116,7 @@ class Body:
         return self._expression(local, 1.0)
 
     def carried(self, position: ArrayLike) -> tuple[AffineVector, ...] | None:
-        """Origin r, axes a, b, c and place x of a point r + A x that is no expression of coordinates.
+        """Origin r, axes a, b, c and place x of a point r + A x that is not an expression of coordinates.
 
         Parameters
         ----------

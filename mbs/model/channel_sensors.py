@@ -13,12 +13,11 @@ from mbs.kernel.header.enumerations import GuideType, SensorType, SolverValue
 from mbs.model.guides import owned_guide
 from mbs.model.inputs import owned_input
 from mbs.model.joints.joint import Joint
-from mbs.model.mechanism import Mechanism
 from mbs.model.reactions import guide_terms
 from mbs.model.records import Guide, Input
 from mbs.model.sensed import sensed_joints
 from mbs.model.sensor import Sensor
-from mbs.model.sensors import RATE_UNITS, order_number
+from mbs.model.sensors import RATE_UNITS, SensorVocabulary, order_number
 
 SOLVER = tuple(value.name.lower() for value in SolverValue)
 SOLVER_UNITS = {SolverValue.VIOLATION: "m", SolverValue.RESIDUAL: "m", SolverValue.ENERGY_ERROR: "J"}
@@ -36,11 +35,11 @@ GUIDE_READINGS = {
 }
 
 
-class ChannelSensorVocabulary(Mechanism):
+class ChannelSensorVocabulary(SensorVocabulary):
     """What can be read beside motion and forces."""
 
     def sense_constant(
-        self: Mechanism,
+        self,
         name: str,
         value: float,
         *,
@@ -66,14 +65,14 @@ class ChannelSensorVocabulary(Mechanism):
         return self._sense(name, unit, description, SensorType.SIGNAL, one, reals=[x], whole=whole, computed=computed)
 
     def sense_input(
-        self: Mechanism, name: str, input: Input, *, scale: float = 1.0, unit: str = "", description: str = ""
+        self, name: str, input: Input, *, scale: float = 1.0, unit: str = "", description: str = ""
     ) -> Sensor:
         """An input as it is used, within its limits, by default in its own unit.
 
         Parameters
         ----------
         scale : float
-            Factor on it; by another one than 1 it is no whole number.
+            Factor on it; by another one than 1 it is not a whole number.
         """
         channel = owned_input(self, input, f"The sensor '{name}'")
         unit, integers = self._unit(unit, channel.unit), [channel.index]
@@ -83,7 +82,7 @@ class ChannelSensorVocabulary(Mechanism):
         return self._sense(name, unit, description, SensorType.INPUT, integers=integers, whole=channel.whole)
 
     def sense_guide(
-        self: Mechanism,
+        self,
         name: str,
         guide: Guide,
         kind: str = "motion",
@@ -137,7 +136,7 @@ class ChannelSensorVocabulary(Mechanism):
         ----------
         kind : str
             "iterations" and "status" of the last step, "violation" (m) and "residual" (m) after it; since the start
-            "factorizations", "halvings", "energy_error" (J, what the steps gave where no force did) and
+            "factorizations", "halvings", "energy_error" (J, added by the steps without a force) and
             "energy_balance" (see `Report`) and "capped" (steps that ended at `Settings.step_iterations`).
         """
         one_of(kind, SOLVER, f"The kind of solver sensor '{name}'")
@@ -145,10 +144,10 @@ class ChannelSensorVocabulary(Mechanism):
         unit, whole = SOLVER_UNITS.get(value, "1"), value in SOLVER_WHOLE
         return self._sense(name, unit, description, SensorType.SOLVER, integers=[value], whole=whole)
 
-    def notice(self: Mechanism, sensor: Sensor, text: str) -> Sensor:
-        """Let a run say a sentence when a sensor is not zero, so that users need not look at every output.
+    def notice(self, sensor: Sensor, text: str) -> Sensor:
+        """Add a sentence to the notices of a run in which a sensor is not zero.
 
-        `Trajectory.notices` has the sentence with the first time and the largest value; the run goes on.
+        `Trajectory.notices` has the sentence with the first time and the largest value; the run continues.
 
         Parameters
         ----------
@@ -171,7 +170,7 @@ class ChannelSensorVocabulary(Mechanism):
 
 
 def _guide_force(
-    model: Mechanism,
+    model: SensorVocabulary,
     name: str,
     guide: Guide,
     joints: Sequence[Joint] | None,

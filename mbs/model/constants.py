@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from mbs.common.checks import number, shown, text
-from mbs.model.core import ModelCore
 from mbs.model.records import Constant
+from mbs.model.register import Register
 
 
-class ConstantVocabulary(ModelCore):
+class ConstantVocabulary(Register):
     """Constants."""
 
     def constant(self, name: str, value: float, unit: str = "1", description: str = "") -> Constant:
         """A number about the model that its users need and its equations do not, such as a wheelbase.
 
-        An FMU has it as a constant; it is no output and takes no part in a run.
+        An FMU has it as a constant; it is not an output and takes no part in a run.
 
         Parameters
         ----------

@@ -12,29 +12,29 @@ from mbs.common.errors import ModelError
 from mbs.elements.contact_points import ContactPoints
 from mbs.elements.record import ElementRecord
 from mbs.elements.road import ANSWER
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.inputs import new_input
-from mbs.model.mechanism import Mechanism
 from mbs.model.records import Role
 
 
-class ContactVocabulary(Mechanism):
+class ContactVocabulary(BodyVocabulary):
     """Answers on roads, and contact with them."""
 
-    def road_answer(self: Mechanism, name: str, *, friction: float = 0.9, near: str = "") -> int:
+    def road_answer(self, name: str, *, friction: float = 0.9, near: str = "") -> int:
         """Seven inputs by which another program says what the road is like at a point: for a `PortRoad`.
 
         They are the point that it was asked for, with which the answer holds whenever it comes, and height, unit
         normal and friction there: ``name_x``, ``name_y``, ``name_height``, ``name_normal_x``, ``name_normal_y``,
-        ``name_normal_z`` and ``name_friction``. The road goes on from there as the plane that they give. They start as
-        level ground at height 0. A step with a normal that is no unit vector upwards is refused.
+        ``name_normal_z`` and ``name_friction``. The road continues from there as the plane that they define. They start
+        as level ground at height 0. A step with a normal that is not a unit vector upwards is refused.
 
         Parameters
         ----------
         friction : float
             Coefficient of friction at the start.
         near : str, optional
-            Name of the sensor of the x of what meets the road there, whose y and z follow it: an FMU tells, once, when
+            Name of the sensor of the x of what meets the road there, whose y and z follow it: an FMU warns once when
             the point of the answer is more than 10 m away from it.
 
         Returns

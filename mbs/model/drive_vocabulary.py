@@ -1,16 +1,17 @@
-"""Coordinates that only drives, racks or tables move."""
+"""Shafts, travels, and rotors that turn with a coordinate."""
 
 from __future__ import annotations
 
-from mbs.common.checks import not_negative, number, one_of, shown
+from mbs.common.checks import not_negative, number, one_of, positive, shown
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.coordinate import Coordinate
-from mbs.model.mechanism import Mechanism
+from mbs.model.records import Armature
 
 
-class DriveVocabulary(Mechanism):
-    """Shafts and travels of a model."""
+class DriveVocabulary(BodyVocabulary):
+    """Shafts, travels and armatures of a model."""
 
-    def shaft(self: Mechanism, name: str, *, inertia: float = 0.0) -> Coordinate:
+    def shaft(self, name: str, *, inertia: float = 0.0) -> Coordinate:
         """A shaft that turns in something else, as one coordinate: its angle, from 0 as drawn.
 
         What carries it takes no reaction of its inertia and does not turn it: the angle and the inertia are small, or
@@ -26,7 +27,7 @@ class DriveVocabulary(Mechanism):
         self.inertias[index] = value
         return Coordinate(name, index, "rad")
 
-    def travel(self: Mechanism, name: str, *, unit: str = "m", rate: float = 0.0) -> Coordinate:
+    def travel(self, name: str, *, unit: str = "m", rate: float = 0.0) -> Coordinate:
         """A coordinate that tables are functions of, 0 as drawn.
 
         What it moves gives it its inertia; something must move with it, or a drive must hold it.
@@ -45,3 +46,24 @@ class DriveVocabulary(Mechanism):
         if start:
             self.coordinate_rates[index] = start
         return Coordinate(name, index, unit)
+
+    def armature(self, name: str, coordinate: Coordinate, *, inertia: float, ratio: float = 1.0) -> Armature:
+        """Inertia that turns with a relative angle, such as the rotor of a motor behind a gear.
+
+        Its moment on what carries it is left out: the rotor is small, or the carrier turns slowly.
+
+        Parameters
+        ----------
+        coordinate : Coordinate
+            A relative angle or a spin of this model.
+        inertia : float
+            About its own axis, kg m2; `inertia` times ``ratio**2`` is added to what the coordinate has already.
+        ratio : float
+            Its turns for one of the coordinate. A fixed parameter may write it.
+        """
+        self.owned_coordinate(coordinate, f"The armature '{name}'")
+        own = not_negative(inertia, f"The inertia of armature '{name}'")
+        turns = positive(ratio, f"The ratio of armature '{name}'")
+        new = self.enter("armature", self.armatures, Armature(name, coordinate.affine, own, turns))
+        self.inertias[coordinate.index] = self.inertias.get(coordinate.index, 0.0) + own * turns * turns
+        return new

@@ -10,8 +10,8 @@ from mbs.common.checks import one_of, shown
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header.enumerations import SensorType
-from mbs.model.mechanism import Mechanism
 from mbs.model.sensor import Sensor
+from mbs.model.sensors import SensorVocabulary
 
 WORKS = ("work", "nonconservative", "by inputs")
 GUIDED = "with guides"
@@ -37,7 +37,7 @@ class _WorkFrom(Sequence[int]):
         return [WORKS.index("nonconservative"), len(numbers), *numbers][index]
 
 
-class EnergySensorVocabulary(Mechanism):
+class EnergySensorVocabulary(SensorVocabulary):
     """What can be read of all elements and bodies together."""
 
     book_of_added: tuple[str, str] | None = None
@@ -59,7 +59,7 @@ class EnergySensorVocabulary(Mechanism):
         return added
 
     def sense_energy(
-        self: Mechanism,
+        self,
         name: str,
         kind: str = "total",
         elements: ElementRecord | str | Sequence[ElementRecord | str] | None = None,

@@ -18,10 +18,10 @@ from mbs.flexible.inertia_integrals import ShapeIntegrals, shape_integrals
 from mbs.flexible.modal_body import ModalBody
 from mbs.model.body import Body, same_place
 from mbs.model.coordinate import CoordinateInfo
-from mbs.model.core import ModelCore
 from mbs.model.equation import Equation, Product
 from mbs.model.flexibility import Flexibility
 from mbs.model.joints.joint import Joint
+from mbs.model.register import Register
 
 ON_A_LINE = 1e-12  # second moment of mass across, share of that along
 NO_MOTION = 1e-12
@@ -45,11 +45,11 @@ class FlexibleBody(Body):
 
     is_flexible = True
 
-    model: ModelCore
+    model: Register
 
     def __init__(
         self,
-        model: ModelCore,
+        model: Register,
         name: str,
         reduced: ModalBody,
         origin: Vector,
@@ -238,7 +238,7 @@ class Interface(Body):
     is_node = True
 
     owner: FlexibleBody
-    model: ModelCore
+    model: Register
 
     def __init__(self, owner: FlexibleBody, node: int) -> None:
         name = f"{owner.name}.{owner.reduced.node_names[node]}"

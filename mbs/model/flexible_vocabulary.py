@@ -15,16 +15,16 @@ from mbs.kernel.header.enumerations import SensorType
 from mbs.model.bodies import ROTATION
 from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
-from mbs.model.mechanism import Mechanism
 from mbs.model.ports import PortedBody
 from mbs.model.sensor import Sensor
+from mbs.model.sensors import SensorVocabulary
 
 
-class FlexibleVocabulary(Mechanism):
+class FlexibleVocabulary(SensorVocabulary):
     """Bodies with nodes or ports, and what is read of a structure at ports."""
 
     def flexible_body(
-        self: Mechanism,
+        self,
         name: str,
         reduced: ModalBody,
         *,
@@ -67,7 +67,7 @@ class FlexibleVocabulary(Mechanism):
         self._register(new)
         return new
 
-    def ported(self: Mechanism, body: Body, ports: Mapping[str, ArrayLike]) -> PortedBody:
+    def ported(self, body: Body, ports: Mapping[str, ArrayLike]) -> PortedBody:
         """A rigid body with ports: joints and springs given the result leave the forces there to be read.
 
         Parameters
@@ -95,7 +95,7 @@ class FlexibleVocabulary(Mechanism):
         return PortedBody(self, body, places)
 
     def sense_quasi_static(
-        self: Mechanism,
+        self,
         name: str,
         body: PortedBody,
         relief: InertiaRelief,

@@ -16,15 +16,15 @@ from mbs.elements.body_torque import BodyTorque
 from mbs.elements.input_force import InputForce
 from mbs.elements.record import ElementRecord
 from mbs.elements.spin_torque import SpinTorque
+from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.coordinate import Coordinate
 from mbs.model.inputs import owned_input
-from mbs.model.mechanism import Mechanism
 from mbs.model.records import Input
 
 
-class ForceVocabulary(Mechanism):
+class ForceVocabulary(BodyVocabulary):
     """Forces and torques of a model; each method returns the record of its element, for sensors."""
 
     def force(
@@ -85,7 +85,7 @@ class ForceVocabulary(Mechanism):
         frame = [body.vector(u) for u in np.eye(self.dimension)[:count]]
         return self.add(BodyTorque(numbers, axes).record(name, frame))
 
-    def torque_on(self: Mechanism, name: str, angle: Coordinate, *, input: Input, gain: float = 1.0) -> ElementRecord:
+    def torque_on(self, name: str, angle: Coordinate, *, input: Input, gain: float = 1.0) -> ElementRecord:
         """Torque on a relative angle or a spin; the first body of the angle or the carrier of the spin takes the
         reaction.
 

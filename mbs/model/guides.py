@@ -15,9 +15,9 @@ from mbs.kernel.header.enumerations import GuideType
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import SlidingPoint
-from mbs.model.core import ModelCore
 from mbs.model.inputs import owned_input
 from mbs.model.records import Guide, Input
+from mbs.model.register import Register
 
 
 def pair(given: object, what: str) -> tuple[Any, Any]:
@@ -46,7 +46,7 @@ def at_right_angles(directions: object, count: int, dimension: int, what: str) -
     return rows
 
 
-def owned_guide(model: ModelCore, guide: Guide, what: str) -> Guide:
+def owned_guide(model: Register, guide: Guide, what: str) -> Guide:
     """`guide` if it is one of this model."""
     if not isinstance(guide, Guide) or guide.index >= len(model.guides) or model.guides[guide.index] is not guide:
         raise ModelError(f"{what} needs a guide made by model '{model.name}', got {shown(guide)}.")
@@ -54,7 +54,7 @@ def owned_guide(model: ModelCore, guide: Guide, what: str) -> Guide:
 
 
 def new_guide(
-    model: ModelCore,
+    model: Register,
     name: str,
     type: GuideType,
     input: int,

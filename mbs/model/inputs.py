@@ -7,12 +7,12 @@ import math
 from mbs.common.checks import flag, limit, number, shown, text
 from mbs.common.errors import ModelError
 from mbs.elements.record_checks import MOST
-from mbs.model.core import ModelCore
 from mbs.model.records import Input, Role
+from mbs.model.register import Register
 
 
 def new_input(
-    model: ModelCore,
+    model: Register,
     name: str,
     start: float,
     min: float,
@@ -56,7 +56,7 @@ def _check_whole(name: str, numbers: dict[str, float], unit: str) -> None:
         raise ModelError(f"The input '{name}' is a whole number in {shown(unit)}; whole numbers have the unit '1'.")
 
 
-def owned_input(model: ModelCore, channel: Input, what: str) -> Input:
+def owned_input(model: Register, channel: Input, what: str) -> Input:
     """`channel` if it is one of this model."""
     if (
         not isinstance(channel, Input)
@@ -65,3 +65,38 @@ def owned_input(model: ModelCore, channel: Input, what: str) -> Input:
     ):
         raise ModelError(f"{what} needs an input made by model '{model.name}', got {shown(channel)}.")
     return channel
+
+
+class InputVocabulary(Register):
+    """Inputs of a model."""
+
+    def input(
+        self,
+        name: str,
+        *,
+        start: float = 0.0,
+        min: float = -math.inf,
+        max: float = math.inf,
+        unit: str = "1",
+        description: str = "",
+        whole: bool = False,
+        port: bool = False,
+    ) -> Input:
+        """A number that a host sets.
+
+        Parameters
+        ----------
+        start : float
+            Value at the start, in `unit`.
+        min, max : float
+            Limits, in `unit`; values beyond them are refused. They may be infinite.
+        unit : str
+            "1" for a pure number.
+        whole : bool
+            Whether it takes whole numbers only, such as the position of a lever: an integer of an FMU. Over time it
+            keeps a value until the next one.
+        port : bool
+            Whether another program sets it at every step: an FMU then holds its last value, with one warning, where a
+            value is not finite, and warns before the first step if it was not set.
+        """
+        return new_input(self, name, start, min, max, unit, description, whole, port)

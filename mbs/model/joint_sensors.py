@@ -15,17 +15,17 @@ from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.joint_reactions import force_on_first, moment_terms, rod_terms
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
-from mbs.model.mechanism import Mechanism
 from mbs.model.reactions import folded
 from mbs.model.sensed import component_number, sensed_joint, sensed_joints
 from mbs.model.sensor import Sensor, Term
+from mbs.model.sensors import SensorVocabulary
 
 
-class JointSensorVocabulary(Mechanism):
+class JointSensorVocabulary(SensorVocabulary):
     """What can be read of a joint."""
 
     def sense_joint(
-        self: Mechanism,
+        self,
         name: str,
         joint: Joint | str,
         component: str = "x",
@@ -81,7 +81,7 @@ class JointSensorVocabulary(Mechanism):
         return _joint_force(self, name, found, component, unit, description)
 
     def sense_rod_force(
-        self: Mechanism,
+        self,
         name: str,
         rods: Sequence[Joint],
         body: Body,
@@ -105,7 +105,7 @@ class JointSensorVocabulary(Mechanism):
         Raises
         ------
         ModelError
-            One of them is no rod or ends elsewhere, or the axis is zero.
+            One of them is not a rod or ends elsewhere, or the axis is zero.
         """
         what = f"The sensor '{name}'"
         along = self.anchor_axis(self.owned(body, what), axis, f"sensor '{name}'")
@@ -120,16 +120,18 @@ class JointSensorVocabulary(Mechanism):
         return self._sense(name, unit, description, SensorType.REACTION_PRODUCTS, terms=terms)
 
 
-def _sense_terms(m: Mechanism, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]) -> Sensor:
+def _sense_terms(
+    m: SensorVocabulary, name: str, unit: str, description: str, joint: Joint, terms: Sequence[Term]
+) -> Sensor:
     joint.as_rows = joint.as_rows or any(term.equation in joint.force_equations for term in terms)
     return m._sense(name, unit, description, SensorType.REACTION_PRODUCTS, joint=joint, terms=terms)
 
 
-def _joint_force(m: Mechanism, name: str, found: Joint, component: str, unit: str, description: str) -> Sensor:
+def _joint_force(m: SensorVocabulary, name: str, found: Joint, component: str, unit: str, description: str) -> Sensor:
     rows = found.force_equations
     if not rows:
         raise ModelError(
-            f"The joint '{found.name}' ({found.type}) has no force reading; shared points, lines, distances, "
+            f"The joint '{found.name}' ({found.type}) has no readable force; shared points, lines, distances, "
             "drop links, drives, gears, racks and screws have one."
         )
     unit = m._unit(unit, "N m" if found.type == "gear" else "N")
@@ -156,7 +158,9 @@ def _joint_force(m: Mechanism, name: str, found: Joint, component: str, unit: st
     return m._sense(name, unit, description, SensorType.REACTION, integers=rows, reals=weights, joint=found)
 
 
-def _driven_distance(m: Mechanism, name: str, joint: Joint, component: str, unit: str, description: str) -> Sensor:
+def _driven_distance(
+    m: SensorVocabulary, name: str, joint: Joint, component: str, unit: str, description: str
+) -> Sensor:
     """(|p1 - p2|^2 - s^2)/2 = 0: the multiplier times the length s is the tension."""
     signs = {"tension": 1.0, "drive": -1.0, "x": -1.0}
     if not isinstance(component, str) or component not in signs:
@@ -170,7 +174,7 @@ def _driven_distance(m: Mechanism, name: str, joint: Joint, component: str, unit
 
 
 def _joint_moment(
-    m: Mechanism,
+    m: SensorVocabulary,
     name: str,
     found: Joint,
     component: str,
@@ -195,7 +199,7 @@ def _joint_moment(
     return _sense_terms(m, name, m._unit(unit, "N.m"), description, found, terms)
 
 
-def _axis(m: Mechanism, name: str, component: str, axes: Body | str) -> AffineVector:
+def _axis(m: SensorVocabulary, name: str, component: str, axes: Body | str) -> AffineVector:
     """Three components of the axis of a moment; in the plane one."""
     if m.dimension == 2:
         if component != "z":

@@ -6,6 +6,8 @@ import functools
 from collections.abc import Callable
 from typing import Concatenate, ParamSpec, TypeVar
 
+from mbs.model.angle import relative_angle
+from mbs.model.anti_roll_bar import anti_roll_bar
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.joints.coupled_slides import coupled_slides
 from mbs.model.joints.distance import distance
@@ -62,3 +64,5 @@ class JointVocabulary(BodyVocabulary):
     rack = joins(rack)
     coupled_slides = joins(coupled_slides)
     screw = screw
+    relative_angle = relative_angle
+    anti_roll_bar = anti_roll_bar

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ali3.echo import Echo, Understood, echo_of
 from mbs.common.checks import Vector, is_number, number, positive, shown, vector
 from mbs.common.errors import ModelError
+from mbs.model.air import AirVocabulary
 from mbs.model.body import Body
 from mbs.model.channel_sensors import ChannelSensorVocabulary
 from mbs.model.constants import ConstantVocabulary
@@ -20,29 +21,42 @@ from mbs.model.energy_sensors import EnergySensorVocabulary
 from mbs.model.flexible import FlexibleBody
 from mbs.model.flexible_vocabulary import FlexibleVocabulary
 from mbs.model.forces import ForceVocabulary
+from mbs.model.inputs import InputVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
+from mbs.model.joint_vocabulary import JointVocabulary
 from mbs.model.more_guides import MoreGuidesVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.orientation_sensors import OrientationSensorVocabulary
+from mbs.model.parameters import ParameterVocabulary
 from mbs.model.point_mass import PointMass
+from mbs.model.road_vocabulary import RoadVocabulary
 from mbs.model.sliding_shapes import SlidingVocabulary
+from mbs.model.spin import SpinVocabulary
+from mbs.model.springs import SpringVocabulary
 from mbs.model.table_vocabulary import TableVocabulary
 
 
 class Model(
     Understood,
-    TableVocabulary,
+    JointVocabulary,
+    SpringVocabulary,
     ForceVocabulary,
+    AirVocabulary,
+    RoadVocabulary,
+    ContactVocabulary,
+    SpinVocabulary,
+    DriveVocabulary,
+    TableVocabulary,
+    FlexibleVocabulary,
+    InputVocabulary,
+    MoreGuidesVocabulary,
+    ParameterVocabulary,
+    ConstantVocabulary,
     MotionSensorVocabulary,
     OrientationSensorVocabulary,
     EnergySensorVocabulary,
     ChannelSensorVocabulary,
     JointSensorVocabulary,
-    ConstantVocabulary,
-    FlexibleVocabulary,
-    ContactVocabulary,
-    MoreGuidesVocabulary,
-    DriveVocabulary,
     SlidingVocabulary,
 ):
     """A mechanism: bodies, joints, forces, inputs and sensors.
@@ -127,8 +141,9 @@ class Model(
 
         What is left out follows from the joints: of all velocities that have the given part, the start takes the one
         with the least kinetic energy, and a free body turns or moves only as given. Without both the body starts at
-        rest. Of the given part the joints take away what they do not allow, and no more. Of velocities that they allow
-        each alone but not together the start has means by mass, and `print(system)` and every run tell the numbers.
+        rest. Of the given part the joints remove what they do not allow, and no more. Where several given velocities
+        contradict each other through the joints the start has mass-weighted means, and `print(system)` and every run
+        report the numbers.
 
         Parameters
         ----------

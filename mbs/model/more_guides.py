@@ -11,13 +11,12 @@ from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 from mbs.common.checks import LARGEST, array, number, positive, shown
 from mbs.common.errors import ModelError
 from mbs.kernel.header.enumerations import GuideType
-from mbs.model.guides import new_guide, of_table, owned_guide
+from mbs.model.guides import GuideVocabulary, new_guide, of_table, owned_guide
 from mbs.model.inputs import owned_input
-from mbs.model.mechanism import Mechanism
 from mbs.model.records import Guide, Input
 
 
-class MoreGuidesVocabulary(Mechanism):
+class MoreGuidesVocabulary(GuideVocabulary):
     """Prescribed motions in time, of one input and by tables."""
 
     def guide_time(self, name: str, motion: PPoly | tuple[ArrayLike, ArrayLike], *, unit: str = "1") -> Guide:
@@ -48,9 +47,7 @@ class MoreGuidesVocabulary(Mechanism):
         start = float(pieces(min(max(0.0, b[0]), b[-1])))
         return new_guide(self, name, GuideType.OF_TIME, -1, reals, start, unit)
 
-    def guide_input(
-        self: Mechanism, name: str, *, input: Input, gain: float = 1.0, frequency: float, unit: str = "1"
-    ) -> Guide:
+    def guide_input(self, name: str, *, input: Input, gain: float = 1.0, frequency: float, unit: str = "1") -> Guide:
         """A prescribed motion that follows ``gain * input`` through a critically damped filter.
 
         ``s'' = w^2 (gain u - s) - 2 w s'`` with w = 2 pi frequency, at rest on the input at the start.
@@ -70,7 +67,7 @@ class MoreGuidesVocabulary(Mechanism):
         return new_guide(self, name, GuideType.OF_INPUT, input.index, [w, k, k * input.start], k * input.start, unit)
 
     def guide_table(
-        self: Mechanism, name: str, source: Guide, table: ArrayLike, *, slopes: ArrayLike | None = None, unit: str = "1"
+        self, name: str, source: Guide, table: ArrayLike, *, slopes: ArrayLike | None = None, unit: str = "1"
     ) -> Guide:
         """A motion that follows another guide by a curve, such as a rack the steering wheel.
 

@@ -11,15 +11,14 @@ from mbs.common.errors import ModelError
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
-from mbs.model.mechanism import Mechanism
 from mbs.model.sensed import component_number
 from mbs.model.sensor import Sensor
-from mbs.model.sensors import RATE_UNITS, order_number, spatial
+from mbs.model.sensors import RATE_UNITS, SensorVocabulary, order_number, spatial
 
 SIGNALS = (SensorType.SIGNAL, SensorType.SIGNAL_RATE, SensorType.SIGNAL_SECOND_RATE)
 
 
-class MotionSensorVocabulary(Mechanism):
+class MotionSensorVocabulary(SensorVocabulary):
     """What can be read of places and coordinates."""
 
     def sense_position(
@@ -71,7 +70,7 @@ class MotionSensorVocabulary(Mechanism):
         return self._sense(name, unit, description, type, signals, integers=[k])
 
     def sense_coordinate(
-        self: Mechanism,
+        self,
         name: str,
         coordinate: Coordinate | Affine,
         *,

@@ -11,13 +11,12 @@ from mbs.elements.spin_angle import SpinAngle
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.carried import Spin
-from mbs.model.mechanism import Mechanism
 from mbs.model.sensed import component_number
 from mbs.model.sensor import Sensor
-from mbs.model.sensors import order_number, spatial
+from mbs.model.sensors import SensorVocabulary, order_number, spatial
 
 
-class OrientationSensorVocabulary(Mechanism):
+class OrientationSensorVocabulary(SensorVocabulary):
     """Sensors of orientation. A body is a rigid one, or a node or the frame of a flexible one."""
 
     def sense_rotation(

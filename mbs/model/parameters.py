@@ -11,9 +11,8 @@ from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header.enumerations import GuideType, ParameterTarget, SensorType
 from mbs.model.carried import AXIS_REALS, INERTIA_REALS, Payload, WrittenAxis, WrittenInertia
-from mbs.model.core import ModelCore
 from mbs.model.records import Armature, Guide, Parameter
-from mbs.model.register import Named
+from mbs.model.register import Named, Register
 from mbs.model.spin import STEEPEST
 
 Reals: TypeAlias = dict[str, Callable[[object, str], float]]
@@ -78,7 +77,7 @@ def _moving(what: str, found: Sequence[_Target]) -> None:
             )
 
 
-def _written_once(model: ModelCore, what: str, found: Sequence[_Target]) -> None:
+def _written_once(model: Register, what: str, found: Sequence[_Target]) -> None:
     """A real takes its value from one parameter."""
     writers = {where[:3]: f"parameter '{p.name}'" for p in model.parameters for where in p.targets}
     for target in found:
@@ -88,7 +87,7 @@ def _written_once(model: ModelCore, what: str, found: Sequence[_Target]) -> None
         writers[place] = "another of its targets"
 
 
-def _target(model: ModelCore, what: str, given: Target) -> _Target:
+def _target(model: Register, what: str, given: Target) -> _Target:
     """One target of a parameter."""
     if not isinstance(given, (list, tuple)) or len(given) not in (3, 4, 5):
         raise ModelError(
@@ -128,7 +127,7 @@ def _target(model: ModelCore, what: str, given: Target) -> _Target:
     )
 
 
-def _owners(model: ModelCore) -> Iterator[tuple[int, str, Sequence[Named], Callable[[int], Reals]]]:
+def _owners(model: Register) -> Iterator[tuple[int, str, Sequence[Named], Callable[[int], Reals]]]:
     """Of what a parameter writes to by name beside elements: kind, things, and the reals of the thing at a place."""
     yield ParameterTarget.GUIDE, "guide", model.guides, lambda k: GUIDE_REALS.get(model.guides[k].type, {})
     yield ParameterTarget.PAYLOAD, "payload", model.payloads, lambda _: {"mass": not_negative}
@@ -138,7 +137,7 @@ def _owners(model: ModelCore) -> Iterator[tuple[int, str, Sequence[Named], Calla
     yield ParameterTarget.SWITCH, "switch", model.switches, lambda _: {"on": _on_or_off}
 
 
-def _sensor(model: ModelCore, what: str, name: object, real: str | int, line: tuple[float, float, bool]) -> _Target:
+def _sensor(model: Register, what: str, name: object, real: str | int, line: tuple[float, float, bool]) -> _Target:
     """A factor of a sensor, by its number."""
     k = model.place_of(model.sensors, name)
     if k is not None and model.sensors[k].type in _SCALED:
@@ -163,7 +162,7 @@ def _on_or_off(value: object, what: str) -> float:
     return float(value == 1.0)
 
 
-def _road(model: ModelCore, what: str, number_of: object, real: str | int, line: tuple[float, float, bool]) -> _Target:
+def _road(model: Register, what: str, number_of: object, real: str | int, line: tuple[float, float, bool]) -> _Target:
     """A real of a road, by its name or its number."""
     k = whole(number_of, f"The road of {what}", 0)
     if k >= len(model.roads):
@@ -178,7 +177,7 @@ def _road(model: ModelCore, what: str, number_of: object, real: str | int, line:
     return _Target((ParameterTarget.ROAD, k, n, *line), f"the {names[n]} of road {k}", road.real_checks[n])
 
 
-class ParameterVocabulary(ModelCore):
+class ParameterVocabulary(Register):
     """Numbers that are set without compiling again, and those that stay."""
 
     def parameter(
@@ -213,8 +212,7 @@ class ParameterVocabulary(ModelCore):
             Whether it may be set while the model moves; False: before the start only, as masses of payloads, ratios of
             armatures and switches must be.
         works : (float, float), optional
-            Least and largest value, in `unit`, with which the model does what it is made for; an FMU and a
-            `Simulation` say so when another is set.
+            Range, in `unit`, in which such models work; an FMU and a `Simulation` warn when another value is set.
 
         Raises
         ------

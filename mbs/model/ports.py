@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector, vector
 from mbs.model.body import Body, same_place, size_about
-from mbs.model.core import ModelCore
 from mbs.model.joints.joint import Joint, equal_vectors
+from mbs.model.register import Register
 
 
 class PortedBody(Body):
@@ -26,7 +26,7 @@ class PortedBody(Body):
         The rows of each port; force on the body: plus the multipliers, earth axes, N.
     """
 
-    def __init__(self, model: ModelCore, owner: Body, places: Mapping[str, Vector]) -> None:
+    def __init__(self, model: Register, owner: Body, places: Mapping[str, Vector]) -> None:
         super().__init__(model, f"{owner.name} with ports", owner.com, owner.start)
         self.owner = owner
         self.ports: dict[str, Joint] = {}

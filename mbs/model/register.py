@@ -1,20 +1,26 @@
-"""The register of a model: names, coordinates, and what undoes a call that is refused."""
+"""The register of a model: what it consists of, by kind, in the order in which it was added, and by name."""
 
 from __future__ import annotations
 
-import functools
-import weakref
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from typing import Any, NoReturn, Protocol, TypeVar
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol, Self, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mbs.common.affine import Affine, AffineVector
-from mbs.common.checks import Vector, named, positive, shown, vector, whole
+from mbs.common.checks import Vector, instance_of, named, shown
 from mbs.common.errors import ModelError
-from mbs.model.coordinate import Coordinate, CoordinateInfo
+from mbs.elements.record import ElementRecord
+from mbs.elements.road import Road
+from mbs.model.body import Body, Ground
+from mbs.model.carried import Payload, Spin, WrittenAxis, WrittenInertia
+from mbs.model.changes import whole_or_not
+from mbs.model.coordinates import ModelCoordinates
+from mbs.model.drawn import Shape, Turning
+from mbs.model.joints.joint import Joint
+from mbs.model.records import Ahead, Armature, Constant, Guide, Input, Parameter, RoadFileParameter, Switch
+from mbs.model.sensor import Sensor
+from mbs.model.tabled import TabledBody, TabledNumber
 
 
 class Named(Protocol):
@@ -30,131 +36,63 @@ TIME = "time"
 """First column of tables of runs, and a variable of FMI 3.0."""
 
 
-def _whole_or_not(method: Callable[..., Any]) -> Callable[..., Any]:
-    """A method of a model that leaves the model as it was when it raises."""
+class Register(ModelCoordinates):
+    """What all parts of the vocabulary write into, and what `compile` reads.
 
-    @functools.wraps(method)
-    def call(self: Register, *args: Any, **kwargs: Any) -> Any:
-        if self._undo is not None:  # part of another one
-            return method(self, *args, **kwargs)
-        with self.together():
-            return method(self, *args, **kwargs)
-
-    return call
-
-
-class Register:
-    """Names and coordinates of a `Model`, which describes the arguments.
-
-    A public method of a model either does all it says or raises and changes nothing: every class of the vocabulary is
-    made so when it is defined.
+    A list a kind; the place of a thing in its list is its number in the System. A public method of a model either does
+    all it says or raises and changes nothing: every class of the vocabulary is made so when it is defined.
     """
-
-    def __init__(self, name: str, dimension: int, gravity: ArrayLike | None, length: float | None) -> None:
-        self.name = named(name, "a model")
-        what = f"model '{self.name}'"
-        self.dimension = whole(dimension, f"The dimension of {what}", 2, 3)
-        fall = np.array([0.0, -9.81]) if self.dimension == 2 else np.array([0.0, 0.0, -9.81])
-        self.gravity = fall if gravity is None else gravity
-        self.length = None if length is None else positive(length, f"The length of {what}")
-        self.coordinates: list[CoordinateInfo] = []
-        self._names: set[tuple[str, str]] = set()
-        self._undo: list[Callable[[], None]] | None = None
-        self._looks: list[Callable[[], None]] = []
-        self._drawings: list[weakref.ref[Callable[[], object]]] = []
-
-    def __reduce_ex__(self, protocol: object) -> NoReturn:
-        # Functions in joints and looks would go on writing into the model they were made for.
-        raise TypeError(
-            f"Model '{self.name}' cannot be copied or pickled: its parts hold functions of this one model. Build it "
-            "again by the function that made it, or copy the System that compile(model) gives."
-        )
-
-    @property
-    def gravity(self) -> Vector:
-        """Acceleration of gravity, shape (dimension,), m/s2."""
-        return self._gravity
-
-    @gravity.setter
-    def gravity(self, given: ArrayLike) -> None:
-        self._gravity: Vector = vector(given, self.dimension, f"the gravity of model '{self.name}'")
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         for name, method in list(vars(cls).items()):
             if callable(method) and not name.startswith("_"):
-                setattr(cls, name, _whole_or_not(method))
+                setattr(cls, name, whole_or_not(method))
 
-    @contextmanager
-    def together(self) -> Iterator[None]:
-        """Calls inside are parts of one: an exception leaves the model as it was before the first of them."""
-        if self._undo is not None:
-            yield
-            return
-        drawings, self._drawings = self._drawings, []
-        for reference in drawings:  # of the model as it still is
-            drawing = reference()
-            if drawing is not None:
-                drawing()
-        self.look()
-        self._undo = []
-        self.remember(self)
-        try:
-            yield
-        except BaseException:
-            undo, self._undo = self._undo, None
-            for restore in reversed(undo or []):
-                restore()
-            raise
-        finally:
-            self._undo = None
-
-    def put_off(self, looks: Callable[[], None]) -> None:
-        """Leave what only adds looks until the model is drawn or changes. `looks`: adds shapes to this model."""
-        self._looks.append(looks)
-
-    def look(self) -> None:
-        """Add the looks that were put off."""
-        if not self._looks:
-            return
-        looks, self._looks = self._looks, []
-        try:
-            with self.together():
-                for add in looks:
-                    add()
-        except BaseException:
-            self._looks = looks
-            raise
-
-    def draw_before_change(self, drawing: Callable[[], object]) -> None:
-        """Call what draws the model as it is before the model changes, if there still is somebody who keeps it; at once
-        where no looks were put off.
-        """
-        if not self._looks:
-            drawing()
-        self._drawings = [r for r in (*self._drawings, weakref.ref(drawing)) if r() is not None]
-
-    def remember(self, thing: object) -> None:
-        """Note the attributes of what is about to change, so that a refused call can restore them.
-
-        `thing`: the model, or a body or a joint of it.
-        """
-        if self._undo is None:
-            return
-        attributes = vars(thing)
-        before = attributes.copy()
-        before.update([(name, value.copy()) for name, value in attributes.items() if type(value) is dict])
-        # Lists of a register only grow: their lengths say what they were, at a cost that does not grow with them.
-        lengths = [(value, len(value)) for value in attributes.values() if type(value) is list]
-
-        def restore() -> None:
-            for name in attributes.keys() - before.keys():
-                del attributes[name]
-            attributes.update(before)
-            for value, length in lengths:
-                del value[length:]
-
-        self._undo.append(restore)
+    def __init__(
+        self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
+    ) -> None:
+        super().__init__(name, dimension, gravity, length)
+        self._names: set[tuple[str, str]] = set()  # of each kind, those that are taken
+        # what moves
+        self.ground: Body = Ground(self, "ground", np.zeros(self.dimension), 0)
+        self.bodies: list[Body] = []
+        self.spins: list[Spin] = []
+        self.tabled: list[TabledBody | TabledNumber] = []
+        self.payloads: list[Payload] = []
+        self.armatures: list[Armature] = []
+        self.inertias: dict[int, float] = {}  # by coordinate, with those of `armatures`, as drawn
+        self.written_inertias: list[WrittenInertia] = []
+        self.written_axes: list[WrittenAxis] = []
+        # what holds and what acts
+        self.joints: list[Joint] = []
+        self.elements: list[ElementRecord] = []
+        self.roads: list[Road] = []
+        self.switches: list[Switch] = []
+        self.grounded = False  # a joint ties something to the ground
+        # what is set and what is told
+        self.inputs: list[Input] = []
+        self.guides: list[Guide] = []
+        self.parameters: list[Parameter] = []
+        self.road_files: list[RoadFileParameter] = []
+        self.constants: list[Constant] = []
+        self.sensors: list[Sensor] = []
+        self.ahead: list[Ahead] = []
+        self.with_ports = None
+        # how it starts and runs
+        self.floating = False
+        self.body_velocities: dict[int, tuple[Vector | None, Vector | None]] = {}  # None: left to the joints
+        self.coordinate_rates: dict[int, float] = {}
+        self.start_in_equilibrium = False
+        self.equilibrium_parameters: dict[str, float] = {}  # values that hold only while it is sought
+        self.stop_time = 10.0
+        self.step = 0.01
+        # how it looks
+        self.default_shapes = True
+        self._shapes: list[Shape] = []
+        self._turnings: list[Turning] = []
+        self.more_poses: list[Callable[[], list[dict[str, Any]]]] = []
+        self.flexible_scene: list[dict[str, Any]] = []
 
     def unique(self, family: str, name: str) -> str:
         """Claim a name among the things of a family, such as body, joint, element or sensor.
@@ -182,53 +120,62 @@ class Register:
 
     @staticmethod
     def place_of(things: Sequence[Named], name: object) -> int | None:
-        """Where in a list of a family the thing of a name is; None where there is none."""
+        """Index of a named thing in the list of its family, or None."""
         return next((k for k, thing in enumerate(things) if isinstance(name, str) and thing.name == name), None)
 
-    def new_coordinate(self, name: str, kind: str, reference: float, component: int = 0) -> int:
-        """Register a scalar full coordinate.
+    @property
+    def shapes(self) -> list[Shape]:
+        """All shapes, in the order in which they were added."""
+        self.look()
+        return self._shapes
 
-        Parameters
-        ----------
-        name, kind, reference, component
-            See `CoordinateInfo`.
-        """
-        self.coordinates.append(CoordinateInfo(name, kind, component, reference))
-        return len(self.coordinates) - 1
+    @property
+    def turnings(self) -> list[Turning]:
+        """What only its looks turn or slide."""
+        self.look()
+        return self._turnings
 
-    def drawn(self) -> Vector:
-        """Full coordinates in the reference configuration, shape (n,), in the order of `coordinates`."""
-        return np.array([c.reference for c in self.coordinates])
+    @property
+    def with_ports(self) -> Callable[[], Self] | None:
+        """Makes the same model with ports; None where there is none, or this one has grown since it was set."""
+        return self._with_ports if self._size() == self._size_with_ports else None
 
-    def owned_coordinate(self, coordinate: Coordinate, what: str) -> Coordinate:
-        """A relative angle or a spin, if it is one of this model."""
-        if not isinstance(coordinate, Coordinate):
-            raise ModelError(f"{what} needs a relative angle or a spin, got {shown(coordinate)}.")
-        i = coordinate.index
-        if i >= len(self.coordinates) or self.coordinates[i].name != coordinate.name:
-            raise ModelError(f"{what}: the coordinate '{coordinate.name}' is not one of model '{self.name}'.")
-        return coordinate
+    @with_ports.setter
+    def with_ports(self, make: Callable[[], Self] | None) -> None:
+        self._with_ports, self._size_with_ports = make, self._size()
 
-    def expression(self, given: Coordinate | Affine, what: str) -> Affine:
-        """A coordinate or an expression of coordinates, as an expression."""
-        if isinstance(given, Coordinate):
-            return self.owned_coordinate(given, what).affine
-        if not isinstance(given, Affine):
-            raise ModelError(f"{what} needs a coordinate or an expression, got {shown(given)}.")
-        if max(given.terms, default=0) >= max(len(self.coordinates), 1):
-            raise ModelError(f"{what} has an expression of coordinates that model '{self.name}' does not have.")
-        return given
+    def _size(self) -> tuple[int, ...]:
+        """Counts of what moves and what acts."""
+        parts = (
+            self.bodies,
+            self.tabled,
+            self.inertias,
+            self.joints,
+            self.elements,
+            self.spins,
+            self.inputs,
+            self.guides,
+            self.payloads,
+            self.written_inertias,
+            self.written_axes,
+        )
+        return tuple(len(part) for part in parts)
 
-    def expressions(self, given: AffineVector, what: str) -> AffineVector:
-        """A point or vector of bodies, such as ``body.point((0, 0, 1))``, if its coordinates are those of this
-        model.
-        """
-        if not isinstance(given, AffineVector):
-            raise ModelError(
-                f"{what} needs a point or a vector of a body, such as body.point(...), got {shown(given)}."
-            )
-        if len(given) != self.dimension:
-            raise ModelError(f"{what} has a point or a vector of {len(given)} components; it needs {self.dimension}.")
-        for component in given.components:
-            self.expression(component, what)
-        return given
+    @whole_or_not
+    def add(self, element: ElementRecord) -> ElementRecord:
+        """Add a force element by its record. `element`: from the ``record`` method of an element of `mbs.elements`."""
+        instance_of(ElementRecord, element, "The element of Model.add", "an ElementRecord")
+        for signal in element.signals:
+            self.expression(signal, f"The element '{element.name}'")
+        return self.enter("element", self.elements, element)
+
+    def _join(self, joint: Joint) -> Joint:
+        """Add a joint."""
+        return self.enter("joint", self.joints, joint)
+
+    def joint_named(self, name: str) -> Joint:
+        """The joint of a name."""
+        k = self.place_of(self.joints, name)
+        if k is None:
+            raise ModelError(f"The model '{self.name}' has no joint named {shown(name)}.")
+        return self.joints[k]

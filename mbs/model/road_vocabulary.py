@@ -35,7 +35,7 @@ class RoadVocabulary(BodyVocabulary):
         Raises
         ------
         ModelError
-            The file is no road, or a road at ports asks for inputs that the model does not have.
+            The file is not a road, or a road at ports asks for inputs that the model does not have.
         """
         kinds = (PlaneRoad, KerbRoad, GridRoad, PortRoad, RoadOfFile)
         instance_of(

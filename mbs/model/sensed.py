@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from mbs.common.checks import shown
 from mbs.common.errors import ModelError
-from mbs.model.core import ModelCore
 from mbs.model.joints.joint import Joint
+from mbs.model.register import Register
 
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
 
@@ -21,7 +21,7 @@ def component_number(component: str, dimension: int, what: str) -> int:
     return k
 
 
-def sensed_joint(model: ModelCore, name: str, joint: Joint | str) -> Joint:
+def sensed_joint(model: Register, name: str, joint: Joint | str) -> Joint:
     """A joint of the model, for the sensor of this name."""
     found = model.joint_named(joint) if isinstance(joint, str) else joint
     if not isinstance(found, Joint) or found not in model.joints:
@@ -30,7 +30,7 @@ def sensed_joint(model: ModelCore, name: str, joint: Joint | str) -> Joint:
     return found
 
 
-def sensed_joints(model: ModelCore, name: str, argument: str, given: Sequence[Joint | str]) -> list[Joint]:
+def sensed_joints(model: Register, name: str, argument: str, given: Sequence[Joint | str]) -> list[Joint]:
     """Several of them. `argument`: what the sensor calls them."""
     if not isinstance(given, (list, tuple)) or not given:
         raise ModelError(f"The {argument} of sensor '{name}' must be a list of joints, not {shown(given)}.")

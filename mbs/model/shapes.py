@@ -29,12 +29,11 @@ from mbs.common.checks import (
 )
 from mbs.common.errors import ModelError
 from mbs.common.vectors import in_space
-from mbs.model.bodies import ROTATION
+from mbs.model.bodies import ROTATION, BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.coordinate import Coordinate
 from mbs.model.drawn import Owner, Shape, Turning
-from mbs.model.mechanism import Mechanism
 
 Kind: TypeAlias = Literal[
     "box", "sphere", "cylinder", "tube", "plate", "mesh", "spring", "damper", "wheel", "steering_wheel", "none"
@@ -70,11 +69,11 @@ Place: TypeAlias = "ArrayLike | tuple[Owner, ArrayLike]"
 """A point of the body of a shape, or (body, point) on another one; earth axes in the reference configuration, m."""
 
 
-class ShapeVocabulary(Mechanism):
+class ShapeVocabulary(BodyVocabulary):
     """The looks of a model."""
 
     def shape(
-        self: Mechanism,
+        self,
         body: Owner,
         kind: Kind,
         *,
@@ -98,7 +97,7 @@ class ShapeVocabulary(Mechanism):
         material: str | None = None,
         opacity: float = 1.0,
     ) -> Shape:
-        """What a body looks like; a body may have several shapes. It does not change its motion.
+        """A shape of a body, for drawing only; a body may have several.
 
         A body without shapes is drawn by its joints: tubes, plates, wheels. The first shape of a body takes the place
         of that; the beams of a flexible body stay, but "none" leaves both away. A spring, a damper, a rod or a joint is
@@ -179,7 +178,7 @@ class ShapeVocabulary(Mechanism):
         return made
 
     def turning(
-        self: Mechanism,
+        self,
         name: str,
         body: Body | Turning,
         *,
@@ -187,7 +186,7 @@ class ShapeVocabulary(Mechanism):
         axis: ArrayLike,
         angle: Coordinate | Affine | str,
     ) -> Turning:
-        """Something that only its looks turn about an axis of a body, such as a steering wheel or a motor's pulley.
+        """Something that is only drawn as turning about an axis of a body, such as a steering wheel or a pulley.
 
         Parameters
         ----------
@@ -216,7 +215,7 @@ class ShapeVocabulary(Mechanism):
         return made
 
 
-def _owner(model: Mechanism, owner: object, what: str) -> Owner:
+def _owner(model: BodyVocabulary, owner: object, what: str) -> Owner:
     """The body whose frame carries a shape, or the spin or turning."""
     if isinstance(owner, Spin):
         model.owned_coordinate(owner, f"The {what}")
@@ -229,12 +228,12 @@ def _owner(model: Mechanism, owner: object, what: str) -> Owner:
     return body if body.is_ground or body in model.bodies else _member(model, body)
 
 
-def _member(model: Mechanism, body: Body) -> Body:
+def _member(model: BodyVocabulary, body: Body) -> Body:
     """The body of the model that has the coordinates of another one, as a node, a frame or a body with ports."""
     return next(b for b in model.bodies if b.start == body.start)
 
 
-def local_place(model: Mechanism, owner: Owner, place: ArrayLike, what: str) -> Vector:
+def local_place(model: BodyVocabulary, owner: Owner, place: ArrayLike, what: str) -> Vector:
     """A place from the origin of its owner, three components."""
     origin = origin_of(owner)
     given = place_of(place, model.dimension, what)
@@ -242,7 +241,7 @@ def local_place(model: Mechanism, owner: Owner, place: ArrayLike, what: str) -> 
 
 
 def _anchors(
-    model: Mechanism, owner: Owner, places: object, key: str, count: tuple[int, int], what: str
+    model: BodyVocabulary, owner: Owner, places: object, key: str, count: tuple[int, int], what: str
 ) -> list[tuple[Owner, Vector]]:
     least, most = count
     words = f"{least} points" if least == most else f"{least} points or more"
@@ -263,7 +262,7 @@ def _anchors(
 
 
 def _made(
-    model: Mechanism, kind: str, owner: Owner, given: Mapping[str, Any], what: str, looks: Mapping[str, Any]
+    model: BodyVocabulary, kind: str, owner: Owner, given: Mapping[str, Any], what: str, looks: Mapping[str, Any]
 ) -> Shape:
     fields = dict(looks)
     anchors: list[tuple[Owner, Vector]] = []
@@ -302,7 +301,7 @@ def _made(
     return Shape(kind, owner, fields, anchors)
 
 
-def _axle(model: Mechanism, owner: Owner, axis: ArrayLike | None, what: str) -> Vector:
+def _axle(model: BodyVocabulary, owner: Owner, axis: ArrayLike | None, what: str) -> Vector:
     if axis is not None:
         return direction(axis, 3, f"the axis of {what}")
     if not isinstance(owner, Body):

@@ -12,7 +12,6 @@ from mbs.common.checks import array, flag, named, shown
 from mbs.common.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.drawn import Owner, Shape, Turning
-from mbs.model.mechanism import Mechanism
 from mbs.model.shapes import ShapeVocabulary, local_place
 
 
@@ -32,10 +31,8 @@ class Sliding(Turning):
 class SlidingVocabulary(ShapeVocabulary):
     """What slides on a body, and computed meshes."""
 
-    def sliding(
-        self: Mechanism, name: str, body: Body | Turning, *, at: ArrayLike, direction: ArrayLike, way: str
-    ) -> Sliding:
-        """Something that only its looks slide along a line of a body, such as a rack that a guide moves.
+    def sliding(self, name: str, body: Body | Turning, *, at: ArrayLike, direction: ArrayLike, way: str) -> Sliding:
+        """Something that is only drawn as sliding along a line of a body, such as a rack that a guide moves.
 
         Parameters
         ----------
@@ -54,7 +51,7 @@ class SlidingVocabulary(ShapeVocabulary):
         return slides
 
     def mesh_shape(
-        self: Mechanism,
+        self,
         body: Owner,
         positions: ArrayLike,
         triangles: ArrayLike,

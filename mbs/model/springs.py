@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from mbs.common.affine import AffineVector
 from mbs.common.checks import instance_of
 from mbs.elements.record import ElementRecord
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
@@ -72,7 +71,3 @@ class SpringVocabulary(BodyVocabulary):
         """
         expression = self.expression(angle, f"The torsional spring-damper '{name}'")
         return self.add(ScalarSpringDamper(stiffness, damping, free_angle).record(name, expression))
-
-    def _end(self, end: FixedEnd, what: str) -> AffineVector:
-        body, point = body_and_point(end, what)
-        return self.owned(body, f"The {what}").point(point)

@@ -9,20 +9,19 @@ from numpy.typing import ArrayLike
 
 from mbs.common.checks import array, named, positive, shown, vector
 from mbs.common.errors import ModelError
-from mbs.model.bodies import ROTATION
+from mbs.model.bodies import ROTATION, BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.inertia import inertia_matrix
-from mbs.model.mechanism import Mechanism
 from mbs.model.smooth_table import check_drawn, checked_parameters, pose_functions, smooth_table
 from mbs.model.tabled import TabledBody, TabledNumber
 
 
-class TableVocabulary(Mechanism):
+class TableVocabulary(BodyVocabulary):
     """What a table moves."""
 
     def tabled_body(
-        self: Mechanism,
+        self,
         name: str,
         *,
         base: Body,
@@ -92,7 +91,7 @@ class TableVocabulary(Mechanism):
         return new
 
     def tabled_number(
-        self: Mechanism,
+        self,
         name: str,
         *,
         parameters: Coordinate | Sequence[Coordinate],

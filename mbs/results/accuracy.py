@@ -11,22 +11,20 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from mbs.kernel.header.enumerations import GuideType
-from mbs.kernel.header.limits import AGREED, HALVINGS_SUSPECT, WRONG_ERROR
+from mbs.kernel.header.limits import AGREED, WRONG_ERROR
 from mbs.results.comparison import COORDINATES, INSTANTS, Compared
 from mbs.results.run_report import Report
-from mbs.results.smooth_laws import is_open_tree
+from mbs.results.smooth_laws import UNRESOLVED, is_open_tree
 from mbs.settings.input_signals import unit_text
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
-ENERGY_KEPT = 1e-3  # of that of the motion: what a free System may gain or lose, and `drift` of what is plainly smooth
 # Of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved.
 MOST_COST = 48.0
-GOAL_ERROR = AGREED * WRONG_ERROR  # what a step that is tried as a remedy aims at
-MET = 2.0 * GOAL_ERROR  # what it must meet to be named
-SMOOTH_MISS = 0.04  # `summed_miss` of what is plainly smooth
-FAR = 0.3  # of the range: beyond it errors do not follow the order of the method any more
+GOAL_ERROR = AGREED * WRONG_ERROR  # what a step that is tried as a remedy aims at, and what energy may be off by
+CLEAR = 0.03  # of the range: a run that by order one is off by so little is right, and its step may be named
+RIGHT = "A refined run, in which they do not, shows that what is compared is right all the same."
 COARSER, FINER = "coarser", "finer"
 
 
@@ -57,6 +55,8 @@ class Accuracy:
     """Estimated largest error of the sensors that were compared, in their units."""
     message: str = ""
     """Evidence against the result, with a remedy; empty where there is none."""
+    notice: str = ""
+    """A sentence about an open energy balance of a run that is right as its refined run shows; else empty."""
     branch: str = ""
     """A sentence about a change of the assembly mode that the refined run does not make; empty where there is none."""
 
@@ -82,17 +82,17 @@ class Accuracy:
         return "; ".join(said)
 
 
-def doubt(report: Report, steps: int, halvings: int) -> str:
+def doubt(report: Report) -> str:
     """How a run is to be checked: empty, not at all; `COARSER` by one of twice the step, `FINER` by one of half.
 
-    Where steps were halved inside, a coarser run makes the same parts. An open balance, and a loop that left
-    its mode, are signs of coarse steps already.
+    An open balance, and a loop that left its mode, are signs of coarse steps already.
     """
-    if halvings > HALVINGS_SUSPECT * steps or report.balance_wrong or report.branch_changes > 0:
+    if report.balance_wrong or report.branch_changes > 0:
         return FINER
-    whole = halvings == 0 and report.divisions == 0  # parts of a divided step hide what an abrupt force does
-    kept = max(drift(report), abs(report.energy_change)) <= ENERGY_KEPT
-    return "" if summed_miss(report) <= SMOOTH_MISS and kept and whole else COARSER
+    # what an abrupt force does is missed, or hidden in parts of steps
+    whole = report.halvings == report.divisions == report.abrupt_steps == 0
+    kept = max(drift(report), abs(report.energy_change)) <= GOAL_ERROR
+    return "" if summed_miss(report) <= WRONG_ERROR and kept and whole else COARSER
 
 
 def summed_miss(report: Report) -> float:
@@ -158,7 +158,7 @@ def balance_text(report: Report) -> str:
 def energy_text(report: Report, system: System, method: str) -> str:
     """That the energy of a free System does not stay, with a remedy; empty where it does."""
     share = report.energy_change
-    if abs(share) <= ENERGY_KEPT:
+    if abs(share) <= GOAL_ERROR:
         return ""
     other = any(len(system.arrays[name]) for name in ("tabled_size", "flex_frame")) or method == "energy_momentum"
     goes_on = "and goes on so" if report.energy_growth else "from its start to its mean, and does not go on so"
@@ -172,27 +172,32 @@ def energy_text(report: Report, system: System, method: str) -> str:
 def needed_step(h: float, accuracy: Accuracy) -> float | None:
     """The step that would bring the result to `GOAL_ERROR`, s; None where it is too far off to tell."""
     error = accuracy.error
-    if error is None or error > FAR or accuracy.order is None:
+    if error is None or error > UNRESOLVED or accuracy.order is None:
         return None
     made = h / (1.0 + accuracy.halvings_per_step)
     return float(made * min(GOAL_ERROR / error, 0.5**accuracy.order) ** (1.0 / accuracy.order))
 
 
 def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) -> str:
-    """What would bring the result near, in a sentence.
+    """The remedy for an inaccurate result, in a sentence.
 
-    `tried`: steps of refined runs, s, the finest last, and about by how much their runs are off, of the range.
+    `tried`: steps of refined runs, s, the finest last, and their estimated errors, relative to the range.
     """
-    found = next(((step, off) for step, off in tried if off <= MET), None)
+    found = next(((step, off) for step, off in tried if off <= CLEAR), None)
     if found is None:
-        finds = "simulate(..., tolerance=1e-3) in place of a step finds steps that will do."
+        finds = "simulate(..., tolerance=1e-3) in place of a step finds sufficient steps."
         if not tried:
-            return f"How short steps must be was not tried: {finds}"
+            return f"Which step is sufficient was not tried: {finds}"
         step, off = tried[-1]
-        nearer = f"are off by about {_percent(off)} at most" if off <= FAR else "do not show what shorter ones tend to"
+        nearer = (
+            f"are off by about {_percent(off)} at most"
+            if off <= UNRESOLVED
+            else "do not show the limit of shorter steps"
+        )
         return f"Steps of {step:g} s were tried too, and {nearer}: {finds}"
     better = _higher_orders(system, method)
-    others = f"; longer ones may do with a method of higher order ({' or '.join(map(repr, better))})" if better else ""
+    names = " or ".join(map(repr, better))
+    others = f"; longer steps may be sufficient with a method of higher order ({names})" if better else ""
     return f"Steps of {found[0]:g} s were tried: they are off by about {_percent(found[1])} at most{others}."
 
 
@@ -200,7 +205,7 @@ def error_text(accuracy: Accuracy, sizes: Mapping[str, float], compared: Mapping
     """The estimated error in a sentence, with the worst sensor."""
     name = max(accuracy.sensors, key=lambda n: accuracy.sensors[n] / sizes[n])
     unit, share = compared[name].unit, accuracy.sensors[name] / sizes[name]
-    least = "at least" if share > FAR else "about"
+    least = "at least" if share > UNRESOLVED else "about"
     what, of = "coordinate" if unit == COORDINATES else "sensor", unit_text(unit)
     gap, size = f"{accuracy.sensors[name]:.3g}{of}", f"{sizes[name]:.3g}{of}"
     return (

@@ -48,7 +48,7 @@ class Animation:
         Returns
         -------
         WrittenPage
-            Where it is, how large, and what there is to say of it, such as a thinning.
+            Path, size and notes, such as a thinning.
 
         Raises
         ------
@@ -89,7 +89,7 @@ class Animation:
         Returns
         -------
         WrittenGltf
-            Where it is, how large, and what was lost by thinning.
+            Path, size and the error of the thinning.
 
         Raises
         ------
@@ -114,7 +114,7 @@ class Animation:
         Returns
         -------
         WrittenFilm
-            Where it is, how large and how long.
+            Path, size and duration.
 
         Raises
         ------
@@ -149,7 +149,7 @@ def animate(
     names : sequence of str, optional
         Of the runs, one each; by default that of the model, of ghosts with their number.
     scene : System or mapping, optional
-        What is drawn of runs that do not say it themselves, because they were read from a file.
+        What is drawn of runs without a scene of their own, because they were read from a file.
     **options
         What the player starts with, such as ``camera="side"``, ``plots=["bob.x"]``, ``speed=0.5``; see
         `viewer.player_options.OPTIONS`.

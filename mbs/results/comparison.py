@@ -85,12 +85,18 @@ class Comparison:
         Of the model, m: a smaller range than 1e-4 of it is rest, wherever the model lies.
     before : mapping of str to ComparedFields, optional
         `ends` of the runs before.
+    energy : float
+        J: forces that do less over the length, and moments that do less over a radian, are none.
     """
 
     def __init__(
-        self, compared: Mapping[str, Compared], length: float, before: Mapping[str, ComparedFields] | None = None
+        self,
+        compared: Mapping[str, Compared],
+        length: float,
+        before: Mapping[str, ComparedFields] | None = None,
+        energy: float = 0.0,
     ) -> None:
-        self.compared, self.length, n = compared, length, len(compared)
+        self.compared, self.length, self.energy, n = compared, length, energy, len(compared)
         self._what = (JudgedFields * n)(*(what.fields for what in compared.values()))
         self._seen = (ComparedFields * n)(*((before or {}).get(name, ComparedFields()) for name in compared))
 
@@ -137,7 +143,7 @@ class Comparison:
         """
         size = np.zeros(len(self._what))
         pointer = size.ctypes.data_as(POINTER(c_double))
-        load_library().ali3_compared_sizes(self._what, len(size), self._seen, self.length, guided, pointer)
+        load_library().ali3_compared_sizes(self._what, len(size), self._seen, self.length, self.energy, guided, pointer)
         return {name: float(of) for name, of in zip(self.compared, size, strict=True) if of > 0.0}
 
 
@@ -188,13 +194,14 @@ def compared_in(
     before: Mapping[str, ComparedFields] | None = None,
     stands: bool = False,
     guided: bool = False,
+    energy: float = 0.0,
 ) -> dict[str, Compared]:
     """What of a run is compared, by name: what the kernel says to count, unless the coordinates say that all `stands`:
-    rates and forces of motors do not count then. `length`, `before`: as of `Comparison`.
+    rates and forces of motors do not count then. `length`, `before`, `energy`: as of `Comparison`.
 
     Where something is `guided` two motions say whether a place moves by itself, see `differences`.
     """
-    found = Comparison({n: what for n, what in compared.items() if what.always or not stands}, length, before)
+    found = Comparison({n: what for n, what in compared.items() if what.always or not stands}, length, before, energy)
     found.add(values, values)
     return {name: compared[name] for name in found.sizes(guided)}
 

@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from mbs.kernel.header.limits import EVENT_ORDER, WRONG_ERROR
+from mbs.kernel.header.limits import WRONG_ERROR
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results.accuracy import Accuracy
 from mbs.results.comparison import Compared, differences
 from mbs.results.run_report import Report
 from mbs.settings.methods import METHOD_TABLE
+from mbs.settings.settings import Settings
 
 LEAST_ORDER = 0.5  # measured: below, differences do not yet show the error
 
@@ -58,13 +59,14 @@ def extrapolated(
     before: Mapping[str, ComparedFields] | None,
     length: float,
 ) -> Accuracy:
-    """The error against what refined runs tend to, by Richardson's extrapolation with `EVENT_ORDER`.
+    """The error against what refined runs tend to, by Richardson's extrapolation with the order of the default
+    method, which keeps it behind abrupt events: stops are located, and parts of steps shrink with the step.
 
     `tables`: of the run and of the last two refined ones, of which the last has half the step, samples of shape (n,) by
     name; `before`, `length`: as of `Comparison`.
     """
     run, coarse, fine = tables
-    more = 1.0 / (2.0**EVENT_ORDER - 1.0)
+    more = 1.0 / (2.0 ** METHOD_TABLE[Settings.method].order - 1.0)
     limit = {name: fine[name] + more * what.change(coarse[name], fine[name]) for name, what in compared.items()}
     units, sensors, _ = differences(run, limit, compared, before, length)
     return replace(known, units=units, sensors=sensors)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
-from mbs.kernel.header.limits import BALANCE_WRONG
+from mbs.kernel.header.limits import WRONG_ERROR
 
 LINE = 0.5
 """Square of the correlation of energy and time from which energy grows: of a whole swing it is 0.6, of two 0.15."""
@@ -61,6 +61,9 @@ class Report:
     divisions : int
         Steps that were made in halves, as parts of them may have been again, because a force of a contact or a stop
         changed abruptly in them; and parts of steps that ended where an input jumps or peaks.
+    abrupt_steps : int
+        Steps in which such a force changed by more than a tenth of the largest; without roads that of a spring beyond
+        its stop.
     branch_changes : int
         Changes of the assembly mode of closed loops.
     branch_time : float
@@ -115,6 +118,7 @@ class Report:
     branch_kind: int = 0
     capped: int = 0
     capped_residual: float = 0.0
+    abrupt_steps: int = 0
 
     @classmethod
     def from_kernel(cls, values: Mapping[str, float]) -> Report:
@@ -138,8 +142,8 @@ class Report:
 
     @property
     def balance_wrong(self) -> bool:
-        """Whether it is above what any right run had, by more than the tolerance of the residual leaves open."""
-        return self.energy_balance > BALANCE_WRONG and abs(self.energy_error) > self.energy_floor
+        """Whether it is above what is wrong, by more than the tolerance of the residual leaves open."""
+        return self.energy_balance > WRONG_ERROR and abs(self.energy_error) > self.energy_floor
 
     @property
     def energy_growth(self) -> float:

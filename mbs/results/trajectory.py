@@ -135,7 +135,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         return self._poses
 
     def recording(self, scene: Mapping[str, Any] | None = None, name: str = "") -> Recording:
-        """The run as what draws takes it: a scene, times, and sensors and poses as columns.
+        """The run as a recording for drawing: a scene, times, and sensors and poses as columns.
 
         Parameters
         ----------
@@ -152,7 +152,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         Raises
         ------
         ValueError
-            The run has no scene and none is given, it is no mapping, or the run has none of its poses.
+            The run has no scene and none is given, it is not a mapping, or the run has none of its poses.
         ali3.scene.errors.ViewerError
             The scene is not of the format.
         mbs.RoadFileError
@@ -223,7 +223,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         Raises
         ------
         ValueError
-            It is no whole number above zero.
+            It is not a whole number above zero.
         """
         every = whole(every, "every", 1, 10**9, ValueError)
         if every == 1:

@@ -220,7 +220,7 @@ def _grid(
     """The grid of a table, array or picture, or one that is taken from another surface."""
     kind = Path(heights).suffix.lower()
     if mesh and kind not in MESHES:
-        raise RoadFileError(f"{heights} is no mesh, which {next(iter(mesh))} is of; {', '.join(MESHES)} are.")
+        raise RoadFileError(f"{heights} is not a mesh, which {next(iter(mesh))} is of; {', '.join(MESHES)} are.")
     if kind in MESHES:
         from mbs.roads.mesh_road import mesh_road
 

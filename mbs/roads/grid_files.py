@@ -73,7 +73,7 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
 
 
 def _table(file: Path) -> Grid:
-    """Rows are along x, columns along y; with coordinates where the first cell is no number.
+    """Rows are along x, columns along y; with coordinates where the first cell is not a number.
 
     Such a table may be followed by another one for the frictions. `mbs/kernel/src/roads/road_table.c` reads the same.
     """

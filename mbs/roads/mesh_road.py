@@ -56,7 +56,7 @@ def mesh_road(
     Raises
     ------
     RoadFileError
-        It is no mesh, stands upright, has overhangs or holes, needs too many points, or none of them meets it.
+        It is not a mesh, stands upright, has overhangs or holes, needs too many points, or none of them meets it.
 
     Warns
     -----
@@ -73,8 +73,8 @@ def mesh_road(
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     if not np.hypot(*(high - low)[:2]) >= SMALLEST:
         raise RoadFileError(
-            f"{source} is {np.hypot(*(high - low)[:2]):.3g} m across, which is no road; `scale` in a description says "
-            "how many metres its unit has."
+            f"{source} is {np.hypot(*(high - low)[:2]):.3g} m across, which is not a road; `scale` in a description "
+            "says how many metres its unit has."
         )
     seen = _seen_areas(corners)
     _level(corners, seen, source, name)

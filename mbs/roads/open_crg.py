@@ -168,7 +168,7 @@ def _checked(crg: pyopencrg.CrgRoad, source: str) -> None:
     """Refuses what a grid cannot have."""
     numbers = np.concatenate([np.ravel(a) for a in (crg.u, crg.v, crg.x, crg.y)])
     if min(crg.shape) < 2 or not np.all(np.abs(numbers) < 1e7):
-        raise RoadFileError(f"{source} is no road: its points, {crg.nu} x {crg.nv}, do not lie within 10 000 km.")
+        raise RoadFileError(f"{source} is not a road: its points, {crg.nu} x {crg.nv}, do not lie within 10 000 km.")
     if np.any(high := np.abs(crg.surface_z()) > ROAD_HIGHEST):
         i, j = np.argwhere(high)[0].tolist()
         raise RoadFileError(

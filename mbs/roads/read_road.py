@@ -26,8 +26,8 @@ def read_road(
     ----------
     path : path
         ``.road``; ``.toml``; or heights: ``.csv`` or ``.txt`` (a row for each x, a column for each y; with coordinates
-        in the first row and column where the first cell is no number), ``.npy`` (``heights[i, j]`` at x number i and y
-        number j), ``.npz`` (arrays `heights`, and as one likes `frictions`, `origin`, `spacing`), ``.png`` (8 or 16
+        in the first row and column where the first cell is not a number), ``.npy`` (``heights[i, j]`` at x number i and
+        y number j), ``.npz`` (arrays `heights`, optionally `frictions`, `origin`, `spacing`), ``.png`` (8 or 16
         bits of grey, seen from above with x to the right and y up), ``.crg`` (OpenCRG), or a mesh of triangles
         (``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb``, ``.gltf``).
     frictions : path or float, optional
@@ -42,7 +42,7 @@ def read_road(
     Returns
     -------
     PlaneRoad, KerbRoad or GridRoad
-        A `SampledRoad`, which says how far it is off, from OpenCRG and meshes.
+        A `SampledRoad`, with its deviation, from OpenCRG and meshes.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def read_road(
     of_grids |= {"height_range": height_range, "friction_range": friction_range}
     given = [name for name, value in of_grids.items() if value is not None]
     if given and kind in (".road", ".toml"):
-        raise RoadFileError(f"{path} says all of its road itself; {', '.join(given)} goes with a grid of heights only.")
+        raise RoadFileError(f"{path} defines its whole road; {', '.join(given)} applies to a grid of heights only.")
     if kind == ".road":
         return RoadFile(path).read()
     if kind not in ROADS:

@@ -57,7 +57,7 @@ class RoadFile(RoadOfFile):
             return read_header(file, self.path)
 
     def check(self) -> None:
-        """Refuse what is not there or no road: the beginning of a road file is looked at, a table as a whole.
+        """Refuse a missing file or one that is not a road: of a road file the header is checked, of a table everything.
 
         Raises
         ------

@@ -86,7 +86,7 @@ def read_header(file: BinaryIO, name: object) -> Header:
     """The checked header of an open road file."""
     data = file.read(HEADER.size)
     if data[: len(MAGIC)] != MAGIC:
-        raise RoadFileError(f"{name} is no road file; ali3 road INPUT OUTPUT.road makes one.")
+        raise RoadFileError(f"{name} is not a road file; ali3 road INPUT OUTPUT.road makes one.")
     if len(data) < HEADER.size:
         raise RoadFileError(f"{name} ends within its header.")
     _, version, crc, size, kind, contents, nx, ny, tile, maps, *real = HEADER.unpack(data)
@@ -97,7 +97,7 @@ def read_header(file: BinaryIO, name: object) -> Header:
     if crc != zlib.crc32(data[CHECKED_FROM:]):
         raise RoadFileError(f"The header of {name} was altered or damaged.")
     if problem := _problem(kind, nx, ny, tile, maps, real):
-        raise RoadFileError(f"{name} is no road file that can be read: {problem}.")
+        raise RoadFileError(f"{name} is not a readable road file: {problem}.")
     head = Header(RoadType(kind), nx, ny, maps, tuple(real[:REALS]), contents, version, size)
     found = file.seek(0, os.SEEK_END)
     if not size == head.file_bytes == found:
@@ -108,7 +108,7 @@ def read_header(file: BinaryIO, name: object) -> Header:
 def _problem(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[float]) -> str:
     """What is wrong with the numbers of a header, as the kernel judges them; empty if nothing is."""
     if not RoadType.PLANE <= kind <= RoadType.GRID:
-        return f"{kind} is no kind of road"
+        return f"{kind} is not a kind of road"
     if wrong := [x for x in real if not abs(x) <= ROAD_FARTHEST]:
         return f"a number in its header, {wrong[0]:g}, is not finite or beyond 1e8"
     if not 0.0 <= real[3 if kind == RoadType.PLANE else 4] <= ROAD_FRICTION:

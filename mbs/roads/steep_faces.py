@@ -14,7 +14,7 @@ _ROWS = 4096  # looked at in one piece
 
 
 class RoadWarning(UserWarning):
-    """A road that can be but is no road for a wheel; the message says where, and what would be right."""
+    """A road that a wheel cannot follow; the message says where, and what would be right."""
 
 
 def steep_face(road: GridRoad, name: object, radius: float = WHEEL_RADIUS) -> str:

@@ -70,11 +70,11 @@ class Control:
             return f"{self.method}{reason}: {steps}"
         if self.sensors:
             errors = ", ".join(f"{e:.0e} of {name!r}" for name, e in self.sensors.items())
-            return f"{self.method}{reason}: {steps}; errors guessed from a coarser run: {errors}"
+            return f"{self.method}{reason}: {steps}; errors estimated from a coarser run: {errors}"
         of = f"of {self.tolerance:g} of the model's length of {self.length:.4g} m"
         if self.error <= self.tolerance:
             return f"{self.method}{reason}: {steps}; within the tolerance {of}, as a coarser run shows"
-        return f"{self.method}{reason}: {steps}; error guessed from a coarser run: {self.error:.0e}, tolerance {of}"
+        return f"{self.method}{reason}: {steps}; error estimated from a coarser run: {self.error:.0e}, tolerance {of}"
 
 
 @dataclass(frozen=True)

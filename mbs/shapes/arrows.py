@@ -7,7 +7,7 @@ from typing import Any
 
 from mbs.common.affine import Affine
 from mbs.kernel.header.enumerations import ElementType, SensorType
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.sensor import Sensor
 from mbs.shapes.frames import FrameNames, place_drawn
 from mbs.shapes.joint_points import Line
@@ -21,14 +21,14 @@ TYRE = {
 """Outputs of a tyre that its arrow takes."""
 
 
-def arrows_of(model: Mechanism, names: FrameNames, lines: Sequence[Line]) -> list[Arrow]:
+def arrows_of(model: Model, names: FrameNames, lines: Sequence[Line]) -> list[Arrow]:
     """Forces of springs and rods along their lines, tension pulling the ends together, and of joints on their first
     bodies, of which sensors read all components.
     """
     return [*_along_lines(model, lines), *_of_tyres(model), *_of_joints(model, names)]
 
 
-def _of_tyres(model: Mechanism) -> list[Arrow]:
+def _of_tyres(model: Model) -> list[Arrow]:
     """Forces of tyres whose contact, forces and axis sensors read."""
     outputs: dict[tuple[int, str], str] = {}
     vectors: dict[tuple[tuple[int, float], ...], str] = {}
@@ -53,7 +53,7 @@ def _key(signal: Affine) -> tuple[tuple[int, float], ...]:
     return (*sorted(signal.terms.items()), (-1, signal.constant))
 
 
-def _along_lines(model: Mechanism, lines: Sequence[Line]) -> list[Arrow]:
+def _along_lines(model: Model, lines: Sequence[Line]) -> list[Arrow]:
     found: dict[str, Arrow] = {}
     by_name = {line.name: line for line in lines}
     for sensor in model.sensors:
@@ -65,7 +65,7 @@ def _along_lines(model: Mechanism, lines: Sequence[Line]) -> list[Arrow]:
     return list(found.values())
 
 
-def _tension(model: Mechanism, sensor: Sensor) -> tuple[str, float]:
+def _tension(model: Model, sensor: Sensor) -> tuple[str, float]:
     """Spring or rod whose force a sensor reads, and its factor on the tension."""
     if sensor.unit != "N":
         return "", 0.0
@@ -77,7 +77,7 @@ def _tension(model: Mechanism, sensor: Sensor) -> tuple[str, float]:
     return "", 0.0
 
 
-def _of_joints(model: Mechanism, names: FrameNames) -> list[Arrow]:
+def _of_joints(model: Model, names: FrameNames) -> list[Arrow]:
     components: dict[str, dict[int, str]] = {}
     joints = {joint.name: joint for joint in model.joints}
     for sensor in model.sensors:

@@ -15,7 +15,7 @@ from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.joints.joint import RollingBody, RollingSpin
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.shapes import origin_of
 from mbs.shapes.frames import FrameNames, numbers
 from mbs.shapes.joint_points import SAME, Line, Pivot, Slide, Touched, apart, sensed_points
@@ -36,7 +36,7 @@ Shape = dict[str, Any]
 class Defaults:
     """Makes the default shapes of a model."""
 
-    model: Mechanism
+    model: Model
     names: FrameNames
     touched: Touched
     extent: float

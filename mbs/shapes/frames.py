@@ -17,7 +17,7 @@ from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.drawn import Owner, Turning
 from mbs.model.flexible import FlexibleBody
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.shapes import origin_of
 from mbs.model.sliding_shapes import Sliding
 from mbs.model.tabled import TabledBody
@@ -44,7 +44,7 @@ class FrameNames:
     """Column by name as `Poses` has it: sensors of that name go first."""
 
     @classmethod
-    def of(cls, model: Mechanism) -> FrameNames:
+    def of(cls, model: Model) -> FrameNames:
         """Names that are unique among the frames, and columns that are no sensors."""
         bodies = {b.number: "body ground" if b.name == "ground" else b.name for b in model.bodies}
         used = {*bodies.values(), "ground"}
@@ -75,7 +75,7 @@ class FrameNames:
         return self.of_body(body), numbers(in_space(place) - origin)
 
 
-def turns_of(model: Mechanism) -> list[Spin | Turning]:
+def turns_of(model: Model) -> list[Spin | Turning]:
     """What turns about an axis of a body; on a tabled one a wheel that sensors place, nothing else."""
     every: list[Spin | Turning] = [*model.spins, *model.turnings]
     return [t for t in every if not _body_of(t).is_tabled or _outputs_of(t)]
@@ -95,7 +95,7 @@ def modes_of(body: FlexibleBody) -> tuple[str, ...]:
     return tuple(f"mode_{k + 1}" for k in range(body.n_modes))
 
 
-def frames_of(model: Mechanism, names: FrameNames, places: Places, q: NDArray[np.float64]) -> dict[str, Any]:
+def frames_of(model: Model, names: FrameNames, places: Places, q: NDArray[np.float64]) -> dict[str, Any]:
     """The frames of the scene; poses at the start are those of the coordinates `q` (nq,)."""
     frames: dict[str, Any] = {}
     for body, place, (pose,) in zip(model.bodies, places.bodies, places.poses(q[None]), strict=True):
@@ -134,7 +134,7 @@ def _angle_column(turn: Spin | Turning, names: FrameNames) -> str:
     return names.columns[f"{turn.name}.angle"]
 
 
-def places_of(model: Mechanism, T: sparse.csr_matrix, constant: NDArray[np.float64], names: FrameNames) -> Places:
+def places_of(model: Model, T: sparse.csr_matrix, constant: NDArray[np.float64], names: FrameNames) -> Places:
     """Where the bodies are, of a model whose full coordinates are ``T q + constant``."""
     full: list[int] = []
     rows: list[sparse.csr_matrix] = []
@@ -177,7 +177,7 @@ def places_of(model: Mechanism, T: sparse.csr_matrix, constant: NDArray[np.float
 
 
 def anchors_of_difference(
-    model: Mechanism, names: FrameNames, bodies: Mapping[int, Body], drawn: Vector, gap: Sequence[Affine]
+    model: Model, names: FrameNames, bodies: Mapping[int, Body], drawn: Vector, gap: Sequence[Affine]
 ) -> tuple[Anchor, Anchor] | None:
     """Both ends of a difference ``p2 - p1`` of points of two bodies, given by their first coordinate; None where it is
     not one.

@@ -16,7 +16,7 @@ from mbs.kernel.header.enumerations import ElementType, SensorType
 from mbs.model.body import Body
 from mbs.model.carried import SlidingPoint
 from mbs.model.joints.joint import Joint
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.shapes import origin_of
 from mbs.shapes.frames import Anchor, FrameNames, anchors_of_difference, numbers, place_drawn
 
@@ -69,7 +69,7 @@ class Touched:
     """Frames of such ends that one reads."""
 
 
-def touched(model: Mechanism, names: FrameNames) -> Touched:
+def touched(model: Model, names: FrameNames) -> Touched:
     """Joints, springs and wheels of a model, with the points at which they touch its bodies."""
     found, drawn = Touched(), model.drawn()
     for joint in model.joints:
@@ -110,7 +110,7 @@ def touched(model: Mechanism, names: FrameNames) -> Touched:
     return found
 
 
-def _way(model: Mechanism, guide: int) -> str:
+def _way(model: Model, guide: int) -> str:
     """The sensor that reads a guide in m; empty where none does."""
     for sensor in model.sensors:
         if sensor.type == SensorType.GUIDE and list(sensor.integers) == [guide, 0] and list(sensor.reals) == [1.0]:
@@ -118,9 +118,7 @@ def _way(model: Mechanism, guide: int) -> str:
     return ""
 
 
-def _sliding_frames(
-    model: Mechanism, names: FrameNames, drawn: Vector, slide: SlidingPoint
-) -> dict[str, dict[str, Any]]:
+def _sliding_frames(model: Model, names: FrameNames, drawn: Vector, slide: SlidingPoint) -> dict[str, dict[str, Any]]:
     """Frames of a sliding point by their names, one on the other and the point last; none where no sensor reads it."""
     parent, at = names.anchor(slide.body, place_drawn(drawn, slide.start))
     taken = {"ground", *names.bodies.values(), *names.turns.values()}
@@ -146,7 +144,7 @@ def _axis(dimension: int, drawn: Vector, joint: Joint) -> Vector | None:
     return None if joint.ends is None or joint.ends.axis is None else place_drawn(drawn, joint.ends.axis)
 
 
-def sensed_points(model: Mechanism) -> dict[Body, list[Vector]]:
+def sensed_points(model: Model) -> dict[Body, list[Vector]]:
     """Places of rigid bodies whose position a sensor reads, by body; earth axes as drawn, m."""
     bodies = {body.start + k: body for body in model.bodies for k in range(model.dimension)}
     found: dict[Body, list[Vector]] = {}

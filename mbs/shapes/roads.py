@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from mbs.elements.road import PortRoad
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.roads.scene_part import scene_part
 
 
-def roads_of(model: Mechanism) -> list[dict[str, Any]]:
+def roads_of(model: Model) -> list[dict[str, Any]]:
     """Roads, and the level planes on which wheels roll without slip; a road from a file is named only.
 
     Where a road at ports is left out, those behind it keep their numbers.

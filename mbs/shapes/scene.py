@@ -16,7 +16,7 @@ from mbs.common.vectors import in_space
 from mbs.flexible.scene_part import flexible_parts
 from mbs.model.drawn import Shape
 from mbs.model.flexible import FlexibleBody
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.tabled import TabledBody
 from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults
@@ -31,7 +31,7 @@ SLIDES = "one of its ends slides by a guide, which no sensor reads (sense_guide)
 Scene = dict[str, Any]
 
 
-def drawing_of(model: Mechanism, places: Places, names: FrameNames, q: NDArray[np.float64]) -> Drawing:
+def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.float64]) -> Drawing:
     """The scene of a model and the places of its frames.
 
     `places`: of its bodies among the coordinates; `q`: coordinates at the start, shape (nq,).
@@ -119,7 +119,7 @@ def _fill(shape: Scene, defaults: Defaults) -> None:
 
 
 def _flexible(
-    model: Mechanism, names: FrameNames, places: Places, q: NDArray[np.float64]
+    model: Model, names: FrameNames, places: Places, q: NDArray[np.float64]
 ) -> tuple[Callable[[], list[Scene]], ...]:
     """What makes beams, modes and rows of stress of what bends."""
     found = []
@@ -134,7 +134,7 @@ def _flexible(
     return tuple(found)
 
 
-def _up(model: Mechanism) -> list[float]:
+def _up(model: Model) -> list[float]:
     """Against gravity; of planar models y."""
     if model.dimension == 2:
         return [0.0, 1.0, 0.0]
@@ -142,14 +142,14 @@ def _up(model: Mechanism) -> list[float]:
     return numbers(-model.gravity / size) if size > 0.0 else [0.0, 0.0, 1.0]
 
 
-def _focus(model: Mechanism, names: FrameNames) -> str:
+def _focus(model: Model, names: FrameNames) -> str:
     """The heaviest body of what nothing ties to the ground."""
     if model.grounded and not model.floating:
         return ""
     return names.of_body(max(model.bodies, key=lambda body: body.mass))
 
 
-def _places_of_bodies(model: Mechanism) -> list[Vector]:
+def _places_of_bodies(model: Model) -> list[Vector]:
     found: list[Vector] = []
     for body in model.bodies:
         nodes = body.node_positions if isinstance(body, FlexibleBody) else [body.com]
@@ -161,7 +161,7 @@ def _places_of_bodies(model: Mechanism) -> list[Vector]:
     return found
 
 
-def _nodes(model: Mechanism) -> list[Vector]:
+def _nodes(model: Model) -> list[Vector]:
     return [p for body in model.bodies if isinstance(body, FlexibleBody) for p in body.node_positions]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from mbs.common.checks import Vector
 from mbs.model.joints.joint import Joint
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.shapes.frames import FrameNames, numbers, place_drawn
 
 JOINTS = ("spherical", "revolute", "universal", "weld")
@@ -14,7 +14,7 @@ JOINTS = ("spherical", "revolute", "universal", "weld")
 ALONG = 0.1  # m, from the point of a joint to others that its bodies share
 
 
-def shared_points(model: Mechanism, names: FrameNames) -> list[tuple[str, list[float], str, list[float]]]:
+def shared_points(model: Model, names: FrameNames) -> list[tuple[str, list[float], str, list[float]]]:
     """For each such point the two frames and its place in both, from their origins along their axes, m.
 
     A joint with an axis gives two points of it, a weld three. Of a body that bends it is the place in its floating

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mbs.kernel.header.limits import AGREED, MOST_PARTS
 from mbs.results import accuracy
-from mbs.results.accuracy import Accuracy, missed_share
+from mbs.results.accuracy import CLEAR, Accuracy, missed_share
 from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, is_open
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
@@ -19,11 +19,9 @@ from mbs.results.smooth_laws import UNRESOLVED
 from mbs.results.trajectory import Trajectory
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
-from mbs.simulation.march import WATCHED
 from mbs.simulation.refined_run import RefinedRuns, TooDearError, Watch
 
-COUNTED = ("steps", "halvings", "divisions", "branch_changes", "predictor_path")
-ALONE = 0.03  # of the range: by order one the error behind which twice the step differs so much
+COUNTED = ("steps", "halvings", "divisions", "abrupt_steps", "branch_changes", "predictor_path")
 
 
 def one_iteration(settings: Settings, compared: Mapping[str, Compared], states: bool) -> bool:
@@ -74,7 +72,7 @@ class CoarserRuns:
         compared, states = refined.compared, len(refined.system.arrays["y0"]) > 0
         iterations = int(one_iteration(settings, compared, states))
         for times in coarser_steps(settings, compared, states, refined.unresolved, report):
-            most = ALONE * (times - 1) if refined.nothing_abrupt else ALONE
+            most = CLEAR * (times - 1) if refined.nothing_abrupt else CLEAR
             screened = self.run(times, iterations, most)
             if screened is not None and difference_from(screened, settings.method, refined.h) <= most:
                 return screened
@@ -117,7 +115,7 @@ class CoarserRuns:
         assert report is not None
         for samples, at in self.refined.path:
             rest = replace(report, **{name: getattr(report, name) - at[name] for name in COUNTED})
-            if not accuracy.doubt(rest, rest.steps, rest.halvings):
+            if not accuracy.doubt(rest):
                 return samples
         return math.inf
 
@@ -131,10 +129,10 @@ class CoarserRuns:
     def watch(self, run: Trajectory, most: float, smooth: float) -> Watch:
         """What gives up a run with the samples of this one where they differ by more than `most` of the range.
 
-        It ends it where `smooth` samples are made, and what both differ by in the last tenth of the whole is at most
-        `AGREED` of `most`, and as it grew in that tenth comes to no more than `most` in the end.
+        It ends it where `smooth` samples are made, and what both differ by in the last eighth of the whole is at most
+        `AGREED` of `most`, and as it grew in that eighth comes to no more than `most` in the end.
         """
-        compared, samples, tenth = self.refined.compared, len(run.t), len(run.t) / WATCHED
+        compared, samples, part_of = self.refined.compared, len(run.t), len(run.t) / MOST_PARTS
         column = {sensor["name"]: k for k, sensor in enumerate(self.refined.system.meta["sensors"])}
         whole = Comparison(compared, self.refined.length, self.refined.before)
         whole.add(run)
@@ -152,12 +150,12 @@ class CoarserRuns:
 
         def look(values: NDArray[np.float64]) -> bool:
             end = len(values)
-            old = end - 1 - tenth
-            so_far, last, before = off(values, 0.0, end), off(values, old, end), off(values, old - tenth, old)
+            old = end - 1 - part_of
+            so_far, last, before = off(values, 0.0, end), off(values, old, end), off(values, old - part_of, old)
             if so_far > most:
                 raise TooFarError
             growth = math.log(max(last / before, 1.0)) if before > 0.0 else math.inf
-            ahead = (samples - end) / tenth * growth + math.log(last / most) if last > 0.0 else -math.inf
+            ahead = (samples - end) / part_of * growth + math.log(last / most) if last > 0.0 else -math.inf
             # where two motions are still to say what guides prescribe, both must have differed
             differ = all(compared[name].always or not is_open(compared) for name in whole.sizes())
             return differ and end >= smooth and last <= AGREED * most and ahead <= 0.0

@@ -22,7 +22,7 @@ class Evaluator:
     """What linearisation needs of a simulation, whose state stays as it is.
 
     Elements give steps of their slots, not rates: rates are the limit of short steps. A slot that does not remember
-    its value over a short step (a rate kept for the next step) is no state; it is set to what such a step makes of it.
+    its value over a short step (a rate kept for the next step) is not a state; it is set to what such a step gives.
     """
 
     def __init__(self, simulation: SystemInstance) -> None:

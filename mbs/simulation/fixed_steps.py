@@ -109,6 +109,8 @@ def fixed_step_run(
                 warnings.warn(text, category, stacklevel=4)
     trajectory = run[0].thinned(every // often)
     trajectory.accuracy = found
+    if found is not None and found.notice:
+        trajectory.notices += (found.notice,)
     return trajectory
 
 
@@ -126,7 +128,7 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
         return known
     method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
     balance = accuracy.balance_text(report) if accuracy.balance_says(report, method, driven) else ""
-    doubt = accuracy.doubt(report, report.steps, report.halvings)
+    doubt = accuracy.doubt(report)
     if len(run[0].t) < 2 or not (always or refined.divisor or doubt):
         return known
     if not always and refined.before is None and doubt == accuracy.COARSER:
@@ -152,10 +154,9 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
         return replace(known, check_cost=refined.cost, message=text)
     branch = run[0].branch_change if refined.left_alone else ""
     off = refined.text(known) if (known.error or 0.0) > WRONG_ERROR else ""
-    if not (off or refined.finest.balance_wrong):  # if it is, the refined run is off as well, as by round-off
-        balance = ""
-    if not (off or balance):
-        return replace(known, branch=branch)
+    if not (off or (balance and refined.finest.balance_wrong)):  # if it is, the refined run is off as well
+        notice = f"{balance} {accuracy.RIGHT}" if balance else ""
+        return replace(known, branch=branch, notice=notice)
     tried = refined.tried_steps(known) if off else []
     message = " ".join(filter(None, [off, balance, accuracy.remedy(system, method, tried)]))
     return replace(known, check_cost=refined.cost, branch=branch, message=message)

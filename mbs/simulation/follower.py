@@ -1,4 +1,4 @@
-"""Sensors that a System leaves out, such as the stresses of a rigid car: by the same model with ports, when read."""
+"""Sensors that a System does not compute, such as the stresses of a rigid car: by a second System, when read."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ def _ported(system: System) -> tuple[LoadedSystem, dict[str, int]] | None:
 
 
 class Follower:
-    """The model with ports that follows a simulation.
+    """A second System with ports that is moved to the states of a simulation.
 
-    `asked`: name of a sensor that it is for. Raises `KeyError`: there is none; the sentence names the sensor.
+    `asked`: name of the requested sensor. Raises `KeyError`: there is none; the sentence names the sensor.
     """
 
     def __init__(self, system: System, asked: str = "") -> None:

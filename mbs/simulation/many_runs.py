@@ -155,11 +155,12 @@ class _Run:
         """By the refined runs of `simulate`, which begin with the same run alone; a plainly smooth run has none."""
         told = list(self.told_at_start)
         report, end = self.simulation.report, self.t0 + self.steps * self.h
-        if accuracy.doubt(report, report.steps, report.halvings):
-            run.accuracy = fixed_step_run(
+        if accuracy.doubt(report):
+            alone = fixed_step_run(
                 self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None,
                 warned=told,
-            ).accuracy  # fmt: skip
+            )  # fmt: skip
+            run.accuracy, run.notices = alone.accuracy, alone.notices
             if run.accuracy is not None and run.accuracy.message:
                 told.append((AccuracyWarning, run.accuracy.message))
             return told
@@ -213,8 +214,8 @@ def simulate_many(
     progress : bool or callable, optional
         As of `simulate`; refined runs are not in it.
     estimate_error : {None, False}, optional
-        None checks each run as `simulate` does: one that is not plainly smooth is made again alone and with other
-        steps, which costs two runs of its own or more. False checks none.
+        None checks each run as `simulate` does: one that is not plainly smooth is repeated alone and with other steps,
+        which costs two runs or more. False checks none.
 
     Returns
     -------

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError
+from mbs.kernel.header.limits import MOST_PARTS
 from mbs.results import accuracy
 from mbs.results.comparison import instants
 from mbs.results.omitted_sensors import LeftOut
@@ -33,7 +34,6 @@ from mbs.simulation.refusal import refusal
 from mbs.simulation.stepped_system import SteppedSystem
 
 Array = NDArray[np.float64]
-WATCHED = 10  # parts of a run after which its samples are looked at
 CHUNK_SECONDS = 0.1  # wall time of one call into the kernel, so that progress moves and Ctrl-C is heard
 
 
@@ -49,7 +49,7 @@ def march(
     watch: Callable[[Array], bool] | None = None,
 ) -> tuple[Trajectory, list[Array]]:
     """The steps of `Simulation.run`; poses are kept of one of `wanted` samples at most. `watch` is given the samples so
-    far after each tenth of them; where it says so the run ends there.
+    far after each eighth of them; where it says so the run ends there.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def march(
     compared = [int(k) for k in instants(len(values))] if look else []
     looks = [int(k) * every for k in instants(len(values))] if simulation.bending.watches else []
     if watch is not None:
-        looks = sorted({*looks, *(len(values) * k // WATCHED * every for k in range(1, WATCHED))})
+        looks = sorted({*looks, *(len(values) * k // MOST_PARTS * every for k in range(1, MOST_PARTS))})
     seen = [simulation.state.q] if look else []
     record = PositionRecord(simulation.system, simulation.state.q, len(values), wanted)
     done, wall, chunk, before = 0, 0.0, every, simulation.report

@@ -10,7 +10,7 @@ from mbs.settings.input_signals import unit_text
 
 
 class ParameterWarning(UserWarning):
-    """A parameter has a value with which no such model works: which one, and which values do."""
+    """A parameter has a value outside the range in which such models work."""
 
 
 def tell_unworkable(entry: Mapping[str, Any], value: float, stacklevel: int) -> None:
@@ -19,8 +19,8 @@ def tell_unworkable(entry: Mapping[str, Any], value: float, stacklevel: int) -> 
     if not least <= value <= most:
         unit = unit_text(entry["unit"])
         warnings.warn(
-            f"Parameter {entry['name']!r} is set to {value:g}{unit}, with which no such model works; from {least:.4g} "
-            f"to {most:.4g}{unit} it does.",
+            f"Parameter {entry['name']!r} is set to {value:g}{unit}, outside the range in which such models work, "
+            f"{least:.4g} to {most:.4g}{unit}.",
             ParameterWarning,
             stacklevel=stacklevel + 1,
         )

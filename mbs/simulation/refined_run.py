@@ -126,7 +126,7 @@ class RefinedRuns:
         stands = bool(seen) and not sizes_of(seen, coordinates, self.length, self.before)
         guided = len(self.system.arrays["gterm_row"]) > 0
         self.compared = compared_in(
-            self.run[0], compared_sensors(self.system), self.length, self.before, stands, guided
+            self.run[0], compared_sensors(self.system), self.length, self.before, stands, guided, report.energy_floor
         )
         self.rests = stands and not self.compared
         if shows_motion(self.compared):
@@ -226,7 +226,7 @@ class RefinedRuns:
         """
         step, tried = accuracy.needed_step(self.h, known), self._offs()
         parts = 0 if step is None or self.before is not None else math.ceil(self.h / step - 1e-9)
-        if parts > max(self._finer) and not any(off <= accuracy.MET for _, off in tried):
+        if parts > max(self._finer) and not any(off <= accuracy.CLEAR for _, off in tried):
             try:
                 self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
             except (SimulationError, TooDearError):

@@ -65,13 +65,13 @@ def simulate(
         Time at which to stop, s; when h does not divide the duration, the last step ends less than h before it.
     h : float, optional
         Step, s. With a tolerance: interval of the record, by default a 200th of the run. Without h and tolerance a step
-        is chosen whose run errs by less than 1e-3 of the model's length (`Trajectory.control` says which).
+        is chosen whose error is below 1e-3 of the model's length (`Trajectory.control` reports it).
     inputs : mapping of str to signal, optional
         Per input a constant, a function of time, or a pair (times, values). The trapezoidal rule and generalised-alpha
         use the value at the end of a step, the other methods those at the times of their stages; parts of a step end
         where one jumps or peaks, with the value before the jump, and begin with the one behind it. With a tolerance the
-        points of tables, jumps and peaks are ends of steps. A function must depend on time alone: it is asked ahead, 16
-        times a step.
+        points of tables, jumps and peaks are ends of steps. A function must depend on time alone: it is sampled ahead,
+        16 times a step.
     settings : Settings, optional
         How steps are solved. With a tolerance `tolerance_r` and `tolerance_phi` are tightened as far as it needs.
     parameters : mapping of str to float, optional
@@ -97,7 +97,7 @@ def simulate(
         Largest accepted error over the whole run: of sensors by name, in their units, or of positions, in parts of the
         model's length (`Model(length=...)`, or
         the extent of the drawing); velocities in the same parts over the time scale of the motion. Steps are then
-        chosen by the kernel, the error is estimated by a second run, and `Trajectory.control` says what was done.
+        chosen by the kernel, the error is estimated by a second run, and `Trajectory.control` reports both.
     times : array_like, shape (n,), optional
         Instants to record at in place of h, s, ascending, with a tolerance; t0 is recorded too.
 
@@ -117,10 +117,10 @@ def simulate(
     Warns
     -----
     AccuracyWarning
-        When constraint forces did more than 3.6 % of the work in the motion, or the refined run says that positions,
+        When constraint forces did more than 5 % of the work in the motion, or the refined run shows that positions,
         lengths, angles or forces of elements are off by more than 5 % of the largest range in their unit; with a
-        tolerance, when the error is guessed to be more than three times that. When equal steps leave
-        out more than a hundredth of the run at its end.
+        tolerance, when the estimated error is more than three times that. When equal steps leave out more than a
+        hundredth of the run at its end.
     BendingWarning
         When a flexible body bends more within its floating frame than its modes hold for.
     BranchWarning

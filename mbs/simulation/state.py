@@ -17,7 +17,7 @@ class Pose:
     Raises
     ------
     ValueError
-        One of them is no finite number.
+        One of them is not a finite number.
     """
 
     x: float = 0.0

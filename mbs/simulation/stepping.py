@@ -13,7 +13,7 @@ from mbs.common.checks import flag, instance_of, is_finite, number, positive, sh
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.binding.instance import Instance
-from mbs.kernel.header.limits import BALANCE_WRONG, LONGEST_SETTLING
+from mbs.kernel.header.limits import LONGEST_SETTLING, MOST_PARTS
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
@@ -53,7 +53,6 @@ from mbs.system.system import System
 
 SINGULAR = {"switches": "switch"}
 MOST_ITERATIONS = 10**6
-FEWEST_CHECKED = 10  # steps of a run that is checked by refined runs
 
 
 class Simulation(SteppedSystem):
@@ -143,7 +142,7 @@ class Simulation(SteppedSystem):
     def set_parameter(self, name: str, value: float | str | os.PathLike[str]) -> None:
         """Value of a tunable parameter from now on; the next step is the first with it.
 
-        A `ParameterWarning` says where no such model works with the value, see `Model.parameter`.
+        Gives a `ParameterWarning` for a value outside the range in which such models work, see `Model.parameter`.
 
         Parameters
         ----------
@@ -344,14 +343,14 @@ class Simulation(SteppedSystem):
         Raises
         ------
         ValueError
-            The step is not positive or lost in the round-off of the time, or `n` is no whole number.
+            The step is not positive or lost in the round-off of the time, or `n` is not a whole number.
         SimulationError
             A step failed; the state is the last good one.
 
         Warns
         -----
         AccuracyWarning
-            Once, when the energy balance since the start says that the result is wrong.
+            Once, when the energy balance since the start shows that the result is wrong.
         """
         h = check_step(h)
         if not is_finite(n) or n != int(n) or n < 0:
@@ -375,7 +374,7 @@ class Simulation(SteppedSystem):
         estimate_error: bool | float | None = None,
         tolerance: float | Mapping[str, float] | None = None,
     ) -> Trajectory:
-        """Step from the present time to `t_end`; what is by hand in between, such as switches, stays as it is.
+        """Step from the present time to `t_end`; switches and inputs set before stay as they are.
 
         Parameters
         ----------
@@ -384,7 +383,7 @@ class Simulation(SteppedSystem):
         h : float, optional
             Step, s. With a tolerance: interval of the record, by default a 200th of the run.
         inputs : mapping of str to signal, optional
-            Per input a constant, a function of time alone, which is asked ahead, or a pair (times, values); see
+            Per input a constant, a function of time alone, which is sampled ahead, or a pair (times, values); see
             `simulate`. One that begins with another value than the input has now jumps there: the first sample is of
             before the jump. `simulate` gives first values to the start, as ``Simulation(system, inputs=...)`` does.
         every : int
@@ -393,9 +392,8 @@ class Simulation(SteppedSystem):
             None shows a bar when the run takes longer than two seconds, True at once, False never; a function receives
             the share that is done.
         estimate_error : bool or float, optional
-            As of `simulate`, in the first run in doubt, of ten steps or more; its last refined run goes on
-            from run to run with its part of the step and is given the same inputs, parameters and switches, until a
-            step by hand.
+            As of `simulate`, in the first run in doubt, of eight steps or more; its last refined run continues from
+            call to call with the same inputs, parameters and switches, until `step` is called.
         tolerance : float or mapping of str to float, optional
             As of `simulate`, of what this part adds to the error; by the method of the settings.
 
@@ -414,7 +412,7 @@ class Simulation(SteppedSystem):
         Warns
         -----
         AccuracyWarning
-            Once, when a refined run or the energy balance since the start says that the result is wrong; each time,
+            Once, when a refined run or the energy balance since the start shows that the result is wrong; each time,
             when a tolerance is not kept.
         BranchWarning
             When a step jumped to another branch.
@@ -429,7 +427,7 @@ class Simulation(SteppedSystem):
         estimate_error = check_estimate(estimate_error)
         every = check_every(every)
         check_progress(progress)
-        checked = estimate_error is not False and count_steps(self.time, t_end, check_step(h)) >= FEWEST_CHECKED
+        checked = estimate_error is not False and count_steps(self.time, t_end, check_step(h)) >= MOST_PARTS
         given, made, state = self._refined if checked else None, False, self.instance.save() if checked else b""
         self._refined = None
 
@@ -455,7 +453,7 @@ class Simulation(SteppedSystem):
             self._warned = True
             warnings.warn(found.message, AccuracyWarning, stacklevel=2)
         if estimate_error is not False:
-            self._warn_once()
+            self._warn_once(right=found is not None and bool(found.notice))
         return trajectory
 
     def _to_tolerance(
@@ -482,12 +480,12 @@ class Simulation(SteppedSystem):
     def _at(self, state: bytes) -> SteppedSystem:
         return restored(self.system, self.settings, self.road_paths, state)
 
-    def _warn_once(self) -> None:
-        """The part of `simulate`'s check that costs nothing."""
+    def _warn_once(self, right: bool = False) -> None:
+        """The part of `simulate`'s check that costs nothing; `right`: a refined run shows it despite the balance."""
         if not self._rim_told and (told := self.road_text):
             self._rim_told = True
             warnings.warn(told, RoadWarning, stacklevel=3)
-        if self._warned or self.instance.energy_balance() <= BALANCE_WRONG:
+        if self._warned or right or not self.instance.balance_wrong():
             return
         driven = len(self.system.arrays["gterm_row"]) > 0
         if accuracy.balance_says(self.report, self.settings.method, driven):
@@ -496,7 +494,7 @@ class Simulation(SteppedSystem):
             warnings.warn(f"{text} Take shorter steps.", AccuracyWarning, stacklevel=3)
 
     def save(self) -> bytes:
-        """All that continues bit for bit, in this or another process.
+        """The state, from which a run continues bit for bit, in this or another process.
 
         Returns
         -------

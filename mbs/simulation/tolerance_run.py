@@ -35,10 +35,6 @@ COARSE = 20.0
 """Tolerance of the first run in those of the last; it is at most what would be wrong."""
 FINER = 4.0
 """How much finer a further run is at least: two of the same tolerance show no error."""
-FAR = 0.1
-"""Distance of two runs beyond which it says nothing of the finer one. A guess of the error that is reported is at least
-`AGREED` of the tolerance, as smaller ones are too small more often than not; of a single pair of runs none above that
-is accepted where errors grow: two coarse runs may be off alike."""
 MOST_RUNS = 5
 HANDED_ON = (
     Status.NOT_CONVERGED,
@@ -163,20 +159,20 @@ def _by(
         runs, wall = runs + 1, wall + run.wall
         pair, far = ControlledPair(run, before, tolerance), run.distance(before)
         apart, guess = pair.apart, pair.apart * pair.fall
-        error = apart if far > FAR else guess
+        error = apart if far > WRONG_ERROR else guess  # runs that are so far apart say nothing of the finer one
         if error == 0.0 and longest == 1.0:
             # the longest steps were fine enough both times, so the runs are the same and show no error: half of them
             before, longest = run, 0.5
             continue
         unsure = number == 1 and run.simulation.branch_change  # two runs may have jumped alike
-        grows = number == 1 and far > before.fields.error_sum
+        grows = number == 1 and far > before.fields.error_sum  # two coarse runs may be off alike
         if (error <= (AGREED if grows else 1.0) * wanted and not unsure) or aim <= ROUND_OFF:
             break
         before = run
         aim = max(ROUND_OFF, aim * min(AGREED if unsure else 1.0 / FINER, wanted / max(guess, wanted)))
     assert run is not None
     c, told = run.fields, 0.0
-    if error > 0.0:  # what stands still errs by no more than it moves
+    if error > 0.0:  # smaller guesses are too small; what stands still errs by no more than it moves
         told = max(error, min(AGREED * wanted, run.moved / run.length))
     control = Control(
         wanted, run.length, settings.method, reason, told, None, c.accepted, c.rejected, c.failed, c.forced,

@@ -56,7 +56,7 @@ def warn_of_tolerance(control: Control, guess: float) -> None:
     if control.kept and not control.sensors and error > WRONG_ERROR * moved and moved > STILL * control.length:
         warnings.warn(
             f"The tolerance of {control.tolerance:g} is relative to the model's length of {control.length:.4g} m, and "
-            f"what moves farthest moves {moved:.3g} m: the guessed error of {error:.1e} m is "
+            f"what moves farthest moves {moved:.3g} m: the estimated error of {error:.1e} m is "
             f"{100.0 * error / moved:.2g} % of that. Give one for a sensor, in its unit, tolerance={{name: ...}}, or "
             f"tolerance={GOAL_ERROR * moved / control.length:.0e}.",
             AccuracyWarning,
@@ -64,9 +64,9 @@ def warn_of_tolerance(control: Control, guess: float) -> None:
         )
     if control.kept:
         return
-    forced = f", {control.forced} steps of the least size erred more than their share of it" if control.forced else ""
+    forced = f", {control.forced} steps of the least size exceeded their share of it" if control.forced else ""
     warnings.warn(
-        f"The error of this run is guessed as {control.error:.1e} of the model's length, more than {ALLOWED:g} times "
+        f"The error of this run is estimated as {control.error:.1e} of the model's length, more than {ALLOWED:g} times "
         f"the tolerance of {control.tolerance:g}, after {control.runs} runs{forced}. Small errors grow in this motion, "
         f"or round-off is reached: shorten the time, accept a larger tolerance or name another method than "
         f"{control.method!r}.",

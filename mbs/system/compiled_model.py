@@ -31,7 +31,7 @@ MODES = ("mode_cell", "mode_cell_ptr")
 
 
 class SystemFileError(ValueError):
-    """A file that is no valid System; the message says why."""
+    """A file that is not a valid System; the message says why."""
 
 
 class CompiledModel:

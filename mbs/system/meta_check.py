@@ -30,7 +30,7 @@ def problem_of(meta: Any, lengths: Mapping[str, int]) -> str:
     `meta`: as read; `lengths`: lengths of the arrays of the System.
     """
     if not isinstance(meta, dict):
-        return "they are no table"
+        return "they are not a table"
     for key, kind in (("name", str), ("dimension", int), ("report", dict), ("experiment", dict), ("floating", bool)):
         if not isinstance(meta.get(key), kind):
             return f"'{key}' is missing or of another kind"

@@ -86,7 +86,7 @@ class System(CompiledModel):
         drawing: Drawing | Later[Drawing] | None = None,
         ported: Callable[[System], System | None] | None = None,
     ) -> System:
-        """What was compiled, with a drawing, or what makes it when it is asked for, and with `ported`."""
+        """A compiled System with its drawing, or a function that makes it on demand, and with `ported`."""
         system = object.__new__(cls)
         system.__dict__.update(vars(made))
         system._drawing, system.ported = drawing, ported
@@ -172,7 +172,7 @@ class System(CompiledModel):
         Raises
         ------
         SystemFileError
-            With one sentence that says what is wrong.
+            With one sentence on the fault.
         """
         data = bytes(instance_of((bytes, bytearray, memoryview), data, "The content of a System file", "bytes"))
         found = _parse(data)
@@ -224,7 +224,7 @@ class System(CompiledModel):
         OSError
             The file cannot be read.
         SystemFileError
-            It is no valid System file.
+            It is not a valid System file.
         """
         return cls.from_bytes(read_bytes(path, _LARGEST))
 

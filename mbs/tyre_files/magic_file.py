@@ -123,7 +123,7 @@ class TyreFile(Understood):
             wanted = "negative" if signs != "adapted_sae" else "positive"
             raise TyreFileError(
                 f"{self.name}: PKY1 is {slope:g}; with the signs '{signs}' it must be {wanted}, else the lateral force "
-                "goes with the slip. 'adapted_sae' are the axes of Pacejka's book, 'iso' those of most files."
+                "has the sign of the slip. 'adapted_sae' are the axes of Pacejka's book, 'iso' those of most files."
             )
         given = self.pressure if pressure is None else pressure
         if pressure is not None and not self.nominal_pressure > 0.0:
@@ -160,7 +160,8 @@ def read_tyre(file: str | Path) -> TyreFile:
     check_bounds(text, numbers)
     if numbers["PKX1"] < 0.0:
         raise text.fault(
-            f"PKX1 is {numbers['PKX1']:g}; it must be positive, else the longitudinal force goes with the slip."
+            f"PKX1 is {numbers['PKX1']:g}; it must be positive, else the longitudinal force has the direction of the "
+            "slip."
         )
     coefficients = {key: numbers[key] for key in MAGIC_COEFFICIENTS if key in numbers}
     if text.word("TYRESIDE", "MODEL") in ("SYMMETRIC", "SYMMETRICAL"):

@@ -71,7 +71,7 @@ def read_properties(file: str | Path) -> PropertyText:
     """
     data = read_bytes(file, LARGEST, TyreFileError)
     if data.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\0" in data:
-        raise TyreFileError(f"{file} is no text of single bytes; it must be in UTF-8 or Latin-1.")
+        raise TyreFileError(f"{file} is not text of single bytes; it must be in UTF-8 or Latin-1.")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:

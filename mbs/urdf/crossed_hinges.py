@@ -77,7 +77,7 @@ def crossed_hinges(
             group = group_of[following[0].child]
         first = group_of[hinges[0].child]
         if any(joint.type == "prismatic" for joint in hinges) or len(hinges) > 3:
-            raise _no_mass(first, f"the joints {', '.join(repr(j.name) for j in hinges)} are no two or three hinges")
+            raise _no_mass(first, f"the joints {', '.join(repr(j.name) for j in hinges)} are not two or three hinges")
         if follower := next((joint.name for joint in hinges if joint.mimic is not None), None):
             raise _no_mass(first, f"the joint '{follower}' follows another one")
         points, axes = (np.array(column) for column in zip(*(lines[j.name] for j in hinges), strict=True))

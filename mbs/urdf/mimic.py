@@ -32,7 +32,7 @@ def followers_of(joints: Mapping[str, Any], given: Collection[str], what: str) -
             continue
         says = f"{what}: the joint '{name}' follows '{mimic.joint}' (mimic)"
         if mimic.joint not in joints:
-            raise ModelError(f"{says}, which is no joint that moves; these are {', '.join(joints)}.")
+            raise ModelError(f"{says}, which is not a moving joint; these are {', '.join(joints)}.")
         if name in given:
             raise ModelError(f"{says} and is given a place or a motion; give it to '{mimic.joint}'.")
         multiplier = 1.0 if mimic.multiplier is None else float(mimic.multiplier)

@@ -164,7 +164,7 @@ def _read(file: Path) -> tuple[Any, Element]:
     source = read_source(read_bytes(file, _LARGEST, ModelError, file.name), file.name)
     found = read_foreign(file, reader)
     if not found.links:
-        raise ModelError(f"{file.name} has no links; it is no URDF file.")
+        raise ModelError(f"{file.name} has no links; it is not a URDF file.")
     return found, source
 
 

@@ -1,4 +1,4 @@
-"""What was understood of a robot's file: masses, sizes, inertias and ranges of joints."""
+"""Plausibility of a robot's file: masses, sizes, inertias and ranges of joints."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ SMALLEST = 1e-4  # m
 GRAVITY = 9.81  # m/s2
 DEG = math.pi / 180.0
 
-NO_LIMIT = 1e4  # rad, m: nobody counts so many turns
+NO_LIMIT = 1e4  # rad, m: a larger limit stands for none
 LEAST_SHARE = 0.02
-"""Of the mass: lighter links are often frames with a number for a mass,
-unless they have more than a `LARGE_SHARE` of the moments of inertia."""
+"""Share of the mass: lighter links are often frames with a placeholder mass,
+unless they have more than `LARGE_SHARE` of the moments of inertia."""
 LARGE_SHARE = 0.1
 THIN = 0.01
-"""Smallest second moment of mass over the largest that is looked at: a plate has a thickness."""
+"""Lower bound of the ratio of the second moments of mass: a plate has a thickness."""
 SOLID = 1000.0  # kg/m3
 FEW = 3
-"""Links up to which a mistake may be in one alone."""
+"""Largest number of links to which a mistake may be confined."""
 SAME = 0.01
-"""Of the size: so near are most links of one side to the image of the other where the robot is drawn symmetric."""
+"""Share of the size: largest distance of a link from the mirror image of its counterpart in a symmetric drawing."""
 LENGTHS = {"mm": 1e-3, "cm": 1e-2, "inches": 0.0254}
 MOMENTS = {"kg mm2": 1e-6, "g mm2": 1e-9, "g cm2": 1e-7, "kg cm2": 1e-4, "lb in2": 2.9264e-4}
 MASSES = {"grams": 1e-3, "tonnes": 1e3, "pounds": 0.45359237}
@@ -40,7 +40,7 @@ Pose: TypeAlias = NDArray[np.float64]
 
 
 class Given(NamedTuple):
-    """Numbers of the file that mistakes are in."""
+    """Factors on groups of numbers of the file, by which a mistake is undone."""
 
     lengths: float = 1.0
     masses: float = 1.0
@@ -48,16 +48,16 @@ class Given(NamedTuple):
     limits: float = 1.0
     angles: float = 1.0
     centres: float = 1.0
-    """Of origins of inertias, where other lengths are right."""
+    """On origins of inertias alone."""
     efforts: float = 1.0
     speeds: float = 1.0
     solid: bool = False
-    """Moments of a ball of `SOLID` in place of 1, 0.1, ... kg m2 about all axes, which stand for those nobody knew."""
+    """Moments of a ball of density `SOLID` in place of 1, 0.1, ... kg m2 about all axes, which are placeholders."""
     only: str = ""
-    """The link whose numbers alone are meant; empty: all."""
+    """The only link that is affected; empty: all."""
 
     def of(self, name: str) -> Given:
-        """What is done to the numbers of a link."""
+        """The factors for one link."""
         return self if self.only in ("", name) else Given()
 
 
@@ -77,9 +77,9 @@ UNDONE = (  # words, beginnings of keys, what undoes it
     ("mm in lengths and kg mm2 in inertias", ("xyz", "inertia"), Given(lengths=1e-3, inertias=1e-6)),
 )
 ALONE = ("mass", "inertia", "centre")
-"""What may be wrong in a few links alone."""
+"""Quantities that may be wrong in a few links alone."""
 EVERYWHERE = (Given(masses=MASSES["pounds"]),)
-"""What is nearer to 1 than parts are alike, so that it shows in all of them together only."""
+"""Factors smaller than the scatter between links, which only show in all links together."""
 
 
 def robot_echo(
@@ -89,7 +89,7 @@ def robot_echo(
     at: Mapping[str, float],
     turning: Container[str],
 ) -> Echo:
-    """What was understood of a robot.
+    """The quantities of a robot and the mistakes that would explain unusual ones.
 
     `what`: the file; `root`: its elements; `poses`: of the frames of links, shape (4, 4), m; `at`: values of joints;
     `turning`: links whose inertia has an effect.
@@ -111,7 +111,7 @@ def robot_echo(
 
 
 class Part(NamedTuple):
-    """What a link weighs."""
+    """Mass properties of a link."""
 
     mass: float
     centre: NDArray[np.float64]
@@ -176,7 +176,7 @@ def _values(
 
 
 def _known(limit: float) -> bool:
-    """Whether a limit is a number that somebody knew: 100, 1000, ... stand for none."""
+    """Whether a limit is meaningful: 100, 1000, ... are placeholders."""
     return limit < 100.0 or abs(math.log10(limit) % 1.0) > SMALLEST
 
 
@@ -185,7 +185,7 @@ def _densities(parts: Mapping[str, Part], masses: Mapping[str, Any]) -> list[Val
     for name, p in parts.items():
         keys = {f"inertia of '{name}' in line {p.line}": p.moment, f"mass of '{name}'": p.mass}
         found.append(Value(QUANTITIES["density"], p.density, keys, f"link '{name}',"))
-    if len(found) > 1 and all(v.inside() for v in found):  # else those outside are told
+    if len(found) > 1 and all(v.inside() for v in found):  # else those outside are reported
         keys = {"inertia of links": max(p.moment for p in parts.values()), **masses}
         found.append(Value(QUANTITIES["densities"], float(np.median([v.value for v in found])), keys))
     return found

@@ -74,7 +74,7 @@ class Axle(Section):
         suspension, bar = self.suspension, self.anti_roll_bar
         parts = list(type(suspension.bodies).model_fields)
         if bar is not None and not suspension.linked:
-            yield f"{self.key('anti_roll_bar')} hangs on links; of an axle by its curves give {suspension.key('bar')}."
+            yield f"{self.key('anti_roll_bar')} needs links; for an axle by its curves give {suspension.key('bar')}."
         elif bar is not None and bar.part not in parts:
             yield f"{bar.key('part')} is '{bar.part}'; the suspension has {', '.join(parts)}."
         if self.stops is not None:

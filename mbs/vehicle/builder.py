@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from mbs.elements.record import ElementRecord
 from mbs.model.coordinate import Coordinate
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.parameters import Owner
 from mbs.model.records import Input
 from mbs.vehicle.chassis.mount import Mount
@@ -35,7 +35,7 @@ class _Tied:
 class CarBuilder:
     """The model so far, its inputs, and the parameters that will be in it."""
 
-    m: Mechanism
+    m: Model
     """Gets bodies, joints and elements."""
     road: int
     """Number of the road under the chassis."""
@@ -98,7 +98,7 @@ class CarBuilder:
             Whether `scale` over the value is written, in place of their product.
         """
         quantity = section.quantity(name)
-        assert quantity is not None, f"{section.key(name)} is no quantity"
+        assert quantity is not None, f"{section.key(name)} is not a quantity"
         assert quantity.change is not None, f"{section.key(name)} is of a type that does not change"
         start = getattr(section, name) if value is None else value
         path = section.key(name) + (f".{part}" if part else "")

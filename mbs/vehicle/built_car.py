@@ -19,7 +19,6 @@ from mbs.common.errors import ModelError
 from mbs.elements.road import Road, RoadOfFile
 from mbs.model.carried import Spin
 from mbs.model.ends import End
-from mbs.model.mechanism import Mechanism
 from mbs.model.model import Model
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -52,7 +51,6 @@ from mbs.vehicle.tabled_axle import tabled_axle
 MOST_FAULTS = 8
 
 
-M = TypeVar("M", bound=Mechanism)
 C = TypeVar("C", bound="BuiltCar")
 Outputs: TypeAlias = Callable[[CarBuilder, Steered, Mapping[str, Spin]], None]
 """Adds what a car reports. Its arguments: the car but for its drawing, its steering, its wheels by name."""
@@ -70,7 +68,7 @@ class BuiltCar(Understood, CarContent):
         ModelError
             The car has no flexible frame, or its files do not describe one that fits the car.
         """
-        return frame_of(self, self._builder(self.empty(Mechanism), None), self.mechanism)
+        return frame_of(self, self._builder(self.empty(), None), self.mechanism)
 
     @cached_property
     def misfit(self) -> str:
@@ -97,7 +95,7 @@ class BuiltCar(Understood, CarContent):
         car = self
         if self.ports.tyre is not None:
             car = checked_car(type(self), _on_own_tyres(self._data), self.folder, self.name, at_rest=False)
-        return settled(car.build(car.empty(Mechanism), rest_outputs).m, car)
+        return settled(car.build(car.empty(), rest_outputs).m, car)
 
     @property
     def has_frame(self) -> bool:
@@ -106,7 +104,7 @@ class BuiltCar(Understood, CarContent):
 
     def build(
         self,
-        m: Mechanism,
+        m: Model,
         outputs: Outputs,
         road: Road | RoadOfFile | None = None,
         fidelity: Fidelity = Fidelity.RIGID,
@@ -212,18 +210,18 @@ class BuiltCar(Understood, CarContent):
         return [replace(echo, title=title) for echo, title in zip(echoes, titles, strict=True)]
 
     def _remade(self, data: dict[str, Any]) -> tuple[CarContent, Rest] | None:
-        """The car of altered content at rest, or None where that is no car."""
+        """The car of altered content at rest, or None where that is not a car."""
         try:
             made = checked_car(type(self), data, self.folder, self.name, at_rest=False)
             return made, made.rest
         except (ModelError, ValueError):
             return None
 
-    def empty(self, kind: type[M]) -> M:
-        """An empty model for the car. `kind`: its class."""
-        return kind(f"{self.name} car", gravity=(0.0, 0.0, -GRAVITY))
+    def empty(self) -> Model:
+        """An empty model for the car."""
+        return Model(f"{self.name} car", gravity=(0.0, 0.0, -GRAVITY))
 
-    def _builder(self, m: Mechanism, road: Road | RoadOfFile | None) -> CarBuilder:
+    def _builder(self, m: Model, road: Road | RoadOfFile | None) -> CarBuilder:
         """An empty model with road and inputs."""
         m.floating = True
         m.start_in_equilibrium = self.ports.tyre is None and level_within(road, self.footprint)
@@ -318,12 +316,12 @@ def checked_car(
         except ModelError as error:
             raise CarFileError(_told(what, [str(error)])) from error
     try:
-        model = car.empty(Model)
+        model = car.empty()
         car.reported(model)
         model.look()
         rest = settled(model, car)
     except ValueError as error:
-        raise CarFileError(_told(what, [f"as drawn it makes no car. {error}"])) from error
+        raise CarFileError(_told(what, [f"as drawn it is not a valid car. {error}"])) from error
     if warn:
         misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
         told = [sentence for echo in car_echo("", car, rest, car._data, car._remade) for sentence in echo.warnings()]

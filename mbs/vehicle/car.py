@@ -59,7 +59,7 @@ class Car(BuiltCar):
             The road is a grid with a wall, a face that is higher than the radius of a wheel.
         """
         fidelity = Fidelity.of(fidelity)
-        m = self.empty(Model)
+        m = self.empty()
         drive = None if guide is None else lambda way: m.drive("guided way", way, guide(m))
         b = self.reported(m, road, fidelity, drive)
         if Fidelity.DYNAMIC in self.offered:
@@ -97,7 +97,7 @@ class Car(BuiltCar):
         Raises
         ------
         CarFileError
-            A key path does not exist, or with the values it is no car; the car that there was is unchanged.
+            A key path does not exist, or with the values it is not a car; the car that there was is unchanged.
         """
         what = f"car '{self.name}'"
         data = changed_content(self._data, values, what)

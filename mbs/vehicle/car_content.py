@@ -114,10 +114,10 @@ class CarContent(Section):
                 "its curves needs 'rack_by_angle'."
             )
         if not self.linked and self.chassis.frame is not None:
-            yield f"{self.chassis.key('frame')} hangs on links; with an axle by its curves the chassis is rigid."
+            yield f"{self.chassis.key('frame')} needs links; with an axle by its curves the chassis is rigid."
         if self.ports.tyre is not None and self.ports.road is not None:
             yield (
-                "ports.tyre and ports.road are both there; the road under a tyre at a port is that of the program that "
+                "ports.tyre and ports.road are both given; the road under a tyre at a port is that of the program that "
                 "has the tyre, so leave one of them out."
             )
         for port, what in (("gear", "asks for a gear"), ("clutch", "opens the clutch")):

@@ -27,7 +27,7 @@ def changed_content(data: Mapping[str, Any], values: Mapping[str, Any], what: st
     new = copy.deepcopy(dict(data))
     for path, value in values.items():
         if not isinstance(path, str) or not all(path.split(".")):
-            raise CarFileError(f'{what}: {shown(path)} is no key path; one is "front.spring.stiffness".')
+            raise CarFileError(f'{what}: {shown(path)} is not a key path; one is "front.spring.stiffness".')
         *tables, last = path.split(".")
         table: Any = new
         for k, key in enumerate(tables):

@@ -21,7 +21,7 @@ def chosen_ports(text: str) -> dict[str, str]:
             offered = ", ".join(f"{port} ({' or '.join(kinds)})" for port, kinds in known.items())
             twice = f", where {name} stands twice" if name in chosen else ""
             raise ValueError(
-                f"The ports are '{text}'{twice}; they must be a list as torque,brakes=pressure out of {offered}."
+                f"The ports are '{text}'{twice}; they must be a list such as torque,brakes=pressure out of {offered}."
             )
         chosen[name] = kind
     return chosen

@@ -22,7 +22,7 @@ _OF_KINEMATICS = ("travel", "fidelity", "points", "out")
 def main(arguments: Sequence[str] | None = None, prog: str = "python -m mbs.vehicle.command") -> int:
     """Run the command; `prog` is how the user typed it."""
     parser = Parser(prog=prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("car", nargs="?", metavar="CAR", help="name of a car of the package, or a car's folder or file")
+    parser.add_argument("car", nargs="?", metavar="CAR", help="a car of the package, or the folder or file of a car")
     parser.add_argument("folder", nargs="?", type=Path, metavar="FOLDER", help="copy the car there; it must not exist")
     add_option(parser, "--list")
     add_option(parser, "--show-parameters")
@@ -69,7 +69,7 @@ def _cheapest(options: argparse.Namespace, parser: argparse.ArgumentParser) -> i
 
 def _refuse(given: Sequence[str], where: str) -> None:
     if given:
-        raise UserError(f"{given[0]} goes with {where}.")
+        raise UserError(f"{given[0]} needs {where}.")
 
 
 def _kinematics(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:

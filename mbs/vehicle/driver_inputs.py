@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.records import Input
 from mbs.vehicle.ports import Ports
 
 
-def driver_inputs(m: Mechanism, ports: Ports) -> dict[str, Input]:
+def driver_inputs(m: Model, ports: Ports) -> dict[str, Input]:
     """The inputs of a driver, without those of the parts that ports replace."""
     inputs = {}
     if ports.steering != "rack_position":

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from mbs.elements.hub_wrench import HubWrench
 from mbs.model.carried import Spin
-from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.records import Role
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.port_inputs import new_port
@@ -37,7 +36,7 @@ def hub_port(b: CarBuilder, wheel: str, spin: Spin, tyre: Tyre, inertia: float) 
         for k, c in enumerate("xyz"):
             text = f"rate of the spin axis along the earth's {c} axis"
             name = f"wheel_{wheel}.axis_rate_{c}"
-            MotionSensorVocabulary.sense_coordinate(b.m, name, spin.axis[k], order=1, unit="1/s", description=text)
+            b.m.sense_coordinate(name, spin.axis[k], order=1, unit="1/s", description=text)
         b.m.sense_element(f"wheel_{wheel}.hub_power", f"port hub {wheel}", "power")
 
     b.port_senses.append(outputs)

@@ -16,10 +16,7 @@ from mbs.elements.road import PortRoad
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.wind import Wind
 from mbs.model.carried import Spin
-from mbs.model.contact_vocabulary import ContactVocabulary
-from mbs.model.mechanism import Mechanism
 from mbs.model.model import Model
-from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.records import Ahead
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -74,7 +71,7 @@ def force_ports(b: CarBuilder, car: CarContent, axes: Literal["earth", "vehicle"
             for k, c in enumerate("xyz"):
                 text = f"{what} of the point '{name}' of the chassis along the earth's {c} axis"
                 unit = "m/s" if order else "m"
-                named = partial(MotionSensorVocabulary.sense_coordinate, m, f"point_{name}.{prefix}{c}", point[k])
+                named = partial(m.sense_coordinate, f"point_{name}.{prefix}{c}", point[k])
                 b.port_senses.append(partial(named, order=order, unit=unit, description=text))
 
 
@@ -89,7 +86,7 @@ def wind_port(b: CarBuilder) -> Wind | None:
     return Wind(speed.index, new_port(b, "wind.heading", -turn, turn, "rad", text).index)
 
 
-def road_ports(m: Mechanism, road: RoadSection) -> tuple[int, dict[str, int]]:
+def road_ports(m: Model, road: RoadSection) -> tuple[int, dict[str, int]]:
     """Answers of another program on the road under each wheel, and the mean of them under the chassis.
 
     `road`: friction until there are answers.
@@ -102,9 +99,7 @@ def road_ports(m: Mechanism, road: RoadSection) -> tuple[int, dict[str, int]]:
         Those under the wheels.
     """
     friction = road.friction * road.friction_factor
-    first = {
-        w: ContactVocabulary.road_answer(m, f"wheel_{w}.road", friction=friction, near=f"wheel_{w}.x") for w in WHEELS
-    }
+    first = {w: m.road_answer(f"wheel_{w}.road", friction=friction, near=f"wheel_{w}.x") for w in WHEELS}
     under = {w: m.road(PortRoad([k])) for w, k in first.items()}
     return m.road(PortRoad(list(first.values()))), under
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad, PortRoad, Road, RoadOfFile
 from mbs.kernel.header.limits import FARTHEST
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.vehicle.quantities import Factor, RoadFriction
 from mbs.vehicle.section import Section
 from mbs.vehicle.tyres import Tyre
@@ -37,7 +37,7 @@ class RoadSection(Section):
 
     def parameters(
         self,
-        m: Mechanism,
+        m: Model,
         road: Road | RoadOfFile | None,
         ground: int,
         hold_at: str,
@@ -72,7 +72,7 @@ class RoadSection(Section):
         )
 
     @staticmethod
-    def _kerb(m: Mechanism, ground: int) -> None:
+    def _kerb(m: Model, ground: int) -> None:
         target = ("road", ground)
         m.parameter(
             "road.kerb_x",
@@ -97,7 +97,7 @@ class RoadSection(Section):
 def _range(section: Section, field: str) -> tuple[float, float, str]:
     """Limits and unit of a parameter as the file's type has them."""
     q = section.quantity(field)
-    assert q is not None, f"{section.key(field)} is no quantity"
+    assert q is not None, f"{section.key(field)} is not a quantity"
     return q.least, q.high, q.unit
 
 

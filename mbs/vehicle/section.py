@@ -66,7 +66,7 @@ class Section(BaseModel):
 
     @classmethod
     def quantity(cls, field: str) -> Quantity | None:
-        """Unit and range of a field, None where it is no single number."""
+        """Unit and range of a field, None where it is not a single number."""
         info = cls.model_fields[field]
         for found in (info.metadata, *(getattr(a, "__metadata__", ()) for a in get_args(info.annotation))):
             for item in found:

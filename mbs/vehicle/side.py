@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mbs.model.body import Body
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.vehicle.part import Part
 
 Point = tuple[float, float, float]
@@ -29,7 +29,7 @@ class Side:
         """A point of this side from the one of the left side. `left`: in m, as drawn."""
         return (left[0], self.sign * left[1], left[2])
 
-    def body(self, model: Mechanism, name: str, part: Part) -> Body:
+    def body(self, model: Model, name: str, part: Part) -> Body:
         """A part of this side; its principal inertias are along the earth axes.
 
         `name`: the wheel's name follows it; `part`: mass, centre and inertia of the left one.

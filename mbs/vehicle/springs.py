@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from pydantic import Field
 
@@ -67,9 +67,9 @@ def law_faults(
         What the table may be.
     """
     if number is None and table is None:
-        yield f"{section.key(name)} is missing; there must be it or {section.key('table')}, rows of two numbers."
+        yield f"{section.key(name)} is missing; give it or {section.key('table')}, rows of two numbers."
     if number is not None and table is not None:
-        yield f"{section.key(name)} is {number:g}, and there is {section.key('table')} too; there must be one of both."
+        yield f"{section.key(name)} is {number:g}, and there is {section.key('table')} too; give one of them."
     if table is not None and len(table) < 2:
         yield f"{section.key('table')} has {len(table)} rows; it must have two or more."
         return
@@ -116,6 +116,12 @@ class Spring(Section, of=SpringDamper):
         yield from law_faults(self, "stiffness", self.stiffness, self.table, SPRING_TABLE)
 
     @property
+    def given(self) -> dict[str, Any]:
+        """What says its force but the factor, by key path."""
+        name = "stiffness" if self.table is None else "table"
+        return {self.key(name): getattr(self, name)}
+
+    @property
     def law(self) -> float | list[tuple[float, float]]:
         """Stiffness, N/m, or rows of stretch, m, and tension, N."""
         if self.table is None:
@@ -136,6 +142,12 @@ class Damper(Section, of=SpringDamper):
     def faults(self) -> Iterator[str]:
         """The force is given by a number or by a table, not by both."""
         yield from law_faults(self, "damping", self.damping, self.table, DAMPER_TABLE)
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """What says its force but the factor, by key path."""
+        name = "damping" if self.table is None else "table"
+        return {self.key(name): getattr(self, name)}
 
     @property
     def law(self) -> float | list[tuple[float, float]]:
@@ -183,11 +195,16 @@ class Stops(Section, of=EndStops):
 
 @dataclass(frozen=True)
 class AxleSprings:
-    """Spring, damper and stops of the wheels of an axle."""
+    """Spring, damper and stops of the wheels of an axle; None for what acts elsewhere."""
 
-    spring: Spring
-    damper: Damper
+    spring: Spring | None
+    damper: Damper | None
     stops: Stops | None
+
+    @property
+    def beside_damper(self) -> tuple[AxleSprings, AxleSprings]:
+        """The spring with its stops, and the damper, each alone."""
+        return replace(self, damper=None), AxleSprings(None, self.damper, None)
 
 
 def spring_and_damper(
@@ -197,7 +214,8 @@ def spring_and_damper(
 
     `lower`, `upper`: the ends as drawn, m.
     """
-    return _between(b, name, lower, upper, springs.spring, springs.damper, springs.stops)
+    difference = upper[0].point(upper[1]) - lower[0].point(lower[1])
+    return _on_line(b, name, difference, math.dist(lower[1], upper[1]), springs)
 
 
 def spring_beside_damper(
@@ -211,8 +229,8 @@ def spring_beside_damper(
 
     `spring`, `damper`: lower and upper end as drawn, m.
     """
-    _between(b, f"spring {wheel}", *spring, springs.spring, None, springs.stops)
-    _between(b, f"damper {wheel}", *damper, None, springs.damper, None)
+    for name, ends, alone in zip(("spring", "damper"), (spring, damper), springs.beside_damper, strict=True):
+        spring_and_damper(b, f"{name} {wheel}", *ends, alone)
 
 
 def spring_of_length(
@@ -226,39 +244,14 @@ def spring_of_length(
 
     `spring`: length and the same as drawn, m; `damper`: of a damper beside it.
     """
-    own = springs.damper if damper is None else None
-    _on_line(b, f"spring {wheel}", *_standing(*spring), springs.spring, own, springs.stops)
-    if damper is not None:
-        _on_line(b, f"damper {wheel}", *_standing(*damper), None, springs.damper, None)
+    both = ((spring, springs),) if damper is None else zip((spring, damper), springs.beside_damper, strict=True)
+    for name, ((length, drawn), alone) in zip(("spring", "damper"), both, strict=False):
+        _on_line(b, f"{name} {wheel}", AffineVector((Affine(), Affine(), length)), drawn, alone)
 
 
-def _standing(length: Affine, drawn: float) -> tuple[AffineVector, float]:
-    return AffineVector((Affine(), Affine(), length)), drawn
-
-
-def _between(
-    b: CarBuilder,
-    name: str,
-    lower: tuple[Body, Point],
-    upper: tuple[Body, Point],
-    spring: Spring | None,
-    damper: Damper | None,
-    stops: Stops | None,
-) -> ElementRecord:
-    difference = upper[0].point(upper[1]) - lower[0].point(lower[1])
-    return _on_line(b, name, difference, math.dist(lower[1], upper[1]), spring, damper, stops)
-
-
-def _on_line(
-    b: CarBuilder,
-    name: str,
-    difference: AffineVector,
-    drawn: float,
-    spring: Spring | None,
-    damper: Damper | None,
-    stops: Stops | None,
-) -> ElementRecord:
+def _on_line(b: CarBuilder, name: str, difference: AffineVector, drawn: float, springs: AxleSprings) -> ElementRecord:
     """Along a line from one end to the other, of a length as drawn."""
+    spring, damper, stops = springs.spring, springs.damper, springs.stops
     stiffness, damping = 0.0 if spring is None else spring.law, 0.0 if damper is None else damper.law
     factors = 1.0 if spring is None else spring.factor, 1.0 if damper is None else damper.factor
     ends = None if stops is None else stops.around(drawn)

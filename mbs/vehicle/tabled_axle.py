@@ -17,9 +17,7 @@ from mbs.common.errors import ModelError
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.coordinate import Coordinate
-from mbs.model.drive_vocabulary import DriveVocabulary
-from mbs.model.mechanism import Mechanism
-from mbs.model.table_vocabulary import TableVocabulary
+from mbs.model.model import Model
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.corner import Corner
@@ -42,7 +40,7 @@ class TabledParts:
     """
 
     def __init__(
-        self, m: Mechanism, base: Body, grid: PoseGrid, compressions: Mapping[str, Coordinate], rack: Coordinate | None
+        self, m: Model, base: Body, grid: PoseGrid, compressions: Mapping[str, Coordinate], rack: Coordinate | None
     ) -> None:
         self._m, self._base, self._grid = m, base, grid
         self._compressions, self._rack = compressions, rack
@@ -61,8 +59,7 @@ class TabledParts:
         poses = self._grid.full(part.start, 12)
         parameters, axes, poses = self._over(name, poses)
         turned = np.swapaxes(poses[..., 3:].reshape(*poses.shape[:-1], 3, 3), -1, -2)
-        return TableVocabulary.tabled_body(
-            self._m,
+        return self._m.tabled_body(
             name,
             base=self._base,
             parameters=parameters,
@@ -85,7 +82,7 @@ class TabledParts:
     def _angle(self, name: str) -> Coordinate:
         (k,) = (k for k, c in enumerate(self._grid.linkage.model.coordinates) if c.name == name)
         parameters, axes, values = self._over(name, self._grid.full(k, 1))
-        return TableVocabulary.tabled_number(self._m, name, parameters=parameters, axes=axes, values=values[..., 0])
+        return self._m.tabled_number(name, parameters=parameters, axes=axes, values=values[..., 0])
 
     def _over(self, name: str, values: Array) -> tuple[list[Coordinate], list[Array], Array]:
         """Coordinates, points along them, and values over them, of what moves with a wheel."""
@@ -130,7 +127,7 @@ def tabled_axle(b: CarBuilder, car: CarContent, axle: str, rack: Coordinate | No
         raise ModelError(
             f"{data.suspension.key('kind')} '{data.suspension.kind}' steers and joins its sides; it has no table."
         )
-    compressions = {s.wheel: DriveVocabulary.travel(b.m, f"spring compression {s.wheel}") for s in sides(axle)}
+    compressions = {s.wheel: b.m.travel(f"spring compression {s.wheel}") for s in sides(axle)}
     parts: Any = TabledParts(b.m, b.chassis.frame, grid, compressions, rack)
 
     def rod(side: Side, point: Point) -> Any:

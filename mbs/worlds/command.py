@@ -21,7 +21,7 @@ inputs:
   .road        a road file, to be checked as a whole, shown, or copied
   .toml        a description: kind = "plane", "kerb", "grid", "washboard", "rough" or "split"
   .csv, .txt   heights, a row for each x, a column for each y; with coordinates in the first row and the first column
-               where the first cell is no number
+               where the first cell is not a number
   .npy, .npz   NumPy arrays: heights[i, j] at x number i and y number j; .npz also frictions, origin, spacing
   .crg         OpenCRG; the grid says how far it is off
   .stl, .obj, .ply, .off, .glb, .gltf
@@ -38,7 +38,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
     """Run the command, which the user typed as `prog`."""
     epilog = f"{_EPILOG}worlds of the package: {', '.join(shipped_worlds())}"
     parser = Parser(prog=prog, description=__doc__, epilog=epilog)
-    parser.add_argument("input", type=Path, nargs="?", metavar="INPUT", help="what the road is made of, see below")
+    parser.add_argument("input", type=Path, nargs="?", metavar="INPUT", help="source of the road, see below")
     parser.add_argument("output", type=Path, nargs="?", metavar="OUTPUT.road", help="the road file to write")
     parser.add_argument(
         "--frictions",
@@ -56,7 +56,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
         type=_metres,
         nargs=2,
         metavar=("X", "Y"),
-        help="where a drive begins, which is told where it is beside the road, m; default: 0 0",
+        help="where a drive begins (a warning if it is beside the road), m; default: 0 0",
     )
     parser.add_argument("--range", type=_metres, nargs=2, metavar=("BLACK", "WHITE"), help="heights in a picture, m")
     parser.add_argument(
@@ -66,7 +66,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 road") -> int
     parser.add_argument(
         "--part", type=Path, metavar="FILE", help="write the road as an entry of a scene's roads, JSON: what draws it"
     )
-    parser.add_argument("--thin", action="store_true", help="of a world: few and round numbers, as a page carries it")
+    parser.add_argument("--thin", action="store_true", help="of a world: reduced to few and round numbers, for a page")
     add_option(parser, "--json", "none")
     add_option(parser, "--world", "none, the road of INPUT")
     add_option(parser, "--out", "out/worlds")
@@ -78,7 +78,7 @@ def _finite(text: str, unit: str = "1") -> float:
     """A number of the command line in a unit, which another of the same quantity may stand behind."""
     value = quantity(unit)(text)
     if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"{text} is no finite number")
+        raise argparse.ArgumentTypeError(f"{text} is not a finite number")
     return value
 
 

@@ -97,7 +97,7 @@ def _given(options: argparse.Namespace) -> dict[str, Any]:
             found["frictions"] = Path(options.frictions)
     if found and options.input.suffix.lower() in (".road", ".toml"):
         name = next(iter(found)).replace("height_", "").replace("_", "-")
-        raise UserError(f"{options.input} says by itself what the road is; --{name} is of what becomes a grid.")
+        raise UserError(f"{options.input} defines its whole road; --{name} applies only to inputs that become a grid.")
     return found
 
 

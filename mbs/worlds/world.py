@@ -32,7 +32,7 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False, table
     """Put the files of a world into a folder; gives the exit code.
 
     `given`: name of the package, or a file; `picture`: PNG file of its map; `thin`: fewer and rounder numbers, for a
-    page; `table`: JSON file of what was understood of it. Raises `UserError`: it is no world.
+    page; `table`: JSON file of what was understood of it. Raises `UserError`: it is not a world.
     """
     begin = time.perf_counter()
     file = _file(given)
@@ -73,7 +73,7 @@ def _file(given: str) -> Path:
     path = Path(given)
     if is_file(path):
         if path.suffix.lower() not in (kinds := (".toml", ".road", CRG, *MESHES)):
-            raise UserError(f"{given} is no world; a world or a road is a file of these kinds: {', '.join(kinds)}.")
+            raise UserError(f"{given} is not a world; a world or a road is a file of these kinds: {', '.join(kinds)}.")
         return path
     for place in (WORLDS / f"{given}.toml", ROADS / f"{given.removesuffix('.road')}.road"):
         if is_file(place) and Path(given).name == given:

@@ -143,7 +143,7 @@ def test_energy_of_two_joints_drawn_by_chance_is_work():
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [3639317403, pytest.param(None, marks=pytest.mark.proof)])
 def test_energy_of_two_hundred_pairs_of_joints_is_work(seed):
-    """None: by chance, printed. Of 2071716515 pair 2 is too quick for the step, which the check of the run tells."""
+    """None: by chance, printed. Of 2071716515 pair 2 is too fast for the step, of which the check of the run warns."""
     seed = int(np.random.SeedSequence().entropy) % 2**32 if seed is None else seed
     print(f"seed {seed}")
     check_pairs(200, seed)

@@ -92,8 +92,8 @@ def test_a_kind_is_judged_by_what_the_others_lead_to() -> None:
 
 def test_the_bounds_of_a_fit_are_read_and_a_number_near_one_is_told(tmp_path: Path) -> None:
     file = tmp_path / "fit.toml"
-    file.write_text('["a.b"]\nlow = 1.0\nhigh = 2\n[given]\n"c.d" = 0.5\n', encoding="utf-8")
-    assert refit.sought_in(file) == ({"a.b": "1.0:2.0"}, {"c.d": 0.5})
+    file.write_text('["a.b"]\nlow = 1.0\nhigh = 2\n', encoding="utf-8")
+    assert refit.sought_in(file) == {"a.b": "1.0:2.0"}
     found = {"name": "a.b", "value": 1.5, "half_width_95": 0.1, "folds": [1.4, 1.6], "without": 1.02}
     rows = [refit.row_of(found | {"value": value}, 1.0, 2.0) for value in (1.015, 1.5, 1.985)]
     assert [row["near a bound"] for row in rows] == ["yes", "no", "yes"]

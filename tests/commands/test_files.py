@@ -86,7 +86,7 @@ def test_a_link_stays_a_link(tmp_path: Path) -> None:
 def test_what_cannot_be_written_is_named(write: object, tmp_path: Path) -> None:
     (tmp_path / "folder").mkdir()
     (tmp_path / "file").write_text("")
-    with pytest.raises(FileError, match=r"folder is a folder; a file is to be written there\.$"):
+    with pytest.raises(FileError, match=r"folder is a folder; it must be a file\.$"):
         write(tmp_path / "folder")
     with pytest.raises(FileError, match=r"^The folder .*in cannot be made"):
         write(tmp_path / "file" / "in" / "x.csv")

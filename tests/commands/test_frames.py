@@ -1,4 +1,4 @@
-"""Frames between processes: values come back as they were, and what is no frame of the type is an error."""
+"""Frames between processes: values come back as they were, and what is not a frame of the type is an error."""
 
 from __future__ import annotations
 

@@ -91,7 +91,7 @@ def test_a_process_keeps_what_it_has_between_tasks_and_prints_what_it_likes(work
 def test_after_a_loss_there_is_a_new_process(worker: Isolated[str, Any]) -> None:
     ways = {
         "crash": "crashed (SIGABRT)",
-        "kill": "was killed (SIGKILL), by a user or by the system for want of memory",
+        "kill": "was killed (SIGKILL), by a user or by the system because memory ran out",
         "leave": "ended with exit code 3",
         "fault": "ended with exit code 1: KeyError: 'nothing'",
         "hang": "took more than 0.5 s",

@@ -62,7 +62,7 @@ def test_memory_is_the_cause_where_there_is_none(
 @pytest.mark.parametrize(
     "error",
     [
-        UserError(f"'{'x' * 100_000}' is no number."),
+        UserError(f"'{'x' * 100_000}' is not a number."),
         UserError(f"The value is {'1 2 ' * 50_000}."),
         OSError(36, "File name too long", "a/" * 50_000),
     ],

@@ -90,8 +90,8 @@ def test_a_table_without_names(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "t.csv holds no values; it needs a heading and at least one row."),
-        ("a\n", "t.csv holds no values; it needs a heading and at least one row."),
+        ("", "t.csv contains no values; it needs a heading and at least one row."),
+        ("a\n", "t.csv contains no values; it needs a heading and at least one row."),
         ("a,a\n1,1\n", "t.csv has the column 'a' twice."),
         ("a,b\n\n1\n", "t.csv, line 3: 1 values where the heading has 2 columns."),
         ("a,b\n1,5,2,5\n", "t.csv, line 2: 4 values where the heading has 2 columns; decimal marks must be points."),
@@ -100,10 +100,10 @@ def test_a_table_without_names(tmp_path: Path) -> None:
         ("a,b\n1,1e999\n", "t.csv, line 2, column 'b': '1e999' is not a finite number."),
         ("a;b\n1;1.234,5\n", "t.csv, line 2, column 'b': '1.234,5' is not a number."),
         ("a\tb\n1\t1,5,5\n", "t.csv, line 2, column 'b': '1,5,5' is not a number."),
-        ('a,b\n1,"2\n', "t.csv, line 2: this is no line of a CSV file: unexpected end of data."),
+        ('a,b\n1,"2\n', "t.csv, line 2: this is not a line of a CSV file: unexpected end of data."),
         (f"a\n{1001 * '1'}\n", "t.csv, line 2: a cell has 1001 characters; a number or a name has at most 1000."),
-        (b"a\n1\0\n", "t.csv is no text: there is a zero byte in line 2."),
-        (b"a\n\xff\n", "t.csv is no text in UTF-8, from about line 1 on."),
+        (b"a\n1\0\n", "t.csv is not text: there is a zero byte in line 2."),
+        (b"a\n\xff\n", "t.csv is not text in UTF-8, from about line 1 on."),
     ],
 )
 def test_what_is_no_table(tmp_path: Path, text: str | bytes, words: str) -> None:

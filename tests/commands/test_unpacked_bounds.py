@@ -192,7 +192,7 @@ def test_named_files_lie_below_the_folder_and_are_counted(tmp_path: Path) -> Non
     for name, words in (("../../c", "'../../c' is not below"), ("/dev/zero", "is not below"), ("../link", "not below")):
         with pytest.raises(HostError, match=f"^m, line 3: .*{words}"):
             named.file(name, below / "deck", "m, line 3")
-    with pytest.raises(HostError, match="'a.*' is no name of a file"):
+    with pytest.raises(HostError, match="'a.*' is not a file name"):
         named.file("a\0", below)
     named.file("b", below / "deck")
     with pytest.raises(HostError, match="'a' has 10 bytes; it must have at most 5"):

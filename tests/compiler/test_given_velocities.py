@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mbs
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 
 
 def arm(first=None, second=None, dimension=2) -> mbs.Model:
@@ -73,7 +73,7 @@ def test_parts_of_a_velocity_contradict_each_other_too(first: dict, second: dict
 
 
 def test_a_rate_and_a_velocity_contradict_each_other() -> None:
-    def pendulum(rate: float, w: float) -> Mechanism:
+    def pendulum(rate: float, w: float) -> Model:
         m = mbs.Model("pendulum", dimension=2)
         rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.1)
         m.revolute("pin", m.ground, rod, point=(0.0, 0.0))

@@ -282,7 +282,7 @@ def test_a_redundant_guide_is_corrected_or_refused_and_never_stands_in_silence(n
         turn, scale = (0.0, 1.0) if error in (0.0, 1e-3) else (0.7, 0.05)
         model = build(drawn.shifted(error, seed=5) if error else drawn.exact, turn=turn, scale=scale)
         if error > 2e-5:
-            with pytest.raises(ModelError, match="Draw it more exactly|cannot be closed; open stay the joints"):
+            with pytest.raises(ModelError, match="Draw it more exactly|cannot be closed; these joints stay open"):
                 compile(model)
             refused += 1
             continue

@@ -84,7 +84,7 @@ def _entries(text: str, section: str = "Parameters") -> dict[str, str]:
 def _faults(text: str, parameters: dict[str, str]) -> list[str]:
     """What is wrong with a docstring; `parameters` are names and annotations."""
     entries, wrong = _entries(text), []
-    wrong += [f"{name} is no parameter" for name in entries if name not in parameters]
+    wrong += [f"{name} is not a parameter" for name in entries if name not in parameters]
     for name, entry in entries.items():
         own = set(LITTLE).union(re.findall(r"[a-z]+", f"{name} {parameters.get(name, '')}".lower()))
         if not set(re.findall(r"[^\W_]+", entry.partition("\n")[2].lower())) - own:
@@ -174,7 +174,7 @@ body : Body
         (TEXT.replace(", m.", "."), {"point": "float", "body": "Body"}, "point is a number without a unit"),
         (TEXT, {"point": "ArrayLike", "body": "Body", "size": "float"}, "size is a number without a unit"),
         (TEXT, {"point": "ArrayLike", "body": "Body"}, "the entry of body says nothing"),
-        (TEXT, {"point": "ArrayLike"}, "body is no parameter"),
+        (TEXT, {"point": "ArrayLike"}, "body is not a parameter"),
     ],
 )
 def test_a_poor_docstring_is_seen(text: str, parameters: dict[str, str], fault: str):

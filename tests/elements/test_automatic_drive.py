@@ -185,7 +185,7 @@ def test_the_clock_of_a_shift_starts_where_the_shift_speed_was_crossed() -> None
         ({"idle_speed": 0.0}, "must rise in this order, from above 0"),
         ({"limit_speed": 100.0}, "must rise in this order"),
         ({"dwell": 0.1}, "must not be less than ramp, 0.2 s"),
-        ({"down_open": 400.0}, "up open of the drive 'D' is 540 rad/s; it must be more than"),
+        ({"down_open": 400.0}, "upshift speed with open throttle of the drive 'D' is 540 rad/s; it must be more than"),
         ({"creep_speed": 0.0}, "creep speed of the drive 'D' is 0"),
     ],
 )

@@ -235,7 +235,7 @@ def test_nastran_places_are_those_of_the_basic_system(tmp_path: Path) -> None:
     with pytest.raises(ModelError, match="Grid point 18 has displacements in a system of its own"):
         read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
     (tmp_path / "frame.bdf").write_text("$ nothing\n")
-    with pytest.raises(ModelError, match=r"frame\.bdf holds no grid points"):
+    with pytest.raises(ModelError, match=r"frame\.bdf contains no grid points"):
         read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
 
 

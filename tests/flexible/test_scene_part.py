@@ -129,5 +129,5 @@ def test_a_wrong_number_of_names_or_amplitudes_and_an_impossible_strength_are_re
         flexible_parts(body, "loop", ["a", "b"])
     with pytest.raises(ModelError, match=r"at the start have shape \(3,\)"):
         flexible_parts(body, "loop", names(body), start=np.zeros(3))
-    with pytest.raises(ModelError, match=r"yield strength 235.0 is no strength in Pa"):
+    with pytest.raises(ModelError, match=r"yield strength 235.0 is not a strength in Pa"):
         Material(2.1e11, 0.3, 7850.0, 235.0)

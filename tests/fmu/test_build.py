@@ -79,7 +79,7 @@ def test_one_kind_only(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture
     assert build_fmu.main([*command, "--kind", "native"]) == 0
     assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["Swing.fmu", "Swing.ssv"]
     assert build_fmu.main([*command, "--kind", "wooden"]) == 2
-    assert "no kind of FMU 'wooden'" in capsys.readouterr().err
+    assert "no FMU kind 'wooden'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

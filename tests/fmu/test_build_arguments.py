@@ -32,7 +32,7 @@ def system() -> mbs.System:
         ({"platforms": "linux64"}, "The platforms of an FMU must be a list of names, not 'linux64'."),
         ({"platforms": []}, "An FMU needs a platform; a native FMU runs on linux64"),
         ({"platforms": ["amiga", 3]}, "Platform '3, amiga' is not known; a native FMU runs on linux64"),
-        ({"kind": ["native"]}, "There is no kind of FMU"),
+        ({"kind": ["native"]}, "There is no FMU kind"),
         ({"fidelity": 1}, "The default fidelity of an FMU is 1; it must be 0."),
         ({"fidelity": "0"}, "The default fidelity of an FMU is '0'; it must be 0."),
         ({"author": 3}, "The author must be text, not 3."),

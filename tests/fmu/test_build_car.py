@@ -103,7 +103,7 @@ def test_another_file_gives_another_token(car: Path, tmp_path: Path) -> None:
         (lambda t: t.replace("width = 1.5", "with = 1.5"), ["vehicle.with is not known", "'width'"]),
         (lambda t: t.replace("schema = 2", "schema = 0"), ["schema is 0"]),
         (lambda t: t.replace('name = "my_car"', 'name = "../x"'), ["name is '../x'"]),
-        (lambda t: t + "[front\n", ["is no TOML file"]),
+        (lambda t: t + "[front\n", ["is not a TOML file"]),
     ],
 )
 def test_faults_are_sentences_and_nothing_is_built(

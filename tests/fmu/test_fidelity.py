@@ -185,7 +185,7 @@ def test_an_output_that_no_system_computes_is_told_once_a_run(
     alone = made_once(f"rigid_car_{kind_2}", fill) / "alone.fmu"
     ((status, category, text),) = logged(alone, None, ["chassis.x", "stress.SG3", "bending_moment.SG1"])
     assert (status, category) == (1, "logNotComputed")
-    assert text == "'stress.SG3' reads 0; this FMU does not compute it. This is said once."
+    assert text == "'stress.SG3' reads 0; this FMU does not compute it. This is reported once."
     assert len(logged(alone, None, ["bending_moment.SG1"], resets=2)) == 3
     assert logged(alone, None, ["chassis.x", "energy.total"]) == []
 

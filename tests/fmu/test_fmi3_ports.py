@@ -63,8 +63,8 @@ def at_hubs(time: float, now: Mapping[str, float]) -> Given:
 
 
 def wild(given: Callable[[float, Mapping[str, float]], Given]) -> Callable[[float, Mapping[str, float]], Given]:
-    """What is given, but after the start one of thirty values at ports is no number, or far beyond, by the time; a jump
-    of the road or of a hub's forces is left to tests of refused steps.
+    """What is given, but after the start one of thirty values at ports is not a number, or far beyond, by the time; a
+    jump of the road or of a hub's forces is left to tests of refused steps.
     """
 
     def at(time: float, now: Mapping[str, float]) -> Given:

@@ -1,4 +1,4 @@
-"""A contact or a stop that is too quick for the step: a second motion with a part of it tells, and changes no bit."""
+"""A contact or a stop that is too fast for the step: a second motion with a part of it warns, and changes no bit."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.fmu.calls import OK, HostMaker
 WHEELS = ("FL", "FR", "RL", "RR")
 FORCES = [f"{name}_{w}.{what}" for w in WHEELS for name, what in (("wheel", "Fz"), ("spring", "force"))]
 FALL = {"initial.z": 0.18, "initial.speed": 8.4}  # onto the metal of the rebound stops
-WORDS = "made again with 1/"
+WORDS = "computed again with 1/"
 EVERY, SPAN = 0.008, 0.8  # s; springs are off by 16 %
 
 
@@ -231,8 +231,26 @@ def test_places_or_rates_are_compared_without_a_road_and_outputs_at_rest_judge_n
     (fine, nothing), (coarse, said) = ends
     error = np.abs(coarse - fine).max() / np.ptp(fine, axis=0).max()
     assert nothing == []
-    assert len(said) == (error > 0.05)
-    assert all(re.search(r"1/2 of it, tip\.[xy] is off", m) for m in said)
+    told = [m for m in said if WORDS in m]
+    assert len(told) == (error > 0.05)
+    assert all(re.search(r"1/2 of it, tip\.[xy] is off", m) for m in told)
+    assert all("energy balance" in m for m in said if m not in told)
+    assert len(said) <= 2 * len(told)
+
+
+def test_a_step_that_is_halved_is_made_twice(build: Callable[..., Path], host: HostMaker) -> None:
+    """A state that is set ends the second motion of the start; the next step that the solver halves begins one."""
+    driven = host(build("crank_slider")).start({"torque": 4.0, "step_size": 1e-3})
+    for k in range(300):
+        driven.step(k * 1e-3, 1e-3)
+    halvings = driven.get("solver.halvings")
+    assert not any(WORDS in m for m in driven.messages)
+    driven.slave.setFMUstate(driven.slave.getFMUstate())
+    for k in range(300, 2000):
+        driven.step(k * 1e-3, 1e-3)
+    assert driven.get("solver.halvings") > halvings
+    driven.slave.terminate()
+    assert any(WORDS in m for m in driven.messages)
 
 
 @pytest.mark.parametrize("h", [5e-4, 1e-3])
@@ -272,9 +290,9 @@ def test_what_grows_on_is_foretold_when_nothing_is_made_twice_any_more(
     coarse, said = going(host(build("pendulum")), 5e-3, 30.0)
     error = np.abs(coarse - fine).max(axis=1) / np.ptp(fine, axis=0).max()
     wrong = 0.1 * (1 + int(np.argmax(error > 0.05)))
-    (ended,) = [m for m in said if "not made a second time" in m]
+    (ended,) = [m for m in said if "no second motion is computed" in m]
     (foretold,) = [m for m in said if "may be off" in m]
-    assert "time that may be made twice is spent" in ended
+    assert "time of the second motion is spent" in ended
     assert 11.0 < float(ended.split(" s ")[0].split()[1]) < 12.0  # 2 s and a tenth beside the 8 of a start
     assert float(ended.split("to the power ")[1].split(" ")[0].rstrip(".,")) == pytest.approx(1.0, abs=0.2)
     assert float(foretold.split(" s ")[0].split()[-1]) == pytest.approx(wrong, rel=0.2)
@@ -283,7 +301,7 @@ def test_what_grows_on_is_foretold_when_nothing_is_made_twice_any_more(
 def test_what_does_not_grow_is_not_foretold(build: Callable[..., Path], host: HostMaker) -> None:
     _, said = going(host(build("damped_pendulum")), 0.01, 40.0)
     (ended,) = said
-    assert "not made a second time" in ended
+    assert "no second motion is computed" in ended
     assert float(ended.split(" s ")[0].split()[1]) == pytest.approx(8.0, abs=0.11)
 
 
@@ -297,7 +315,7 @@ def test_nothing_is_made_twice_where_no_output_is_compared(
     for k in range(5):
         driven.step(k * 0.02, 0.02)
     driven.slave.setFMUstate(driven.slave.getFMUstate())
-    assert len([m for m in driven.messages if "second time" in m]) == times
+    assert len([m for m in driven.messages if "second motion" in m]) == times
 
 
 def test_a_host_that_sets_a_state_before_each_step_is_told_that_nothing_is_checked(
@@ -309,8 +327,8 @@ def test_a_host_that_sets_a_state_before_each_step_is_told_that_nothing_is_check
     for k in range(80):
         driven.slave.setFMUstate(driven.slave.getFMUstate())
         driven.step(k * 0.01, 0.01)
-    (said,) = [m for m in driven.messages if "second time" in m]
-    assert "their error is not known: a state was set" in said
+    (said,) = [m for m in driven.messages if "second motion" in m]
+    assert "the error is unknown: a state was set" in said
 
 
 @pytest.mark.parametrize("scene", ["buffer", "progressive_buffer"])

@@ -97,7 +97,7 @@ def test_it_is_said_once_and_once_more_where_much_is_left(slider: Path, host: Ho
     first, second = told
     assert f"1 of {statuses.index(WARNING) + 1} steps ended at the limit of their iterations, {LIMIT} = 1" in first
     assert "mm. If that is too much, raise the limit or take a step_size below 0.005 s." in first
-    assert "This is said once." in second
+    assert "This is reported once." in second
     assert set(statuses) == {OK, WARNING}
 
 

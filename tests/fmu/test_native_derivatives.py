@@ -254,7 +254,7 @@ def test_a_derivative_before_the_first_step_says_what_is_missing(build: Callable
     assert "one step" in driven.messages[-1]
     assert driven.run(1, INNER)
     assert driven.call("getDirectionalDerivative", [output], [1], [1.0]) == ERROR
-    assert "no input" in driven.messages[-1]
+    assert "not an input" in driven.messages[-1]
 
 
 def test_null_pointers_are_errors(build: Callable[..., Path], host: HostMaker) -> None:

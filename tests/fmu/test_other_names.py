@@ -190,4 +190,4 @@ def test_a_body_on_the_ground_and_a_road_without_friction_are_told_under_other_n
         assert driven.set("Mu", value) == 0
         lines = [m for m in driven.messages[before:] if f"'Mu' was set to {value:g}" in m]
         assert len(lines) == told
-        assert not told or "with which no such vehicle works; from 0.02257 to 2 it does" in lines[0]
+        assert not told or "outside the range in which such vehicles work, 0.02257 to 2" in lines[0]

@@ -31,7 +31,8 @@ def towed(build, kind) -> Path:
 def test_what_is_not_finite_holds_the_last_value_with_one_warning(host, towed, bad) -> None:
     h = host(towed).start({"left.push": 3.0, "right.push": 0.0})
     assert h.set("left.push", bad) == OK
-    assert h.messages == [f"The port 'left.push' was set to {bad:g} and holds its last value 3 N. This is said once."]
+    said = f"The port 'left.push' was set to {bad:g} and holds its last value 3 N. This is reported once."
+    assert h.messages == [said]
     assert h.step(0.0, 0.01) == OK
     assert h.set("left.push", bad) == OK
     assert len(h.messages) == 1
@@ -53,7 +54,7 @@ def test_a_port_that_nobody_sets_is_told_after_the_first_step(host, towed) -> No
     assert h.step(0.0, 0.01) == OK
     assert h.messages == [
         "2 ports were not set before the first step. Each holds its start value until it is set, as 'left.push' holds "
-        "0 N. This is said once."
+        "0 N. This is reported once."
     ]
     assert h.step(0.01, 0.01) == OK
     one = host(towed).start({"left.push": 1.0})
@@ -79,7 +80,7 @@ def test_a_port_that_was_set_again_and_again_and_is_no_more_is_told_once(host, t
     (said,) = (text for text in h.messages if "again and again" in text)
     assert said == (
         f"The port 'left.push' was given a number again and again until {0.01 * last:g} s and none since; it "
-        "holds 3 N. This is said once."
+        "holds 3 N. This is reported once."
     )
 
 
@@ -101,7 +102,7 @@ def test_ports_that_fall_silent_together_are_one_sentence_of_a_state_too(host, t
     assert told[0] == told[1]
     (said,) = told[0]
     assert said.startswith("2 ports were given numbers again and again and get none any more, 'left.push' since 0.19")
-    assert said.endswith("as 'left.push' holds 9 N. This is said once.")
+    assert said.endswith("as 'left.push' holds 9 N. This is reported once.")
 
 
 def test_other_inputs_refuse_what_is_not_finite(host, towed) -> None:

@@ -72,7 +72,7 @@ def test_what_has_left_its_table_is_named_with_its_range(
     travel = -12.5 * (count * H) ** 2  # 50 N on 2 kg
     assert -0.29 < travel < -0.25
     words = driven.messages[-1]
-    assert "a coordinate has left the table of what it moves. 'wheel travel RL' is -0.2" in words
+    assert "a coordinate has left the range of its table. 'wheel travel RL' is -0.2" in words
     said = float(words.partition("'wheel travel RL' is ")[2].partition(";")[0])
     assert said == pytest.approx(travel, abs=2e-3)
     assert "its table goes from -0.2 to 0.2" in words

@@ -232,7 +232,8 @@ def test_what_is_not_finite_is_told_of_ports_without_a_range(host, sledge, bad) 
     for _ in range(2):
         h.set("road_height", bad)
     assert h.get("road_height") == 2.0
-    assert h.messages == [f"The port 'road_height' was set to {bad:g} and holds its last value 2 m. This is said once."]
+    said = f"The port 'road_height' was set to {bad:g} and holds its last value 2 m. This is reported once."
+    assert h.messages == [said]
 
 
 def test_a_state_with_everything_said_is_set_again(host, sledge, kind) -> None:

@@ -393,7 +393,7 @@ def test_values_with_which_no_car_works_are_told_with_those_that_do(car: Path, h
         for value in bad:
             assert driven.set(name, value) == OK
             line = driven.messages.pop()
-            low, high = (float(v) for v in re.search(r"works; from (\S+) to (\S+) \S+ it does", line).groups())
+            low, high = (float(v) for v in re.search(r"vehicles work, (\S+) to (\S+) \S+\.", line).groups())
             assert line.startswith(f"'{name}' was set to {value:.10g} ")
             assert not low <= value <= high
             works[name] = low, high

@@ -38,7 +38,7 @@ NEVER = {
     Status.BAD_STATE: "it refuses bytes that were altered or are those of another FMU or version itself",
     Status.NOT_INITIALISED: "it refuses calls out of order itself",
     Status.FIXED_PARAMETER: "it refuses them itself, by the name of the variable",
-    Status.WRONG_METHOD: "its method is 'ali3p', which takes every System",
+    Status.WRONG_METHOD: "its method is 'ali3p', which accepts every System",
     Status.NO_TREE: "likewise",
     Status.TOO_STIFF: "likewise",
     Status.SINGULAR: "a model whose masses could be zero is refused when it is compiled",

@@ -41,7 +41,7 @@ def test_a_wrong_run_warns_once_and_shows_its_balance(slider: Path, host: HostMa
     statuses = run(driven, 1e-3)
     told = [m for m in driven.messages if "step_size" in m]
     assert len(told) == 1
-    assert "where no force did" in told[0]
+    assert "without a force" in told[0]
     assert statuses.count(WARNING) == 1
     assert set(statuses) == {OK, WARNING}
     error, balance, angle = (driven.get(name) for name in NAMES)
@@ -128,7 +128,7 @@ def test_driving_with_jumps_is_told_where_forces_are_wrong(
         driven.set("throttle", float(k // 50 % 2 == 0))
         driven.set("brake", 0.4 * (k // 50 % 3 == 1))
         driven.step(0.01 * k, 0.01)
-    assert ["too quick for the step" in m for m in driven.messages] == [True] * told
+    assert ["too fast for the step" in m for m in driven.messages] == [True] * told
 
 
 @pytest.mark.parametrize(("mass", "told"), [(900.0, True), (225.0, False)])

@@ -97,8 +97,8 @@ TEXTS: list[tuple[str, str, str, list[Change]]] = [
         [
             (
                 XML,
-                "How often inner steps had to be halved since the start",
-                "What the last step ended with: 0 good, else a code of the solver",
+                "Number of halved inner steps since the start",
+                "Status of the last step: 0 good, else a code of the solver",
             )
         ],
     ),

@@ -110,11 +110,19 @@ def test_a_stopped_check_of_a_folder_goes_on_with_the_tables_that_are_left(
     assert run(*command).returncode == 130
     done = run(*command)
     assert (done.returncode, driven) == (0, [3, 2])
-    assert done.stdout.startswith("1 of 3 tables are there; --again makes them again.\n")
+    assert done.stdout.startswith("1 of 3 tables are there; --again repeats them.\n")
     told = [line for line in done.stdout.splitlines() if " against " in line]
     assert [Path(line.split(" against ")[1].split(", ")[0]).name for line in told] == ["a.csv", "b.csv", "c.csv"]
-    assert "are there" not in run(*command).stdout  # a check that came to its end is made anew
+    assert "are there" not in run(*command).stdout  # a check that reached its end is made anew
     assert driven == [3, 2, 3]
+
+
+@pytest.mark.parametrize("given", [("--again",), ("--out", "kept")])
+def test_of_one_table_nothing_is_kept(fmu: Path, result: Path, given: tuple[str, ...]) -> None:
+    done = run(main, fmu, "--reference", result, *given)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert f"{given[0]} needs a folder of tables" in done.stderr
+    assert f"{result} is one table." in done.stderr
 
 
 def test_tables_are_told_in_their_order_whichever_is_done_first() -> None:
@@ -222,7 +230,7 @@ def test_what_the_fmu_does_not_have_is_told(fmu: Path, result: Path) -> None:
     [
         ('"time","pull"\n0,0\n1,1\n', (), "no column that is an output"),
         ('"time","bob.x"\n0,0\n', (), "a reference goes on after 0 s"),
-        ('"time","bob.x"\n0,0\n0.013,0\n0.02,0\n', ("--step", 0.01), "a row at 0.013 s, which is no communication"),
+        ('"time","bob.x"\n0,0\n0.013,0\n0.02,0\n', ("--step", 0.01), "a row at 0.013 s, which is not a communication"),
         (
             '"time","bob.x"\n1.7e12,0\n1700000003000,0\n',
             (),
@@ -230,8 +238,8 @@ def test_what_the_fmu_does_not_have_is_told(fmu: Path, result: Path) -> None:
         ),
         ('"time","bob.x"\n-2,0\n1,0\n', (), "begins at -2 s; a run begins at 0: add 2 s to all its times"),
         ('"time","bob.x"\n0,0\n1,0\n', ("--bound", "bob.z=1"), "--bound bob.z:"),
-        ('"time","bob.x"\n0,0\n1,0\n', ("--show-parameters",), "--show-parameters does not go with --reference"),
-        ('"time","bob.x"\n0,0\n1,0\n', ("--soak",), "--reference does not go with --soak"),
+        ('"time","bob.x"\n0,0\n1,0\n', ("--show-parameters",), "--show-parameters cannot be combined with --reference"),
+        ('"time","bob.x"\n0,0\n1,0\n', ("--soak",), "--reference cannot be combined with --soak"),
     ],
 )
 def test_what_is_no_reference_is_one_sentence(

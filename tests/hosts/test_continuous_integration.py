@@ -121,7 +121,7 @@ def test_what_is_no_reference_is_an_error_and_the_others_are_compared(repository
     [
         (("--reference", "nothing"), "nothing"),
         (("--reference", "references", "--bound", "bob.z=1"), "--bound bob.z: "),
-        (("--show-parameters",), "--junit does not go with --show-parameters"),
+        (("--show-parameters",), "--junit cannot be combined with --show-parameters"),
     ],
 )
 def test_an_error_is_no_good_file(

@@ -92,7 +92,7 @@ def test_the_world_of_a_road_file_lies_beside_it(tmp_path: Path) -> None:
     road.with_suffix(".json").write_text(json.dumps(record | {"road": "other.road"}))
     assert world_beside(road) is None  # the record of another road
     road.with_suffix(".json").write_text(json.dumps(record | {"version": 2}))
-    with pytest.raises(HostError, match=r"test\.json is no world of version 1, which this version of ali3 reads"):
+    with pytest.raises(HostError, match=r"test\.json is not a world of version 1, which this version of ali3 reads"):
         world_beside(road)
 
 

@@ -157,7 +157,7 @@ def test_bad_files_are_named(fmus: dict[str, Path], turn: Path, tmp_path: Path) 
     (tmp_path / "u.csv").write_text('"time","lever"\n0,0\n1,0\n')
     done = drive(fmus["sledge"], "-m", tmp_path / "u.csv")
     assert done.returncode == 2
-    assert "'lever', which is no input" in done.stderr
+    assert "'lever', which is not an input" in done.stderr
     assert "steering, throttle, brake" in done.stderr
     (tmp_path / "s.csv").write_text("# start: initial.sped=1\n" + TURN)
     assert "no parameter or input 'initial.sped'" in drive(fmus["sledge"], "-m", tmp_path / "s.csv").stderr
@@ -185,7 +185,7 @@ def test_results_that_cannot_be_written_are_refused_before_the_drive(
     (tmp_path / "out" / "sledge_turn.csv").mkdir(parents=True)
     done = drive(fmus["sledge"], "-m", turn, "--out", tmp_path / "out")
     assert done.returncode == 2
-    assert done.stderr == f"error: {tmp_path}/out/sledge_turn.csv is a folder; a file is to be written there.\n"
+    assert done.stderr == f"error: {tmp_path}/out/sledge_turn.csv is a folder; it must be a file.\n"
     if sys.platform == "linux":
         done = drive(fmus["sledge"], "-m", turn, "--out", "/proc/out")
         assert done.returncode == 2

@@ -106,7 +106,7 @@ def test_the_manoeuvre_comes_before_the_car() -> None:
 @pytest.mark.parametrize("missing", list(CAR))
 def test_what_no_one_tells_of_the_car_is_asked_for(missing: str) -> None:
     told = {name: value for name, value in CAR.items() if name != missing}
-    with pytest.raises(HostError, match=rf"this FMU does not tell .*'{missing}'.*\[driver\]") as refusal:
+    with pytest.raises(HostError, match=rf"this FMU does not provide .*'{missing}'.*\[driver\]") as refusal:
         make_driver(SETTINGS, told)
     (setting,) = (name for name, constant in CONSTANTS.items() if constant == missing)
     assert f"--driver {setting}=NUMBER" in str(refusal.value)

@@ -89,7 +89,7 @@ def test_another_folder_and_files_of_an_fmu_change_nothing_here(
 def test_one_that_prints_without_end_is_ended(faults: Path, tmp_path: Path) -> None:
     code, said, table = driven(faults, tmp_path / "out", PRINT)
     assert code == 1
-    assert "was ended in fmi2DoStep at 0.04 s, for it had printed more than 200 MB; 5 rows were kept." in said
+    assert "was ended in fmi2DoStep at 0.04 s because it printed more than 200 MB; 5 rows were kept." in said
     assert len(table) == 5
 
 

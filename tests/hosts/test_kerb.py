@@ -86,7 +86,7 @@ def test_without_an_fmu_that_of_the_scene_is_built_and_kept(
     assert main(["--kerb", "prototype"]) == 2
     assert "--kerb runs the scene kerb_test; --manoeuvre kerb_drop drives the car prototype" in capsys.readouterr().err
     assert main(["--kerb", str(fmu), "-m", "slalom"]) == 2
-    assert "--manoeuvre does not go with --kerb" in capsys.readouterr().err
+    assert "--manoeuvre cannot be combined with --kerb" in capsys.readouterr().err
 
 
 def test_the_filter_keeps_slow_and_removes_fast() -> None:

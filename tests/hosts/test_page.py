@@ -256,7 +256,7 @@ def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.Capture
     assert "is not an FMU (not a zip archive)" in refusal(text, capsys)
     assert "There is no file" in refusal(tmp_path / "None.fmu", capsys)
     assert "has no drawing of itself (resources/geometry.json)" in refusal(changed(tuned, tmp_path, same, None), capsys)
-    for scene, words in (({"format": "x"}, "format is 'x'"), (b"{", "is no JSON")):
+    for scene, words in (({"format": "x"}, "format is 'x'"), (b"{", "is not a JSON")):
         content = scene if isinstance(scene, bytes) else json.dumps(scene).encode()
         fmu = changed(tuned, tmp_path, lambda name, old, put=content: put if name == SCENE else old)
         assert words in refusal(fmu, capsys)
@@ -275,7 +275,7 @@ def test_wrong_wishes(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture
         (("--set", "spring.damping=50"), "its range is 0 to 20 N·s/m"),
         (("--set", "spring.dumping=5"), "did you mean 'spring.damping'"),
         (("--step", "0"), "The step is 0 s; it must be positive"),
-        (("--plot", "bob.z"), "'bob.z' is no input or output of Tuned"),
+        (("--plot", "bob.z"), "'bob.z' is not an input or output of Tuned"),
         (("--name", "a", "--name", "b"), "--name is given 2 times for 1 FMUs"),
     ):
         assert words in refusal(fmu, capsys, *more)

@@ -192,9 +192,9 @@ def test_units_are_converted_by_their_definitions(
         (ssv("spring.damping=1", units=UNITS.replace('"0.001"', '"NaN"')), "unit 'mm' has the factor nan"),
         (ssv("spring.damping=1", units=UNITS.replace('"mm"', '"inch"')), "the unit 'inch' occurs twice"),
         (ssv(entry("spring.damping", 'Float64 value="1 2"'), version="2.0"), "'spring.damping' has 2 values"),
-        ("<a/>", "is no SSV file: its root is 'a'"),
-        ("spring.damping = 3", "is no XML document"),
-        ("", "is no XML document"),
+        ("<a/>", "is not an SSV file: its root is 'a'"),
+        ("spring.damping = 3", "is not an XML document"),
+        ("", "is not an XML document"),
         ('<!DOCTYPE a [<!ENTITY b "c">]>' + ssv("spring.damping=1"), "document type declaration"),
     ],
 )
@@ -409,7 +409,7 @@ def test_a_tunable_parameter_may_be_a_column_and_a_fixed_one_not(
     table.write_text('"time","bob.x"\n0,1\n1,1\n')
     assert run([str(tuned), "-m", str(table), "--out", str(tmp_path)]) == 2
     said = capsys.readouterr().err
-    assert "'bob.x', which is no input of Tuned.fmu; its inputs are: pull; a tunable parameter, such as" in said
+    assert "'bob.x', which is not an input of Tuned.fmu; its inputs are: pull; a tunable parameter, such as" in said
 
 
 def test_differences_of_a_set(tuned: Path, file: Path, capsys: pytest.CaptureFixture[str]) -> None:

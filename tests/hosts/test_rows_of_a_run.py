@@ -72,7 +72,7 @@ def driven(
 @pytest.mark.parametrize("slopes", [True, False])
 @pytest.mark.parametrize("refused", [1000, 13, 10])
 def test_the_last_step_has_a_row(slopes: bool, refused: int) -> None:
-    """Where the stop time is no multiple of the interval too, but not behind a step that was refused."""
+    """Where the stop time is not a multiple of the interval too, but not behind a step that was refused."""
     asked: dict[str, Any] = {"time": (0.0, 0.17), "u": (1.0, 3.0), "slopes": slopes, "refused": refused}
     few, each = driven(every=5, **asked), driven(every=1, **asked)
     end = min(17, refused)

@@ -241,7 +241,7 @@ def test_an_fmu_of_another_program_has_its_diagrams(pendulum: Path, built: Path,
 @pytest.mark.parametrize(
     ("geometry", "sentence"),
     [
-        ("{", "resources/geometry.json of dist/MotorPendulum.fmu is no JSON file"),
+        ("{", "resources/geometry.json of dist/MotorPendulum.fmu is not a JSON file"),
         (
             json.dumps(SCENE | {"extent": -1}),
             "geometry.json of dist/MotorPendulum.fmu: extent is -1; it must be above 0.",
@@ -275,7 +275,7 @@ def test_one_time_and_values_that_are_no_numbers(result: Path, said: Said) -> No
     result.write_text("\n".join([*lines[:2], ",".join(cells), *lines[3:]]) + "\n")
     status, text = said(result, "--no-open")
     assert status == 0
-    assert "The column 'rod.angle' has 1 of 101 values that are no numbers" in text
+    assert "The column 'rod.angle' has 1 of 101 values that are not numbers" in text
 
 
 def test_a_table_that_would_fill_the_memory_is_read_in_part(
@@ -293,8 +293,8 @@ def test_a_table_that_would_fill_the_memory_is_read_in_part(
 @pytest.mark.parametrize(
     ("name", "content", "sentence"),
     [
-        ("a.csv", "", "a.csv holds no values"),
-        ("a.csv", "time,x\n", "holds no values"),
+        ("a.csv", "", "a.csv contains no values"),
+        ("a.csv", "time,x\n", "contains no values"),
         ("a.csv", "time,x\n0,one\n", "a.csv, line 2, column 'x': 'one' is not a number"),
         ("a.csv", "time,x\n0,1\n1\n", "line 3: 1 values where the heading has 2 columns"),
         ("a.csv", "time,x\n0\n", "line 2: 1 values where the heading has 2 columns"),
@@ -303,7 +303,7 @@ def test_a_table_that_would_fill_the_memory_is_read_in_part(
         ("a.csv", "time\n0\n", "a column of times and no other"),
         ("a.csv", "time,x\n1,1\n0,1\n", "The times of 'a' go back from 1 s to 0 s"),
         ("a.csv", "time,x\nnan,1\n", "time 0 (from 0 on) is nan"),
-        ("a.csv", b"\xff\xfe\x00", "is no text in UTF-8"),
+        ("a.csv", b"\xff\xfe\x00", "is not text in UTF-8"),
         ("a.json", "{}", "has no table a.csv beside it"),
         ("a.toml", "", "The FMU of the car a.toml cannot be built: "),
         ("a.txt", "x", "is neither a result (.csv, .json) nor an FMU (.fmu)"),
@@ -327,9 +327,9 @@ def test_lines_of_comment_are_left_out(work: Path, said: Said) -> None:
 
 UNMET = [
     (["--live"], "out/motor_pendulum.csv is a result; --live needs an FMU, which the page runs."),
-    (["--live", "--png", "p.png"], "--png does not go with --live."),
-    (["--live", "--from", "0"], "--from does not go with --live."),
-    (["--paused"], "--paused goes with --live."),
+    (["--live", "--png", "p.png"], "--png cannot be combined with --live."),
+    (["--live", "--from", "0"], "--from cannot be combined with --live."),
+    (["--paused"], "--paused needs --live."),
     (["--plot", "rod.angel"], "There is no signal 'rod.angel' to be plotted; the result has rod.angle"),
     (["--from", "7", "--to", "8"], "There is no time from 7 s to 8 s in 'motor_pendulum'"),
     (["--most", "1"], "must be a whole number from 2 on"),
@@ -352,8 +352,8 @@ def test_options_that_cannot_be_met(result: Path, said: Said) -> None:
 
 def test_names_of_before_are_named(result: Path, said: Said, capsys: pytest.CaptureFixture[str]) -> None:
     for given, words in (
-        (["--out", "page.html"], "page.html is the name of a file; --out names the folder of what is written"),
-        (["--out", "x.GLB"], "x.GLB is the name of a file; --out names the folder of what is written"),
+        (["--out", "page.html"], "page.html is the name of a file; --out names the output folder"),
+        (["--out", "x.GLB"], "x.GLB is the name of a file; --out names the output folder"),
     ):
         with pytest.raises(SystemExit) as end:
             said(result, *given)
@@ -367,7 +367,7 @@ def test_without_a_browser_for_pictures_there_is_one_sentence(
     monkeypatch.setenv("ALI3_BROWSER", "none-such-browser")
     status, text = said(result, "--png", "p.png")
     assert status == 2
-    assert "ALI3_BROWSER names none-such-browser, which is no program." in text
+    assert "ALI3_BROWSER names none-such-browser, which is not a program." in text
     assert not Path("p.png").exists()
 
 

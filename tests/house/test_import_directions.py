@@ -36,8 +36,9 @@ ROOMS = (
     "files",
 )
 """Rooms of the kernel; each may include headers of those behind it."""
-SHARED = ("method.h", "request.h", "instance.h", "system.h", "generated.h", "system_arrays.h")
-"""Contract of methods and data that all rooms share: each header may include those behind it, and none of a room."""
+SHARED = ("method.h", "request.h", "instance.h", "instance", "system.h", "generated.h", "system_arrays.h")
+"""Contract of methods and data that all rooms share: each header may include those behind it, and none of a room; the
+parts of `instance.h` are a folder."""
 PUBLIC = "../include/ali3.h"
 STANDARD = ("fmi2FunctionTypes.h", "fmi3FunctionTypes.h")
 """Headers as the FMI standard has them: hosts know no others."""

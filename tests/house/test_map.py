@@ -9,7 +9,7 @@ from tests.house.test_import_directions import ROOT
 PARENTS = ("ali3", "mbs", "fmu_src", "hosts", "mbs/kernel/src", "viewer")
 """Folders whose folders are rooms."""
 ALONE = {"ali3", "benchmarks", "tests", "viewer"}
-SOURCES = (".py", ".c", ".js")
+SOURCES = (".py", ".c", ".h", ".js")
 NO_ROOMS = {"bundle"}  # built
 
 

@@ -13,7 +13,7 @@ from mbs.kernel import build, read_headers
 from mbs.kernel.binding import library, load_library
 from mbs.kernel.header import limits
 from mbs.kernel.header.arrays import ARRAYS
-from mbs.kernel.header.enumerations import Doubt, GuideType, ParameterTarget, RoadType, SensorType, SolverValue, Status
+from mbs.kernel.header.enumerations import GuideType, ParameterTarget, RoadType, SensorType, SolverValue, Status
 from mbs.kernel.header.steps import METHOD_ORDERS, MethodNumber
 from mbs.kernel.header.structures import STRUCTURES
 from mbs.settings.methods import METHOD_TABLE
@@ -53,9 +53,7 @@ def test_numbers_known_from_the_documents():
     assert list(ParameterTarget) == list(range(len(targets)))
     assert (SensorType.SIGNAL, SensorType.ELEMENT_OUTPUT, SensorType.WORK) == (0, 8, 19)
     assert (GuideType.OF_TIME, GuideType.OF_INPUT, RoadType.PLANE, RoadType.GRID) == (0, 1, 0, 2)
-    assert list(Doubt) == [Doubt.NONE, Doubt.HALVINGS, Doubt.BALANCE]
     assert (limits.OPEN, limits.FARTHEST, limits.FASTEST) == (1e-9, 1e8, 1e6)
-    assert (limits.BALANCE_WRONG, limits.HALVINGS_SUSPECT) == (0.036, 0.1)
 
 
 def test_every_method_of_the_kernel_has_an_entry_with_its_order():

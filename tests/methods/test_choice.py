@@ -32,7 +32,7 @@ def test_an_unknown_method_is_refused_with_the_names_there_are():
 
 @pytest.mark.parametrize("model", [swing(1.0), hinge(0.1)])
 def test_dampers_are_refused_by_the_step_that_goes_backwards(model):
-    words = f"'energy_momentum_4' {REFUSED} or filtered guides, no tabled bodies, and no damping. 'ali3p' takes every"
+    words = f"'energy_momentum_4' {REFUSED} or filtered guides, no tabled bodies, and no damping. 'ali3p' accepts every"
     with pytest.raises(SimulationError, match=words):
         simulate(compile(model), 1.0, 0.01, method="energy_momentum_4")
 

@@ -87,3 +87,16 @@ def test_lanes_and_a_saved_state_have_the_bits_of_a_single_run() -> None:
         by_hand.restore(state)
         by_hand.step(h)
         assert by_hand.sensors["x"] == ended
+
+
+@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "energy_momentum_4"])
+def test_what_is_abrupt_does_not_depend_on_what_is_recorded(method: str) -> None:
+    """Steps that nothing reads had no forces, so that stops were seen at samples only."""
+    system, seen = between_stops(0.1), []
+    for every in (1, 7, 700):
+        simulation = mbs.Simulation(system, settings=mbs.Settings(method=method))
+        simulation.run(1.4, 0.002, every=every, estimate_error=False, progress=False)
+        report = simulation.instance.report()
+        seen.append((report["abrupt_steps"], report["largest_force"]))
+    assert seen[0][0] > 0
+    assert seen == [seen[0]] * 3

@@ -109,3 +109,14 @@ def test_points_of_a_small_body_are_not_taken_for_its_ports(size):
     assert ports.point(end + 1e-15).components == ports.point(end).components
     assert ports.point(offset + 1e-15).components == ports.point(offset).components != body.point(offset).components
     assert ports.point(beside).components == body.point(beside).components != ports.point(end).components
+
+
+@pytest.mark.parametrize(
+    "grow", [lambda m: m.body("b", mass=1.0, com=np.zeros(3), inertia=(1, 1, 1)), lambda m: m.input("u")]
+)
+def test_what_is_added_later_has_no_model_with_ports(grow):
+    m = Model("grows")
+    m.with_ports = lambda: m
+    assert m.with_ports() is m
+    grow(m)
+    assert m.with_ports is None

@@ -233,7 +233,7 @@ def test_a_joint_without_multipliers_of_a_force_is_refused():
     m = Model("refusal")
     body = m.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
     angle = m.relative_angle("turn", m.ground, body, axis=(0, 0, 1))
-    with pytest.raises(ModelError, match="no force reading"):
+    with pytest.raises(ModelError, match="has no readable force"):
         m.sense_joint("s", "turn")
     assert angle.name == "turn"
 

@@ -423,7 +423,7 @@ def test_joints_and_methods_that_have_no_tables_are_refused() -> None:
     base = base_of(m)
     arm = arm_by_table(m, base, m.travel("swing"), np.linspace(-1.0, 1.0, 21))
     m.distance("rod", (arm, ELBOW), (m.ground, (0.0, 0.0, -3.0)))
-    with pytest.raises(ModelError, match="'rod' is on a tabled body, which takes forces and sensors, and no joints"):
+    with pytest.raises(ModelError, match="'rod' is on a lookup-table body, which accepts forces and sensors but"):
         compile(m)
     system = one_by_table(25)
     for method in ("energy_momentum", "energy_momentum_4", "radau_5", "semi_recursive"):
@@ -439,7 +439,7 @@ def test_a_step_from_far_beyond_a_table_is_refused() -> None:
         simulation.step(0.001)
     assert error.value.status == Status.BEYOND_TABLE
     assert 0.25 < simulation.state.q[3] < 0.252
-    said = "a coordinate has left the table of what it moves. 's' is 0.25"
+    said = "a coordinate has left the range of its table. 's' is 0.25"
     assert said in str(error.value)
     assert "its table goes from -0.2 to 0.2" in str(error.value)
 

@@ -16,11 +16,9 @@ from mbs import Model
 from mbs.model.angle import relative_angle
 from mbs.model.anti_roll_bar import anti_roll_bar
 from mbs.model.joint_vocabulary import JointVocabulary
-from mbs.model.mechanism import Mechanism
 from tests.house.test_import_directions import ROOT
 
 WORDS = {name: function for name, function in vars(JointVocabulary).items() if not name.startswith("_")}
-WORDS |= {"relative_angle": Mechanism.relative_angle, "anti_roll_bar": Mechanism.anti_roll_bar}
 
 TYPES = """
 from mbs import Model

@@ -196,9 +196,9 @@ def main() -> int:
     jobs = max(1, arguments.jobs)
     if arguments.sample is not None:
         if arguments.only:
-            parser.error("--only does not go with --sample, which draws from all files")
+            parser.error("--only cannot be combined with --sample, which draws from all files")
         if arguments.sample < 1:
-            parser.error(f"--sample {arguments.sample} is no number of mutants; it must be 1 or more")
+            parser.error(f"--sample {arguments.sample} is not a number of mutants; it must be 1 or more")
         drawn = draw(arguments.sample, arguments.seed)
         rows = run(drawn, Attempts(arguments.limit).one_of, jobs, (), arguments.json)
     elif arguments.again is not None:

@@ -58,7 +58,7 @@ def test_a_table_without_coordinates(tmp_path):
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("", "holds no values"),
+        ("", "contains no values"),
         ("1,2\n", "1 rows"),
         ("1,2\n3\n", "line 2: 1 values where the first line has 2 columns"),
         ("1,2\n3,x\n", "line 2: 'x' is not a number"),
@@ -110,7 +110,7 @@ def test_bad_arrays_are_refused(tmp_path):
     (tmp_path / "text.npy").write_text("no array")
     np.save(tmp_path / "good.npy", HEIGHTS)
     for name, sentence in (
-        ("o.npy", "holds objects of Python"),
+        ("o.npy", "contains Python objects"),
         ("c.npy", "type complex128"),
         ("flat.npy", r"shape \(5,\)"),
         ("inf.npy", "row 1, column 1 of the points is inf"),
@@ -205,7 +205,7 @@ def test_descriptions(tmp_path):
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("kind = ", "no TOML file"),
+        ("kind = ", "not a TOML file"),
         ("", "kind is missing; it must be one of 'plane', 'kerb', "),
         ('kind = "hill"', "kind is 'hill'; it must be one of 'plane', 'kerb', "),
         ('kind = "plane"\ngrade = 0.1', "grade is not known; did you mean 'grade_y'?"),
@@ -264,9 +264,9 @@ def test_the_command(tmp_path, capsys):
     [
         (["nothing.csv"], "there is no such file"),
         (["a.csv", "b.txt"], "give it the suffix .road"),
-        (["plane.toml", "--origin", "1", "2"], "says by itself what the road is; --origin"),
-        (["plane.toml", "--range", "1", "2"], "--range is of what becomes a grid"),
-        (["bad.road"], "no road file"),
+        (["plane.toml", "--origin", "1", "2"], "defines its whole road; --origin"),
+        (["plane.toml", "--range", "1", "2"], "--range applies only to inputs that become a grid"),
+        (["bad.road"], "not a road file"),
     ],
 )
 def test_the_command_says_what_is_wrong(tmp_path, capsys, monkeypatch, arguments, sentence):
@@ -308,5 +308,5 @@ def test_options_of_a_grid_are_refused_where_the_file_says_all(tmp_path, kind, o
     (tmp_path / "a.toml").write_text('kind = "plane"\nfriction = 0.8\n')
     write_road(GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((4, 4)), 0.8), tmp_path / "a.road")
     assert read_road(tmp_path / f"a.{kind}") is not None
-    with pytest.raises(RoadFileError, match=rf"a\.{kind} says all of its road itself; {option} goes with a grid"):
+    with pytest.raises(RoadFileError, match=rf"a\.{kind} defines its whole road; {option} applies to a grid"):
         read_road(tmp_path / f"a.{kind}", **{option: 0.7 if option == "frictions" else (1.0, 2.0)})

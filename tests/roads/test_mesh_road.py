@@ -1,4 +1,4 @@
-"""Roads from meshes of triangles: heights against an independent interpolation, and what is no road."""
+"""Roads from meshes of triangles: heights against an independent interpolation, and what is not a road."""
 
 from __future__ import annotations
 
@@ -149,9 +149,9 @@ def changed(scale: float = 1.0, order: tuple[int, ...] = (0, 1, 2)) -> tuple[Arr
         (box(), "has surfaces above one another at x = -4.9618 m, y = -1.9382 m, of heights -0.25 and 0.25 m"),
         (holed(), r"has a gap of [34].*\d m2 at x = 7.7 m, y = .* close the hole"),
         (changed(1000.0), r"4e\+04 by 8000 m, .* A spacing of .* millimetres .* scale = 0\.001"),
-        (changed(0.001), r"is 0\.0408 m across, which is no road; `scale`"),
+        (changed(0.001), r"is 0\.0408 m across, which is not a road; `scale`"),
         (changed(1.0, (0, 2, 1)), r"shows only [\d.]+ % of its area from above, .* up = \"y\""),
-        ((np.full((3, 3), np.nan), np.array([[0, 1, 2]])), "coordinates that are no number"),
+        ((np.full((3, 3), np.nan), np.array([[0, 1, 2]])), "coordinates that are not numbers"),
     ],
 )
 def test_a_mesh_that_is_no_road_is_refused(tmp_path: Path, mesh: tuple[Array, Array], sentence: str) -> None:
@@ -215,7 +215,7 @@ def test_a_description_says_unit_and_axis(tmp_path: Path, scale: float, up: str,
     assert tuple(road.origin) == (10.0, 20.0)
     (tmp_path / "z.csv").write_text("0,0\n0,0\n")
     (tmp_path / "a.toml").write_text(said.replace("a.ply", "z.csv"))
-    with pytest.raises(RoadFileError, match=r"z\.csv is no mesh, which scale is of"):
+    with pytest.raises(RoadFileError, match=r"z\.csv is not a mesh, which scale is of"):
         read_road(tmp_path / "a.toml")
 
 

@@ -304,7 +304,7 @@ REAL = 56
 @pytest.mark.parametrize(
     ("place", "content", "sentence"),
     [
-        (0, b"X", "no road file; make one of a CSV table"),
+        (0, b"X", "not a road file; make one of a CSV table"),
         (8, b"\3", "its version is not 1 or 2"),
         (24, b"\7", "unknown kind"),
         (24, b"\3", "unknown kind"),  # at ports
@@ -326,7 +326,7 @@ def test_a_spoilt_header_is_refused(car, road, place, content, sentence):
     with pytest.raises(ValueError, match=sentence) as refused:
         run(car, path)
     assert str(path) in str(refused.value)
-    with pytest.raises(RoadFileError, match="is no kind of road" if sentence == "unknown kind" else None):
+    with pytest.raises(RoadFileError, match="is not a kind of road" if sentence == "unknown kind" else None):
         RoadFile(path).read()
 
 
@@ -376,7 +376,7 @@ def test_swapped_tiles_and_tiles_of_another_file_are_refused(tmp_path, car):
 def test_a_cut_or_lengthened_file_is_refused(car, road, size):
     data = road.read_bytes()
     road.write_bytes(data[:size] if size >= 0 else data + b"\0")
-    with pytest.raises(ValueError, match=r"no road file|ends too early|longer than its header"):
+    with pytest.raises(ValueError, match=r"not a road file|ends too early|longer than its header"):
         run(car, road)
 
 

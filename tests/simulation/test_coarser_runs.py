@@ -16,7 +16,8 @@ import mbs
 from benchmarks.methods import random_machines, random_mechanisms
 from benchmarks.references.cases import system_of
 from mbs.elements import ContactPoints, EndStops, PlaneRoad
-from mbs.results.accuracy import Accuracy, missed_share
+from mbs.kernel.header.limits import WRONG_ERROR
+from mbs.results.accuracy import Accuracy, missed_share, summed_miss
 from mbs.results.comparison import Compared
 from mbs.results.smooth_laws import UNRESOLVED, unresolved_share
 from mbs.simulation.coarser_run import coarser_steps, difference_from
@@ -44,7 +45,7 @@ def test_a_right_run_may_need_shorter_coarse_steps(h: float, times: float, cost:
 def test_long_steps_that_are_solved_to_the_end_would_hide_it() -> None:
     """A spatial slider-crank, a third off: steps eight times as long are halved, and then differ by 8 %."""
     system, span = drawn("spatial slider-crank", 5, 244)
-    with pytest.warns(mbs.AccuracyWarning, match="off by at least 3[0-9] %"):
+    with pytest.warns(mbs.AccuracyWarning, match="off by about 3[0-9] %"):
         mbs.simulate(system, span, span / 300, every=6, progress=False)
 
 
@@ -106,7 +107,7 @@ def test_a_coarser_run_that_does_not_resolve_an_impact_tells_nothing() -> None:
     truth = place(rate**2, gap, run.t)
     assert np.abs(run["x"] - truth).max() > 0.3 * np.ptp(truth)
     assert np.abs(run["x"] - twice["x"]).max() < 0.01 * np.ptp(truth)
-    with pytest.warns(mbs.AccuracyWarning, match="off by at least"):
+    with pytest.warns(mbs.AccuracyWarning, match="off by about 3[0-9] %"):
         mbs.simulate(system, steps * h, h, settings=settings, progress=False)
 
 
@@ -327,7 +328,7 @@ def cam(lift: PPoly, stiffness: float, damping: float) -> mbs.System:
 @pytest.mark.parametrize(
     ("method", "piece", "rate", "stiffness", "damping", "h", "cost"),
     [
-        pytest.param("radau_5", 0.2, 0.5, 100.0, 2.0, 0.01, 0.45, id="it cost 4 runs"),
+        pytest.param("radau_5", 0.2, 0.5, 100.0, 2.0, 0.01, 0.44, id="it cost 4 runs"),
         pytest.param("ali3p", 0.08, 0.5, 5600.0, 11.0, 0.002, 0.5, id="it cost 14"),
     ],
 )
@@ -345,3 +346,23 @@ def test_a_guide_whose_rate_jumps_needs_no_repeat(method, piece, rate, stiffness
         (0.0, span), np.zeros(2), t_eval=run.t, rtol=1e-9, atol=1e-12, max_step=1e-3,
     ).y[0]  # fmt: skip
     assert np.abs(run["x"] - 1.0 - exact).max() < 0.05 * np.ptp(exact)
+
+
+def test_a_contact_that_is_not_located_is_no_smooth_motion() -> None:
+    """A pin kicks a light wheel beside its heavy driver: its steps miss 4.5 % of the velocities, and it is 7 % off."""
+    m = mbs.Model("wheels", dimension=2, gravity=(0.0, 0.0))
+    driver = m.body("driver", mass=2.0, com=(0.0, 0.0), inertia=2.0)
+    wheel = m.body("wheel", mass=1.0, com=(0.45, 0.0), inertia=0.003)
+    for body, x in ((driver, 0.0), (wheel, 0.45)):
+        m.revolute(f"bearing of {body.name}", m.ground, body, point=(x, 0.0))
+    m.initial_velocity(driver, linear=(0.0, 0.0), angular=8.0)
+    stops = EndStops(bump_length=0.05, bump_stiffness=1e4, bump_loss=0.3)
+    ends = (driver, (0.17 * np.cos(2.0), 0.17 * np.sin(2.0))), (wheel, (0.15, 0.02))
+    m.spring_damper("pin", *ends, stiffness=0.0, free_length=0.3, stops=stops)
+    m.sense_position("x", wheel, (0.75, 0.0), component="x")
+    system = mbs.compile(m)
+    with pytest.warns(mbs.AccuracyWarning, match=r"off by about 6\.7 %"):
+        run = mbs.simulate(system, 2.0, 5e-4, every=80, progress=False)
+    assert run.report is not None
+    assert run.report.divisions == 0
+    assert summed_miss(run.report) < WRONG_ERROR

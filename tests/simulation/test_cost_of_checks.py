@@ -78,10 +78,10 @@ def test_a_coarser_run_is_given_up_where_it_differs() -> None:
 
 
 def test_a_coarser_run_ends_where_both_agree_and_the_rest_is_smooth() -> None:
-    """At 0.75 s, after an impact from 0.5 to 0.6 s, of 1.25 s."""
+    """At 0.78 s, after an impact from 0.5 to 0.6 s, of 1.25 s."""
     run = mbs.simulate(ball(1e3, 0.5, loads=True), 1.25, 0.0025, every=4, progress=False)
     assert run.accuracy is not None
-    assert run.accuracy.check_cost == 0.3
+    assert run.accuracy.check_cost == pytest.approx(0.312)
     assert run.accuracy.compared_step == 0.005
     assert 0.0 < run.accuracy.units["N"] < 0.005
 

@@ -32,7 +32,7 @@ from tests.simulation.many_cars import CARS, SLALOM, system
 pytestmark = [
     pytest.mark.filterwarnings("ignore::mbs.ParameterWarning"),
     pytest.mark.filterwarnings(
-        "ignore:Variant .. At .* too quick:mbs.results.accuracy.AccuracyWarning"
+        "ignore:Variant .. At .* too fast:mbs.results.accuracy.AccuracyWarning"
     ),  # stiff wheels at kerbs
 ]
 
@@ -143,7 +143,7 @@ def test_a_value_with_which_no_car_works_is_told_with_the_number_of_its_variant(
         warnings.simplefilter("always")
         simulate_many(system(), variants, 0.02, 0.002, lanes=2, progress=False)
     told = [str(w.message) for w in caught if w.category is ParameterWarning]
-    assert [line.partition(", with which")[0] for line in told] == [
+    assert [line.partition(", outside")[0] for line in told] == [
         f"Variant {k}: Parameter 'front.tyre.stiffness' is set to 1.{k + 1}e+06 N/m" for k in (1, 2)
     ]
 

@@ -11,8 +11,8 @@ import pytest
 import mbs
 from benchmarks.references.cases import system_of
 from mbs.kernel.header.enumerations import Status
-from mbs.kernel.header.limits import EVENT_ORDER, WRONG_ERROR
-from mbs.results.accuracy import Accuracy
+from mbs.kernel.header.limits import WRONG_ERROR
+from mbs.results.accuracy import RIGHT, Accuracy
 from mbs.results.comparison import Compared
 from mbs.results.convergence import extrapolated, seen_order, unsure
 from mbs.simulation.fixed_steps import check
@@ -31,14 +31,14 @@ def by(**units: float) -> Accuracy:
     return Accuracy(None, None, 0.0, compared_step=0.1, order=2.0, units=units)
 
 
-@pytest.mark.parametrize("order", [EVENT_ORDER, 1.0, 1.5])
+@pytest.mark.parametrize("order", [2.0, 1.0, 1.5])
 def test_the_limit_of_repeats_gives_the_error(order: float) -> None:
     """By Richardson: with the order that is taken to the last digit, with others but for what the orders differ by."""
     run, coarse, fine = (repeat(h, order) for h in (1.0, 0.25, 0.125))
     found = extrapolated(by(N=0.2), [run, coarse, fine], dict.fromkeys("ab", Compared("N", load=True)), None, 1.0)
-    left = 0.125**order - (0.25**order - 0.125**order) / (2.0**EVENT_ORDER - 1.0)
+    left = 0.125**order - (0.25**order - 0.125**order) / 3.0
     true = float(np.abs(run["a"] - FORCE).max())
-    assert abs(left) < (1e-15 if order == EVENT_ORDER else 0.084)
+    assert abs(left) < (1e-15 if order == 2.0 else 0.084)
     assert found.sensors["a"] == pytest.approx(true * (1.0 - left), rel=1e-12)
     assert found.units["N"] == pytest.approx(found.sensors["a"] / np.abs(FORCE).max(), rel=2e-3)
 
@@ -179,4 +179,23 @@ def test_an_open_balance_is_told_where_that_of_the_refined_run_is_open_too(finer
     assert known is not None
     assert known.energy_balance == pytest.approx(0.13, abs=0.01)
     assert ("J of work" in known.message) == told
+    assert ("J of work" in known.notice) != told
     assert known.error == pytest.approx(0.031 if finer else 0.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("many", [False, True])
+def test_an_energy_that_jumps_in_a_right_run_is_a_notice_of_it(many: bool) -> None:
+    """7.8 % in steps of 0.1 s, beside positions that are right; warnings are errors here."""
+    system, end, h = system_of("double_four_bar"), 0.8, 0.1
+    run = mbs.simulate(system, end, h, every=2, progress=False)
+    other = (
+        mbs.simulate_many(system, [mbs.Variant()], end, h, every=2, progress=False).trajectories[0]
+        if many
+        else mbs.Simulation(system).run(end, h, every=2, progress=False)
+    )
+    assert other is not None
+    for made in (run, other):
+        (told,) = [text for text in made.notices if "J of work, 7.8 %" in text]
+        assert told.endswith(RIGHT)
+        assert told in str(made)
+    assert other.notices == run.notices

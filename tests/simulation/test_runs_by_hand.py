@@ -59,7 +59,7 @@ def test_the_twin_goes_on_from_run_to_run() -> None:
 
 def test_a_few_steps_are_not_repeated() -> None:
     simulation = Simulation(swing())
-    assert simulation.run(0.45, 0.05, **QUIET).accuracy.compared_step is None
+    assert simulation.run(0.35, 0.05, **QUIET).accuracy.compared_step is None
 
 
 def test_a_tolerance_holds_across_switches() -> None:

@@ -13,7 +13,7 @@ import pytest
 from benchmarks.references.cases import system_of
 from mbs import Model, Pose, Settings, Simulation, SimulationError, System, compile, simulate
 from mbs.elements import PlaneRoad
-from mbs.kernel.binding import KernelError, LoadedSystem, Status, load_library
+from mbs.kernel.binding import KernelError, LoadedSystem, Status, load_library, loaded_system
 from mbs.kernel.binding.errors import status_cause, status_remedy
 from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import Cause
@@ -44,10 +44,14 @@ def without_memory(_: Path) -> None:
         _fields_ = (("allocate", allocate), ("release", release))
 
     memory = Memory(allocate(lambda *_: None), release(lambda _: None))
-    data, out = four_bar().to_bytes(), ctypes.c_void_p()
-    load = ctypes.CDLL(load_library()._name).ali3_system_load_with
-    status = load(data, ctypes.c_size_t(len(data)), ctypes.byref(memory), ctypes.byref(out), None, ctypes.c_size_t(0))
-    raise KernelError(status, "")
+    library = ctypes.CDLL(load_library()._name)
+    library.ali3_status_text.restype = ctypes.c_char_p
+    library.ali3_system_load = lambda data, size, *rest: library.ali3_system_load_with(
+        data, ctypes.c_size_t(size), ctypes.byref(memory), *rest[:-1], ctypes.c_size_t(rest[-1])
+    )
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(loaded_system, "load_library", lambda: library)
+        LoadedSystem(four_bar().to_bytes())
 
 
 def fixed(_: Path) -> None:
@@ -184,6 +188,13 @@ def test_the_kernel_ends_with_it(status: Status, tmp_path: Path) -> None:
     with pytest.raises(KernelError) as refused:
         KERNEL[status](tmp_path)
     assert refused.value.status == status
+
+
+@pytest.mark.parametrize("status", [Status.BAD_FILE, Status.NO_MEMORY], ids=lambda status: status.name)
+def test_a_system_that_is_refused_says_what_helps(status: Status, tmp_path: Path) -> None:
+    with pytest.raises(KernelError, match="^the System file was refused: ") as refused:
+        KERNEL[status](tmp_path)
+    assert refused.value.message.endswith(f". {status_remedy(status)}")
 
 
 @pytest.mark.parametrize("status", PYTHON, ids=lambda status: status.name)

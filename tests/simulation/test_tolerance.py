@@ -14,7 +14,7 @@ from scipy.interpolate import PPoly
 import mbs
 from benchmarks.car.manoeuvres import inputs_of, load, start_of
 from benchmarks.car.manoeuvres import system_of as car_of
-from benchmarks.methods import random_machines
+from benchmarks.methods import random_machines, random_mechanisms
 from benchmarks.methods.honesty_scenes import CRANK_ANGLE, printed_model
 from benchmarks.references import motions as references
 from benchmarks.references.cases import CASES, exact_of, system_of
@@ -268,7 +268,7 @@ def test_an_error_beyond_three_tolerances_is_warned_of_with_a_number() -> None:
     m.distance("upper", (m.ground, (0.0, 0.0)), first)
     m.distance("lower", first, second)
     m.sense_position("x", second, None, "x")
-    with pytest.warns(AccuracyWarning, match=r"is guessed as .* of the model's length, more than 3 times .* 1e-10"):
+    with pytest.warns(AccuracyWarning, match=r"is estimated as .* of the model's length, more than 3 times .* 1e-10"):
         run = mbs.simulate(mbs.compile(m), 60.0, tolerance=1e-10, method="runge_kutta_8")
     assert run.control is not None
     assert not run.control.kept
@@ -396,6 +396,24 @@ def test_steps_do_not_jump_where_branches_are_near(method: str, tolerance: float
     angle = 0.4 + 6.4 * run.t
     exact = 0.8 * np.cos(angle) + np.sqrt(0.8016**2 - (0.8 * np.sin(angle)) ** 2)
     assert np.abs(run["x"] - exact).max() < 10.0 * tolerance * run.control.length
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
+def test_arms_that_are_folded_do_not_hide_the_joint_that_passes(tolerance: float) -> None:
+    """A driven slider-crank, its rod longer by 0.0025: folded, the sine between its arms is nothing and changes sign by
+    interpolation, while a step of a radian and both its halves take the rod to the other side.
+    """
+    drawing = random_mechanisms.drawing(np.random.default_rng([3, 12]), 2)[1]
+    pin, _, end = drawing.tips
+    crank, rod, turned = np.linalg.norm(pin), np.linalg.norm(end - pin), drawing.drive
+    assert 0.0 < rod / crank - 1.0 < 3e-3
+    assert turned is not None
+    system, times = mbs.compile(random_mechanisms.model_of(drawing)), np.linspace(0.0, drawing.span, 51)
+    run = mbs.simulate(system, drawing.span, tolerance=tolerance, times=times, progress=False)
+    assert run.control is not None
+    angle = np.arctan2(pin[1], pin[0]) + turned(run.t)
+    exact = crank * np.cos(angle) + np.sqrt(rod**2 - (crank * np.sin(angle)) ** 2)
+    assert np.abs(run["tip2.x"] - exact).max() < 10.0 * tolerance * run.control.length
 
 
 def test_a_place_where_branches_are_near_is_reached_in_few_steps() -> None:

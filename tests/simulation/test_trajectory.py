@@ -52,7 +52,7 @@ def test_csv_keeps_every_bit_name_and_unit(trajectory, tmp_path):
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("", "other.csv holds no values"),
+        ("", "other.csv contains no values"),
         ("time [ms],b [m]\n", r"the first line must be 'time \[s\]'"),
         ("a [m],b [m]\n", r"the first line must be 'time \[s\]'"),
         ("time [s],b\n", r"the heading 'b' must read 'name \[unit\]'"),
@@ -70,7 +70,7 @@ def test_a_csv_of_another_kind_is_refused(text, sentence, tmp_path):
 def test_a_file_that_is_no_table_is_refused_by_name(content, tmp_path):
     path = tmp_path / "other.bin"
     path.write_bytes(content)
-    with pytest.raises(ValueError, match=r"other\.bin(, line 1: a cell has 200000 characters| is no text)"):
+    with pytest.raises(ValueError, match=r"other\.bin(, line 1: a cell has 200000 characters| is not text)"):
         Trajectory.from_csv(path)
 
 

@@ -227,8 +227,8 @@ def test_what_cannot_be_is_refused_with_a_sentence(tmp_path: Path, change: tuple
     ("content", "sentence"),
     [
         (b"", "is empty"),
-        (b"\xff\xfe[\0U\0", "no text of single bytes"),
-        (b"[UNITS]\0", "no text of single bytes"),
+        (b"\xff\xfe[\0U\0", "not text of single bytes"),
+        (b"[UNITS]\0", "not text of single bytes"),
         (b"a" * 1_000_001, "it must have at most 1000000"),
         (b"[UNITS]\n" + b"x" * 1001, "it must have at most 1000"),
         (b"PK\x03\x04 zip", "stands before any section"),

@@ -166,7 +166,7 @@ def test_damping_turns_and_what_is_left_out_is_told(tmp_path: Path) -> None:
         ),
         (
             LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", '<mimic joint="k" multiplier="2"/>'),
-            r"follows 'k' \(mimic\), which is no joint that moves; these are j",
+            r"follows 'k' \(mimic\), which is not a moving joint; these are j",
         ),
         (
             LINK.format("b", 1.0) + JOINT.format("j", "revolute", "a", "b", '<mimic joint="j"/>'),
@@ -326,7 +326,7 @@ def test_hinges_that_meet_with_links_without_mass_are_one_joint(
     [
         (hinge("b", "l1", "arm", "0 0 1", "0.1 0 0"), "the axes of 'a', 'b' do not meet in one point"),
         (hinge("b", "l1", "arm", "0 0 1"), "the axes of 'a', 'b' depend on each other as drawn"),
-        (hinge("b", "l1", "arm", "0 1 0").replace("revolute", "prismatic"), "'a', 'b' are no two or three hinges"),
+        (hinge("b", "l1", "arm", "0 1 0").replace("revolute", "prismatic"), "'a', 'b' are not two or three hinges"),
         (hinge("b", "l1", "arm", "0 1 0").replace("</joint>", '<mimic joint="a"/></joint>'), "'b' follows another one"),
     ],
 )

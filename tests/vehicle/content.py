@@ -10,7 +10,7 @@ FORBIDDEN = re.compile(r"Input should|validation error|Traceback|pydantic|Field 
 
 
 def leaves(data, path=()):
-    """Every value of a file that is no table or list, with its key path."""
+    """Every value of a file that is not a table or list, with its key path."""
     if isinstance(data, dict):
         for key, value in data.items():
             yield from leaves(value, (*path, str(key)))

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from ali3.echo import Echo, Mistake, Quantity, Value
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.tyre_files.tyre_echo import tmeasy_echo
 from mbs.vehicle import built_car, car_names, load
 from mbs.vehicle.car import car_from
@@ -115,7 +115,7 @@ def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
 ) -> None:
     found: list[CarContent] = []
 
-    def counted(model: Mechanism, car: CarContent) -> Rest:
+    def counted(model: Model, car: CarContent) -> Rest:
         found.append(car)
         return settled(model, car)
 

@@ -216,7 +216,7 @@ def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None
         r"heading 'toe_angle \[N\]'; it must be 'toe_angle \[UNIT\]' with rad or deg",
         [name.replace("toe_angle [rad]", "toe_angle [N]") for name in heading],
     )
-    refused(r"holds no values; it needs a heading and at least one row", values=rows[:0])
+    refused(r"contains no values; it needs a heading and at least one row", values=rows[:0])
     refused(r"has 3 values of wheel_travel; there must be 4 or more", values=rows[:3])
     refused(r"has a wheel_travel of .* after .*; it must rise", values=rows[::-1])
     refused(r"0, the drawing, must lie between them", values=rows[-5:])
@@ -449,7 +449,7 @@ def test_links_are_asked_for_where_there_are_none(content: dict, folder: Path) -
         compliance(car)
     bar = {"stiffness": 100.0, "part": "carrier", "points": linked("saloon")._data["front"]["anti_roll_bar"]["points"]}
     data = content["saloon"] | {"front": content["saloon"]["front"] | {"anti_roll_bar": bar}}
-    with pytest.raises(CarFileError, match="hangs on links; of an axle by its curves give"):
+    with pytest.raises(CarFileError, match="needs links; for an axle by its curves give"):
         car_from(data, folder / "saloon", "x")
 
 

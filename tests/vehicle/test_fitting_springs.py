@@ -9,7 +9,6 @@ import warnings
 import pytest
 
 from mbs.compiler.model_to_system import compiled
-from mbs.model.model import Model
 from mbs.simulation.standing_system import StandingSystem
 from mbs.vehicle import CarFileError, CarWarning, load
 from mbs.vehicle.built_car import checked_car
@@ -53,7 +52,7 @@ def test_with_the_free_length_that_is_given_the_car_stands_as_drawn(case: str) -
     again, made = said_of(car, given)
     assert "equilibrium" not in again
     assert made is not None
-    model = made.empty(Model)
+    model = made.empty()
     made.reported(model)
     model.look()
     at_rest = StandingSystem(compiled(model)).sensors
@@ -65,7 +64,7 @@ def test_with_the_free_length_that_is_given_the_car_stands_as_drawn(case: str) -
 
 def test_a_parameter_of_a_standing_system_is_in_its_range() -> None:
     car = load("saloon")
-    model = car.empty(Model)
+    model = car.empty()
     car.reported(model)
     model.look()
     with pytest.raises(ValueError, match=r"'front\.spring\.free_length' cannot be 99: "):

@@ -30,7 +30,7 @@ CASES = {  # table, what is replaced by what, words of the sentence
         "F2L,0.45,-0.28",
         "F2L has y = -0.28 m; y must be positive on the left",
     ),
-    "a joint twice": ("joints.csv", "F2L,", "F1L,", "joint F1L is there twice"),
+    "a joint twice": ("joints.csv", "F2L,", "F1L,", "joint F1L occurs twice"),
     "an interface elsewhere": ("joints.csv", "UFL,0.13,", "UFL,0.18,", "the frame has no joint; the nearest is UFL"),
     "too many fields": (
         "joints.csv",
@@ -42,12 +42,12 @@ CASES = {  # table, what is replaced by what, words of the sentence
     "unknown section": ("tubes.csv", TUBE, "F1L,LFL,Q,2", "section 'Q' is not in chassis.frame.sections"),
     "no elements": ("tubes.csv", TUBE, "F1L,LFL,M,0", "elements is '0'; it must be a whole number between 1 and 50"),
     "half an element": ("tubes.csv", TUBE, "F1L,LFL,M,1.5", "elements is '1.5'; it must be a whole number"),
-    "a tube twice": ("tubes.csv", "F2L,UFL,S,2", "F1L,LFL,S,2", "the tube from F1L to LFL is there twice"),
+    "a tube twice": ("tubes.csv", "F2L,UFL,S,2", "F1L,LFL,S,2", "the tube from F1L to LFL occurs twice"),
     "a tube of both halves": (
         "tubes.csv",
         "F2L,UFL,S,2",
         "F1R,LFR,S,2",
-        "from F1R to LFR is there twice: images are added",
+        "from F1R to LFR occurs twice: images are added",
     ),
     "a tube of no length": ("tubes.csv", TUBE, "F1L,F1L,M,2", "has one joint at both ends"),
     "a tube of a gauge": ("tubes.csv", "LRL,D1L,M", "D1L,LRL,M", "the tube runs from D1L to LRL"),
@@ -58,7 +58,7 @@ CASES = {  # table, what is replaced by what, words of the sentence
         "loads.csv",
         "LFL,x,",
         "LFX,x,",
-        "line 5: LFX x is no axis of a joint of the suspension; these are LFL, LFR",
+        "line 5: LFX x is not an axis of a joint of the suspension; these are LFL, LFR",
     ),
     "no CSV": ("tubes.csv", TUBE, 'F1L,"LFL,M,2', "tubes.csv"),
 }
@@ -84,8 +84,8 @@ def test_a_table_that_is_wrong(case, copied):
 @pytest.mark.parametrize(
     ("content", "words"),
     [
-        (b"\xff\xfe", "is no text in UTF-8"),
-        (b"", "holds no values"),
+        (b"\xff\xfe", "is not text in UTF-8"),
+        (b"", "contains no values"),
         (b"joint,x,y,z\n", "has no lines under its titles"),
     ],
 )
@@ -119,7 +119,7 @@ def test_a_table_that_is_a_link_elsewhere_is_refused(copied, tmp_path):
     [
         ({"chassis.frame.reference": "XXc"}, "chassis.frame.reference names 'XXc'; the frame has no such joint."),
         ({"chassis.reference": [-1.0, 0.0, 0.16]}, "where the frame has no joint; the nearest is S1c, 0.1 m away."),
-        ({"chassis.frame.gauges.SG1.tube": ["A", "B"]}, "which is no tube of the frame: no tube ends at A."),
+        ({"chassis.frame.gauges.SG1.tube": ["A", "B"]}, "which is not a tube of the frame: no tube ends at A."),
         ({"chassis.frame.sections.M.wall": 0.03}, "M.wall is 0.03 m; a tube of 0.04 m has at most half of that."),
         ({"chassis.frame.gauges.SG1.place": 1.5}, "it must be 0 or between 0.002 and 1."),
         (

@@ -11,7 +11,6 @@ import scipy.sparse as sp
 import mbs
 from mbs.common.errors import ModelError
 from mbs.flexible import natural_modes
-from mbs.model.mechanism import Mechanism
 from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.chassis.flexible_chassis import flexible_chassis
 from mbs.vehicle.errors import CarFileError
@@ -104,7 +103,7 @@ def test_mounts_may_be_named(small: Car) -> None:
 
 def _drive_axes(car: Car) -> tuple[np.ndarray, np.ndarray]:
     """As drawn."""
-    b = car._builder(car.empty(Mechanism), None)
+    b = car._builder(car.empty(), None)
     mount = flexible_chassis(b.m, car.chassis, car.flexible_frame, Fidelity.DYNAMIC)
     reference = np.array([c.reference for c in b.m.coordinates])
     z, x = (axis.value(reference) for axis in mount.drive_axes)

@@ -169,7 +169,7 @@ def test_bridges_of_the_driving_car_are_sums_of_its_single_gauges(fidelity):
 @pytest.mark.parametrize(
     ("gauge", "sentence"),
     [
-        ({"tube": ["LRL", "XXL"], "place": 0.5}, r"gauges\.G\.tube is \['LRL', 'XXL'\], which is no tube .* to D1L,"),
+        ({"tube": ["LRL", "XXL"], "place": 0.5}, r"gauges\.G\.tube is \['LRL', 'XXL'\], which is not a tube .* D1L,"),
         ({"tube": ["D1L", "LRL"], "place": 0.5}, "the tube runs from LRL to D1L, and place counts from LRL"),
         ({"tube": ["XXL", "YYL"], "place": 0.5}, "no tube ends at XXL"),
         ({"tube": ["LRL", "D1L"], "place": 1.5}, r"gauges\.G\.place is 1\.5; it must be 0 or between 0.002 and 1"),

@@ -12,7 +12,7 @@ EDGES = np.arange(0.5, 3.0, 0.2)
 LEVELS = np.concatenate([[0.0], 0.2 * (-1.0) ** np.arange(len(EDGES))])
 SQUARE = np.repeat(np.concatenate([[0.0], EDGES, [3.0]]), 2)[1:-1], np.repeat(LEVELS, 2)
 BOUND = {"ferrari_250_lm": 0.035}
-"""Its column rings for half a period; the error of the steps, 1.9 % of the largest work, tells that."""
+"""Its column rings for half a period; the error of the steps, 1.95 % of the largest work, tells that."""
 
 
 @pytest.mark.slow

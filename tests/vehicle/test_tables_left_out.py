@@ -88,7 +88,7 @@ def test_without_stops_it_is_told_how_far_the_links_follow(name, tmp_path):
         car = load(file)
     told = [str(warning.message) for warning in caught if "stops" in str(warning.message)]
     for axle, line in zip(("front", "rear"), told, strict=True):
-        assert f"car.toml: {axle}.stops is left out" in line
+        assert f"car.toml: {axle}.stops is missing" in line
         if not getattr(car, axle).suspension.linked:
             assert "goes from -0.130 to +0.130 m of wheel travel" in line
             continue
@@ -107,7 +107,7 @@ def test_without_a_stop_of_the_steering_it_is_told_how_far_the_links_follow(name
     file = copy_car(name, tmp_path / "car")[0].parent / "car.toml"
     text = file.read_text(encoding="utf-8")
     file.write_text(re.sub(r"\[front.suspension.steering_stop\]\n(?:.+\n)+", "", text), encoding="utf-8")
-    with pytest.warns(CarWarning, match="front.suspension.steering_stop is left out") as caught:
+    with pytest.warns(CarWarning, match="front.suspension.steering_stop is missing") as caught:
         car = load(file)
     (line,) = (str(warning.message) for warning in caught)
     number = r"([-+.\d]+)"

@@ -42,7 +42,7 @@ def opened(
     page("""() => {
       player.view.parts.group.visible = false;
       document.querySelector('.a3-notices').style.visibility = 'hidden';
-      window.player.player.instruments.toggle();
+      window.player.instruments.toggle();
       window.player.set({ quality: 'medium' });
     }""")
     yield page, cone_places(course_of(request.param, load("prototype").vehicle.width).gates)

@@ -143,7 +143,7 @@ def test_marks_of_a_replay_end_at_a_reset(opened: Callable[..., Opened]) -> None
     rows = [tyre(float(place), **{"wheel.slip": -1.0}) for place in places]
     columns = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     begun = """() => {
-      const { tracks } = window.player.player.drawnRuns[0].traces.marks;
+      const { tracks } = window.player.drawnRuns[0].traces.marks;
       const [ring] = tracks.rings;
       const rows = Array.from({ length: ring.count }, (_, k) => [...tracks.row(ring, k)]);
       return rows.filter((row) => row[6] === 0).map((row) => row[0]);

@@ -46,7 +46,7 @@ def test_a_run_with_the_names_of_carmaker_leaves_the_marks_of_ours(
         page = chromium.new_page(viewport={"width": 320, "height": 180})
         page.goto(file.as_uri())
         page.evaluate("async () => { await player.ready; }")
-        assert page.evaluate("player.player.drawnRuns[0].traces.marks.problem") == ""
-        counts.append(page.evaluate("player.player.drawnRuns[0].traces.marks.count"))
+        assert page.evaluate("player.drawnRuns[0].traces.marks.problem") == ""
+        counts.append(page.evaluate("player.drawnRuns[0].traces.marks.count"))
         page.close()
     assert counts[0] == counts[1] > 50

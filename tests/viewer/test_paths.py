@@ -111,7 +111,7 @@ def test_nothing_is_drawn_from_one_epoch_to_the_next(opened: Callable[..., Opene
     assert np.allclose(*held, atol=1e-9)
     page.seek(2.5)
     assert yellow(page, np.add(way(0.35), [0.0, -3.0, 0.0]).tolist())
-    triangles = """() => window.player.player.drawnRuns[0].traces.paths.map(({ geometry, start }) => {
+    triangles = """() => window.player.drawnRuns[0].traces.paths.map(({ geometry, start }) => {
       const { position } = geometry.attributes;
       const corner = (k) => [0, 1, 2].map((axis) => position.array[3 * geometry.index.array[k] + axis] + start[axis]);
       return Array.from({ length: geometry.index.count / 3 }, (_, k) => [0, 1, 2].map((j) => corner(3 * k + j)));
@@ -146,7 +146,7 @@ def test_the_path_goes_over_a_kerb_on_its_surface(opened: Callable[..., Opened])
     """Up to the kerb on its upper side, behind it on the lower one, whatever the wheels do meanwhile."""
     kerb = {"kind": "profile", "stations": [0.0, 0.001], "heights": [0.0, -0.2], "origin": [15.0, 0.0, 0.0]}
     page = opened(run("kerb", roads=[kerb]), camera="top")
-    points = np.array(page("() => window.player.player.drawnRuns[0].traces.way"))
+    points = np.array(page("() => window.player.drawnRuns[0].traces.way"))
     assert np.ptp(points[:, 0]) > 19.0
     assert np.allclose(points[:, 2], np.where(points[:, 0] < 15.0, 0.0, -0.2), atol=1e-9)
 
@@ -238,9 +238,7 @@ def test_the_camera_beside_the_track_looks_at_what_moves_past(seen: Opened) -> N
 
 def test_what_stays_where_it_is_has_no_path_and_no_camera_beside_it(opened: Callable[..., Opened]) -> None:
     page = opened(run("still", 1e-3 * T))
-    found = page(
-        "() => { const { has, cameras } = window.player.player; return [has.path, cameras.includes('trackside')]; }"
-    )
+    found = page("() => { const { has, cameras } = window.player; return [has.path, cameras.includes('trackside')]; }")
     assert found == [False, False]
 
 
@@ -280,7 +278,7 @@ def test_a_ghost_where_the_run_is_leaves_its_picture_as_it_is(opened: Callable[.
         seen.append(page.picture()[y - 4 : y + 5, x - 4 : x + 5].astype(int))
         page.seek(3.5)
     assert abs(seen[0] - seen[1]).max() <= 2
-    shown = "() => player.player.view.ghosts.map(ghost => [...ghost.carriers.values()].map(part => part.visible))"
+    shown = "() => player.view.ghosts.map(ghost => [...ghost.carriers.values()].map(part => part.visible))"
     assert both(shown) == [[True, True]]
     both.seek(2.0)
     assert both(shown) == [[False, False]]
@@ -361,7 +359,7 @@ def test_the_path_of_a_flattened_tyre_lies_on_the_ground(opened: Callable[..., O
     sunk, lifted = run("sunk"), run("lifted")
     for made, height in ((sunk, 0.48), (lifted, 0.6)):
         made.columns["body.z"] = np.full_like(T, height)
-    heights = """() => window.player.player.drawnRuns.map(({ traces }) => {
+    heights = """() => window.player.drawnRuns.map(({ traces }) => {
       const path = traces.paths[1];
       const z = path.geometry.attributes.position.array.filter((_, k) => k % 3 === 2);
       return [path.start[2] + Math.min(...z), path.start[2] + Math.max(...z)];

@@ -94,22 +94,22 @@ def test_it_opens_from_disk_without_a_complaint_and_asks_for_nothing(pair: Opene
 
 @pytest.mark.parametrize("t", [0.0, 0.515, 1.7])
 def test_at_a_time_the_slider_is_where_it_belongs(pair: Opened, t: float) -> None:
-    pair("player.player.showGhost(player.player.ghosts[0], false)")
+    pair("player.showGhost(player.ghosts[0], false)")
     pair.seek(t)
     picture = pair.picture()
     for x, there in ((slider(t), True), (slider(t) - 0.3, False), (slider(t) + 0.3, False)):
         column, row = pair.place([x, 0.0, 0.1])
         assert is_red(picture[row, column]) == there, (x, picture[row, column])
-    pair("player.player.showGhost(player.player.ghosts[0], true)")
+    pair("player.showGhost(player.ghosts[0], true)")
 
 
 def test_a_ghost_moves_in_step_and_stands_still_after_its_end(pair: Opened) -> None:
-    pair("player.player.showGhost(player.player.ghosts[0], false)")
+    pair("player.showGhost(player.ghosts[0], false)")
     for t in (0.9, 2.9):
-        pair("player.player.showGhost(player.player.ghosts[0], false)")
+        pair("player.showGhost(player.ghosts[0], false)")
         pair.seek(t)
         without = pair.picture()
-        pair("player.player.showGhost(player.player.ghosts[0], true)")
+        pair("player.showGhost(player.ghosts[0], true)")
         pair.seek(t)
         with_it = pair.picture()
         column, row = pair.place([slider(min(t, 2.5), 2.5), 0.0, 0.1])
@@ -206,15 +206,15 @@ def test_the_settings_show_what_is_set_by_keys_and_programs(opened: Callable[...
     assert not box.is_checked()
     page.page.keyboard.press("f")
     assert box.is_checked()
-    assert page("player.player.look.arrows") is True
+    assert page("player.look.arrows") is True
     page("player.set({arrowScale: 5})")
     assert "5×" in page.page.inner_text(".a3-panel")
     page.page.locator(".a3-panel input[type=range]").first.fill("1")
-    assert page("player.player.look.arrowScale") == 10
+    assert page("player.look.arrowScale") == 10
     page.page.keyboard.press("Escape")
     assert not page.page.locator(".a3-panel").is_visible()
     page.page.keyboard.press("F")  # the same letter with caps lock
-    assert page("player.player.look.arrows") is False
+    assert page("player.look.arrows") is False
 
 
 def test_signals_are_chosen_by_keyboard_and_space_does_not_play(opened: Callable[..., Opened]) -> None:
@@ -228,10 +228,10 @@ def test_signals_are_chosen_by_keyboard_and_space_does_not_play(opened: Callable
     assert page("document.activeElement.checked") is True
     page.page.keyboard.press(" ")
     assert page("player.plots.chosen") == []
-    assert page("player.player.clock.playing") is False
+    assert page("player.source.running") is False
     page.page.locator(".a3-list label", has_text=first).first.click()
     page.page.keyboard.press(" ")  # after a click the keys are the page's
-    assert page("player.player.clock.playing") is True
+    assert page("player.source.running") is True
     assert page("player.plots.chosen") == [first]
 
 
@@ -251,7 +251,7 @@ def test_signals_are_searched_and_chosen(pair: Opened) -> None:
 def test_the_address_names_what_is_shown(opened: Callable[..., Opened]) -> None:
     page = opened(crank(TIMES), hash_text="#t=1.5&plots=fx&speed=0.5")
     assert page("player.time") == 1.5
-    assert page("player.clock.speed") == 0.5
+    assert page("player.source.speed") == 0.5
     assert page("player.plots.chosen") == ["fx"]
     page.seek(2.25)
     page.page.wait_for_url("**#t=2.25&speed=0.5&plots=fx")
@@ -307,7 +307,7 @@ def test_a_gap_hides_the_body_and_cuts_the_line(opened: Callable[..., Opened]) -
         assert is_red(page.picture()[row, column]) == there
     data = page("player.plots.charts[0].plot.data[1].slice(50, 101)")
     assert [value is None for value in data] == [False] + 49 * [True] + [False]
-    assert "values that are no numbers" in page.page.inner_text(".a3-notices")
+    assert "values that are not numbers" in page.page.inner_text(".a3-notices")
 
 
 def test_one_time_is_a_picture_that_stands(opened: Callable[..., Opened]) -> None:
@@ -315,7 +315,7 @@ def test_one_time_is_a_picture_that_stands(opened: Callable[..., Opened]) -> Non
     assert page("player.problem") == ""
     assert page.said == []
     page("player.play()")
-    assert page("player.clock.playing") is False
+    assert page("player.source.running") is False
     assert page.page.locator(".a3-slide").is_disabled()
 
 

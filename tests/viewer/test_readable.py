@@ -31,7 +31,7 @@ SEEN = f"""() => [...document.querySelectorAll('{CONTROLS}')]
   .filter((part) => part.checkVisibility({{ visibilityProperty: true }}) && !part.disabled)"""
 OPEN = """() => {
   for (const part of document.querySelectorAll('details')) part.open = true;
-  const shell = player.player ?? player.cockpit ?? player;
+  const shell = player.cockpit ?? player;
   shell.settings.toggle(true);
   if (shell === player.cockpit) shell.side(true);
 }"""
@@ -41,6 +41,24 @@ NAMES = f"""() => ({SEEN})().map((part) =>
   (part.labels?.[0] ?? part).textContent.trim() || part.title || part.ariaLabel)"""
 BOXES = """() => ['.a3-bar', '.a3-left', '.a3-cluster', '.a3-inset'].map((part) => document.querySelector(part))
   .filter((part) => part?.checkVisibility()).map((part) => part.getBoundingClientRect().toJSON())"""
+ROLES = ("button", "slider", "combobox", "checkbox", "searchbox", "spinbutton", "image", "DisclosureTriangle", "link")
+ADDED = """() => {
+  const { notices } = player.cockpit ?? player;
+  const late = (words) => notices.flag('late', words, { bad: true });
+  late('late by 1.5 s');
+  const box = document.querySelector('[data-a3="flag late"]');
+  const seen = new MutationObserver(() => {});
+  seen.observe(box, { childList: true });
+  late('late by 2 s');
+  const numbers = seen.takeRecords().length;
+  late('not late any more');
+  const words = seen.takeRecords().length;
+  notices.lower(['late']);
+  const logs = ['notes', 'events'].map((name) => document.querySelector(`[data-a3="${name}"]`));
+  for (const line of ['one', 'two']) notices.tell(line);
+  const lines = [...logs[1].children].slice(-2).map((line) => line.textContent);
+  return { numbers, words, role: box.role, logs: logs.map(({ role }) => role), lines };
+}"""
 KINDS = ("live", "recorded", "plots", "simulator")
 BAR = ".a3-bar"
 
@@ -179,11 +197,13 @@ def test_no_instrument_lies_over_the_world_on_the_map(chromium: Any) -> None:
     with dark_page(chromium) as page:
         open_simulator(page)
         page.evaluate("player.camera('map')")
-        for width, height in ((640, 360), (800, 450), (1280, 720)):
+        page.evaluate("player.cockpit.instruments.tyres.element.style.display = ''")  # as of a car
+        for width, height, half in ((640, 360, 9), (800, 450, 9), (960, 540, 15), (1280, 720, 9)):
             page.set_viewport_size({"width": width, "height": height})
+            page.evaluate("half => { player.cockpit.plan.bounds = [-half, -9, half, 9]; }", half)
             wait_until(page, f"player.cockpit.map._canvas.width === {width}")
             (left, top), (right, bottom) = page.evaluate(
-                "[[-9, 9], [9, -9]].map((point) => player.cockpit.map.pixel(point))"
+                "half => [[-half, 9], [half, -9]].map((point) => player.cockpit.map.pixel(point))", half
             )
             assert min(left, top, width - right, height - bottom) >= 0
             assert bottom - top > 0.5 * height
@@ -200,9 +220,9 @@ def test_axe_finds_nothing(shown: Any, colours: str) -> None:
     if colours == "dark":  # scroll bars and fields too
         assert "dark" in shown.evaluate("bar => getComputedStyle(document.querySelector(bar)).colorScheme", BAR)
     assert findings(shown) == []
-    shown.evaluate("(player.player ?? player.cockpit ?? player).help?.toggle(true)")
+    shown.evaluate("(player.cockpit ?? player).help?.toggle(true)")
     assert findings(shown) == [], "with the list of keys over it"
-    shown.evaluate("(player.player ?? player.cockpit ?? player).help?.toggle(false)")
+    shown.evaluate("(player.cockpit ?? player).help?.toggle(false)")
 
 
 @pytest.mark.slow
@@ -217,3 +237,26 @@ def test_the_tabulator_reaches_every_control_and_all_have_names(shown: Any) -> N
         if shown.evaluate("() => (left.delete(document.activeElement), left.size)") == 0:
             break
     assert shown.evaluate("() => [...left].map((part) => part.outerHTML.slice(0, 100))") == []
+
+
+def test_the_tree_of_the_browser_names_every_control(shown: Any) -> None:
+    shown.evaluate(OPEN)
+    session = shown.context.new_cdp_session(shown)
+    session.send("Accessibility.enable")
+    nodes = [node for node in session.send("Accessibility.getFullAXTree")["nodes"] if not node["ignored"]]
+    session.detach()
+    found = [(node["role"]["value"], node.get("name", {}).get("value", "").strip()) for node in nodes]
+    controls = [(role, name) for role, name in found if role in ROLES]
+    assert {role for role, _ in controls} >= {"button", "slider", "combobox"}
+    assert [role for role, name in controls if not name] == []
+
+
+def test_what_happens_is_read_aloud_once_and_the_numbers_of_a_state_are_not(shown: Any) -> None:
+    """Chromium tells a reader what is added to a live region; a log is read line by line."""
+    assert shown.evaluate(ADDED) == {
+        "numbers": 0,
+        "words": 1,
+        "role": "alert",
+        "logs": ["log", "log"],
+        "lines": ["one", "two"],
+    }

@@ -34,7 +34,7 @@ def test_a_whole_recording_draws_all() -> None:
     [
         ([], r"shape \(0,\)"),
         ([[0.0]], r"shape \(1, 1\)"),
-        (["a"], "no numbers"),
+        (["a"], "not numbers"),
         ([0.0, np.nan], "time 1 .* is nan"),
         ([0.0, 2.0, 1.0], "go back from 2 s to 1 s"),
     ],
@@ -49,7 +49,7 @@ def test_times_that_are_none(t: Any, sentence: str) -> None:
     [
         (np.ones(20), r"'x' has the shape \(20,\); there are 21 times"),
         (np.ones((21, 1)), r"shape \(21, 1\)"),
-        (["a"] * 21, "holds no numbers"),
+        (["a"] * 21, "contains no numbers"),
         (np.ones(21, complex), "complex128"),
     ],
 )
@@ -96,7 +96,7 @@ def test_a_column_without_any_number_is_missing_and_one_with_gaps_is_told() -> N
     recording = full(angle=np.full(21, np.nan), **{"body.x": gaps})
     assert {"name": "spinning wheel", "why": "the column 'angle' holds no number"} in recording.missing
     assert recording.notes == [
-        "The column 'body.x' has 4 of 21 values that are no numbers, the first at 0.6 s; there is nothing drawn for "
+        "The column 'body.x' has 4 of 21 values that are not numbers, the first at 0.6 s; there is nothing drawn for "
         "them."
     ]
 
@@ -115,7 +115,7 @@ def test_numbers_that_no_picture_holds_are_told_and_not_drawn() -> None:
     assert np.array_equal(np.isfinite(recording.columns["body.x"]), TIMES <= 1.0)
     assert recording.notes[0] == "The column 'body.x' has 10 of 21 values beyond 1e+30."
     assert any(
-        note.startswith("The column 'body.x' has 10 of 21 values that are no numbers") for note in recording.notes
+        note.startswith("The column 'body.x' has 10 of 21 values that are not numbers") for note in recording.notes
     )
 
 

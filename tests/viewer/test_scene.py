@@ -70,7 +70,7 @@ def test_keys_that_are_not_there() -> None:
         if key in OPTIONAL and (path, key) not in NEEDED:
             good, accepted = errors == [], VALIDATOR.is_valid(scene)
         elif (path, key) == ((), "meshes"):
-            good = errors == ["shapes[5].mesh is 'triangle', which is no mesh; there are none."]
+            good = errors == ["shapes[5].mesh is 'triangle', which is not a mesh; there are none."]
         elif (path, key) == (("arrows", 2), "tyre"):
             good = errors == ["arrows[2] must have the keys 'value' and 'between', 'vector' and 'at', or 'tyre'."]
         else:
@@ -128,11 +128,11 @@ def test_any_value_is_good_or_has_one_sentence() -> None:
         (("shapes", 0, "axes"), [[1e200, 0, 0], [0, 1, 0], [0, 0, 1]], "shapes[0].axes must be three unit vectors"),
         (("shapes", 8, "rim"), 0.4, "shapes[8].rim is 0.4; it must be below the radius, 0.3."),
         (("shapes", 8, "axis"), [0, 0, 0], "shapes[8].axis is [0, 0, 0]; it must not be zero."),
-        (("shapes", 2, "frame"), "arms", "shapes[2].frame is 'arms', which is no frame; there are 'ground', 'body'"),
+        (("shapes", 2, "frame"), "arms", "shapes[2].frame is 'arms', which is not a frame; there are 'ground', 'body'"),
         (
             ("frames", "spinning wheel", "parent"),
             "rim",
-            "frames['spinning wheel'].parent is 'rim', which is no frame",
+            "frames['spinning wheel'].parent is 'rim', which is not a frame",
         ),
         (("frames", "spinning wheel", "parent"), "spinning wheel", "frames['spinning wheel'] stands on itself"),
         (("frames", "arm", "points"), [[0, 0, 0], [1, 0, 0], [2, 0, 0]], "frames.arm.points lie on a line"),
@@ -160,7 +160,7 @@ def test_any_value_is_good_or_has_one_sentence() -> None:
         ),
         (("flexible", 0, "gauges", 0, "along"), 1.5, "flexible[0].gauges[0].along is 1.5; it must be at most 1."),
         (("flexible", 0, "stress", "rule"), "round", "flexible[0].stress.fibres is 1; the rule 'round' has 3."),
-        (("arrows", 1, "axes"), "wing", "arrows[1].axes is 'wing', which is no frame"),
+        (("arrows", 1, "axes"), "wing", "arrows[1].axes is 'wing', which is not a frame"),
         (("arrows", 0, "sign"), 2, "arrows[0].sign is 2; it must be 1 or -1."),
         (("roads", 1, "shape"), [2, 3], "roads[1].heights has 4 numbers where 6 belong."),
         (("roads", 5, "patches", 0, "shape"), [2, 3], "roads[5].patches[0].heights has 4 numbers where 6 belong."),
@@ -176,7 +176,7 @@ def test_any_value_is_good_or_has_one_sentence() -> None:
         (
             ("focus",),
             "moon",
-            "focus is 'moon', which is no frame; there are 'ground', 'body', 'spinning wheel', 'arm'.",
+            "focus is 'moon', which is not a frame; there are 'ground', 'body', 'spinning wheel', 'arm'.",
         ),
         (("version",), 2, "version is 2; this viewer reads version 1."),
         (("format",), "glTF", "format is 'glTF'; it must be 'ALi3 scene'."),

@@ -94,10 +94,10 @@ def test_slow_motion_of_a_part(tmp_path):
         ({"size": "large"}, r"^The size of the film is 'large'; it must be two numbers of pixels from 16 to 8192\.$"),
         ({"size": (1, 2)}, r"it must be two numbers of pixels from 16 to 8192\.$"),
         ({"begin": 7.0}, r"^begin of the film is 7\.0; it must be a number from 0 to 3\.14159\.$"),
-        ({"begin": 2.0, "end": 1.0}, r"^The film is to begin at 2 s and to end before that, at 1 s\.$"),
+        ({"begin": 2.0, "end": 1.0}, r"^The film must begin at 2 s and to end before that, at 1 s\.$"),
         ({"speed": 1e-4}, r"^The film would have \d+ pictures, at most 20000 are made; "),
         ({"recording": Recording(None, T, {"a": T}, name="plots")}, r"^'plots' has no scene"),
-        ({"recording": []}, r"^There is no recording to be shown\.$"),
+        ({"recording": []}, r"^There is no recording to show\.$"),
     ],
 )
 def test_what_is_no_film_is_one_sentence(tmp_path, arguments, words):
@@ -112,7 +112,7 @@ def test_what_is_no_film_is_one_sentence(tmp_path, arguments, words):
 def test_without_a_browser(tmp_path, monkeypatch):
     monkeypatch.setenv(browser.VARIABLE, "no-such-browser")
     monkeypatch.setattr(video, "write_page", lambda path, *_, **__: path.write_text(""))
-    with pytest.raises(BrowserError, match=r"names no-such-browser, which is no program\.$"):
+    with pytest.raises(BrowserError, match=r"names no-such-browser, which is not a program\.$"):
         write_mp4(tmp_path / "a.mp4", hand_scenes.crank(T))
     assert list(tmp_path.iterdir()) == []
 

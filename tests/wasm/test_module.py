@@ -225,7 +225,7 @@ def test_what_cannot_be_compiled_again(
     assert "There is no file" in words(tmp_path / "none.fmu")
     assert "is not an FMU (not a zip archive)" in words(tmp_path / "text.fmu")
     for source in ("fmi2_direct.c", "fmi2_alone.c"):
-        assert "is no FMU of ALi3 of the kind native" in words(without(source))
+        assert "is not an FMU of ALi3 of the kind native" in words(without(source))
     assert "has no modelDescription.xml" in words(without("modelDescription.xml"))
     assert not (tmp_path / "out").exists()
 

@@ -342,7 +342,7 @@ def _corners(positions: list[Vectors]) -> Vectors:
 
 
 def _filled(values: Vectors) -> Vectors:
-    """Values with those that are no numbers as the one before."""
+    """Values with those that are not numbers as the one before."""
     good = np.isfinite(values)
     source = np.maximum.accumulate(np.where(good, np.arange(len(values)), -1))
     source[source < 0] = int(good.argmax())

@@ -12,7 +12,7 @@ slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, con
   slave_status worst = SLAVE_OK;
   for (size_t i = 0; i < n; i++) {
     if (reference[i] >= t->n_variables || t->variable[reference[i]].source != SLAVE_INPUT)
-      return slave_say(s, SLAVE_ERROR, "Value reference %u is no input; only inputs have derivatives to set.",
+      return slave_say(s, SLAVE_ERROR, "Value reference %u is not an input; only inputs have derivatives to set.",
                        (unsigned)reference[i]);
     if (t->variable[reference[i]].whole)
       return slave_say(s, SLAVE_ERROR, "A derivative of '%s' was set; it is a whole number and has none.",
@@ -29,8 +29,9 @@ slave_status slave_set_slopes(slave *s, const uint32_t *reference, size_t n, con
     const bool finite = fabs(value[i]) < HUGE_VAL;
     if (!finite && !(s->said[reference[i]] & SLAVE_HELD_FLAT)) {
       s->said[reference[i]] |= SLAVE_HELD_FLAT;
-      worst = slave_say(s, SLAVE_WARNING, "A derivative of the port '%s' was set to %g; 0 is taken. This is said once.",
-                        t->variable[reference[i]].name, value[i]);
+      worst =
+          slave_say(s, SLAVE_WARNING, "A derivative of the port '%s' was set to %g; 0 is taken. This is reported once.",
+                    t->variable[reference[i]].name, value[i]);
     }
     const double taken = finite ? value[i] : 0.0;
     if (*slope != taken) slave_forget_refusal(s);
@@ -43,7 +44,7 @@ slave_status slave_output_rates(slave *s, const uint32_t *reference, size_t n, c
   const slave_table *t = &slave_the_table;
   for (size_t i = 0; i < n; i++) {
     if (!slave_is_output(reference[i]))
-      return slave_say(s, SLAVE_ERROR, "Value reference %u is no output.", (unsigned)reference[i]);
+      return slave_say(s, SLAVE_ERROR, "Value reference %u is not an output.", (unsigned)reference[i]);
     if (order[i] != 1)
       return slave_say(s, SLAVE_ERROR, "A derivative of order %d was asked for; outputs have the first only.",
                        (int)order[i]);
@@ -107,7 +108,7 @@ static slave_status step_derivative(slave *s, const uint32_t *known, size_t n, c
     const slave_variable *v = &t->variable[known[i]];
     if (v->source != SLAVE_INPUT)
       return slave_say(s, SLAVE_ERROR,
-                       "'%s' is no input; after initialisation outputs have derivatives by inputs only.", v->name);
+                       "'%s' is not an input; after initialisation outputs have derivatives by inputs only.", v->name);
     s->direction[v->index] += seed[i] / v->scale;
   }
   return slave_step_derivative(s, s->direction, left_out, out);
@@ -119,7 +120,7 @@ slave_status slave_directional(slave *s, const uint32_t *unknown, size_t n_unkno
   bool left_out = false;
   for (size_t i = 0; i < n_unknown; i++) {
     if (!slave_is_output(unknown[i]))
-      return slave_say(s, SLAVE_ERROR, "Value reference %u is no output; derivatives are those of outputs.",
+      return slave_say(s, SLAVE_ERROR, "Value reference %u is not an output; derivatives are those of outputs.",
                        (unsigned)unknown[i]);
     left_out = left_out || slave_left_out(s, &t->variable[unknown[i]]);
   }

@@ -23,6 +23,12 @@ static bool spent(const slave_half_steps *t, const slave_late_step *step) {
   return t->spent > BUDGET + SHARE * step->driven;
 }
 
+/* The error of a motion by what another with 1/n of its step differs by; of order two, as ALi3-P is. */
+static double error_of(double apart, double n) { return apart * n * n / (n * n - 1.0); }
+
+/* Steps so far that were halved, or in which a force changed abruptly. */
+static int64_t abrupt_steps(const ali3_report *report) { return report->abrupt_steps + report->halvings; }
+
 /* Whether two motions that differ by this much do not agree. */
 static bool differ(double apart) { return apart > ALI3_AGREED * ALI3_WRONG_ERROR; }
 
@@ -67,8 +73,8 @@ static void say_unchecked(slave *s, double time, const char *why) {
   if (s->event_said || s->unchecked_said) return;
   s->unchecked_said = true;
   slave_say(s, SLAVE_OK,
-            "From %.4g s on steps are not made a second time, so that their error is not known: %s. This is "
-            "said once.",
+            "From %.4g s on no second motion is computed, so that the error is unknown: %s. This is "
+            "reported once.",
             time, why);
 }
 
@@ -93,7 +99,7 @@ void slave_half_steps_begin(slave *s) {
   if (t->begins && ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->shown) == ALI3_OK)
     ali3_compare(t->what, t->n, 1, NULL, NULL, t->shown, t->seen);
   if (ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) memset(&report, 0, sizeof report);
-  t->abrupt = report.abrupt_steps;
+  t->abrupt = abrupt_steps(&report);
   t->iterations = report.iterations;
 }
 
@@ -172,7 +178,7 @@ static bool begin(slave *s, const slave_late_step *step) {
     if (rests) ali3_snapshot_restore(s->fidelity.kernel, t->start);
     t->left = fmax(t->left, step->span);
   } else if (step->span > 0.0) {
-    say_unchecked(s, step->end, spent(t, step) ? "the time that may be made twice is spent" : "one of them failed");
+    say_unchecked(s, step->end, spent(t, step) ? "the time of the second motion is spent" : "one of them failed");
   }
   return t->left > 0.0;
 }
@@ -181,7 +187,7 @@ static bool begin(slave *s, const slave_late_step *step) {
  * it grew between the last two windows of a start, as a power of the time. */
 static void conclude(slave *s, const slave_late_step *step, double apart) {
   slave_half_steps *t = &s->half_steps;
-  const double n = (double)parts_of(s, step->h), error = ali3_error_of(t->then, n, ALI3_EVENT_ORDER);
+  const double n = (double)parts_of(s, step->h), error = error_of(t->then, n);
   char why[SLAVE_TEXT / 4], grows[SLAVE_TEXT / 8] = "";
   if (has_road(s) && !differ(apart)) return; /* until the next abrupt force */
   const bool first = t->checked == -HUGE_VAL; /* later windows begin after an abrupt force, and are short */
@@ -192,9 +198,14 @@ static void conclude(slave *s, const slave_late_step *step, double apart) {
     t->foretold = step->end + length * (pow(ALI3_WRONG_ERROR / error, 1.0 / power) - 1.0);
     snprintf(grows, sizeof grows, ", and this grows as time to the power %.2g", power);
   }
-  snprintf(why, sizeof why, "%smade again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
-           differ(apart) ? "the time that may be made twice is spent; " : "", n, 100.0 * apart, grows);
+  snprintf(why, sizeof why, "%scomputed again with 1/%.0f of them, outputs differed by %.2g %% at last%s",
+           differ(apart) ? "the time of the second motion is spent; " : "", n, 100.0 * apart, grows);
   say_unchecked(s, step->end, why);
+}
+
+static double energy_floor(const slave *s) {
+  ali3_report report;
+  return ali3_report_get(s->fidelity.kernel, &report) == ALI3_OK ? report.energy_floor : 0.0;
 }
 
 /* What both motions differ by at the end of a communication step. */
@@ -204,7 +215,7 @@ static void compare(slave *s, const slave_late_step *step) {
   int32_t worst;
   ali3_some_sensors(s->fidelity.kernel, t->n, t->sensor, t->shown);
   ali3_compare(t->what, t->n, 1, &step->end, step->number + inputs_of(s), t->shown, t->seen);
-  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, 0, t->size);
+  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, energy_floor(s), 0, t->size);
   const double apart = ali3_compared_error(t->n, t->seen, t->size, 1, &worst);
   if (apart > t->apart) {
     t->apart = apart;
@@ -299,9 +310,9 @@ static void put_off(slave *s, double now, double span) {
 static slave_status judge(slave *s) {
   slave_half_steps *t = &s->half_steps;
   int32_t worst;
-  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, 0, t->size);
+  ali3_compared_sizes(t->what, t->n, t->seen, slave_the_table.length, energy_floor(s), 0, t->size);
   const double n = (double)parts_of(s, t->h), h = t->h, apart = ali3_compared_error(t->n, t->seen, t->size, 0, &worst),
-               error = ali3_error_of(apart, n, ALI3_EVENT_ORDER);
+               error = error_of(apart, n);
   const bool met = error <= n * ALI3_WRONG_ERROR; /* by the step of the other motion, by order one, as at a kink */
   if (!(error > ALI3_WRONG_ERROR)) {
     forget(t);
@@ -312,9 +323,10 @@ static slave_status judge(slave *s) {
   s->event_said = true;
   const bool load = (v->judged.kind & ALI3_JUDGED_LOAD) != 0;
   return slave_say(s, SLAVE_WARNING,
-                   "At %.4g s the motion was too quick for the step: made again with 1/%.0f of it, %s is off by %s "
+                   "At %.4g s the motion was too fast for the step: computed again with 1/%.0f of it, %s is off by %s "
                    "%.*g%s, %.2g %% of "
-                   "the largest %s at communication points. Run again with a step_size of %.2g s%s. This is said once.",
+                   "the largest %s at communication points. Run again with a step_size of %.2g s%s. This is reported "
+                   "once.",
                    t->seen[worst].time, n, v->name, t->n_late > 0 ? "at least" : "about", load ? 15 : 3,
                    load ? round(off) : off, v->unit, 100.0 * error, load ? "force" : "range in its unit",
                    h / n / ceil(error / (n * ALI3_WRONG_ERROR)), met ? ", as was tried" : ", which was not tried");
@@ -325,12 +337,12 @@ static slave_status foretell(slave *s, double now) {
   const slave_half_steps *t = &s->half_steps;
   s->event_said = true;
   return slave_say(s, SLAVE_WARNING,
-                   "At %.4g s %s may be off by %.0f %% of the largest range in its unit: made again with 1/%.0f of the "
-                   "step up to %.4g s it was off by %.2g %%, and this grows as it did until then. Compare with a run "
-                   "of half the step_size, %g s. This is said once.",
+                   "At %.4g s %s may be off by %.0f %% of the largest range in its unit: computed again with 1/%.0f of "
+                   "the step up to %.4g s it was off by %.2g %%, and this grows as it did until then. Compare with a "
+                   "run of half the step_size, %g s. This is reported once.",
                    now, slave_the_table.variable[t->variable[t->worst]].name, 100.0 * ALI3_WRONG_ERROR,
-                   (double)parts_of(s, t->h), t->checked,
-                   100.0 * ali3_error_of(t->then, (double)parts_of(s, t->h), ALI3_EVENT_ORDER), 0.5 * t->h);
+                   (double)parts_of(s, t->h), t->checked, 100.0 * error_of(t->then, (double)parts_of(s, t->h)),
+                   0.5 * t->h);
 }
 
 /* What can be said by now, or when the run has `ended`. */
@@ -354,10 +366,10 @@ slave_status slave_halve_steps(slave *s) {
   if (s->event_said || ali3_report_get(s->fidelity.kernel, &report) != ALI3_OK) return SLAVE_OK;
   /* what is let go swings; tyres that are driven from the start on slip at once, which long steps miss */
   const bool begins = t->begins && (!has_road(s) || 2.0 * s->made.h > (double)ALI3_MOST_PARTS * SHORT),
-             abrupt = report.abrupt_steps > t->abrupt || begins;
+             abrupt = abrupt_steps(&report) > t->abrupt || begins;
   const int64_t made = report.iterations - t->iterations;
   const double length = (double)s->made.n * s->made.h, now = ali3_time(s->fidelity.kernel);
-  t->abrupt = report.abrupt_steps;
+  t->abrupt = abrupt_steps(&report);
   t->iterations = report.iterations;
   t->begins = false;
   if (begins && !(t->driven > 0.0)) t->spent = -start_of(s, s->made.h); /* beside what abrupt forces may cost */

@@ -39,13 +39,13 @@ void slave_say_uncomputed(slave *s, const slave_variable *v) {
   for (size_t k = 0; k < t->n_systems && n < sizeof remedy / 2; k++)
     if (!(v->uncomputed >> k & 1)) n += (size_t)snprintf(remedy + n, sizeof remedy - n, "%s%zu", n > 0 ? ", " : "", k);
   if (n == 0)
-    snprintf(text, sizeof text, "'%.128s' reads %g; this FMU does not compute it. This is said once.", v->name,
+    snprintf(text, sizeof text, "'%.128s' reads %g; this FMU does not compute it. This is reported once.", v->name,
              s->value[v - t->variable]);
   else
     snprintf(
         text, sizeof text,
         "'%.128s' reads %g: fidelity %zu does not compute it. To have it computed, set the parameter '%.64s' to one of "
-        "%s before the start. This is said once.",
+        "%s before the start. This is reported once.",
         v->name, s->value[v - t->variable], s->fidelity.number, t->variable[s->fidelity_reference].name, remedy);
   s->logger(s, SLAVE_WARNING, category_name[NOT_COMPUTED], text);
 }

@@ -28,12 +28,12 @@ static void say_first(slave *s, const slave_variable *first, size_t silent) {
   const double held = s->value[first - slave_the_table.variable];
   if (silent == 1)
     slave_say(s, SLAVE_WARNING,
-              "The port '%s' was not set before the first step and holds %g%s until it is. This is said once.",
+              "The port '%s' was not set before the first step and holds %g%s until it is. This is reported once.",
               first->name, held, first->unit);
   else
     slave_say(s, SLAVE_WARNING,
               "%zu ports were not set before the first step. Each holds its start value until it is set, as '%s' holds "
-              "%g%s. This is said once.",
+              "%g%s. This is reported once.",
               silent, first->name, held, first->unit);
 }
 
@@ -43,12 +43,12 @@ static void say_stopped(slave *s, const slave_variable *first, size_t silent) {
   if (silent == 1)
     slave_say(s, SLAVE_WARNING,
               "The port '%s' was given a number again and again until %.6g s and none since; it holds %g%s. This is "
-              "said once.",
+              "reported once.",
               first->name, given, held, first->unit);
   else
     slave_say(s, SLAVE_WARNING,
               "%zu ports were given numbers again and again and get none any more, '%s' since %.6g s. Each holds its "
-              "last one, as '%s' holds %g%s. This is said once.",
+              "last one, as '%s' holds %g%s. This is reported once.",
               silent, first->name, given, first->name, held, first->unit);
 }
 

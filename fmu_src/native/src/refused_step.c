@@ -48,7 +48,7 @@ slave_status slave_refuse_step(slave *s, ali3_status status, double time, double
     return slave_say(
         s, SLAVE_DISCARD,
         "The step from %.6g s over %.6g s was asked for again with nothing changed and refused again; the "
-        "simulation should end here. Run it again with a step_size below %g s, or go on from another state.",
+        "simulation should end here. Run it again with a step_size below %g s, or continue from another state.",
         time, step, h);
   return slave_say(s, SLAVE_ERROR,
                    "The step from %.6g s over %.6g s was refused %d times with nothing changed in between; run again "

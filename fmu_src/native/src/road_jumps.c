@@ -23,10 +23,9 @@ static void watch_turn(slave *s, size_t i) {
   slave_say(
       s, SLAVE_WARNING,
       "At %.6g s the normal of the answer '%s' turned at once from (%.3g, %.3g, %.3g) to (%.3g, %.3g, %.3g), and with "
-      "it "
-      "the load of its wheel. A wheel that touches ground and edge bears on both: answer with the plane whose depth "
-      "and "
-      "normal are the sum of both depths along their normals, or take shorter communication steps. This is said once.",
+      "it the load of its wheel. A wheel that touches ground and edge bears on both: answer with the plane whose depth "
+      "and normal are the sum of both depths along their normals, or take shorter communication steps. This is "
+      "reported once.",
       ali3_time(s->fidelity.kernel), v[3].name, last[0], last[1], last[2], now[0], now[1], now[2]);
 }
 
@@ -67,7 +66,8 @@ static void watch_bend(slave *s, size_t i) {
             "of its step, and that it is off by %.2g mm itself%s; where the road goes on so, loads are off by 1 %% or "
             "more. It holds for %.1f steps ahead of its wheel, where 1 is best. Ask at the point ahead, with "
             "ports.road_lead = 1 where an answer holds in the step that follows the question, with 2 where all "
-            "programs step at once, or take shorter communication steps; ports.road_lead is %g now. This is said once.",
+            "programs step at once, or take shorter communication steps; ports.road_lead is %g now. This is reported "
+            "once.",
             ali3_time(s->fidelity.kernel), slave_the_table.variable[i].name, 1e3 * fabs(end), 1e3 * fabs(start),
             ramp ? " in the middle of its step" : "", 0.0 + nearbyint(-10.0 * behind / square) / 10.0,
             s->value[s->lead_reference]);
@@ -98,7 +98,7 @@ const slave_variable *slave_watch_jumps(slave *s) {
         "At %.6g s the answer '%s' = %.6g m with its normal lies %.3g m %s the plane of the last one, seen from "
         "its wheel, which is lifted or falls at once; its load is not that of a wheel on an edge. At an edge that "
         "a wheel touches the answer is the point of the edge and the normal towards the centre of the wheel. This "
-        "is said once.",
+        "is reported once.",
         ali3_time(s->fidelity.kernel), v[2].name, s->value[i + 2], fabs(by), by > 0.0 ? "above" : "below");
   }
   return found;

@@ -20,12 +20,12 @@ static void say_step(slave *s, double whole, double h, double step) {
   if (said == SLAVE_SHORTER_STEPS)
     slave_say(s, SLAVE_WARNING,
               "The communication step %.6g s gives inner steps of %.6g s, while step_size is %.6g s; results will "
-              "differ a little. This is said once.",
+              "differ a little. This is reported once.",
               whole, h, step);
   else
     slave_say(s, SLAVE_WARNING,
               "The communication step %.6g s gives inner steps of %.6g s, while step_size is %.6g s; their errors are "
-              "%.2g times as large. A step_size of %.6g s or less has shorter ones. This is said once.",
+              "%.2g times as large. A step_size of %.6g s or less has shorter ones. This is reported once.",
               whole, h, step, (h / step) * (h / step), whole / ceil(whole / step));
 }
 

@@ -121,7 +121,7 @@ static void take(slave *s, uint32_t reference, double value) {
               v->unit);
   if (value < v->least || value > v->most)
     slave_say(s, SLAVE_WARNING,
-              "'%s' was set to %.10g%s, with which no such vehicle works; from %.4g to %.4g%s it does.", v->name, value,
+              "'%s' was set to %.10g%s, outside the range in which such vehicles work, %.4g to %.4g%s.", v->name, value,
               v->unit, v->least, v->most, v->unit);
   s->value[reference] = value;
   slave_forget_refusal(s);
@@ -143,10 +143,11 @@ static slave_status say_held(slave *s, uint32_t reference, double value, double 
   if (s->said[reference] & which) return SLAVE_OK;
   s->said[reference] |= which;
   if (which == SLAVE_HELD_LAST)
-    return slave_say(s, SLAVE_WARNING, "The port '%s' was set to %g and holds its last value %g%s. This is said once.",
-                     v->name, value, held, v->unit);
+    return slave_say(s, SLAVE_WARNING,
+                     "The port '%s' was set to %g and holds its last value %g%s. This is reported once.", v->name,
+                     value, held, v->unit);
   return slave_say(s, SLAVE_WARNING,
-                   "'%s' was set to %.10g%s and is held at %g, the end of its range %g to %g. This is said once.",
+                   "'%s' was set to %.10g%s and is held at %g, the end of its range %g to %g. This is reported once.",
                    v->name, value, v->unit, held, v->min, v->max);
 }
 

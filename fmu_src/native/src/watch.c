@@ -8,23 +8,15 @@ static const double MUCH_LEFT = 1e-3; /* m */
 static const double QUARTER_TURN = 1.5707963267948966;
 
 static slave_status watch_energy(slave *s, const ali3_report *report) {
-  const ali3_report r = *report;
-  if (s->calls.energy_warned) return SLAVE_OK;
-  const ali3_doubt doubt = ali3_run_doubt(&r);
-  if (doubt == ALI3_DOUBT_NONE) return SLAVE_OK;
-  const double h = s->value[s->step_reference], time = ali3_time(s->fidelity.kernel);
+  if (s->calls.energy_warned || !ali3_balance_wrong(report)) return SLAVE_OK;
   s->calls.energy_warned = 1;
-  if (doubt == ALI3_DOUBT_BALANCE)
-    return slave_say(
-        s, SLAVE_WARNING,
-        "At %.6g s the energy balance is violated: the steps have made or lost %.3g J where no force did, %.2g %% of "
-        "the energy in the motion. The results are not reliable. Run again with a step_size below %g s. This is said "
-        "once.",
-        time, r.energy_error, 100.0 * ali3_energy_balance(&r), h);
-  return slave_say(s, SLAVE_WARNING,
-                   "Up to %.6g s the solver had to halve its step %lld times in %lld steps: the motion is too fast for "
-                   "step_size. Compare with a run of half the step_size, %g s. This is said once.",
-                   time, (long long)r.halvings, (long long)r.steps, 0.5 * h);
+  return slave_say(
+      s, SLAVE_WARNING,
+      "At %.6g s the energy balance is violated: the steps have added or lost %.3g J without a force, %.2g %% of the "
+      "energy in the motion. The results are not reliable. Run again with a step_size below %g s. This is reported "
+      "once.",
+      ali3_time(s->fidelity.kernel), report->energy_error, 100.0 * ali3_energy_balance(report),
+      s->value[s->step_reference]);
 }
 
 static slave_status watch_modes(slave *s, const ali3_report *report) {
@@ -32,7 +24,7 @@ static slave_status watch_modes(slave *s, const ali3_report *report) {
   if (s->calls.mode_warned || report->branch_changes == 0) return SLAVE_OK;
   if (ali3_branch_text(s->fidelity.kernel, text, sizeof text) != ALI3_OK) return SLAVE_OK;
   s->calls.mode_warned = 1;
-  return slave_say(s, SLAVE_WARNING, "%s This is said once.", text);
+  return slave_say(s, SLAVE_WARNING, "%s This is reported once.", text);
 }
 
 /* The first step that ended at the limit of its iterations, and the first that left much: the first is often harmless. */
@@ -48,7 +40,8 @@ static slave_status watch_limit(slave *s, const ali3_report *report) {
                    "%g; after this one %s. If that is too much, raise the limit or take a step_size below %g s. %s",
                    ali3_time(s->fidelity.kernel), (long long)report->capped, (long long)report->steps,
                    s->value[s->iterations_reference], off, s->value[s->step_reference],
-                   said == SLAVE_CAPPED ? "This is said again only where it is more than 1 mm." : "This is said once.");
+                   said == SLAVE_CAPPED ? "This is reported again only where it is more than 1 mm."
+                                        : "This is reported once.");
 }
 
 /* A wheel that hit a wall or fell deep into the ground: the step converges, so that nothing else tells it. */
@@ -59,7 +52,7 @@ static slave_status watch_rims(slave *s, const ali3_report *report) {
   if (s->rim_said || !(report->rim_pressed > 0.0)) return SLAVE_OK;
   if (ali3_rim_text(s->fidelity.kernel, &element, text, sizeof text) != ALI3_OK || element < 0) return SLAVE_OK;
   s->rim_said = true;
-  return slave_say(s, SLAVE_WARNING, "%s It is the wheel of '%.64s'. This is said once.", text,
+  return slave_say(s, SLAVE_WARNING, "%s It is the wheel of '%.64s'. This is reported once.", text,
                    t->element[t->first_element[s->fidelity.number] + (size_t)element]);
 }
 
@@ -82,7 +75,7 @@ void slave_watch_outputs(slave *s) {
   slave_say(
       s, SLAVE_WARNING,
       "At %.6g s the vehicle has rolled over: %s is %.4g%s, more than a quarter turn. What follows is a vehicle that "
-      "slides on its body, as far as points of it touch the ground. This is said once.",
+      "slides on its body, as far as points of it touch the ground. This is reported once.",
       ali3_time(s->fidelity.kernel), t->variable[t->roll].name, s->value[t->roll], t->variable[t->roll].unit);
 }
 

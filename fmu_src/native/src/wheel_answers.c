@@ -22,7 +22,7 @@ void slave_hold_normals(slave *s) {
     if (!(s->said[i] & SLAVE_HELD_NORMAL))
       slave_say(s, SLAVE_WARNING,
                 "The normal of the road '%s' and its neighbours was set to (%g, %g, %g); it must be a unit vector that "
-                "points up, and the last one, (%g, %g, %g), is held. This is said once.",
+                "points up, and the last one, (%g, %g, %g), is held. This is reported once.",
                 t->variable[i].name, n[0], n[1], n[2], held[0], held[1], held[2]);
     s->said[i] |= SLAVE_HELD_NORMAL;
     for (size_t k = 0; k < 3; k++) {
@@ -61,7 +61,7 @@ static void watch_answer(slave *s, size_t i) {
   s->said[i] |= SLAVE_FAR;
   slave_say(s, SLAVE_WARNING,
             "At %.6g s the last answer on the road at '%s' holds for the point (%.6g, %.6g, %.6g), %.3g m from its "
-            "wheel; the road is taken to go on as a plane from there. This is said once.",
+            "wheel; the road is taken to go on as a plane from there. This is reported once.",
             ali3_time(s->fidelity.kernel), v->name, s->value[i], s->value[i + 1], s->value[i + 2], sqrt(square));
 }
 
@@ -118,7 +118,7 @@ static void watch_hub(slave *s, size_t i) {
     s->said[i] |= SLAVE_JUMPED;
     slave_say(s, SLAVE_WARNING,
               "At %.6g s force and moment on the hub at '%s' are those of %.6g s, and its wheel went %.3g m since, on "
-              "which those of a tyre change; another program must set them at every step. This is said once.",
+              "which those of a tyre change; another program must set them at every step. This is reported once.",
               time, v->name, changed, way);
   }
   if (s->said[i] & SLAVE_FAR || !(held > 1.001 * late) || time - s->calls.start_time < 1.5 * step) return;
@@ -126,7 +126,7 @@ static void watch_hub(slave *s, size_t i) {
   slave_say(s, SLAVE_WARNING,
             "At %.6g s the wheel at '%s' moves at %.3g m/s and its forces come every %g s: those of a tyre like the "
             "one left out that %s for longer than %.2g ms may shake it, where all programs step at once for longer "
-            "than %.2g ms. Take shorter communication steps%s. This is said once.",
+            "than %.2g ms. Take shorter communication steps%s. This is reported once.",
             time, v->name, speed, held, followed ? "follow derivatives" : "are held",
             1e3 * calm_step(v, speed, followed, false), 1e3 * late,
             held > 1.5 * step ? ", also in the program of the tyre" : "");

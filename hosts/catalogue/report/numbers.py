@@ -17,7 +17,7 @@ NONE = "–"
 
 
 def shown(value: float) -> str:
-    """Four digits, without an exponent where it reads well; `NONE` for what is no number."""
+    """Four digits, without an exponent where it reads well; `NONE` for what is not a number."""
     if not math.isfinite(value):
         return NONE if math.isnan(value) else ("∞" if value > 0.0 else "-∞")
     if 1e4 <= abs(value) < 1e7:

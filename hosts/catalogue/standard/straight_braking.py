@@ -39,7 +39,7 @@ def drive(sheet: Sheet) -> None:
         sheet.runs |= {"unlocked": found["run"]} if found else {}
     nothing = HostError("wheels lock at every pedal")
     if found and not sheet.value("locks_known", **found):
-        nothing, found = HostError("the car does not tell the slip of its wheels, or did not brake"), {}
+        nothing, found = HostError("the car does not provide the slip of its wheels, or did not brake"), {}
     missing = {} if found else dict.fromkeys(("best", "run", "onset"), nothing)
     sheet.add("unlocked", **{"best": best, "resolution": RESOLUTION, **found, **missing})
     sheet.add("pictures", run=run, onset=onset)
@@ -86,7 +86,7 @@ def stop(
     elif ends.reason in ("spun", "rolled"):
         notes += (f"The car has {ends.reason} at {last:.4g} s; the run ends there.",)
     elif not ends.reason and not result.failed_steps:
-        notes += (f"The car does not stand after {last:.4g} s; its speed is {3.6 * result['speed'][-1]:.3g} km/h.",)
+        notes += (f"The car has not stopped after {last:.4g} s; its speed is {3.6 * result['speed'][-1]:.3g} km/h.",)
     return result, pilot.onset, notes
 
 

@@ -1,4 +1,4 @@
-"""Names by which devices keep their mapping, two of the same model as well."""
+"""Persistent names of devices, under which their mappings are stored; devices of one model are distinguished."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ MOST_OF_A_MODEL = 8
 
 
 class Identities:
-    """An `id` for each device that is plugged in: its GUID, for a second one of the model with ``-2`` behind.
+    """An `id` for each connected device: its GUID, followed by ``-2`` for a second device of the same model.
 
-    A device that was pulled out and comes back has its old one. Two of a model are told apart by serial number, else by
-    the place they are plugged in at, else by their order.
+    A device that is reconnected gets its former `id`. Devices of one model are distinguished by serial number, else by
+    port, else by their order.
 
-    `kept_serial`: serial number that is kept in the file of an `id`, else empty.
+    `kept_serial`: serial number in the file of an `id`, else empty.
     """
 
     def __init__(self, kept_serial: Callable[[str], str]) -> None:
@@ -23,7 +23,7 @@ class Identities:
         self._before: dict[str, tuple[str, str]] = {}
 
     def take(self, guid: str, serial: str, path: str) -> str:
-        """The `id` of a device that came."""
+        """The `id` of a device that was connected."""
         names = (_named(guid, k) for k in range(1, len(self._there) + MOST_OF_A_MODEL + 1))
         free = [name for name in names if name not in self._there]
         found = self._same(free, serial, path) or self._unclaimed(free, serial)
@@ -32,7 +32,7 @@ class Identities:
         return found
 
     def leave(self, device: str) -> None:
-        """It was pulled out."""
+        """The device was disconnected."""
         self._there.discard(device)
 
     def _serial(self, device: str) -> str:
@@ -44,7 +44,7 @@ class Identities:
         return next((i for i in free if path and self._before.get(i, ("", ""))[1] == path), "")
 
     def _unclaimed(self, free: list[str], serial: str) -> str:
-        """The first that does not belong to another one; without serial numbers simply the first."""
+        """The first that does not belong to another device; without serial numbers the first."""
         return next((i for i in free if not (serial and self._serial(i))), free[-1])
 
 

@@ -98,6 +98,6 @@ def _mapping(table: dict[str, Any]) -> DeviceMapping:
             raise HostError(f"'{name}' is unknown.")
     inputs = table.get("inputs", {})
     if not isinstance(inputs, dict):
-        raise HostError(f"inputs = {brief(inputs)} is no table.")
+        raise HostError(f"inputs = {brief(inputs)} is not a table.")
     read = {name: read_input(name, fields) for name, fields in inputs.items()}
     return DeviceMapping(read, read_settings(table.get("settings", {})))

@@ -50,7 +50,7 @@ class Source:
         """From its words: ``axis 2``, ``button 7``, ``hat 0 up``. Raises `HostError`: it is no such word."""
         found = _SOURCE.fullmatch(text) if isinstance(text, str) else None
         if found is None:
-            raise HostError(f"{text!r} is no source; “axis 2”, “button 7” or “hat 0 up” would be.")
+            raise HostError(f"{text!r} is not a source; “axis 2”, “button 7” or “hat 0 up” would be.")
         if found[1]:
             return cls(found[1], int(found[2]))
         return cls("hat", int(found[3]), found[4])

@@ -31,7 +31,7 @@ class Parameter:
     log: bool = False
     """Whether its range is divided by the logarithm."""
     words: tuple[str, ...] = ()
-    """What the codes 0, 1, ... stand for where it is no number; else empty."""
+    """What the codes 0, 1, ... stand for where it is not a number; else empty."""
 
     @property
     def title(self) -> str:
@@ -86,7 +86,7 @@ class StudyData:
     """One row a run; the index is that of the run."""
     parameters: tuple[Parameter, ...]
     x: NDArray[np.float64]
-    """Shape (runs, parameters): values; codes where a parameter is no number."""
+    """Shape (runs, parameters): values; codes where a parameter is not a number."""
     responses: tuple[Response, ...]
     failed: NDArray[np.bool_]
     """Shape (runs,)."""

@@ -10,12 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 from numpy.typing import NDArray
-from scipy.stats import binomtest
 
 from ali3.chart_style import BLUE, RED
 from ali3.charts import MANY_POINTS
 from hosts.study.analysis.data import Parameter, Response, StudyData
-from hosts.study.analysis.main_effects import MainEffect, classes
+from hosts.study.analysis.main_effects import MainEffect, failed_share
 
 WIDTH = 11.0
 _COLUMNS = 4
@@ -66,7 +65,7 @@ def plot_main_effects(parameters: Sequence[Parameter], response: Response, effec
     figure, axes = parameter_panels(parameters, f"mean of {response.title}")
     for panel, parameter, effect in zip(axes, parameters, effects, strict=True):
         panel.axhline(float(response.values.mean()), color="#888888", linewidth=0.8)
-        _with_interval(panel, parameter, (effect.at, effect.mean, effect.low, effect.high), BLUE)
+        _with_interval(panel, parameter, effect, BLUE)
     return figure
 
 
@@ -100,9 +99,7 @@ def plot_failed(data: StudyData) -> Figure:
     """The share of failed runs over each parameter with Wilson's interval of 95 %, and the runs as marks."""
     figure, axes = parameter_panels(data.parameters, "failed runs, %")
     for k, panel in enumerate(axes):
-        at, *shares = failed_share(data.x[:, k], data.failed)
-        share, low, high = (100.0 * part for part in shares)
-        _with_interval(panel, data.parameters[k], (at, share, low, high), RED)
+        _with_interval(panel, data.parameters[k], failed_share(data.x[:, k], data.failed), RED, 100.0)
         rows = np.flatnonzero(data.failed)
         rows = rows[drawn(len(rows), MOST_POINTS)]
         panel.plot(data.x[rows, k], np.full(len(rows), 0.02), "|", color=RED, transform=panel.get_xaxis_transform())
@@ -110,32 +107,12 @@ def plot_failed(data: StudyData) -> Figure:
     return figure
 
 
-def _with_interval(panel: Axes, parameter: Parameter, points: tuple[NDArray[np.float64], ...], colour: str) -> None:
+def _with_interval(panel: Axes, parameter: Parameter, effect: MainEffect, colour: str, factor: float = 1.0) -> None:
     """A line in its band; points with bars where the values of the parameter have no order."""
-    at, middle, low, high = points
+    at, middle, low, high = effect.at, *(factor * part for part in (effect.mean, effect.low, effect.high))
     if parameter.words:
         panel.errorbar(at, middle, np.stack([middle - low, high - middle]), fmt="o", color=colour, markersize=4)
         panel.margins(x=0.2)
         return
     panel.fill_between(at, low, high, color=colour, alpha=0.2, linewidth=0)
     panel.plot(at, middle, "o-", color=colour, markersize=4)
-
-
-def failed_share(
-    x: NDArray[np.float64], failed: NDArray[np.bool_]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Share of failed runs in classes of a parameter.
-
-    `x`: shape (n,); `failed`: shape (n,). Returns `at`, `share`, `low` and `high`, shape (b,): mean of the parameter in
-    the class, share 0 to 1 and its interval.
-    """
-    codes, _ = classes(x)
-    groups = [np.flatnonzero(codes == k) for k in range(int(codes.max()) + 1)]
-    counts = [int(failed[g].sum()) for g in groups]
-    intervals = [binomtest(c, len(g)).proportion_ci(0.95, method="wilson") for c, g in zip(counts, groups, strict=True)]
-    return (
-        np.array([x[g].mean() for g in groups]),
-        np.array([c / len(g) for c, g in zip(counts, groups, strict=True)]),
-        np.array([float(i.low) for i in intervals]),
-        np.array([float(i.high) for i in intervals]),
-    )

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-CONFIDENCE = 0.95
+from hosts.study.limits import CONFIDENCE, interval_of_share
+
 # So few different values are levels of a design; more are divided into classes.
 _MOST_LEVELS = 12
 _MOST_BINS = 10
@@ -29,10 +32,6 @@ class MainEffect:
     high: NDArray[np.float64]
     """`mean`, `low`, `high`, shape (b,): mean of the measure and its confidence interval; NaN limits where a class has
     one run."""
-    count: NDArray[np.int64]
-    """Shape (b,)."""
-    levels: bool
-    """Whether `at` are the values of the design."""
 
     @property
     def span(self) -> float:
@@ -40,15 +39,15 @@ class MainEffect:
         return float(self.mean.max() - self.mean.min())
 
 
-def classes(x: NDArray[np.float64]) -> tuple[NDArray[np.int64], bool]:
-    """Class of each value: its level, or one of up to ten with equally many runs; and whether they are levels."""
+def classes(x: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Class of each value: its level, or one of up to ten with equally many runs."""
     levels, codes = np.unique(x, return_inverse=True)
     if len(levels) <= _MOST_LEVELS:
-        return codes.astype(np.int64), True
+        return codes.astype(np.int64)
     bins = int(np.clip(len(x) // _FEWEST_IN_BIN, 1, _MOST_BINS))
     ranks = stats.rankdata(x, method="min") - 1.0
     codes = np.minimum(ranks * bins // len(x), bins - 1).astype(np.int64)
-    return np.unique(codes, return_inverse=True)[1].astype(np.int64), False
+    return np.unique(codes, return_inverse=True)[1].astype(np.int64)
 
 
 def main_effect(x: NDArray[np.float64], y: NDArray[np.float64], seed: int = 0) -> MainEffect:
@@ -57,19 +56,21 @@ def main_effect(x: NDArray[np.float64], y: NDArray[np.float64], seed: int = 0) -
     `x`, `y`: parameter and measure of each run, shape (n,); n is at least 1; `seed`: of the bootstrap. Result: with
     intervals of 95 %: by the bootstrap (percentiles), by the normal distribution for more than 500 runs.
     """
-    codes, levels = classes(x)
     rng = np.random.default_rng(seed)
-    order = np.argsort(codes, kind="stable")
-    groups = np.split(order, np.cumsum(np.bincount(codes))[:-1])
-    intervals = np.array([_interval(y[g], rng) for g in groups])
-    return MainEffect(
-        np.array([x[g].mean() for g in groups]),
-        np.array([y[g].mean() for g in groups]),
-        intervals[:, 0],
-        intervals[:, 1],
-        np.array([len(g) for g in groups], dtype=np.int64),
-        levels,
-    )
+    return _of_classes(x, y, lambda of_class: _interval(of_class, rng))
+
+
+def failed_share(x: NDArray[np.float64], failed: NDArray[np.bool_]) -> MainEffect:
+    """The share of failed runs, 0 to 1, with Wilson's interval. `x`, `failed`: of each run, shape (n,)."""
+    return _of_classes(x, failed, lambda of_class: interval_of_share(int(of_class.sum()), len(of_class)))
+
+
+def _of_classes(
+    x: NDArray[np.float64], y: NDArray[Any], interval: Callable[[NDArray[Any]], tuple[float, float]]
+) -> MainEffect:
+    codes = classes(x)
+    groups = np.split(np.argsort(codes, kind="stable"), np.cumsum(np.bincount(codes))[:-1])
+    return MainEffect(*np.array([(x[g].mean(), y[g].mean(), *interval(y[g])) for g in groups]).T)
 
 
 def _interval(y: NDArray[np.float64], rng: np.random.Generator) -> tuple[float, float]:

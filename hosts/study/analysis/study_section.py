@@ -85,7 +85,7 @@ def failed_sections(data: StudyData, plots: Plots, commands: Commands) -> list[S
     for groups, title in (
         (reasons(data, FAILED), "Failed runs"),
         (reasons(data, "incomplete"), "Runs without some measure"),
-        (said(data), "What the FMU said"),
+        (said(data), "Messages of the FMU"),
     ):
         if not groups:
             continue

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from hosts.study.analysis.data import Response, StudyData
 
-if TYPE_CHECKING:
-    import pandas as pd
-
-_PERCENTILES = (0.0, 5.0, 50.0, 95.0, 100.0)
+_STATISTICS = ("runs", "mean", "std", "lowest", "5 %", "median", "95 %", "highest")  # as pandas describes numbers
 _OF_SAMPLES = ("mean", "std", "5 %", "95 %")
 # Of fewer values the 5 % and the 95 % are between the two outermost ones.
 _FEWEST_FOR_DISTRIBUTION = 20
@@ -30,7 +27,7 @@ class Row:
 
 
 def no_distribution(data: StudyData, response: Response) -> str:
-    """Why the values of a measure are no random sample from which a distribution can be told; "" if they are."""
+    """Why the values of a measure are not a random sample from which a distribution can be told; "" if they are."""
     count = len(response.values)
     if data.method in ("grid", "table"):
         return f"{count} runs of a {data.method}, no random sample"
@@ -40,21 +37,14 @@ def no_distribution(data: StudyData, response: Response) -> str:
 
 def statistics(response: Response) -> dict[str, float]:
     """Count, mean, standard deviation and percentiles, in the unit of the measure."""
-    y = response.values
-    found = {
-        "runs": float(len(y)),
-        "mean": float(y.mean()),
-        "std": float(y.std(ddof=1)) if len(y) > 1 else float("nan"),
-    }
-    names = ("lowest", "5 %", "median", "95 %", "highest")
-    return found | {n: float(v) for n, v in zip(names, np.percentile(y, _PERCENTILES), strict=True)}
+    told = pd.Series(response.values).describe(percentiles=[0.05, 0.5, 0.95])
+    return dict(zip(_STATISTICS, told.tolist(), strict=True))
 
 
 def told_statistics(data: StudyData) -> tuple[list[str], str]:
     """Names of the `statistics` that can be told of all measures, and why not the others; "" for all of them."""
-    names = list(statistics(data.responses[0]))
     why = next(filter(None, (no_distribution(data, response) for response in data.responses)), "")
-    return ([name for name in names if name not in _OF_SAMPLES] if why else names), why
+    return [name for name in _STATISTICS if not (why and name in _OF_SAMPLES)], why
 
 
 def extremes(data: StudyData, response: Response, count: int) -> tuple[list[Row], list[Row]]:
@@ -79,7 +69,7 @@ def reasons(data: StudyData, status: str) -> list[tuple[str, list[int]]]:
 
 
 def said(data: StudyData) -> list[tuple[str, list[int]]]:
-    """What the FMU said in its runs and their indices, the most frequent first; of numbers that differ the range."""
+    """Messages of the FMU in its runs and their indices, the most frequent first; of numbers that differ the range."""
     if "messages" not in data.frame:
         return []
     messages = data.frame["messages"].fillna("").astype(str)

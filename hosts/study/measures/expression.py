@@ -1,4 +1,8 @@
-"""Expressions such as ``max(abs(chassis.ay), after=2.0)``, evaluated by simpleeval."""
+"""Expressions such as ``max(abs(chassis.ay), after=2.0)``, evaluated by simpleeval.
+
+They are of users: names, forms and units are checked before the first run, which those of the files of standard tests
+(`hosts.measures.scope`), of runs and arrays without units, cannot be.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +10,7 @@ import ast
 import hashlib
 import math
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -73,21 +77,21 @@ class Expression:
         return hashlib.sha256(ast.unparse(_parse(self.text)[0]).encode()).hexdigest()
 
     def columns(self, units: Mapping[str, str], stop_time: float | None = None) -> dict[str, str]:
-        """Its one column; see `StudyMeasure.columns`."""
+        """Its one column; see `hosts.study.measures.study_measure.StudyMeasure`."""
         for signal in sorted(self.signals):
             if signal not in units:
                 raise HostError(
-                    f"The measure '{self.text}' needs '{signal}', which is no input or output{near(signal, units)}"
+                    f"The measure '{self.text}' needs '{signal}', which is not an input or output{near(signal, units)}"
                 )
         time = np.array([0.0, np.finfo(float).max if stop_time is None else stop_time])
         signals = {n: Quantity(n, np.ones(2), units.get(n, "s") or NONE, time) for n in (*self.signals, TIME)}
         try:
             return {self.name: _evaluated(self.text, signals).unit}
         except NotYieldedError as error:
-            raise HostError(f"The measure '{self.text}' cannot be had of any run. {error}") from None
+            raise HostError(f"The measure '{self.text}' cannot be computed for any run. {error}") from None
 
     def evaluate(self, result: Result, parameters: Mapping[str, Value] | None = None) -> list[Measure]:
-        """Its value; see `StudyMeasure.evaluate`."""
+        """Its value; see there."""
         value, note, unit = math.nan, "", ""
         try:
             if result.refusal:
@@ -121,9 +125,11 @@ def _evaluated(text: str, signals: Mapping[str, Quantity]) -> Quantity:
     Raises `HostError`: it has what cannot stand there; `NotYieldedError`: the signals do not yield it.
     """
     where = f"The measure '{text}'"
-    evaluator = simpleeval.SimpleEval(operators=dict(_OPERATORS), functions=dict(_FUNCTIONS), names=dict(signals))
-    kept = (ast.Name, ast.UnaryOp, ast.BinOp, ast.Call, ast.keyword)
-    evaluator.nodes = {node: evaluator.nodes[node] for node in kept} | {ast.Constant: _number}
+    evaluator = simpleeval.SimpleEval(operators=dict(_OPERATORS), functions=dict(_FUNCTIONS))
+    kept = (ast.UnaryOp, ast.BinOp, ast.Call, ast.keyword)
+    evaluator.nodes = {node: evaluator.nodes[node] for node in kept}
+    evaluator.nodes |= dict.fromkeys((ast.Name, ast.Attribute, ast.Subscript), lambda node: signals[_name(node)])
+    evaluator.nodes[ast.Constant] = lambda node: signals[node.value] if node.value in signals else _number(node)
     try:
         with np.errstate(all="ignore"):
             found = evaluator.eval(text, _parse(text)[0])
@@ -132,7 +138,7 @@ def _evaluated(text: str, signals: Mapping[str, Quantity]) -> Quantity:
     except simpleeval.FunctionNotDefined as error:
         there = ", ".join(_FUNCTIONS)
         raise HostError(f"{where} has no function '{error.func_name}' to use; there are: {there}.") from None
-    except (simpleeval.InvalidExpression, TypeError):
+    except (simpleeval.InvalidExpression, TypeError, KeyError):
         there = f"signals, numbers, + - * / and the functions {', '.join(_FUNCTIONS)}"
         raise HostError(f"{where} cannot be read: {there} can stand there.") from None
     except RecursionError:
@@ -143,7 +149,7 @@ def _evaluated(text: str, signals: Mapping[str, Quantity]) -> Quantity:
 
 def _number(node: ast.Constant) -> Quantity:
     if isinstance(node.value, bool) or not isinstance(node.value, (int, float)):
-        raise HostError(f"'{ast.unparse(node)}' is no number.")
+        raise HostError(f"'{ast.unparse(node)}' is not a number.")
     try:
         value = float(node.value)
     except OverflowError:
@@ -155,46 +161,33 @@ def _number(node: ast.Constant) -> Quantity:
 
 @lru_cache(maxsize=1000)
 def _parse(text: str) -> tuple[ast.expr, frozenset[str]]:
-    """The tree of an expression, in which each signal is one name, and these names."""
+    """The tree of an expression, and the names of its signals."""
     try:
-        names = _SignalNames()
-        return names.visit(ast.parse(text.strip(), mode="eval").body), frozenset(names.found)
+        tree = ast.parse(text.strip(), mode="eval").body
+        return tree, frozenset(_signals(tree))
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        words = (error.msg if isinstance(error, SyntaxError) else "") or "it is no expression"
+        words = (error.msg if isinstance(error, SyntaxError) else "") or "it is not an expression"
         raise HostError(
             f"The measure '{text}' cannot be read: {words}. Forms: max(abs(chassis.ay), after=2.0), "
             "value(speed, 3.0), range('a name with signs'), file.py:function."
         ) from None
 
 
-class _SignalNames(ast.NodeTransformer):
-    """Makes one name of what names a signal: with dots and indices, or a text in quotation marks."""
+def _signals(node: ast.AST) -> Iterator[str]:
+    """What an expression names as signals: with dots and indices, or as a text in quotation marks."""
+    place = node
+    while isinstance(place, (ast.Attribute, ast.Subscript)):
+        place = place.value
+    if isinstance(place, ast.Name) or (isinstance(node, ast.Constant) and isinstance(node.value, str)):
+        yield _name(node)
+    else:
+        inner = [*node.args, *node.keywords] if isinstance(node, ast.Call) else ast.iter_child_nodes(node)
+        for each in inner:
+            yield from _signals(each)
 
-    def __init__(self) -> None:
-        self.found: set[str] = set()
 
-    def visit_Call(self, node: ast.Call) -> ast.AST:
-        node.args = [self.visit(argument) for argument in node.args]
-        node.keywords = [self.visit(keyword) for keyword in node.keywords]
-        return node
-
-    def visit_Name(self, node: ast.Name) -> ast.AST:
-        return self._signal(node.id)
-
-    def visit_Constant(self, node: ast.Constant) -> ast.AST:
-        return self._signal(node.value) if isinstance(node.value, str) else node
-
-    def visit_Attribute(self, node: ast.Attribute | ast.Subscript) -> ast.AST:
-        inner: ast.expr = node
-        while isinstance(inner, (ast.Attribute, ast.Subscript)):
-            inner = inner.value
-        return self._signal(ast.unparse(node).replace(" ", "")) if isinstance(inner, ast.Name) else node
-
-    visit_Subscript = visit_Attribute
-
-    def _signal(self, name: str) -> ast.Name:
-        self.found.add(name)
-        return ast.Name(name, ast.Load())
+def _name(node: ast.AST) -> str:
+    return str(node.value) if isinstance(node, ast.Constant) else ast.unparse(node).replace(" ", "")
 
 
 def near(name: str, known: Mapping[str, str]) -> str:

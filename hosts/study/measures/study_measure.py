@@ -3,50 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Protocol
+from typing import TypeAlias
 
-from hosts.common.numbers import Value
-from hosts.driving.result import Result
-from hosts.measures.measure import Measure
 from hosts.study.measures.expression import Expression
-from hosts.study.measures.user_function import read_user_function
+from hosts.study.measures.user_function import UserFunction, read_user_function
 
+StudyMeasure: TypeAlias = Expression | UserFunction
+"""What is measured of every run; it can be pickled.
 
-class StudyMeasure(Protocol):
-    """What is measured of every run; it can be pickled."""
-
-    @property
-    def name(self) -> str:
-        """Of its column, or what its columns begin with."""
-
-    @property
-    def text(self) -> str:
-        """As the user wrote it."""
-
-    @property
-    def signals(self) -> frozenset[str]:
-        """What it reads of a run; empty: all, maybe."""
-
-    @property
-    def digest(self) -> str:
-        """Another one where it would measure something else, hexadecimal."""
-
-    def columns(self, units: Mapping[str, str], stop_time: float | None = None) -> dict[str, str]:
-        """Names and units of its numbers.
-
-        `units`: of the signals of a run; `stop_time`: of every run, s. Raises `HostError`: no run can yield it: an
-        unknown signal, a sum of different units, a time after the end.
-        """
-
-    def evaluate(self, result: Result, parameters: Mapping[str, Value] | None = None) -> list[Measure]:
-        """Its numbers of a run in the order of `columns`, NaN with a note where the run does not yield them.
-
-        `parameters`: what was set before the start.
-        """
-
-
+`name`: of its column, or what its columns begin with; `text`: as the user wrote it; `digest`: another one where it
+would measure something else. `columns(units, stop_time)`: names and units of its numbers, of the units of the signals
+of a run, and of the time of every run, s; raises `HostError` where no run can yield it: an unknown signal, a sum of
+different units, a time after the end. `evaluate(result, parameters)`: its numbers of a run in the order of `columns`,
+NaN with a note where the run does not yield them; `parameters`: what was set before the start.
+"""
 _FUNCTION = re.compile(r"(.+\.py):\s*([^:\s]*)")
 
 

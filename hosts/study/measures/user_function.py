@@ -44,17 +44,12 @@ class UserFunction:
         return f"{self.file}:{self.function}"
 
     @property
-    def signals(self) -> frozenset[str]:
-        """Empty: all, maybe."""
-        return frozenset()
-
-    @property
     def digest(self) -> str:
         """Hash of the source."""
         return hashlib.sha256(f"{self.function}\n{self.source}".encode()).hexdigest()
 
     def columns(self, units: Mapping[str, str], stop_time: float | None = None) -> dict[str, str]:
-        """What it declares; see `StudyMeasure.columns`."""
+        """What it declares; see `hosts.study.measures.study_measure.StudyMeasure`."""
         declared = getattr(_load(self), "units", "1")
         if isinstance(declared, str):
             return {self.name: declared or "1"}
@@ -70,7 +65,7 @@ class UserFunction:
         return {f"{self.name}.{k}": v or "1" for k, v in declared.items()}
 
     def evaluate(self, result: Result, parameters: Mapping[str, Value] | None = None) -> list[Measure]:
-        """What it gives; see `StudyMeasure.evaluate`."""
+        """What it gives; see there."""
         columns = self.columns(result.units)
         values, note = dict.fromkeys(columns, math.nan), ""
         notes: dict[str, str] = {}
@@ -169,7 +164,7 @@ def _takes_parameters(function: Callable[..., Any], text: str = "") -> bool:
 
 
 def _number(value: Any) -> float:
-    """NaN for what is no number."""
+    """NaN for what is not a number."""
     try:
         number = float(value) if isinstance(value, numbers.Real) or hasattr(value, "__float__") else math.nan
     except (TypeError, ValueError):

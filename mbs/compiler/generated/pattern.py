@@ -123,13 +123,14 @@ class Pattern:
                 if one != other:
                     of[other].append((t, self.row_col[one], False))
         self.in_triples = [self._row_in_triples(k, of) for k in range(self.nc)]
+        points = [self.in_triples[k] and self._of_points(k, of) for k in range(self.nc)]
         starts = [0, *np.cumsum([len(x) for x in of]).tolist()]
         terms: list[list[tuple[int, int]]] = []
         first: dict[int, int] = {}
         for k in range(self.nc):
             for i in range(self.row_ptr[k], self.row_ptr[k + 1]):
                 d = (i - self.row_ptr[k]) % 3
-                begin, apart = (starts[i - d] + d, 3) if self.in_triples[k] else (starts[i], 1)
+                begin, apart = (starts[i - d] + d, 3) if points[k] else (starts[i], 1)
                 places = [begin + apart * m for m in range(len(of[i]))]
                 terms.append([(at, c) for at, (_, c, _) in zip(places, of[i], strict=True)])
                 first |= {t: at for at, (t, _, mine) in zip(places, of[i], strict=True) if mine}
@@ -147,6 +148,14 @@ class Pattern:
             and col[i + 1] == col[i] + 1
             and col[i + 2] == col[i] + 2
             for i in range(begin, end, 3)
+        )
+
+    def _of_points(self, k: int, of: list[list[tuple[int, int, bool]]]) -> bool:
+        """Whether the second factors of a row of triples are three neighbours each too."""
+        return all(
+            y == x + 1 and z == x + 2
+            for i in range(self.row_ptr[k], self.row_ptr[k + 1], 3)
+            for (_, x, _), (_, y, _), (_, z, _) in zip(of[i], of[i + 1], of[i + 2], strict=True)
         )
 
     def row_place(self, row: int, one: int, other: int) -> int:

@@ -5,7 +5,7 @@ A library is loaded once per path; a `LoadedSystem` may be shared by threads, an
 at a time. Names and units: `include/ali3.h`.
 """
 
-from ..header.enumerations import Doubt, Status
+from ..header.enumerations import Status
 from ..header.limits import FARTHEST, FASTEST, OPEN
 from ..header.structures import ControlFields, Sizes
 from .errors import KernelError, open_row
@@ -17,7 +17,6 @@ __all__ = [
     "FASTEST",
     "OPEN",
     "ControlFields",
-    "Doubt",
     "KernelError",
     "LoadedSystem",
     "Sizes",

@@ -47,6 +47,11 @@ def status_remedy(status: int) -> str:
     return remedy.decode()
 
 
+def refused_new(library: ctypes.CDLL, status: int, what: str, reason: str = "") -> KernelError:
+    """What could not be made: `what`, the reason, by default the kernel's sentence for the status, and what helps."""
+    return KernelError(status, f"{what}: {reason or status_text(library, status)} {status_remedy(status)}")
+
+
 def status_cause(status: int) -> Cause:
     """What a refusal with a status comes from."""
     return Cause(load_library().ali3_status_cause(status))

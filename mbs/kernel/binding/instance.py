@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_void_p
 from typing import Any
 
-from ..header.enumerations import Doubt
 from ..header.limits import POSE
 from ..header.structures import ControlFields, InputTable, InputTables, RecordFields, SettingsFields
 from .buffers import buffer, numbers
@@ -299,13 +298,9 @@ class Instance(StandingInstance):
         """
         self._check(self._library.ali3_ports_follow(self._handle, other._handle))
 
-    def doubt(self) -> Doubt:
-        """Whether the run says that it is wrong."""
-        return Doubt(self._library.ali3_run_doubt(byref(self._report())))
-
-    def energy_balance(self) -> float:
-        """Work of constraint forces and projections over the energy in the motion; see ali3_energy_balance."""
-        return float(self._library.ali3_energy_balance(byref(self._report())))
+    def balance_wrong(self) -> bool:
+        """Whether the energy balance says that the run is wrong; see ali3_balance_wrong."""
+        return bool(self._library.ali3_balance_wrong(byref(self._report())))
 
     def branch_text(self) -> str:
         """A sentence about the first change of the assembly mode of a closed loop; empty where there was none."""

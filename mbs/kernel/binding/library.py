@@ -93,14 +93,14 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_time": (c_double, [c_void_p]),
     "ali3_solver_value": (c_double, [c_void_p, c_int32]),
     "ali3_capped_residual": (c_double, [c_void_p]),
-    "ali3_run_doubt": (c_int32, [POINTER(ReportFields)]),
+    "ali3_balance_wrong": (c_int32, [POINTER(ReportFields)]),
     "ali3_compare": (
         None,
         [POINTER(JudgedFields), c_int32, c_int64, _DOUBLES, _DOUBLES, _DOUBLES, POINTER(ComparedFields)],
     ),
     "ali3_compared_sizes": (
         None,
-        [POINTER(JudgedFields), c_int32, POINTER(ComparedFields), c_double, c_int32, _DOUBLES],
+        [POINTER(JudgedFields), c_int32, POINTER(ComparedFields), c_double, c_double, c_int32, _DOUBLES],
     ),
     "ali3_state_size": (c_size_t, [c_void_p]),
     "ali3_snapshot_size": (c_size_t, [c_void_p]),

@@ -7,7 +7,7 @@ import os
 from ctypes import byref, c_void_p
 
 from ..header.structures import Sizes
-from .errors import KernelError, status_text
+from .errors import KernelError, refused_new
 from .kernel_memory import KernelMemory
 from .library import load_library
 
@@ -27,8 +27,8 @@ class LoadedSystem(KernelMemory):
         message = ctypes.create_string_buffer(256)
         status = self._library.ali3_system_load(bytes(data), len(data), byref(handle), message, len(message))
         if status:
-            text = f"{message.value.decode(errors='replace')}." if message.value else status_text(self._library, status)
-            raise KernelError(status, f"the System file was refused: {text}")
+            reason = f"{message.value.decode(errors='replace')}." if message.value else ""
+            raise refused_new(self._library, status, "the System file was refused", reason)
         self._handle = handle
         self.sizes: Sizes = self._library.ali3_system_sizes(handle)
         self.state_size: int = self._library.ali3_state_size(handle)

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from ..header.structures import LaneFields
 from .buffers import buffer
-from .errors import KernelError, status_text
+from .errors import KernelError, refused_new, status_text
 from .instance import Instance
 from .kernel_memory import KernelMemory
 from .library import load_library
@@ -45,7 +45,8 @@ class Many(KernelMemory):
         self.system, self.width = system, width
         self._library = system._library
         handle = c_void_p()
-        self._check(self._library.ali3_many_new(system._handle, width, byref(handle)))
+        if status := self._library.ali3_many_new(system._handle, width, byref(handle)):
+            raise refused_new(self._library, status, "instances cannot be advanced together")
         self._handle = handle
 
     def __del__(self) -> None:

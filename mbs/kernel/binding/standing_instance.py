@@ -8,7 +8,7 @@ from typing import Any
 
 from ..header.limits import OPEN
 from ..header.structures import ReportFields
-from .errors import KernelError, status_text
+from .errors import KernelError, refused_new, status_text
 from .kernel_memory import KernelMemory
 from .loaded_system import LoadedSystem
 
@@ -24,7 +24,8 @@ class StandingInstance(KernelMemory):
         self.system = system
         self._library = system._library
         handle = c_void_p()
-        self._check(self._library.ali3_instance_new(system._handle, byref(handle)))
+        if status := self._library.ali3_instance_new(system._handle, byref(handle)):
+            raise refused_new(self._library, status, "the instance cannot be made")
         self._handle = handle
         # Bound once: an attribute of the library costs more than the call of a small step.
         self._sensors = self._library.ali3_sensors

@@ -90,14 +90,6 @@ class RoadType(IntEnum):
     PORT = 3
 
 
-class Doubt(IntEnum):
-    """`ali3_doubt`: why the results of a run may be wrong."""
-
-    NONE = 0
-    HALVINGS = 1
-    BALANCE = 2
-
-
 class JudgedUnit(IntEnum):
     """`ali3_judged.unit`."""
 

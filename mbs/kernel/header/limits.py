@@ -10,8 +10,6 @@ POSE = 7
 """Numbers of a pose."""
 LONGEST_SETTLING = 10.0
 """Longest time for which a start may settle, s."""
-BALANCE_WRONG = 0.036
-"""Energy balance above which, at any time, no run was right that was tried."""
 STILL = 1e-4
 """Of the largest value in a unit, or of the length: a smaller range is rest."""
 WRONG_ERROR = 0.05
@@ -20,10 +18,6 @@ AGREED = 0.1
 """Of what would be wrong: two motions that differ by less agree."""
 MOST_PARTS = 8
 """By which the step of a second motion is longer, or half of it shorter, at most."""
-EVENT_ORDER = 2
-"""Order of errors behind abrupt events."""
-HALVINGS_SUSPECT = 0.1
-"""Halvings per step above which a run is suspect."""
 SYSTEM_VERSION = 3
 """Of the System file."""
 ROAD_VERSION = 1

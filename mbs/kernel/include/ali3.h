@@ -27,26 +27,28 @@
   X(BAD_ARGUMENT, CALL, \
     "an argument is missing, not finite or out of range", \
     "Give every argument as a finite number within its range.") \
-  X(BAD_FILE, CALL, "the bytes are not a valid System file", "Compile the model again and write its System anew.") \
+  X(BAD_FILE, CALL, "the bytes are not a valid System file", "Compile the model again and save its System.") \
   X(BAD_STATE, CALL, \
     "the bytes are not a state of this System", \
-    "Restore a state that was saved of this System by this version.") \
-  X(NO_MEMORY, CALL, "there is not enough memory", "Make fewer instances at a time, or end other programs.") \
+    "Restore a state that this version saved of this System.") \
+  X(NO_MEMORY, CALL, "there is not enough memory", "Create fewer instances at a time, or close other programs.") \
   X(NOT_INITIALISED, CALL, "the instance must be initialised first", "Initialise it, then call again.") \
   X(NOT_ASSEMBLED, START, \
-    "the position problem does not close", \
+    "the assembly cannot be closed", \
     "Start nearer to a position in which all joints close.") \
-  X(NOT_CONVERGED, EQUATIONS, "the iteration did not converge, also not in smaller steps", "A shorter step may pass.") \
-  X(SINGULAR, EQUATIONS, "the tangent is singular", "A shorter step may pass.") \
-  X(NOT_FINITE, EQUATIONS, "the motion or a force became infinite", "A shorter step may pass.") \
-  X(WRONG_METHOD, CALL, "the method does not take this System", "'ali3p' takes every System.") \
-  X(START_REFUSED, CALL, "an element refuses the start", "Start where it is clear.") \
+  X(NOT_CONVERGED, EQUATIONS, \
+    "the iteration did not converge, not even in smaller steps", \
+    "A shorter step may succeed.") \
+  X(SINGULAR, EQUATIONS, "the tangent is singular", "A shorter step may succeed.") \
+  X(NOT_FINITE, EQUATIONS, "the motion or a force became infinite", "A shorter step may succeed.") \
+  X(WRONG_METHOD, CALL, "the method does not accept this System", "'ali3p' accepts every System.") \
+  X(START_REFUSED, CALL, "an element refuses the start", "Choose a start that is clear of it.") \
   X(UNRESOLVED, STEP, \
-    "the motion is too fast for the step: the energy balance is violated, also in smaller steps", \
-    "A shorter step may pass.") \
+    "the motion is too fast for the step: the energy balance is violated, even in smaller steps", \
+    "A shorter step may succeed.") \
   X(NO_TREE, CALL, \
-    "this method needs a System of rigid bodies that revolute and prismatic joints tie to the ground", \
-    "'ali3p' takes every System.") \
+    "this method needs a System of rigid bodies that revolute and prismatic joints connect to the ground", \
+    "'ali3p' accepts every System.") \
   X(TOO_STIFF, CALL, \
     "the step is too long for an explicit method, which must follow the fastest motion", \
     "Implicit methods ('ali3p', 'radau_5') need not follow it.") \
@@ -58,28 +60,28 @@
     "Set parameters nearer to the values that the model was compiled with.") \
   X(BRANCH_CHANGED, STEP, "a closed loop changed its assembly mode", "A shorter step may stay in the mode.") \
   X(FIXED_PARAMETER, CALL, "a fixed parameter can be set before the start only", "Set it before the start.") \
-  X(BAD_ROAD, CALL, "the file is not a valid road", "Write the file of the road again.") \
+  X(BAD_ROAD, CALL, "the file is not a valid road", "Write the road file again.") \
   X(ROAD_LOST, CALL, \
     "a part of the road cannot be read from its file", \
-    "The file of the road must be whole again, whatever the step.") \
+    "Restore the road file; no step length helps.") \
   X(TOO_DEAR, STEP, \
-    "the step and its parts took more than 1000 iterations, as many as a step may cost", \
-    "A shorter step may pass.") \
+    "the step and its parts took more than 1000 iterations, the limit of a step", \
+    "A shorter step may succeed.") \
   X(WHEEL_IN_ROAD, CALL, \
     "the centre of a wheel is below the road, where its contact is lost", \
-    "Go on from another state.") \
+    "Continue from another state.") \
   X(BAD_NORMAL, CALL, \
     "the normal of a road at a port must be a unit vector that points up", \
     "Give it at shorter intervals, or with derivatives that turn it less, whatever the inner step.") \
   X(BEYOND_TABLE, CALL, \
-    "a coordinate has left the table of what it moves", \
-    "Go on from another state, or give the coordinate a table that covers what the run can reach.") \
+    "a coordinate has left the range of its table", \
+    "Continue from another state, or give the coordinate a table that covers what the run can reach.") \
   X(BAD_INERTIA, CALL, \
     "the parameters give a body moments of inertia that are not positive, or one above the other two", \
     "Set the moments nearer to those that the model was compiled with.") \
   X(TURNS_TOO_FAR, STEP, \
-    "what has a gear or an armature turns by more than 0.52 rad in the step, also in its parts", \
-    "A shorter step passes.")
+    "a part with a gear or an armature turns by more than 0.52 rad in the step, even in its parts", \
+    "A shorter step succeeds.")
 /* clang-format on */
 typedef enum {
 #define ALI3_STATUS(NAME, cause, words, remedy) ALI3_##NAME,
@@ -411,17 +413,11 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 /* Farthest and fastest start, m and m/s or rad/s, and its yaw, rad: coordinates have 16 digits. */
 #define ALI3_FARTHEST 1e8
 #define ALI3_FASTEST 1e6
-/* |energy_error| over the energy that was in the motion: largest kinetic energy and work, at least energy_floor. Above
- * ALI3_BALANCE_WRONG, at any time, no run was right that was tried; below it a run may be wrong. */
-#define ALI3_BALANCE_WRONG 0.036
+/* |energy_error| over the energy that was in the motion: largest kinetic energy and work, at least energy_floor. */
 ALI3_API double ali3_energy_balance(const ali3_report *report);
-/* Signs of a wrong run that need no repeated run: none; halvings in more than ALI3_HALVINGS_SUSPECT of its steps; a
- * balance above ALI3_BALANCE_WRONG. The first ALI3_DOUBT_FROM steps are not judged: they have no motion to compare
- * with. */
-#define ALI3_HALVINGS_SUSPECT 0.1
-#define ALI3_DOUBT_FROM 100
-typedef enum { ALI3_DOUBT_NONE, ALI3_DOUBT_HALVINGS, ALI3_DOUBT_BALANCE } ali3_doubt;
-ALI3_API ali3_doubt ali3_run_doubt(const ali3_report *report);
+/* 1: it is above ALI3_WRONG_ERROR, by more than what the tolerance of the residual leaves open; below a run may be wrong
+ * too. */
+ALI3_API int32_t ali3_balance_wrong(const ali3_report *report);
 /* Two motions of a System with longer and shorter steps, compared by numbers that they show, each in a unit. What rests
  * judges nothing: its size is 0. Rates, and forces of motors, are judged where no place moves by itself. */
 enum { /* units */
@@ -452,19 +448,17 @@ typedef struct { /* of one of them; zero before the first sample */
 ALI3_API void ali3_compare(const ali3_judged *what, int32_t n, int64_t rows, const double *time, const double *one,
                            const double *other, ali3_compared *seen);
 /* What a difference of each is held against, the largest range or force in its unit; 0: it does not count. `length`: of
- * the model, m; `guided`: places that are the same in both motions do not move by themselves. */
+ * the model, m; `energy`, J: forces that do less over the length, or moments over a radian, are none; `guided`: places
+ * that are the same in both motions do not move by themselves. */
 ALI3_API void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared *seen, double length,
-                                  int32_t guided, double *size);
+                                  double energy, int32_t guided, double *size);
 /* The largest difference, or the largest of the last sample, over its size; *worst: whose, -1: none. */
 ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const double *size, int32_t latest,
                                     int32_t *worst);
-/* The error of the coarser motion by what both differ by: steps are so many times those of the finer one. */
-ALI3_API double ali3_error_of(double apart, double ratio, int32_t order);
 #define ALI3_STILL 1e-4 /* of the largest value, or of the length: a smaller range is rest */
 #define ALI3_WRONG_ERROR 0.05 /* of the size: wrong */
 #define ALI3_AGREED 0.1 /* of what would be wrong: two motions that differ by less agree */
 #define ALI3_MOST_PARTS 8 /* by which the step of a second motion is longer, or half of it shorter, at most */
-#define ALI3_EVENT_ORDER 2 /* behind abrupt events: stops are located, parts of steps shrink with the step */
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */
 ALI3_API ali3_status ali3_run_status(const ali3_report *report);
 /* One sentence about the first change of an assembly mode that the report counts, UTF-8; empty where there is none. */

@@ -91,7 +91,7 @@ struct ali3_system {
   ali3_system *turned; /* turned.c: with room for all directions of axes that parameters write; NULL: there are none */
   void *lean; /* the arrays of this one, which has none */
   int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q; of a row of
-                                   triples the terms of three entries in turn */
+                                   points the terms of three entries in turn */
   double *hess_val;
   double *row_round; /* round-off of the violation at the reference position, m */
   double largest_round; /* of these */
@@ -99,13 +99,9 @@ struct ali3_system {
   double fall; /* acceleration of coordinates by their weight: root of the mean square, m/s2 */
   int32_t *column_ptr, *column_entry, *column_row; /* nq + 1: entries of Phi_q at a coordinate, with ascending rows */
   unsigned char *column_triple; /* nq: 1: the next two have the same rows, with entries that follow; see mass_alike */
-  unsigned char *row_wide; /* 1: the row fills most of its front */
   unsigned char *row_triples; /* not 0: its coordinates are points and directions, three neighbours each */
   int32_t *row_stretch; /* nc: entry from which the coordinates of the row lie side by side and have second derivatives
                            with the same ones, those of modes; they stand by columns. Else the end of the row */
-  unsigned char *row_single; /* its entries have a term each at most, of Systems with flexible bodies only: */
-  int32_t *single_col; /* as row_col: the coordinate in that term */
-  double *single_val; /* as row_col: its factor, or 0 */
   int32_t *hess_run; /* as row_col: in rows with a stretch, term of the entry from which on the coordinates lie side by
                         side; else the end of its terms */
   int32_t *front_row_ptr, *front_row; /* nf + 1; nc: rows front by front */

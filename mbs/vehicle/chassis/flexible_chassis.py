@@ -9,8 +9,6 @@ import numpy as np
 from mbs.common.affine import AffineVector
 from mbs.model.body import Body
 from mbs.model.flexible import FlexibleBody
-from mbs.model.flexible_vocabulary import FlexibleVocabulary
-from mbs.model.mechanism import Mechanism
 from mbs.model.model import Model
 from mbs.model.ports import PortedBody
 from mbs.vehicle.builder import CarBuilder
@@ -44,14 +42,14 @@ def frame_of(car: CarContent, b: CarBuilder, parts: Callable[[CarBuilder], Itera
     return FlexibleFrame(frame, car.folder, structure, joints)
 
 
-def flexible_chassis(m: Mechanism, data: Chassis, flexible: FlexibleFrame, fidelity: Fidelity) -> Mount:
+def flexible_chassis(m: Model, data: Chassis, flexible: FlexibleFrame, fidelity: Fidelity) -> Mount:
     """Add the chassis. `fidelity`: how much of it is modelled, from QUASI_STATIC on."""
     origin = data.reference
     if fidelity is Fidelity.QUASI_STATIC:
         rigid = rigid_chassis(m, data).body
-        ports = FlexibleVocabulary.ported(m, rigid, {name: flexible.place(name) for name in flexible.interfaces})
+        ports = m.ported(rigid, {name: flexible.place(name) for name in flexible.interfaces})
         return Mount(ports, rigid, rigid, origin, _drive_axes(ports, flexible), _mean_frame(ports, flexible))
-    body = FlexibleVocabulary.flexible_body(m, "chassis", flexible.reduced(fidelity))
+    body = m.flexible_body("chassis", flexible.reduced(fidelity))
     return Mount(body, body.frame, body, origin, _drive_axes(body, flexible), _mean_frame(body, flexible))
 
 

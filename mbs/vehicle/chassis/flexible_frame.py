@@ -135,7 +135,7 @@ class FlexibleFrame:
             if row["interface"] not in self.interfaces or row["axis"] not in ("x", "y", "z"):
                 known = ", ".join(self.interfaces)
                 what = f"{row['interface']} {row['axis']}"
-                raise ModelError(f"{row.where}: {what} is no axis of a joint of the suspension; these are {known}.")
+                raise ModelError(f"{row.where}: {what} is not an axis of a joint of the suspension; these are {known}.")
             values = [row.number(column, -MOST_FORCE, MOST_FORCE, "N") for column in columns]
             found[row["interface"], row["axis"]] = values
         for name in self.interfaces:

@@ -59,8 +59,8 @@ class JointFinder:
         """All joints that the car needs.
 
         `chassis`: with the place of the floating frame and accelerometers; `driven`: 0: the front axle is driven, 1:
-        the rear one. Raises `ModelError`: a hard point is no joint, a joint that the file names does not exist, or one
-        must be named.
+        the rear one. Raises `ModelError`: a hard point is not a joint, a joint that the file names does not exist, or
+        one must be named.
         """
         interfaces, held = {}, []
         for point in dict.fromkeys((*self._axles[0], *self._axles[1])):

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from mbs.common.affine import AffineVector
 from mbs.common.checks import vector
 from mbs.model.body import Body
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.vehicle.chassis.section import Chassis
 
 
@@ -68,7 +68,7 @@ class Mount:
         return self.body if self.body is self.frame else LeverCarrier(self.body, self.contact_frame[1])
 
 
-def rigid_chassis(m: Mechanism, data: Chassis) -> Mount:
+def rigid_chassis(m: Model, data: Chassis) -> Mount:
     """Add the chassis as one rigid body."""
     rigid = m.body("chassis", mass=data.mass, com=data.com, inertia=data.tensor)
     axes = rigid.vector((0.0, 0.0, 1.0)), rigid.vector((1.0, 0.0, 0.0))

@@ -10,7 +10,7 @@ import numpy as np
 from mbs.compiler.model_to_system import compiled
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.flexible.scene_part import flexible_parts
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.simulation.standing_system import StandingSystem
 from mbs.vehicle.chassis.flexible_chassis import COMPUTED, amplitude_names
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
@@ -22,7 +22,7 @@ ROUND = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 of a car that cruises differ. What is beyond has the last colour."""
 
 
-def flexible_part(flexible: FlexibleFrame, model: Mechanism, reference_point: Point) -> list[dict[str, Any]]:
+def flexible_part(flexible: FlexibleFrame, model: Model, reference_point: Point) -> list[dict[str, Any]]:
     """The list `flexible` of a scene of a car, for the outputs of `amplitude_outputs`.
 
     `model`: the car with fidelity `Fidelity.DYNAMIC`; `reference_point`: origin of the frame "chassis" of the scene,
@@ -48,7 +48,7 @@ def flexible_part(flexible: FlexibleFrame, model: Mechanism, reference_point: Po
     )
 
 
-def _standing(flexible: FlexibleFrame, model: Mechanism) -> np.ndarray:
+def _standing(flexible: FlexibleFrame, model: Model) -> np.ndarray:
     """Amplitudes of the car as it stands at the start."""
     system = compiled(model)
     names = list(system.meta["coordinates"])

@@ -128,7 +128,7 @@ class TubularFrame:
             image = (mirrored(start), mirrored(end))
             pairs = [(start, end)] if set(image) == {start, end} else [(start, end), image]
             if start == end or not ends.isdisjoint(frozenset(pair) for pair in pairs):
-                why = "has one joint at both ends" if start == end else "is there twice: images are added by themselves"
+                why = "has one joint at both ends" if start == end else "occurs twice: images are added automatically"
                 raise ModelError(f"{row.where}: the tube from {start} to {end} {why}.")
             ends.update(frozenset(pair) for pair in pairs)
             tubes += [(*pair, row["section"], row.count("elements", MOST_ELEMENTS)) for pair in pairs]
@@ -175,14 +175,14 @@ def _tube_of(gauge: TubeGauge, tubes: tuple[FrameTube, ...]) -> FrameTube:
     else:
         at = sorted({b if a == start else a for a, b in found if start in (a, b)})
         hint = f"tubes lead from {start} to {', '.join(at)}" if at else f"no tube ends at {start}"
-    raise ModelError(f"{gauge.key('tube')} is {list(gauge.tube)}, which is no tube of the frame: {hint}.")
+    raise ModelError(f"{gauge.key('tube')} is {list(gauge.tube)}, which is not a tube of the frame: {hint}.")
 
 
 def _check_joint(row: Row, name: str, y: float, seen: set[str]) -> None:
     if name[-1:] not in ("L", "c"):
         raise ModelError(f"{row.where}: joint is {name!r}; its name must end in L (left) or c (centre plane).")
     if name in seen:
-        raise ModelError(f"{row.where}: joint {name} is there twice.")
+        raise ModelError(f"{row.where}: joint {name} occurs twice.")
     seen.add(name)
     if (name[-1] == "L") != (y > 0.0) or (name[-1] == "c" and y != 0.0):
         wanted = "positive on the left" if name[-1] == "L" else "0 on the centre plane"

@@ -11,7 +11,7 @@ from mbs.common.errors import ModelError
 from mbs.compiler.model_to_system import compiled
 from mbs.model.body import Body
 from mbs.model.carried import Spin
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.simulation.standing_system import StandingSystem
 from mbs.system.compiled_model import CompiledModel
 from mbs.vehicle.axes import LEFT, UP
@@ -52,7 +52,7 @@ class Rest:
             if abs(found - drawn) > ODD_DEFLECTION:
                 yield (
                     f"{axle.tyre.key('stiffness')} is {axle.tyre.stiffness:g} N/m: at rest the load of "
-                    f"{self.load[name]:.0f} N presses the tyre in by {found:.3g} m, but {axle.tyre.key('radius')} less "
+                    f"{self.load[name]:.0f} N compresses the tyre by {found:.3g} m, but {axle.tyre.key('radius')} less "
                     f"the height of {axle.wheel.key('centre')} is {drawn:.3g} m."
                 )
         if abs(self.lean) > ODD_LEAN:
@@ -80,7 +80,7 @@ class Rest:
                 )
 
 
-def travel_output(m: Mechanism, chassis: Body, spin: Spin, w: str) -> None:
+def travel_output(m: Model, chassis: Body, spin: Spin, w: str) -> None:
     """How far a wheel has moved in the chassis. `m`: as drawn; `w`: name of the wheel."""
     gap: AffineVector = spin.centre - chassis.point(spin.centre.value(m.drawn()))
     m.sense_vector(
@@ -136,7 +136,7 @@ def _mean(sensors: Mapping[str, float], name: str, axle: str) -> float:
     return 0.5 * sum(sensors[name.format(f"{axle[0].upper()}{side}")] for side in "LR")
 
 
-def settled(model: Mechanism, car: CarContent) -> Rest:
+def settled(model: Model, car: CarContent) -> Rest:
     """Compile the car and let the kernel find its equilibrium. `model`: of the car, with `rest_outputs`.
 
     Raises `ModelError`: its parts refuse a number, or it has no equilibrium.

@@ -108,7 +108,7 @@ def under_load(spring: Spring, force: float) -> tuple[float, float]:
 def _least(found: Ranges, section: Section, name: str, reached: float) -> None:
     """The least value with which both axles reach `GRIPPED`, where one reaches so much with a value of 1."""
     quantity, path = section.quantity(name), section.key(name)
-    assert quantity is not None, f"{path} is no quantity"
+    assert quantity is not None, f"{path} is not a quantity"
     if reached > 0.0:
         least, high = GRIPPED / reached, quantity.high
         found[path] = min(max(least, found.get(path, (0.0,))[0]), high), high

@@ -137,22 +137,20 @@ def _alignment(axle: Axle, name: str) -> Iterator[Value]:
 def _springs(axle: Axle, name: str, rest: Rest, rates: AxleRates) -> Iterator[Value]:
     mass, rate = weight_on_spring(axle, rest.load[name]) / GRAVITY, rates.wheel_rate
     spring, damper = axle.spring, axle.damper
-    field = "stiffness" if spring.stiffness is not None else "table"
-    springs = {spring.key(field): getattr(spring, field), spring.key("factor"): spring.factor}
+    springs = spring.given | {spring.key("factor"): spring.factor}
     yield Value(CAR["rate"], rate * 1e-3, springs, name)
     free = spring.free_length
     yield Value(CAR["pressed"], rest.spring_length[name] / free, {spring.key("free_length"): free, **springs}, name)
     if mass <= 0.0 or rate <= 0.0:
         return
     yield Value(CAR["bounce"], math.sqrt(rate / mass) / (2.0 * math.pi), springs, name)
-    field = "damping" if damper.damping is not None else "table"
-    dampers = {damper.key(field): getattr(damper, field), damper.key("factor"): damper.factor}
+    dampers = damper.given | {damper.key("factor"): damper.factor}
     bump, rebound = (damping_at(damper, speed) for speed in (-DAMPER_SPEED, DAMPER_SPEED))
     critical = 2.0 * math.sqrt(rate * mass)
     for quantity, damping in (("bump", bump), ("rebound", rebound)):
         yield Value(CAR[quantity], damping * rates.damper_ratio**2 / critical, dampers, name)
     if bump > 0.0:
-        yield Value(CAR["sides"], rebound / bump, {k: v for k, v in dampers.items() if k.endswith(field)}, name)
+        yield Value(CAR["sides"], rebound / bump, damper.given, name)
 
 
 def damping_at(damper: Damper, speed: float) -> float:

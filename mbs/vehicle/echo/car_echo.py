@@ -24,7 +24,7 @@ from mbs.vehicle.tyres.magic_formula import MagicFormula
 
 Data: TypeAlias = "dict[str, Any]"
 Remake: TypeAlias = Callable[[Data], "tuple[CarContent, Rest] | None"]
-"""Makes a car of the altered content of its file, and finds its rest; None where that is no car."""
+"""Makes a car of the altered content of its file, and finds its rest; None where that is not a car."""
 FINAL_DRIVE = 4.0
 HEIGHT = 4.0  # m: of a truck
 KILOGRAMS = ("kilograms in place of newtons", GRAVITY)
@@ -66,9 +66,9 @@ def car_values(car: CarContent, rest: Rest) -> list[Value]:
     if len(linked) == len(rates) and car.linked:
         stiffness = [r.roll_stiffness for r in linked]
         total = sum(stiffness)
-        keys = {
-            axle.spring.key(f): getattr(axle.spring, f) for axle in car.axles.values() for f in ("stiffness", "factor")
-        }
+        keys: dict[str, Any] = {}
+        for spring in (axle.spring for axle in car.axles.values()):
+            keys |= spring.given | {spring.key("factor"): spring.factor}
         found.append(Value(CAR["roll"], total / DEG, keys))
         if total > 0.0:
             lean = _mass(car) * GRAVITY * centre_of(car, payloads=True)[2] / total
@@ -230,9 +230,7 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
         if damper.table is not None:
             key = damper.key("table")
             yield f"bump and rebound exchanged in {key}", {key}, partial(_mirror, key)
-        field = damper.key("damping" if damper.damping is not None else "table")
-        rate = spring.key("stiffness" if spring.stiffness is not None else "table")
-        for key, what in ((rate, "springs"), (field, "dampers")):
+        for key, what in zip((*spring.given, *damper.given), ("springs", "dampers"), strict=True):
             yield from _scales(key, (f"both {what} of the axle in place of one", 0.5))
             yield from _scales(key, (f"half of one of the {what}", 2.0), *POUNDS, KILOGRAMS)
         key = axle.wheel.key("spin_inertia")

@@ -34,7 +34,7 @@ def systems_of(car: Car) -> dict[Fidelity, System]:
     Raises `ModelError`: the car does not stand on tyres of its own.
     """
     if car.ports.tyre is not None:
-        raise ModelError(f"The tyres of the car '{car.name}' are at ports (ports.tyre): by itself it drives nowhere.")
+        raise ModelError(f"The tyres of the car '{car.name}' are at ports (ports.tyre): by itself it cannot drive.")
     found = {}
     if car.front.suspension.linked or car.rear.suspension.linked:  # else it is by tables as it is
         try:

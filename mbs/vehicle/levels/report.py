@@ -143,7 +143,7 @@ def _sentence(choice: Choice, tolerances: Mapping[str, float]) -> str:
 def _none(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> str:
     found = levels(rows, list(tolerances))
     if not found:
-        return f"No level is within {_asked(tolerances)}: no run of a level with these outputs came to its end."
+        return f"No level is within {_asked(tolerances)}: no run of a level with these outputs reached its end."
     near = nearest(found, tolerances)
     errors = ", ".join(f"{100.0 * near.errors[output]:.2g} % {TITLES[output]}" for output in tolerances)
     return (

@@ -31,9 +31,9 @@ def _of_the_springs(car: CarContent) -> Iterator[str]:
         if isinstance(axle.suspension, Curves):
             curves, travel = axle.suspension, axle.suspension.table.travel
             yield (
-                f"{axle.key('stops')} is left out: nothing but the spring ends the travel of the {name} wheels, and "
+                f"{axle.key('stops')} is missing: only the spring limits the travel of the {name} wheels, and "
                 f"{curves.key('file')} ({curves.file}) goes from {travel[0]:+.3f} to {travel[-1]:+.3f} "
-                "m of wheel travel from the drawing; a run ends beyond. Stops that bear before that keep it within."
+                "m of wheel travel from the drawing; a run ends beyond. Add stops that act before that."
             )
             continue
         linkage = Linkage(car, name)
@@ -41,9 +41,9 @@ def _of_the_springs(car: CarContent) -> Iterator[str]:
         if ends is None:
             continue
         yield (
-            f"{axle.key('stops')} is left out: nothing but the spring ends the travel of the {name} wheels, and the "
+            f"{axle.key('stops')} is missing: only the spring limits the travel of the {name} wheels, and the "
             f"links follow from {ends[0]:+.3f} to {ends[1]:+.3f} m of wheel travel from the drawing; beyond, a run "
-            "fails where they would part. Stops that bear before that keep it together."
+            "fails where they would part. Add stops that act before that."
         )
 
 
@@ -62,9 +62,9 @@ def _of_the_steering(car: CarContent) -> Iterator[str]:
         told.append(f"{ends[0]:+.3f} to {ends[1]:+.3f} m of wheel travel at full lock")
     if told:
         yield (
-            f"{stop} is left out: nothing keeps a knuckle from turning over, and the links "
-            f"of the front axle follow {' and '.join(told)}; beyond, a run fails where they would part. A stop that "
-            "bears before that keeps it together."
+            f"{stop} is missing: nothing keeps a knuckle from turning over, and the links "
+            f"of the front axle follow {' and '.join(told)}; beyond, a run fails where they would part. Add a stop "
+            "that acts before that."
         )
 
 

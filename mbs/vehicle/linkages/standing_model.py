@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from mbs.common.affine import AffineVector
 from mbs.compiler.model_to_system import compiled
 from mbs.kernel.binding import LoadedSystem
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.simulation.evaluator import Evaluator
 from mbs.simulation.standing_system import start
 from mbs.simulation.system_instance import SystemInstance
@@ -25,7 +25,7 @@ class StandingModel:
         Rows and forces at any coordinates.
     """
 
-    def __init__(self, model: Mechanism) -> None:
+    def __init__(self, model: Model) -> None:
         system = compiled(model)
         assert system.frames is not None
         self._T, self._constant = system.frames.T.toarray(), system.frames.constant

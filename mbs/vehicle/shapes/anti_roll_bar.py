@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from mbs.model.shapes import ShapeVocabulary
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.shapes.appearance import BARE, CAST, Looks
@@ -23,8 +22,8 @@ def anti_roll_bar_shapes(looks: Looks, name: str, axle: Axle) -> None:
             side.point(point) for point in (bar.points.pivot, bar.points.lever_end, bar.points.link_end)
         )
         part = looks.body(f"{BODIES.get(bar.part, bar.part.replace('_', ' '))} {w}")
-        lever = ShapeVocabulary.turning(
-            looks.m, f"anti-roll lever {w}", looks.chassis, at=pivot, axis=LEFT, angle=f"anti_roll_bar_{w}.angle"
+        lever = looks.m.turning(
+            f"anti-roll lever {w}", looks.chassis, at=pivot, axis=LEFT, angle=f"anti_roll_bar_{w}.angle"
         )
         looks.tube((lever, pivot), (lever, lever_end), radius=0.010, **BARE)
         looks.tube((lever, lever_end), (part, link_end), radius=0.006, name=f"anti-roll link {w}", **CAST)

@@ -12,8 +12,8 @@ import numpy as np
 from mbs.model.body import Body
 from mbs.model.carried import Spin
 from mbs.model.drawn import Owner
-from mbs.model.mechanism import Mechanism
-from mbs.model.shapes import Kind, ShapeVocabulary
+from mbs.model.model import Model
+from mbs.model.shapes import Kind
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.side import Point
@@ -48,7 +48,7 @@ class Looks:
     steered: tuple[str, ...] = field(default=("front",))
 
     @property
-    def m(self) -> Mechanism:
+    def m(self) -> Model:
         """The model."""
         return self.b.m
 
@@ -72,7 +72,7 @@ class Looks:
 
     def shape(self, of: Owner, kind: Kind, **fields: Any) -> None:
         """A shape; `fields` are those of `Model.shape`."""
-        ShapeVocabulary.shape(self.m, of, kind, **fields)
+        self.m.shape(of, kind, **fields)
 
     def tube(self, *points: Anchor, radius: float, name: str | None = None, **looks: Any) -> None:
         """A round tube through points, `radius` that of a small car."""

@@ -15,7 +15,6 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.shapes.appearance import ACCENT, DARK, SILL, Looks, Paint
 from mbs.vehicle.shapes.loft import interpolated, loft
@@ -251,9 +250,9 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
     """Draw the body. `clear`: whether pages can make it see-through, onto the frame in it."""
     car, chassis, m = looks.car, looks.chassis, looks.m
     shell = BodyShell(car)
-    SlidingVocabulary.mesh_shape(m, chassis, *shell.lower_body(), name="body", cover=clear, **ACCENT)
-    SlidingVocabulary.mesh_shape(m, chassis, *shell.windows(), name="windows", cover=clear, **GLASS)
-    SlidingVocabulary.mesh_shape(m, chassis, *shell.panel(), name="roof", cover=clear, **ACCENT)
+    m.mesh_shape(chassis, *shell.lower_body(), name="body", cover=clear, **ACCENT)
+    m.mesh_shape(chassis, *shell.windows(), name="windows", cover=clear, **GLASS)
+    m.mesh_shape(chassis, *shell.panel(), name="roof", cover=clear, **ACCENT)
     half = 0.5 * car.vehicle.width
     x0, x1 = (float(shell.place(share)) for share in (0.03, 0.96))
     floor = SILL * car.front.tyre.radius + 0.03

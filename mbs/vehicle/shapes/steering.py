@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 
 from mbs.model.drawn import Owner
-from mbs.model.shapes import ShapeVocabulary
-from mbs.model.sliding_shapes import SlidingVocabulary
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -21,13 +19,11 @@ def rack_of(b: CarBuilder, car: CarContent) -> Owner:
     inner, frame = car.rack_ends, b.chassis.frame
     if isinstance(car.steering, PitmanArm):
         ahead, left = car.steering.plane
-        x = SlidingVocabulary.sliding(b.m, "link ahead", frame, at=inner, direction=ahead, way=LINK[0])
-        y = SlidingVocabulary.sliding(b.m, "link aside", x, at=inner, direction=left, way=LINK[1])
-        return ShapeVocabulary.turning(b.m, "centre link", y, at=inner, axis=car.steering.axis, angle=LINK[2])
+        x = b.m.sliding("link ahead", frame, at=inner, direction=ahead, way=LINK[0])
+        y = b.m.sliding("link aside", x, at=inner, direction=left, way=LINK[1])
+        return b.m.turning("centre link", y, at=inner, axis=car.steering.axis, angle=LINK[2])
     name = "sliding rack" if any(body.name == "rack" for body in b.m.bodies) else "rack"
-    return SlidingVocabulary.sliding(
-        b.m, name, frame, at=(inner[0], 0.0, inner[2]), direction=LEFT, way="steering_rack"
-    )
+    return b.m.sliding(name, frame, at=(inner[0], 0.0, inner[2]), direction=LEFT, way="steering_rack")
 
 
 def steering_shapes(looks: Looks) -> None:
@@ -37,9 +33,7 @@ def steering_shapes(looks: Looks) -> None:
     chassis = looks.chassis
     centre = steering_wheel_place(looks.car)
     axis = -math.cos(TILT), 0.0, math.sin(TILT)  # to the driver: positive turns are to the left
-    wheel = ShapeVocabulary.turning(
-        looks.m, "steering wheel", chassis, at=centre, axis=axis, angle="steering_wheel_angle"
-    )
+    wheel = looks.m.turning("steering wheel", chassis, at=centre, axis=axis, angle="steering_wheel_angle")
     looks.shape(wheel, "steering_wheel", radius=RADIUS, **DARK)
     bearing = centre[0] - 0.30 * axis[0], centre[1], centre[2] - 0.30 * axis[2]
     looks.tube((chassis, centre), (chassis, bearing), (chassis, foot), radius=0.012, **BARE)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from functools import partial
 from typing import ClassVar, Literal
 
 from mbs.elements.coordinate_friction import CoordinateFriction
@@ -12,15 +11,9 @@ from mbs.elements.input_force import InputForce
 from mbs.elements.spring_damper import EndStops
 from mbs.elements.torsion_bar import TorsionBar
 from mbs.model.body import Body
-from mbs.model.channel_sensors import ChannelSensorVocabulary
 from mbs.model.coordinate import Coordinate
-from mbs.model.drive_vocabulary import DriveVocabulary
 from mbs.model.ends import End
-from mbs.model.energy_sensors import EnergySensorVocabulary
-from mbs.model.forces import ForceVocabulary
-from mbs.model.joint_sensors import JointSensorVocabulary
-from mbs.model.mechanism import Mechanism
-from mbs.model.motion_sensors import MotionSensorVocabulary
+from mbs.model.model import Model
 from mbs.model.records import Guide, Input
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
@@ -107,8 +100,8 @@ class Column(RackSection, of=TorsionBar):
             description="torque of the driver's hands where steering.by_torque is 1, positive to the left",
         )
         wheel, pinion = (
-            DriveVocabulary.shaft(m, "steering wheel", inertia=self.wheel_inertia),
-            DriveVocabulary.shaft(m, "pinion"),
+            m.shaft("steering wheel", inertia=self.wheel_inertia),
+            m.shaft("pinion"),
         )
         held = self._hands(b, wheel, demand, torque)
         self._bar(b, wheel, pinion)
@@ -140,9 +133,9 @@ class Column(RackSection, of=TorsionBar):
             frequency=self.frequency,
             unit="rad",
         )
-        hands = DriveVocabulary.shaft(m, "hands")
+        hands = m.shaft("hands")
         m.gear("grip", wheel, hands, ratio=1.0)
-        ForceVocabulary.torque_on(m, "steering torque", hands, input=torque)
+        m.torque_on("steering torque", hands, input=torque)
         m.drive("steering angle", hands, guide, switch=True)
         b.tie(self, "by_torque", "steering angle", "on", -1.0, offset=1.0)
         # an equilibrium of a free steering wheel would be any angle at which friction holds
@@ -179,31 +172,28 @@ class Column(RackSection, of=TorsionBar):
         m.spring_damper("rack stop", *ends, stiffness=0.0, free_length=FAR, stops=stops)
         return rack
 
-    def _outputs(self, m: Mechanism, wheel: Coordinate, pinion: Coordinate, per_radian: float, way: float) -> None:
-        sense_coordinate = partial(MotionSensorVocabulary.sense_coordinate, m)
+    def _outputs(self, m: Model, wheel: Coordinate, pinion: Coordinate, per_radian: float, way: float) -> None:
+        sense_coordinate = m.sense_coordinate
         sense_coordinate("steering_rack", pinion, scale=per_radian, unit="m", description=self.travel_text(way))
         sense_coordinate("steering_wheel_angle", wheel, description="angle of the steering wheel, positive to the left")
 
     def _torque_outputs(
-        self, m: Mechanism, wheel: Coordinate, racks: list[Body], demand: Input, torque: Input, held: Guide
+        self, m: Model, wheel: Coordinate, racks: list[Body], demand: Input, torque: Input, held: Guide
     ) -> Callable[[], None]:
         def add() -> None:
             (rack,) = racks
             rods = [j for j in m.joints if j.type == "distance" and j.ends is not None and rack in j.ends.bodies]
-            JointSensorVocabulary.sense_joint(
-                m, "steering_wheel_torque", "grip", "torque", unit="N.m", description=WHEEL_TORQUE
-            )
-            MotionSensorVocabulary.sense_coordinate(m, "steering_wheel_speed", wheel, order=1, description=WHEEL_SPEED)
-            JointSensorVocabulary.sense_rod_force(m, "steering_rack_force", rods, rack, LEFT, description=RACK_FORCE)
+            m.sense_joint("steering_wheel_torque", "grip", "torque", unit="N.m", description=WHEEL_TORQUE)
+            m.sense_coordinate("steering_wheel_speed", wheel, order=1, description=WHEEL_SPEED)
+            m.sense_rod_force("steering_rack_force", rods, rack, LEFT, description=RACK_FORCE)
             demand_outputs(m, demand, held, 1.0)
-            ChannelSensorVocabulary.sense_input(m, f"used.{torque.name}", torque, description=f"{torque.name} as used")
+            m.sense_input(f"used.{torque.name}", torque, description=f"{torque.name} as used")
             m.sense_element("steering_column_torque", "torsion bar", "torque", description="torque of the torsion bar")
             m.sense_element(
                 "steering_assistance", "torsion bar", "assistance", description="torque of the assistance on the pinion"
             )
             names = ("steering torque", "torsion bar", "steering friction", "rack friction", "rack stop")
-            EnergySensorVocabulary.sense_energy(
-                m,
+            m.sense_energy(
                 "energy.steering",
                 "with guides",
                 [e for e in m.elements if e.name in names],

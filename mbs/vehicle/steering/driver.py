@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.records import Input
 
 
-def angle_demand(m: Mechanism, largest: float) -> Input:
+def angle_demand(m: Model, largest: float) -> Input:
     """The input of the steering wheel's angle in rad. `largest`: angle at full lock, rad."""
     return m.input(
         "steering_wheel_angle_demand",

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property, partial
+from functools import cached_property
 from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.model.channel_sensors import ChannelSensorVocabulary
 from mbs.model.ends import End
 from mbs.model.joints.joint import Joint
-from mbs.model.mechanism import Mechanism
-from mbs.model.more_guides import MoreGuidesVocabulary
+from mbs.model.model import Model
 from mbs.model.records import Guide
 from mbs.vehicle.axes import LEFT, UP
 from mbs.vehicle.builder import CarBuilder
@@ -184,8 +182,7 @@ class PitmanArm(SteeringSection):
             place = f"steering link {side.wheel}"
             moved, rate = self.four_bar.carried(self.in_plane(point), turn * angles)
             ways = [
-                MoreGuidesVocabulary.guide_table(
-                    b.m,
+                b.m.guide_table(
                     f"{place} {name}",
                     guide,
                     np.column_stack([angles, part(moved)]),
@@ -217,7 +214,7 @@ class PitmanArm(SteeringSection):
         if self.friction > 0.0:
             column_friction(m, arm, 1.0 / self.ratio, self.friction)
 
-        sense_guide = partial(ChannelSensorVocabulary.sense_guide, m)
+        sense_guide = m.sense_guide
 
         def outputs() -> None:
             text = "angle of the Pitman arm, positive where it steers to the left"
@@ -238,12 +235,12 @@ class PitmanArm(SteeringSection):
 
         return Steered(self.ends(b, arm, way), outputs, torque_outputs)
 
-    def _link_outputs(self, m: Mechanism, arm: Guide, way: float) -> None:
+    def _link_outputs(self, m: Model, arm: Guide, way: float) -> None:
         """Outputs for the place of the centre link."""
         turn, angles = self.turn(way), self._angles
         _, turned, rate = self.four_bar.turned(turn * angles)
         turned = np.column_stack([angles, turned])
-        link = MoreGuidesVocabulary.guide_table(m, "steering link", arm, turned, slopes=turn * rate, unit="rad")
+        link = m.guide_table("steering link", arm, turned, slopes=turn * rate, unit="rad")
         slide = _rods(m)[0].slide
         assert slide is not None, "such are the rods"
         (_, ahead), (_, aside) = slide[1].ways
@@ -256,9 +253,9 @@ class PitmanArm(SteeringSection):
             ),
             (LINK[2], link, "turn of the centre link in the plane of the steering linkage, positive to the left"),
         ):
-            ChannelSensorVocabulary.sense_guide(m, name, guide, description=what)
+            m.sense_guide(name, guide, description=what)
 
 
-def _rods(m: Mechanism) -> list[Joint]:
+def _rods(m: Model) -> list[Joint]:
     """The tie rods, left one first."""
     return [joint for joint in m.joints if joint.slide is not None]

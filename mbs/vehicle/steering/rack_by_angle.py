@@ -64,7 +64,7 @@ class RackByAngle(RackSection):
             yield (
                 f"{self.key('rack_by_wheel_angle')} has {turn:.6g} m of rack travel per turn straight ahead, and "
                 f"{self.key('rack_per_turn')} is {self.rack_per_turn:g} m; the angles of the table are divided by "
-                f"{table.factor:.6g}. To have them as they are write {turn:.6g}."
+                f"{table.factor:.6g}. To keep them unchanged write {turn:.6g}."
             )
 
     def port_faults(self) -> Iterator[str]:

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from functools import partial
-
-from mbs.model.channel_sensors import ChannelSensorVocabulary
 from mbs.model.joints.joint import Joint
-from mbs.model.mechanism import Mechanism
+from mbs.model.model import Model
 from mbs.model.records import Guide, Input
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.steering.steering_interface import RACK
@@ -20,15 +17,14 @@ OVER = ("steering_wheel_angle", "steering_wheel_speed", "steering_demand_excess"
 TORQUE = "steering_wheel_torque"
 
 
-def demand_outputs(m: Mechanism, demand: Input, guide: Guide, scale: float) -> None:
+def demand_outputs(m: Model, demand: Input, guide: Guide, scale: float) -> None:
     """The demand as used, and what full lock takes away of both demands together.
 
     `demand`: from `angle_demand`; `guide`: that follows the demand; `scale`: radians of the steering wheel per unit of
     the guide.
     """
-    ChannelSensorVocabulary.sense_input(m, f"used.{demand.name}", demand, description=f"{demand.name} as used")
-    excess = ChannelSensorVocabulary.sense_guide(
-        m,
+    m.sense_input(f"used.{demand.name}", demand, description=f"{demand.name} as used")
+    excess = m.sense_guide(
         "steering_demand_excess",
         guide,
         "excess",
@@ -36,26 +32,24 @@ def demand_outputs(m: Mechanism, demand: Input, guide: Guide, scale: float) -> N
         unit="rad",
         description="part of the demanded angle of the steering wheel beyond full lock, which is not followed",
     )
-    ChannelSensorVocabulary.notice(
-        m, excess, "The demanded angle of the steering wheel is beyond full lock and held there"
-    )
+    m.notice(excess, "The demanded angle of the steering wheel is beyond full lock and held there")
 
 
-def rack_outputs(m: Mechanism, rack: Guide, held: Guide, per_unit: float, text: str) -> None:
+def rack_outputs(m: Model, rack: Guide, held: Guide, per_unit: float, text: str) -> None:
     """Travel of the rack and angle of the steering wheel.
 
     `held`: that the steering wheel holds; `per_unit`: radians of the steering wheel per unit of it; `text`: which way
     the rack travels.
     """
-    sense_guide = partial(ChannelSensorVocabulary.sense_guide, m)
+    sense_guide = m.sense_guide
     sense_guide("steering_rack", rack, description=text)
     angle = "angle of the steering wheel, positive to the left"
     sense_guide("steering_wheel_angle", held, scale=per_unit, unit="rad", description=angle)
 
 
-def rack_torque_outputs(m: Mechanism, rack: Guide, held: Guide, per_radian: float, demand: Input | None) -> None:
+def rack_torque_outputs(m: Model, rack: Guide, held: Guide, per_radian: float, demand: Input | None) -> None:
     """Torque and speed of the steering wheel, and force of the rods. `per_radian`: of `held`; `demand`: if there is."""
-    sense_guide = partial(ChannelSensorVocabulary.sense_guide, m)
+    sense_guide = m.sense_guide
     sense_guide("steering_wheel_torque", held, "force", scale=per_radian, unit="N.m", description=WHEEL_TORQUE)
     sense_guide("steering_wheel_speed", held, order=1, scale=1.0 / per_radian, unit="rad/s", description=WHEEL_SPEED)
     sense_guide("steering_rack_force", rack, "force", joints=_tie_rods(m, rack), scale=-1.0, description=RACK_FORCE)
@@ -63,7 +57,7 @@ def rack_torque_outputs(m: Mechanism, rack: Guide, held: Guide, per_radian: floa
         demand_outputs(m, demand, held, 1.0 / per_radian)
 
 
-def _tie_rods(m: Mechanism, guide: Guide) -> list[Joint]:
+def _tie_rods(m: Model, guide: Guide) -> list[Joint]:
     """Rods with an end that a guide slides, or the drive of the rack where it is a coordinate.
 
     `m`: with the suspension.

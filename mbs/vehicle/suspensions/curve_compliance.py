@@ -19,7 +19,6 @@ import numpy as np
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
-from mbs.model.drive_vocabulary import DriveVocabulary
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import DisplacementPerForce, LossTime, SteerPerForce, SteerPerMoment
@@ -114,7 +113,7 @@ class Compliance(Section):
 
         `rack`: travel of the rack, m; `steer_per_rack`: in rad/m.
         """
-        end = DriveVocabulary.travel(b.m, f"rack end {side.wheel}")
+        end = b.m.travel(f"rack end {side.wheel}")
         stiffness = steer_per_rack**2 / self.per_moment
         law = ScalarSpringDamper(stiffness, stiffness * self.loss_time, unit="N")
         b.m.add(law.record(f"spring of compliance {side.wheel}", end.affine - rack.affine))
@@ -122,7 +121,7 @@ class Compliance(Section):
 
     def turn(self, b: CarBuilder, side: Side) -> Coordinate:
         """The turn of a wheel on its spring, rad."""
-        turn = DriveVocabulary.travel(b.m, f"compliance steer {side.wheel}", unit="rad")
+        turn = b.m.travel(f"compliance steer {side.wheel}", unit="rad")
         law = ScalarSpringDamper(1.0 / self.per_moment, self.loss_time / self.per_moment)
         b.m.add(law.record(f"spring of compliance {side.wheel}", turn.affine))
         return turn

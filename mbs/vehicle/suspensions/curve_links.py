@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from mbs.model.coordinate import Coordinate
-from mbs.model.table_vocabulary import TableVocabulary
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.part import Part
 from mbs.vehicle.quantities import Point
@@ -79,8 +78,7 @@ class CurveLink(Part):
         lengths = np.linalg.norm(outer - foot) * np.linalg.norm(to, axis=-1)
         shortest = np.concatenate([np.cross(outer - foot, to), (lengths + to @ (outer - foot))[..., None]], axis=-1)
         rotations = Rotation.from_quat(shortest.reshape(-1, 4)).as_matrix().reshape(*to.shape, 3)
-        TableVocabulary.tabled_body(
-            b.m,
+        b.m.tabled_body(
             f"{name} {side.wheel}",
             base=b.chassis.frame,
             parameters=over,

@@ -106,7 +106,7 @@ def read_curves(folder: Path, name: str, key: str, size: float) -> CurveTable:
     travel = _travel(what, given, columns)
     seconds = [n for n in (RACK, OTHER) if n in columns]
     if len(seconds) > 1:
-        raise CarFileError(f"{what} has the columns {RACK} and {OTHER}; there must be one of them or none.")
+        raise CarFileError(f"{what} has the columns {RACK} and {OTHER}; give at most one of them.")
     _check_sides(what, given, columns)
     second_name = seconds[0] if seconds else ""
     made = _grid(what, travel, columns.pop(second_name, None), second_name, columns)

@@ -13,8 +13,6 @@ from scipy.interpolate import CubicSpline
 from mbs.common.affine import Affine
 from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.model.coordinate import Coordinate
-from mbs.model.drive_vocabulary import DriveVocabulary
-from mbs.model.table_vocabulary import TableVocabulary
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd
 from mbs.vehicle.names import Name
@@ -153,7 +151,7 @@ class Curves(SuspensionSection):
             lever = "missing" if self.bar.lever is None else f"{self.bar.lever:g} m"
             yield (
                 f"{self.bar.key('lever')} is {lever}, and the "
-                f"column anti_roll_bar_angle of {self.key('file')} ({self.file}) {both}; there must be one of them."
+                f"column anti_roll_bar_angle of {self.key('file')} ({self.file}) {both}; give one of them."
             )
         if self.compliance is not None:
             yield from self.compliance.fits(self.table.second_name)
@@ -203,7 +201,7 @@ class Curves(SuspensionSection):
 
         `axle`, `springs`: as of `IndependentSuspension.corners`; `tie_rod`: of no use here: the rack is a coordinate.
         """
-        travels = {side.name: DriveVocabulary.travel(b.m, f"wheel travel {side.wheel}") for side in sides(axle)}
+        travels = {side.name: b.m.travel(f"wheel travel {side.wheel}") for side in sides(axle)}
         levers = []
         for side in sides(axle):
             own, w = travels[side.name], side.wheel
@@ -215,8 +213,7 @@ class Curves(SuspensionSection):
             base, share = b.chassis.frame, 1.0
             if self.compliance is not None:
                 base, share = self.compliance.base(b, side, self.hub.centre, part)
-            carrier = TableVocabulary.tabled_body(
-                b.m,
+            carrier = b.m.tabled_body(
                 f"carrier {w}",
                 base=base,
                 parameters=over,
@@ -277,7 +274,7 @@ def _number(
     if values is None:
         return None
     axes = _axes(curves, over)
-    found = TableVocabulary.tabled_number(b.m, name, parameters=over, axes=axes, values=_flat(values, over), unit=unit)
+    found = b.m.tabled_number(name, parameters=over, axes=axes, values=_flat(values, over), unit=unit)
     return found.affine, float(found.table.value(*[0.0] * len(over))[0])
 
 

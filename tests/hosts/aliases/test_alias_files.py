@@ -52,7 +52,7 @@ def test_start_values_keep_their_kind(file):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("steering = ", "is no TOML file: "),
+        ("steering = ", "is not a TOML file: "),
         ('steering = "StrAngle"', "'steering': the FMU has no variable 'StrAngle'; did you mean 'StrAng'?"),
         ("steering = 3", "'steering' must be a name of the FMU"),
         ('chassis.x = "X"', "a name with a dot needs quotation marks"),
@@ -77,5 +77,5 @@ def test_a_file_that_cannot_be_read(tmp_path):
     with pytest.raises(HostError, match=r"alias file .*none\.toml cannot be read: there is no such file"):
         read_aliases(tmp_path / "none.toml", NAMES)
     (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe")
-    with pytest.raises(HostError, match="is no text in UTF-8"):
+    with pytest.raises(HostError, match="is not text in UTF-8"):
         read_aliases(tmp_path / "bytes.toml", NAMES)

@@ -110,7 +110,7 @@ def test_what_is_wrong_is_one_sentence_before_the_first_run(
 
 def test_no_fmu_and_no_file_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([]) == 2
-    assert "There is no FMU to be tested" in capsys.readouterr().err
+    assert "There is no FMU to test" in capsys.readouterr().err
     assert main([str(tmp_path / "none.fmu")]) == 2
     assert "There is no file" in capsys.readouterr().err
 
@@ -150,7 +150,7 @@ def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> 
     assert str(out / "report.html") in told
     assert "was stopped" in (out / "report.html").read_text()
     (left,) = (row for row in rows(out) if row["test"] == "steady_circle")
-    assert left["note"] == "Not done yet: the command is at work, or was stopped."
+    assert left["note"] == "Not done yet: the command is still running, or was stopped."
     assert "load.peak_FL" in {row["measure"] for row in rows(out) if row["test"] == "drop"}
     assert list(out.rglob("runs/drop/*.csv"))
-    assert "1 test is not done yet; the same command goes on from here." in told
+    assert "1 test is not done yet; the same command resumes here." in told

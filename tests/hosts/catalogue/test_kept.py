@@ -57,7 +57,7 @@ def test_what_is_kept_is_what_was_done(
     given = [part for name, x in SETTINGS.items() for part in ("--test-setting", f"drop.{name}={x}")]
     assert command.main([str(prototype_fmu), "--tests", "drop", "--out", str(tmp_path), *given]) == 0
     told = capsys.readouterr().out
-    assert "1 of 1 tests are there; --again makes them again." in told
+    assert "1 of 1 tests are there; --again repeats them." in told
     assert "load.peak_FL" in told
 
     assert kept(replace(task, settings={**task.settings, "height": 0.06}), tmp_path) is None

@@ -119,7 +119,7 @@ def test_the_command_says_which_measure_is_outside(
     assert command.main([*drop, "--limits", str(file)]) == 1
     said = capsys.readouterr().out
     assert "1 measure does not keep its limit; it is marked (!)." in said
-    assert "not judged are limits of tests that --tests leaves out: kerb.peak\n" in said
+    assert "limits of tests that --tests leaves out are not evaluated: kerb.peak\n" in said
     (test,) = json.loads((tmp_path / "measures.json").read_text())["tests"]
     peak = test["cars"][prototype_fmu.stem]["measures"]["peak"]
     assert peak["limit"] == {"lowest": None, "highest": 2000.0, "source": "limits.toml"}

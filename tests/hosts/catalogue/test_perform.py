@@ -37,8 +37,8 @@ def test_what_the_fmu_says_is_noted_once() -> None:
     record = perform(TALKING, BicycleCar())
     assert record.notes == [
         "Noted.",
-        "The FMU said in every run: The step is too long.",
-        "The FMU said in run_1: Once.",
+        "The FMU reported in every run: The step is too long.",
+        "The FMU reported in run_1: Once.",
     ]
 
 

@@ -82,11 +82,11 @@ def test_rows_that_are_recorded_more_rarely_are_the_same_rows(prototype: TestedC
 
 
 def test_facts_are_under_our_names(foreign: TestedCar) -> None:
-    assert "steering" in foreign.inputs
-    assert "chassis.ay" in foreign.outputs
-    assert "initial.speed" in foreign.parameters
-    assert foreign.constants["vehicle.wheelbase"] == 2.3
-    assert foreign.constants["vehicle.length"] == 9.0
+    assert "steering" in foreign.facts.inputs
+    assert "chassis.ay" in foreign.facts.outputs
+    assert "initial.speed" in foreign.facts.parameters
+    assert foreign.facts.constants["vehicle.wheelbase"] == 2.3
+    assert foreign.facts.constants["vehicle.length"] == 9.0
     assert foreign.facts.step == 0.002
 
 

@@ -290,8 +290,13 @@ def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path
     text = aliases.read_text(encoding="utf-8")
     road = '"wheel_FL.steer" = "Rad links"\n"wheel_FR.steer" = "Rad rechts"'
     aliases.write_text(text.replace('steering_wheel_angle = "Lenkrad"', road), encoding="utf-8")
+    lines = log.read_text(encoding="latin-1").split("\n")
+    cells = lines[200].split(";")
+    cells[lines[0].split(";").index("Rad links [rad]")] = "0,5"
+    log.write_text("\n".join([*lines[:200], ";".join(cells), *lines[201:]]), encoding="latin-1")
     by_road = compared(car, log, signals="chassis.wz")[1]
     assert any("at which the standing car turns its wheels as measured" in n for n in by_road["notes"])
+    assert any("1 sample of 'Rad links' (wheel_FL.steer) that no neighbour supports" in n for n in by_road["notes"])
     one, other = (values(r)["chassis.wz.rms"] for r in (by_hand, by_road))
     assert other < one + 0.002
 
@@ -302,11 +307,11 @@ def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path
     [
         (("--seconds", "3:1"), "its times must be finite and in their order"),
         (("--seconds", "now"), "it must be of the form A:B,C:D"),
-        (("--window-every", "1"), "--window-every goes with --windows"),
+        (("--window-every", "1"), "--window-every needs --windows"),
         (("--windows", "9"), "within 4.94 s"),
-        (("--windows", "1", "--skip", "1"), "--skip does not go with --windows"),
+        (("--windows", "1", "--skip", "1"), "--skip cannot be combined with --windows"),
         (("--windows", "2", "--seconds", "0:1"), "No window of 2 s lies in --seconds 0:1"),
-        (("--windows", "1", "--fit", "initial.speed=1:20"), "--fit initial.* does not go with --windows"),
+        (("--windows", "1", "--fit", "initial.speed=1:20"), "--fit initial.* cannot be combined with --windows"),
     ],
 )
 def test_windows_that_cannot_be_are_refused(

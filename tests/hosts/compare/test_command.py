@@ -197,7 +197,7 @@ class TestCommand:
     @pytest.mark.parametrize(
         ("options", "words"),
         [
-            (["--signals", "bob.z"], "--signals: 'bob.z' is no output of the FMU; did you mean"),
+            (["--signals", "bob.z"], "--signals: 'bob.z' is not an output of the FMU; did you mean"),
             (["--signals", "solver.status"], "'solver.status' is not in the log"),
             (
                 ["--fit", "spring.stifness"],
@@ -208,14 +208,14 @@ class TestCommand:
             (["--fit", "spring.stiffness=150:500"], "begins at 100 N/m, which is not between 150 and 500"),
             (["--fit", "spring.stiffness=a:b"], "'a' is not a number"),
             (["--fit", "bob.x"], "has no parameter 'bob.x'"),
-            (["--nuisance", "delay"], "--nuisance goes with --fit"),
-            (["--starts", "3"], "--starts goes with --fit"),
-            (["--fit-step", "0.01"], "--fit-step goes with --fit"),
+            (["--nuisance", "delay"], "--nuisance needs --fit"),
+            (["--starts", "3"], "--starts needs --fit"),
+            (["--fit-step", "0.01"], "--fit-step needs --fit"),
             (["--fit", "spring.damping", "--nuisance", "lag"], "'lag' is not known"),
             (["--from", "20"], "--from is 20 s; the log's inputs lie between 0 and"),
             (["--skip", "7"], "--skip is 7 s; the log lasts"),
             (["--ignore", "pull"], "there is nothing to replay"),
-            (["--ignore", "pusch"], "'pusch' is no input in the log; it has pull"),
+            (["--ignore", "pusch"], "'pusch' is not an input in the log; it has pull"),
             (["--set", "spring.stifness=2"], "spring.stifness"),
             (["--step", "-1"], "must be positive"),
             (["--fit", "solver.step_iterations=0:9"], "only real numbers can be fitted"),

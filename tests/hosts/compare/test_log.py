@@ -64,7 +64,7 @@ def test_a_sample_left_out_is_told_of_what_is_used(
 
 @pytest.mark.parametrize("second", [0.5 * 12, 30.0])
 def test_an_input_jumps_between_two_rows_of_one_time(fmu: NamedFmu, tmp_path: Path, second: float) -> None:
-    """An output has the first of them; the same value twice is no jump, and one that is no spike."""
+    """An output has the first of them; the same value twice is no jump, and one that is not a spike."""
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012\n", f"0.12,6.0,0.012\n0.12,{second},0.5\n")
     log = read(fmu, tmp_path, text)
     jumps = second == 30.0
@@ -108,10 +108,10 @@ def test_a_heading_that_is_repeated_is_told_by_its_line(fmu: NamedFmu, tmp_path:
     with pytest.raises(HostError, match=r"log\.csv, line 6, column"):
         read(fmu, tmp_path, "\n".join(again))
     again[5] = "soon,1,2"
-    with pytest.raises(HostError, match=r"line 6, column 'time': the time 'soon' is no number"):
+    with pytest.raises(HostError, match=r"line 6, column 'time': the time 'soon' is not a number"):
         read(fmu, tmp_path, "\n".join(again))
     again[5] = lines[3].rpartition(",")[0] + ",far"
-    with pytest.raises(HostError, match=r"line 6, column 'bob\.x': 'far' is no number"):
+    with pytest.raises(HostError, match=r"line 6, column 'bob\.x': 'far' is not a number"):
         read(fmu, tmp_path, "\n".join(again))
 
 
@@ -265,7 +265,7 @@ BAD = [
     (
         "stamp;bob.x\n" + stamped("{0};{1}").replace("2024-10-27T", "27.10.2024 "),
         '[time]\nname = "stamp"',
-        "no date such as 2024",
+        "a date such as 2024",
     ),
     ("time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.011\n", "invalid\n"), "", "a cell without one is empty"),
     ("time,pull,bob.x\n" + rows("{ms},{f},{x}"), "", '[time] unit = "ms"'),
@@ -274,7 +274,7 @@ BAD = [
     (
         "time,F,x\n" + rows("{t},{f},{x}"),
         '[signals]\n"bob.X" = "x"',
-        "'bob.X' is no input or output of Tuned",
+        "'bob.X' is not an input or output of Tuned",
     ),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\n"spring.free_length" = "x"', "is a parameter of Tuned.fmu"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[signals]\npull = { name = "F", unit = "deg" }', "is in 'deg'; 'pull' of"),
@@ -287,13 +287,13 @@ BAD = [
     ("a,pull,bob.x\n" + rows("{t},{f},{x}"), "", "has no column of times"),
     ("time,pull,bob.x\n0,1,2\n0.1,2,3\n", "", "at least 10 are needed"),
     ("", "", "is empty"),
-    ("time pull bob.x\n" + rows("{t} {f} {x}"), "", "is no table of numbers"),
+    ("time pull bob.x\n" + rows("{t} {f} {x}"), "", "is not a table of numbers"),
     (
         "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("19.5,", "high,"),
         "",
         "line 41, column 'pull': 'high' is",
     ),
-    ("time;pull;bob.x\n" + rows("{t};{f};{x}"), "[file]\ndelimiter = ','", "is no table of numbers"),
+    ("time;pull;bob.x\n" + rows("{t};{f};{x}"), "[file]\ndelimiter = ','", "is not a table of numbers"),
     (rows("{t},{f},{x}"), "", "has no line of 3 names"),
     ("time,F,x\n" + rows("{t},{f},{x}"), '[time]\nunit = ["s"]', "time.unit is ['s']; it must be one of s, ms"),
     ("time,F,x\n" + rows("{t},{f},{x}"), "[file]\nunits = 1000", "[file] units is line 1000; values begin in line 2"),
@@ -338,8 +338,8 @@ def test_what_squares_to_no_number_is_refused_with_its_line(fmu: NamedFmu, tmp_p
 def test_a_file_of_another_kind(tmp_path: Path) -> None:
     for name, content, words in (
         ("a.mf4", b"MDF     4.10", "asammdf"),
-        ("a.parquet", b"PAR1 no", "is no Parquet file"),
-        ("a.csv", b"\x00\x01\x02", "is no text"),
+        ("a.parquet", b"PAR1 no", "is not a Parquet file"),
+        ("a.csv", b"\x00\x01\x02", "is not text"),
         ("b.csv", None, "there is no such file"),
     ):
         if content is not None:

@@ -11,11 +11,13 @@ import pytest
 from distributed import KilledWorker
 
 from ali3.isolated import Lost
-from hosts.experiment.cluster_runs import WORK, ChunkSize, ClusterRuns
+from hosts.experiment.cluster_runs import WORK, ChunkSize, ClusterRuns, SchedulerLostError
 from hosts.experiment.cluster_worker import Brought
 
 
 class Given(Future[Any]):
+    status = "finished"
+
     def cancel(self, msg: str = "") -> bool:
         return super().cancel()
 
@@ -25,13 +27,10 @@ class Client:
 
     status = "running"
 
-    def __init__(self, breaks: float = 0, error: Exception | None = None) -> None:
-        self.breaks, self.error, self.chunks, self.taken = (
-            breaks,
-            error or KeyError("gone"),
-            list[list[int]](),
-            list[str](),
-        )
+    def __init__(self, breaks: float = 0, error: Exception | None = None, at: str = "error") -> None:
+        """`at`: status of the chunk that breaks, as Dask tells it."""
+        self.breaks, self.error, self.at = breaks, error or KeyError("gone"), at
+        self.chunks, self.taken = list[list[int]](), list[str]()
 
     def submit(self, _: object, key: str, tasks: list[int], pure: bool) -> Future[Any]:
         assert (key, pure) == ("key", False)
@@ -39,6 +38,7 @@ class Client:
         future = Given()
         if self.breaks and any(task % 2 for task in tasks):
             self.breaks -= 1
+            future.status = self.at
             future.set_exception(self.error)
         else:
             future.set_result((0.001 * len(tasks), [-task for task in tasks]))
@@ -72,6 +72,15 @@ def test_a_chunk_that_breaks_is_sent_once_more(breaks: int) -> None:
         assert found[1] == -1
     else:
         assert found[1] == Lost("has failed on its worker: KeyError: 'gone'")
+
+
+def test_an_error_of_a_worker_is_no_lost_scheduler() -> None:
+    """Errors of the system too, as where a worker has no memory for a process."""
+    full = OSError(12, "no memory")
+    found = dict(runs_on(Client(2, full), 3, ChunkSize(10.0, 2)).results([2, 1, 4]))
+    assert found == {0: -2, 1: Lost("has failed on its worker: OSError: [Errno 12] no memory"), 2: -4}
+    with pytest.raises(SchedulerLostError):
+        dict(runs_on(Client(2, full, "finished"), 3, ChunkSize(10.0, 2)).results([2, 1, 4]))
 
 
 def test_a_run_that_ends_its_workers_is_given_up_and_the_others_of_its_chunk_are_made() -> None:

@@ -92,4 +92,4 @@ def test_a_result_is_found_by_its_name_while_its_key_is_the_same(
         assert [kept.find("a", "key"), kept.find("b", "other")] == [4.0, 3.0]
     tell_kept(0, 2, "counts")
     tell_kept(1, 2, "counts")
-    assert capsys.readouterr().out == "1 of 2 counts are there; --again makes them again.\n"
+    assert capsys.readouterr().out == "1 of 2 counts are there; --again repeats them.\n"

@@ -201,7 +201,7 @@ def test_a_car_without_a_start_or_closed_says_so(rigid_fmu: Path) -> None:
             use()
     car.reset()
     saved = car.save()
-    with pytest.raises(HostError, match="None is no state of a car"):
+    with pytest.raises(HostError, match="None is not a state of a car"):
         car.restore(None)  # type: ignore[arg-type]
     car.close()
     car.close()

@@ -189,7 +189,7 @@ def test_a_driver_without_sense_moves_them_too(fmus):
 
 def test_a_manoeuvre_that_needs_more_than_the_car_has(fmus, tmp_path):
     (tmp_path / "sail.csv").write_text('"time","sail"\n0,0\n1,1\n')
-    with started(fmus["sledge"]) as car, pytest.raises(HostError, match="a column 'sail', which is no input"):
+    with started(fmus["sledge"]) as car, pytest.raises(HostError, match="a column 'sail', which is not an input"):
         headless_driver(car, load_manoeuvre(str(tmp_path / "sail.csv")), None)
     with started(fmus["reach"]) as car, pytest.raises(HostError, match="does not have: steering, throttle, brake"):
         headless_driver(car, load_manoeuvre("double_lane_change"), None)

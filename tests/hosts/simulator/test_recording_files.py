@@ -167,7 +167,7 @@ def test_bad_recordings_are_refused_in_words(fmus: dict[str, Path], tmp_path: Pa
     assert "was recorded from gone.fmu, which is not there any more; name the FMU" in refused(fmu="gone.fmu")
     assert "lacks variables of the recording" in refused(columns=["x", *meta["columns"][1:]])
     (folder / "recording.json").write_text("{")
-    with pytest.raises(HostError, match="is no JSON file"):
+    with pytest.raises(HostError, match="is not a JSON file"):
         read_recording(folder)
     with pytest.raises(HostError, match="has no recording.json; name the folder of a recording"):
         read_recording(tmp_path)

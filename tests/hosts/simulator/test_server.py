@@ -223,7 +223,7 @@ def test_a_page_that_stalls_lets_its_inputs_go_and_has_the_word_again_when_it_wa
         page.send(want)
         until(lambda: car.wanted.get("throttle") == (1.0, 2.5))
         until(lambda: car.wanted["throttle"] == (0.0, 5.0))
-        assert any("says nothing any more: throttle let go." in text for text in served.told)
+        assert any("no longer sends messages: throttle let go." in text for text in served.told)
         page.send(want)
         until(lambda: car.wanted["throttle"] == (1.0, 2.5))
 

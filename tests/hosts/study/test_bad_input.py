@@ -79,4 +79,4 @@ def test_what_the_command_line_asks(
     assert end.value.code == 2
     assert "a whole number of at least 1" in capsys.readouterr().err
     assert main([str(tmp_path), "--run", "1"]) == 2
-    assert "is no folder of a study: there is no study.json in it." in capsys.readouterr().err
+    assert "is not a study folder: there is no study.json in it." in capsys.readouterr().err

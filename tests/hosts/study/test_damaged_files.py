@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from hosts.common.errors import HostError
+from hosts.common.parquet import opened_parquet
 from hosts.study.analysis.report import write_report
 from hosts.study.campaign import run_study
 from hosts.study.folder import read_record
@@ -81,7 +83,7 @@ def test_a_damaged_file_is_told_and_its_runs_are_made_again(
         assert run_study(tmp_path / "study.toml", folder, scheduler, None) is not None
         told = capfd.readouterr().err
         assert "is damaged (" in told
-        assert "its runs are made again" in told
+        assert "its runs are repeated" in told
         assert read_study(folder).drop(columns="wall_seconds").equals(rows)
         assert np.array_equal(open_signals(folder)["bob.y"].to_numpy(), samples)
     assert len(list((folder / "runs").glob(".damaged-part-*"))) == 1
@@ -97,8 +99,32 @@ def test_the_runs_of_signals_that_have_gone_are_made_again(
     with pytest.raises(HostError, match="it is not there.*; the same study, started again, makes its runs again"):
         open_signals(folder)
     assert run_study(file, folder, None, 1) is not None
-    assert "part-000001.parquet is damaged (it is not there); its runs are made again." in capfd.readouterr().err
+    assert "part-000001.parquet is damaged (it is not there); its runs are repeated." in capfd.readouterr().err
     assert np.array_equal(open_signals(folder)["bob.y"].to_numpy(), samples)
     (folder / "done").write_bytes(b"")  # as a kill leaves it between the last part and the end of the journal
     assert run_study(file, folder, None, 1) is not None
     assert not (folder / "done").exists()
+
+
+def test_a_study_that_goes_on_reads_each_part_once(
+    study_file: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file, folder = study_file(more=SIGNALS), tmp_path / "out"
+    monkeypatch.setattr("hosts.study.outcome_table._MOST_ROWS", 4)
+    assert run_study(file, folder, None, 1) is not None
+    parts = part_files(folder)
+    assert len(parts) == 4
+    parts.pop(1).unlink()
+    opened = list[Path]()
+
+    def counted(file: Path, checksums: bool) -> AbstractContextManager[Any]:
+        opened.append(file)
+        return opened_parquet(file, checksums=checksums)
+
+    monkeypatch.setattr("hosts.study.parts.opened_parquet", counted)
+    assert run_study(file, folder, None, 1) is not None
+    assert sorted(opened) == sorted([*parts, *(folder / "signals" / part.name for part in parts)])
+    opened.clear()
+    assert run_study(file, folder, None, 1, again=True) is not None  # those that failed are looked for
+    assert {opened.count(part) for part in parts} == {2}
+    assert len(read_study(folder)) == 16

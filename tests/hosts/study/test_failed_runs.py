@@ -77,7 +77,7 @@ def test_runs_that_raise_crash_or_hang_are_rows(study_file: Callable[..., Path],
     assert (failed["status"] == "failed").all()
     assert failed["highest"].isna().all()
     assert [re.sub(r" (after|in) fmi2\w+", "", reason) for reason in failed["reason"]] == [
-        "The process of the run was killed (SIGKILL), by a user or by the system for want of memory.",
+        "The process of the run was killed (SIGKILL), by a user or by the system because memory ran out.",
         "The run took more than 2 s (time_limit).",
         "The process of the run ended with exit code 3.",
     ]

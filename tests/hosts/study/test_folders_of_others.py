@@ -14,7 +14,7 @@ from hosts.common.errors import HostError
 from hosts.study.analysis.report import write_report
 from hosts.study.command import main
 from hosts.study.folder import begin_study, read_record
-from hosts.study.parts import PartWriter
+from hosts.study.outcome_table import OutcomeTable
 from hosts.study.plan import make_plan
 from hosts.study.repeated_run import repeater
 from hosts.study.store import read_study
@@ -30,10 +30,10 @@ def folder(study_file: Callable[..., Path], spring: Path, tmp_path: Path) -> Pat
     plan = make_plan(study, file, spring)
     record = json.loads(json.dumps(plan.record))
     begin_study(tmp_path / "out", record, content, spring)
-    writer = PartWriter(tmp_path / "out", record)
+    table = OutcomeTable(tmp_path / "out", record)
     for k, run in enumerate(plan.runs_at(range(plan.runs))):
-        writer.add(run, Outcome(measures={"highest": 0.1 * k}))
-    writer.flush()
+        table.take("", (run, Outcome(measures={"highest": 0.1 * k})))
+    table.write()
     return tmp_path / "out"
 
 

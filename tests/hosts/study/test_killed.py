@@ -77,7 +77,7 @@ def said(error: str) -> list[str]:
 
 
 def wait_for_part(folder: Path, process: subprocess.Popen[str], parts: int) -> None:
-    end = time.monotonic() + 90.0
+    end = time.monotonic() + 400.0  # of a machine that others use
     while len(part_files(folder)) < parts:
         assert process.poll() is None, process.communicate()
         assert time.monotonic() < end
@@ -85,7 +85,7 @@ def wait_for_part(folder: Path, process: subprocess.Popen[str], parts: int) -> N
 
 
 def rows(folder: Path) -> dict[int, tuple[object, ...]]:
-    """All rows as they are on the disk; fails if a run is there twice."""
+    """All rows as they are on the disk; fails if a run occurs twice."""
     found: dict[int, tuple[object, ...]] = {}
     for file in part_files(folder):
         for row in pq.ParquetFile(file).read().to_pylist():

@@ -73,14 +73,14 @@ def test_the_interval_is_wilsons() -> None:
     n, p, z = 10, 0.3, 1.959963984540054
     middle = (p + z * z / (2 * n)) / (1 + z * z / n)
     half = z / (1 + z * z / n) * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
-    assert (share.low, share.high) == pytest.approx((middle - half, middle + half), rel=1e-12)
+    assert (share.share_low, share.share_high) == pytest.approx((middle - half, middle + half), rel=1e-12)
 
 
 @pytest.mark.parametrize("method", ["grid", "table", "saltelli"])
 def test_runs_that_are_no_random_sample_have_no_interval(method: str) -> None:
     frame = made_frame(method)
     found = shares(frame)
-    assert all(math.isnan(s.low) and math.isnan(s.high) for s in found)
+    assert all(math.isnan(s.share_low) and math.isnan(s.share_high) for s in found)
     assert found[0].share == 0.3
     assert share_notes(found, frame.attrs)[0].startswith("There is no interval: ")
 

@@ -99,7 +99,7 @@ def test_means_do_not_change_where_more_samples_lie(result: Result) -> None:
         ("max(chassis.ay).values", "cannot be read: signals"),
         ("abs.__class__(1)", "cannot be read: signals"),
         ("max(chassis.ay) if 1 else 2", "cannot be read: signals"),
-        ("max(True)", "'True' is no number"),
+        ("max(True)", "'True' is not a number"),
         ("max(chassis.ay, 3)", "takes one signal; it was given 2"),
         ("max(chassis.ay, until=3)", "it has after and before"),
         ("final(chassis.ay, after=3)", "final has no after"),
@@ -119,7 +119,7 @@ def test_forms_that_are_refused(text: str, sentence: str) -> None:
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("max(chasis.ay)", r"'chasis.ay', which is no input or output; did you mean 'chassis.ay'"),
+        ("max(chasis.ay)", r"'chasis.ay', which is not an input or output; did you mean 'chassis.ay'"),
         ("max(Chassis.AY)", r"did you mean 'chassis.ay'\?"),
         ("max(chassis.x + chassis.ay)", r"'chassis.x' in m \+ 'chassis.ay' in m/s2; only equal units"),
         ("max(chassis.x, after=2.5)", "from 0 to 2 s has no sample for 'max\\(chassis.x, after=2.5\\)'"),

@@ -14,8 +14,8 @@ from scipy.stats import qmc
 
 from hosts.common.errors import HostError
 from hosts.study.analysis.data import study_data
-from hosts.study.analysis.effect_plots import failed_share
 from hosts.study.analysis.indices import Indices
+from hosts.study.analysis.main_effects import failed_share
 from hosts.study.analysis.measure_section import indices_of
 from hosts.study.analysis.report import report_of
 from hosts.study.analysis.study_section import measures_section
@@ -199,7 +199,8 @@ def test_indices_that_are_noise_are_hollow_points() -> None:
 
 def test_where_runs_fail(frame: pd.DataFrame) -> None:
     data = study_data(frame)
-    at, share, low, high = failed_share(data.x[:, 0], data.failed)
+    found = failed_share(data.x[:, 0], data.failed)
+    at, share, low, high = found.at, found.mean, found.low, found.high
     # A fifth of the range fails: the first two of ten classes wholly, the others not at all.
     assert share.tolist() == [1.0, 1.0, *[0.0] * 8]
     assert at[1] < 2.8e4 < at[2]
@@ -228,7 +229,7 @@ def test_what_the_fmu_said(frame: pd.DataFrame, tmp_path: Path) -> None:
     told.attrs = frame.attrs
     assert said(study_data(told)) == [("The step 1 to 64 ms is coarse.", list(range(0, 70, 7)))]
     text = report_of(told, tmp_path, commands)[0].read_text(encoding="utf-8")
-    assert "What the FMU said" in text
+    assert "Messages of the FMU" in text
     assert "The step 1 to 64 ms is coarse." in text
 
 

@@ -136,14 +136,14 @@ import resource, signal, sys
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 from hosts.experiment import store
 from hosts.study import campaign
-from hosts.study.parts import PartWriter
-written = PartWriter.flush
-def flush(self):
-    rows = len(self)
+from hosts.study.outcome_table import OutcomeTable
+written = OutcomeTable.write
+def write(self):
+    rows = self._rows["index"] != []
     written(self)
     if rows:  # full from now on
         resource.setrlimit(resource.RLIMIT_FSIZE, (2000, resource.RLIM_INFINITY))
-PartWriter.flush = flush
+OutcomeTable.write = write
 store._WRITE = (0.0, 0.0)
 from hosts.study.command import main
 sys.exit(main())

@@ -128,5 +128,5 @@ def test_a_study_under_the_names_of_an_alias_file_makes_the_same_runs(
     assert named == {"lowest": -theirs["highest"], "highest": -theirs["lowest"]}
     wrong = study_file(*ours, ('"rate"', '"chassis.z"'))
     study = read_study_file(wrong)[0]
-    with pytest.raises(HostError, match=r"'chassis.z' is no parameter or input of the FMU; it cannot be set"):
+    with pytest.raises(HostError, match=r"'chassis.z' is not a parameter or input of the FMU; it cannot be set"):
         make_plan(study, wrong, spring)

@@ -72,7 +72,8 @@ def test_a_value_that_cannot_be_met(
     assert "lowest = -3 m is not met with spring.stiffness from 50 N/m to 80 N/m." in words
     assert "The nearest is -1.38" in words
     assert ", at 50 N/m" in words
-    assert "In 3 runs from end to end the measure only rises with it and does not reach what is wanted; try" in words
+    assert "runs from end to end the measure only rises with it and does not reach what is wanted; try" in words
+    assert "Sensitivity" not in words
     assert "a wider range, --between (the FMU allows 10 to 900" in words
     assert not (tmp_path / "out" / f"{STEM}.ssv").exists()
     assert not json.loads((tmp_path / "out" / f"{STEM}.json").read_text(encoding="utf-8"))["met"]
@@ -96,7 +97,7 @@ def test_what_changes_by_rounding_alone_does_not_change(
 @pytest.mark.parametrize(
     ("options", "by", "words"),
     [
-        (("--target", "lowest=-1.2 deg"), "spring.stiffness", "'deg' is no unit of what is measured in m"),
+        (("--target", "lowest=-1.2 deg"), "spring.stiffness", "'deg' is not a unit of what is measured in m"),
         (("--target", "lowst=-1.2"), "spring.stiffness", "there is no measure 'lowst'; did you mean 'lowest'?"),
         (("--target", "lowest"), "spring.stiffness", "it must be MEASURE=VALUE"),
         (("--target", "lowest=-1.2"), "spring.stiffnes", "--by: the FMU has no parameter or input"),
@@ -106,8 +107,8 @@ def test_what_changes_by_rounding_alone_does_not_change(
             "spring.stiffness",
             "--between: 'spring.stiffness' is 1 N/m; its range is",
         ),
-        (("--target", "lowest=-1.2", "--jobs", "2"), "spring.stiffness", "--jobs does not go with --target"),
-        (("--between", "1:50"), "spring.stiffness", "--by and --between go with --target"),
+        (("--target", "lowest=-1.2", "--jobs", "2"), "spring.stiffness", "--jobs cannot be combined with --target"),
+        (("--between", "1:50"), "spring.stiffness", "--by and --between need --target"),
         (("--target", "lowest=-1.2"), "bob.x", "--by: 'bob.x' is an output of the FMU; it cannot be set"),
         (("--target", "lowest=-1.2"), "spring.mass", "--by: 'spring.mass' is a constant, 0.1 kg; it cannot be set"),
         (

@@ -64,7 +64,7 @@ def test_a_value_that_is_none_is_told_with_its_part_once(partners: dict[str, Pat
         system.initialise(**{"mass.start": 1.0, "spring.break_at": 0.25})
         system.run(0.5, ("mass.position",))
         told = [m for m in system.messages if "spring: at" in m]
-        assert told == ["spring: at 0.3 s 'force' is nan. This is said once."]
+        assert told == ["spring: at 0.3 s 'force' is nan. This is reported once."]
 
 
 @pytest.mark.parametrize(("first", "slopes"), [("source", [10.0, 0.0, 0.0]), ("sink", [0.0, 10.0, 0.0])])

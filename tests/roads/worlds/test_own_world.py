@@ -135,7 +135,7 @@ _LEGS = "x,y,width\n-40,-5,{0}\n10,-9,{0}\n30,-10,{0}\n40,0,{0}\n30,10,{0}\n10,9
 @pytest.mark.parametrize(
     ("course", "sentence"),
     [
-        ("", "holds no values"),
+        ("", "contains no values"),
         ("x,y\n1,2\n", "fewer than two points"),
         ("x,y\n1,2\n3\n", "line 3: 1 values where the heading has 2"),
         ("x,y\n1,2\n3,four\n", "line 3, column 'y': 'four' is not a number"),
@@ -300,11 +300,11 @@ def test_heights_widths_and_banks_of_a_course_file(tmp_path):
     ("arguments", "sentence"),
     [
         (["mars"], "There is no world 'mars' and no such file; worlds are proving_ground, kerb, plane, rough"),
-        (["a.txt"], "a.txt is no world"),
-        (["broken.toml"], "broken.toml is no TOML file"),
+        (["a.txt"], "a.txt is not a world"),
+        (["broken.toml"], "broken.toml is not a TOML file"),
         (["empty.toml"], "empty.toml"),
         (["none.road"], "There is no world 'none.road' and no such file"),
-        (["bad.road"], "bad.road is no road file"),
+        (["bad.road"], "bad.road is not a road file"),
     ],
 )
 def test_what_is_no_world_is_said_in_one_sentence(tmp_path, monkeypatch, capsys, own_cache, arguments, sentence):

@@ -61,9 +61,9 @@ test("a frame is read number by number", () => {
   assert.deepEqual([...values], [3, -1.5]);
 });
 
-test("what is no frame is refused", () => {
-  assert.throws(() => readFrame(frame(TEN, [], { magic: 1 })), /no frame/);
-  assert.throws(() => readFrame(new ArrayBuffer(10)), /no frame/);
+test("what is not a frame is refused", () => {
+  assert.throws(() => readFrame(frame(TEN, [], { magic: 1 })), /not a frame/);
+  assert.throws(() => readFrame(new ArrayBuffer(10)), /not a frame/);
   assert.throws(() => readFrame(frame(TEN, [1, 2]).slice(0, 100)), /2 numbers has 100 bytes/);
 });
 
@@ -148,7 +148,7 @@ test("a link that is closed stays closed", () => {
 });
 
 test("what is not understood is said, and the connection tried again", () => {
-  for (const { data, why } of [{ data: "{", why: /JSON/ }, { data: frame(TEN, [], { magic: 1 }), why: /This is no frame of a simulator/ }]) {
+  for (const { data, why } of [{ data: "{", why: /JSON/ }, { data: frame(TEN, [], { magic: 1 }), why: /This is not a frame of a simulator/ }]) {
     const words = [];
     const { means, socket } = linked({ closed: (text) => words.push(text), event: () => assert.fail() });
     socket.open();

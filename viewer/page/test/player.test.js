@@ -1,11 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { Clock } from "../src/sources/clock.js";
 import { decoded, fromPlanes } from "../src/sources/decode.js";
 import { slerp } from "../src/sources/blend.js";
 import { Sampler, linear, place } from "../src/sources/sampler.js";
-import { signalNames } from "../src/sources/recordings.js";
+import { Recordings, signalNames } from "../src/sources/recordings.js";
 import { byUnit, found, resampled } from "../src/shell/series.js";
 
 const near = (a, b, tolerance = 1e-12) => assert.ok(Math.abs(a - b) <= tolerance, `${a} is not ${b}`);
@@ -57,26 +56,31 @@ test("a run is looked up at any time, quaternions as one", () => {
   assert.equal(sampler.lookup("x"), 90);
 });
 
-test("the clock plays, loops and stops at the end; time passes however long a picture takes", () => {
-  const clock = new Clock(0, 1, { loop: false });
-  clock.play();
-  for (let i = 0; i < 8; i++) clock.tick(0.1);
-  near(clock.time, 0.8, 1e-9);
-  for (let i = 0; i < 3; i++) clock.tick(0.1);
-  assert.equal(clock.time, 1);
-  assert.equal(clock.playing, false);
-  const slow = new Clock(0, 100, { speed: 2 });
-  slow.play();
+test("time runs, loops and stops at the end; it passes however long a picture takes", () => {
+  const over = (begin, end, options = {}) => {
+    const t = new Float64Array([begin, end]);
+    return new Recordings([{ scene: null, t, epoch: [0, 0], columns: {}, name: "", notes: [], missing: [] }], options);
+  };
+  const once = over(0, 1, { loop: false });
+  once.acts.toggle();
+  for (let i = 0; i < 8; i++) once.tick(0.1);
+  near(once.time, 0.8, 1e-9);
+  for (let i = 0; i < 3; i++) once.tick(0.1);
+  assert.deepEqual([once.time, once.running], [1, false]);
+  once.acts.toggle();
+  assert.deepEqual([once.time, once.running], [0, true]);
+  const slow = over(0, 100, { speed: 2 });
+  slow.acts.toggle();
   for (let i = 0; i < 4; i++) slow.tick(0.4);
   near(slow.time, 3.2, 1e-9);
-  const round = new Clock(0, 1);
-  round.seek(0.95);
-  round.play();
+  const round = over(0, 1);
+  round.acts.seek(0.95);
+  round.acts.toggle();
   round.tick(0.1);
   near(round.time, 0.05, 1e-9);
-  const instant = new Clock(3, 3);
-  instant.play();
-  assert.equal(instant.playing, false);
+  const instant = over(3, 3);
+  instant.acts.toggle();
+  assert.equal(instant.running, false);
 });
 
 test("planes of bytes become the numbers again", () => {

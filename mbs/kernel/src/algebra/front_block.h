@@ -13,7 +13,7 @@ enum { PANEL = 4 };
 #ifdef ALI3_WIDTH
 /* A lane with a bad pivot is told by in->singular; the others go on. */
 static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate, real d) {
-  const truth good = (ali3_abs(d) > 1e-14 * in->mass_floor[coordinate]) & (ali3_abs(d) < 1e300);
+  const truth good = (ali3_abs(d) > 1e-14 * in->mass.floor[coordinate]) & (ali3_abs(d) < 1e300);
   *in->singular |= ~good & *in->at_work;
   *in->report.negative_pivots -= good & (d < 0.0) & *in->at_work;
   return ALI3_OK;
@@ -21,7 +21,7 @@ static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate
 #else
 /* A pivot D must neither vanish beside the mass of its coordinate nor be infinite. */
 static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate, double d) {
-  if (fabs(d) > 1e-14 * in->mass_floor[coordinate] && fabs(d) < 1e300) {
+  if (fabs(d) > 1e-14 * in->mass.floor[coordinate] && fabs(d) < 1e300) {
     if (d < 0.0) in->report.negative_pivots++;
     return ALI3_OK;
   }
@@ -63,7 +63,7 @@ ALI3_INLINED real *ali3_front_unknowns(ali3_instance *in, int32_t f, int32_t wid
   const ali3_system *S = in->system;
   const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first, side = S->front_side[f];
   const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
-  real *restrict x = in->local;
+  real *restrict x = in->tangent.local;
   if (n == n_pivot) return b + width * first;
   ali3_copy_few(x, b + width * first, width * n_pivot);
   for (int32_t i = n_pivot; i < side; i++)

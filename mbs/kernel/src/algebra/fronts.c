@@ -7,7 +7,7 @@
 #include "processor.h"
 
 enum { PANELS = 3 };     /* that a column loses while it is in hand: twelve factors of sixteen registers */
-_Static_assert(PANELS *PANEL <= ALI3_LOCAL, "columns of panels go to in->local");
+_Static_assert(PANELS *PANEL <= ALI3_LOCAL, "columns of panels go to in->tangent.local");
 enum { FOUR_SUMS = 16 }; /* coordinates of a front from which on back substitution makes four sums */
 
 #ifdef ALI3_WIDTH
@@ -138,7 +138,7 @@ ALI3_INLINED ali3_status eliminate_panels(ali3_instance *in, real *block, int32_
                                           int32_t n) {
   real *panel = block + (int64_t)start * n;
   const group *end[PANELS];
-  group *packed = (group *)in->local;
+  group *packed = (group *)in->tangent.local;
   ALI3_UNROLLED
   for (int32_t k = 0; k < panels; k++) {
     const int32_t p = start + k * PANEL;
@@ -197,7 +197,7 @@ ALI3_INLINED void assemble(const real *block, const int32_t *map, int32_t n_pivo
 #ifndef ALI3_WIDTH
 static ali3_status factorise_generated(ali3_instance *in, double *F) {
   double pivot;
-  const int32_t bad = in->system->generated.factorise(F, in->mass_floor, &in->report.negative_pivots, &pivot);
+  const int32_t bad = in->system->generated.factorise(F, in->mass.floor, &in->report.negative_pivots, &pivot);
   return bad < 0 ? ALI3_OK : ali3_check_pivot(in, bad, pivot);
 }
 #endif

@@ -5,7 +5,7 @@
 /* An instance keeps what its caller has, for the function that it is asked for inputs. */
 static ali3_float_control set_for(ali3_instance *in) {
   const ali3_float_control before = ali3_float_control_set();
-  if (in != NULL) in->host_control = before;
+  if (in != NULL) in->inputs.host_control = before;
   return before;
 }
 
@@ -88,11 +88,10 @@ ENTRY(ali3_status, ali3_ports_follow, (ali3_instance *in, const ali3_instance *w
 ENTRY(ali3_status, ali3_sensor_rates, (ali3_instance *in, double *rates, unsigned char *known), (in, rates, known), in)
 ENTRY(ali3_status, ali3_report_get, (const ali3_instance *in, ali3_report *out), (in, out), NULL)
 ENTRY(double, ali3_energy_balance, (const ali3_report *report), (report), NULL)
-ENTRY(ali3_doubt, ali3_run_doubt, (const ali3_report *report), (report), NULL)
+ENTRY(int32_t, ali3_balance_wrong, (const ali3_report *report), (report), NULL)
 PROCEDURE(ali3_compare, (const ali3_judged *what, int32_t n, int64_t rows, const double *time, const double *one, const double *other, ali3_compared *seen), (what, n, rows, time, one, other, seen), NULL)
-PROCEDURE(ali3_compared_sizes, (const ali3_judged *what, int32_t n, const ali3_compared *seen, double length, int32_t guided, double *size), (what, n, seen, length, guided, size), NULL)
+PROCEDURE(ali3_compared_sizes, (const ali3_judged *what, int32_t n, const ali3_compared *seen, double length, double energy, int32_t guided, double *size), (what, n, seen, length, energy, guided, size), NULL)
 ENTRY(double, ali3_compared_error, (int32_t n, const ali3_compared *seen, const double *size, int32_t latest, int32_t *worst), (n, seen, size, latest, worst), NULL)
-ENTRY(double, ali3_error_of, (double apart, double ratio, int32_t order), (apart, ratio, order), NULL)
 ENTRY(ali3_status, ali3_run_status, (const ali3_report *report), (report), NULL)
 ENTRY(ali3_status, ali3_branch_text, (const ali3_instance *in, char *text, size_t size), (in, text, size), NULL)
 ENTRY(double, ali3_time, (const ali3_instance *in), (in), NULL)

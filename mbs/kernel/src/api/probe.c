@@ -38,24 +38,24 @@ ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, 
   copy(work->sd, in->now.sd, z->ng);
   copy(work->sdd, in->now.sdd, z->ng);
   ali3_guides_time(in, work, t);
-  ali3_constraints(in, q, work->s, in->Phi, in->J);
-  ali3_constraint_rate(in, q, work, in->Phit);
-  ali3_constraint_gamma(in, q, qd, work, in->gamma);
+  ali3_constraints(in, q, work->s, in->step.Phi, in->tangent.J);
+  ali3_constraint_rate(in, q, work, in->step.Phit);
+  ali3_constraint_gamma(in, q, qd, work, in->step.gamma);
   const ali3_force_call call = {.q = q,
                                 .qd = qd,
                                 .y_old = y != NULL ? y : in->now.y,
-                                .Q = in->Q,
-                                .y_new = in->y_work,
-                                .out = in->out_work,
-                                .potential = in->potential_work};
+                                .Q = in->step.Q,
+                                .y_new = in->element.y,
+                                .out = in->element.out,
+                                .potential = in->element.potential};
   ali3_roads_forgive(in);
   ali3_forces(in, &call);
-  copy(phi, in->Phi, z->nc);
-  copy(jacobian_values, in->J, z->nnz_rows);
-  copy(phi_t, in->Phit, z->nc);
-  copy(gamma, in->gamma, z->nc);
-  copy(force, in->Q, z->nq);
-  copy(outputs, in->out_work, z->nout);
+  copy(phi, in->step.Phi, z->nc);
+  copy(jacobian_values, in->tangent.J, z->nnz_rows);
+  copy(phi_t, in->step.Phit, z->nc);
+  copy(gamma, in->step.gamma, z->nc);
+  copy(force, in->step.Q, z->nq);
+  copy(outputs, in->element.out, z->nout);
   return ali3_roads_status(in);
 }
 
@@ -68,7 +68,7 @@ static void spread(const ali3_instance *in, double *dense) {
     const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
     for (int32_t j = 0; j < n; j++)
       for (int32_t i = j; i < n; i++) {
-        const double value = in->F[S->front_off[f] + (int64_t)j * n + i];
+        const double value = in->tangent.F[S->front_off[f] + (int64_t)j * n + i];
         dense[(int64_t)idx[i] * nq + idx[j]] += value;
         if (i != j) dense[(int64_t)idx[j] * nq + idx[i]] += value;
       }
@@ -77,9 +77,9 @@ static void spread(const ali3_instance *in, double *dense) {
 
 ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense) {
   if (in == NULL || q == NULL || dense == NULL || !ali3_finite(q, in->system->size.nq)) return ALI3_BAD_ARGUMENT;
-  ali3_mass_to_fronts(in, in->F);
+  ali3_mass_to_fronts(in, in->tangent.F);
   ali3_bodies_prepare(in, q);
-  ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
+  ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->tangent.F);
   spread(in, dense);
   return ALI3_OK;
 }
@@ -96,17 +96,17 @@ ali3_status ali3_tangent(ali3_instance *in, double h, const double *lam, double 
                                 .wC = 0.5 * h,
                                 .wK = c,
                                 .tangent = true,
-                                .Q = in->Q,
-                                .y_new = in->y_work,
-                                .out = in->out_work,
-                                .potential = in->potential_work};
-  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+                                .Q = in->step.Q,
+                                .y_new = in->element.y,
+                                .out = in->element.out,
+                                .potential = in->element.potential};
+  ali3_constraints(in, v->q, v->s, in->step.Phi, in->tangent.J);
   ali3_roads_forgive(in);
   ali3_forces(in, &call);
-  ali3_mass_to_fronts(in, in->F);
-  ali3_rows_square(in, in->J, c * ali3_penalty(in, h), in->F);
-  if (in->settings.geometric) ali3_geometric(in, v->q, v->s, lam != NULL ? lam : v->lam, c, in->F);
-  ali3_forces_tangent(in, in->F);
+  ali3_mass_to_fronts(in, in->tangent.F);
+  ali3_rows_square(in, in->tangent.J, c * ali3_penalty(in, h), in->tangent.F);
+  if (in->settings.geometric) ali3_geometric(in, v->q, v->s, lam != NULL ? lam : v->lam, c, in->tangent.F);
+  ali3_forces_tangent(in, in->tangent.F);
   spread(in, dense);
   return ali3_roads_status(in);
 }
@@ -123,13 +123,13 @@ ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *
                                 .h = h,
                                 .wC = 0.5 * h,
                                 .wK = 0.25 * h * h,
-                                .Q = in->Q,
-                                .y_new = in->y_work,
-                                .out = in->out_work,
-                                .potential = in->potential_work};
+                                .Q = in->step.Q,
+                                .y_new = in->element.y,
+                                .out = in->element.out,
+                                .potential = in->element.potential};
   ali3_roads_forgive(in);
   ali3_forces(in, &call);
-  copy(y_new, in->y_work, z->ny);
-  copy(force, in->Q, z->nq);
+  copy(y_new, in->element.y, z->ny);
+  copy(force, in->step.Q, z->nq);
   return ali3_roads_status(in);
 }

@@ -28,17 +28,17 @@ static ali3_status begin(ali3_instance *in, ali3_status status, double t0) {
   if (ali3_roads_status(in) != ALI3_OK) status = ALI3_ROAD_LOST;
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
-    ali3_vectors_copy(in, &in->now, &in->start);
+    ali3_vectors_copy(in, &in->now, &in->kept.start);
     in->report.failures++;
     return status;
   }
   memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
-  in->t_base = t0;
-  in->h_last = 0.0;
-  in->count = 0;
-  in->mode_known = false;
-  in->to_lift = false;
-  in->initialised = 1;
+  in->clock.base = t0;
+  in->clock.h = 0.0;
+  in->clock.count = 0;
+  in->branch.known = false;
+  in->start.to_lift = false;
+  in->start.initialised = 1;
   ali3_balance_open(in, ali3_has_balance(in));
   ali3_energy_trend(in, ali3_has_balance(in));
   return ALI3_OK;
@@ -48,11 +48,11 @@ ali3_status ali3_initialise(ali3_instance *in, double t0) {
   const ali3_report none = {0};
   if (in == NULL || !(t0 - t0 == 0.0)) return ALI3_BAD_ARGUMENT;
   for (int64_t k = 0; k < in->system->n_inertia_real; k += ALI3_INERTIA_REALS)
-    if (!ali3_inertia_possible(in->inertia_real + k)) return ALI3_BAD_INERTIA;
+    if (!ali3_inertia_possible(in->parameters.inertia_real + k)) return ALI3_BAD_INERTIA;
   in->report = none;
-  in->unsettled = 0.0;
+  in->start.unsettled = 0.0;
   ali3_roads_forgive(in);
-  ali3_vectors_copy(in, &in->start, &in->now);
+  ali3_vectors_copy(in, &in->kept.start, &in->now);
   ali3_status status = ali3_roads_normals(in);
   if (status == ALI3_OK) status = ali3_start_in_equilibrium(in, t0);
   if (status == ALI3_OK) ali3_start_on_road(in);
@@ -70,7 +70,7 @@ ali3_status ali3_static_equilibrium(ali3_instance *in, double t0, double toleran
   if (in == NULL || !(t0 - t0 == 0.0) || !(tolerance > 0.0) || max_iterations < 1) return ALI3_BAD_ARGUMENT;
   in->report = none;
   ali3_roads_forgive(in);
-  ali3_vectors_copy(in, &in->start, &in->now);
+  ali3_vectors_copy(in, &in->kept.start, &in->now);
   ali3_start_on_road(in);
   return begin(in, ali3_solve_static(in, t0, tolerance, max_iterations), t0);
 }
@@ -86,14 +86,14 @@ static ali3_status step(ali3_instance *in, double h, const double *end, ali3_rea
 ali3_status ali3_step(ali3_instance *in, double h) {
   if (in == NULL || !(h > 0.0) || !(h <= 1e6)) return ALI3_BAD_ARGUMENT;
   const ali3_status status = ali3_check_method(in);
-  in->call_residual = 0.0;
+  in->bound.call_residual = 0.0;
   return status == ALI3_OK ? ali3_explain_refusal(in, step(in, h, NULL, ALI3_READ_ALL), h) : status;
 }
 
 ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
   if (in == NULL || !(h > 0.0) || !in->system->size.has_pose) return ALI3_BAD_ARGUMENT;
   if (!(duration >= 0.0 && duration <= ALI3_LONGEST_SETTLING)) return ALI3_BAD_ARGUMENT;
-  if (!in->initialised) return ALI3_NOT_INITIALISED;
+  if (!in->start.initialised) return ALI3_NOT_INITIALISED;
   const double t0 = ali3_time(in), steps = ceil(duration / h * (1.0 - 1e-9));
   ali3_held_motion held;
   ali3_status status = ali3_check_method(in);
@@ -102,41 +102,41 @@ ali3_status ali3_settle(ali3_instance *in, double duration, double h) {
   if (ali3_lower_to_road(in)) status = ali3_refresh(in);
   ali3_follow_slope(in, &held);
   h = duration / steps;
-  in->t_base = t0 - steps * h;
-  in->h_last = 0.0;
-  in->count = 0;
+  in->clock.base = t0 - steps * h;
+  in->clock.h = 0.0;
+  in->clock.count = 0;
   for (int64_t k = 0; k < (int64_t)steps && status == ALI3_OK; k++) {
     status = ali3_step(in, h);
     if (status != ALI3_OK) break;
-    if (in->work_left != NULL) *in->work_left -= ALI3_SETTLING_WORK;
+    if (in->bound.work_left != NULL) *in->bound.work_left -= ALI3_SETTLING_WORK;
     ali3_put_back(in, &held, ali3_kept_velocity(&held, h, (double)k / steps));
     status = ali3_refresh(in);
   }
   if (status != ALI3_OK) {
-    in->initialised = 0;
+    in->start.initialised = 0;
     return status;
   }
   const ali3_report none = {0};
   in->report = none;
-  in->unsettled = ali3_unsettled_speed(in, &held);
-  in->uneven = 0.0; /* what hung above the road has come to rest */
-  ali3_vectors_copy(in, &in->start, &in->now);
+  in->start.unsettled = ali3_unsettled_speed(in, &held);
+  in->start.uneven = 0.0; /* what hung above the road has come to rest */
+  ali3_vectors_copy(in, &in->kept.start, &in->now);
   status = begin(in, ali3_solve_rates(in, true), t0);
-  in->initialised = status == ALI3_OK;
+  in->start.initialised = status == ALI3_OK;
   return status;
 }
 
-double ali3_unsettled(const ali3_instance *in) { return in != NULL ? in->unsettled : 0.0; }
+double ali3_unsettled(const ali3_instance *in) { return in != NULL ? in->start.unsettled : 0.0; }
 
 /* The last good state, of whose step so much was read, lacks what only another reader needs. */
 static ali3_status give_up(ali3_instance *in, ali3_status status, ali3_reading reading) {
   const ali3_method *method = ali3_method_of(in);
-  ali3_vectors_copy(in, &in->start, &in->now);
-  in->force_input = in->start.used; /* the present inputs are not always theirs */
+  ali3_vectors_copy(in, &in->kept.start, &in->now);
+  in->inputs.forces = in->kept.start.used; /* the present inputs are not always theirs */
   if (reading == ALI3_READ_NOTHING && method->after_unobserved != NULL) method->after_unobserved(in);
   if (reading != ALI3_READ_ALL && method->after_sampled != NULL) method->after_sampled(in);
-  in->force_input = in->input;
-  if (!ali3_finite(in->now.q, (int64_t)in->n_vector)) ali3_vectors_copy(in, &in->now, &in->start);
+  in->inputs.forces = in->inputs.set;
+  if (!ali3_finite(in->now.q, (int64_t)in->kept.n)) ali3_vectors_copy(in, &in->now, &in->kept.start);
   return status;
 }
 
@@ -148,10 +148,11 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
   const ali3_status method = ali3_check_method(in);
   if (method != ALI3_OK) return method;
   ali3_reading last = ALI3_READ_ALL; /* of the last good step */
-  in->call_residual = 0.0;
+  in->bound.call_residual = 0.0;
   for (int64_t n = 0; n < n_steps; n++) {
     const bool recorded = (out != NULL || positions != NULL) && (n + 1) % every == 0;
-    const bool sensed = recorded || in->system->n_guide_work > 0; /* it is read at the end of each step */
+    /* work of guides and abrupt forces are read at the end of each step */
+    const bool sensed = recorded || in->system->n_guide_work > 0 || in->system->n_contact > 0;
     const ali3_reading reading = n + 1 == n_steps ? ALI3_READ_ALL : sensed ? ALI3_READ_SENSORS : ALI3_READ_NOTHING;
     const ali3_status status = step(in, h, inputs != NULL ? inputs + n * nu : NULL, reading);
     if (status != ALI3_OK) return ali3_explain_refusal(in, give_up(in, status, last), h);
@@ -164,14 +165,14 @@ ali3_status ali3_run(ali3_instance *in, double h, int64_t n_steps, const double 
 
 ali3_status ali3_sensors(ali3_instance *in, double *out) {
   if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
-  if (!in->initialised) return ALI3_NOT_INITIALISED;
+  if (!in->start.initialised) return ALI3_NOT_INITIALISED;
   ali3_sensors_evaluate(in, out);
   return ALI3_OK;
 }
 
 ali3_status ali3_some_sensors(ali3_instance *in, int32_t n, const int32_t *number, double *out) {
   if (in == NULL || (n > 0 && (number == NULL || out == NULL))) return ALI3_BAD_ARGUMENT;
-  if (!in->initialised) return ALI3_NOT_INITIALISED;
+  if (!in->start.initialised) return ALI3_NOT_INITIALISED;
   for (int32_t i = 0; i < n; i++)
     if (number[i] < 0 || number[i] >= in->system->size.ns) return ALI3_BAD_ARGUMENT;
   ali3_sensors_some(in, n, number, out);

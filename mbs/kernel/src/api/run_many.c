@@ -86,14 +86,14 @@ static bool enter(ali3_lane_group *g, int32_t l, const ali3_whole_step *step) {
   ali3_vectors *from = &in->now, *to = &in->next;
   const double h = step->asked.h;
   if (ali3_parted(in, step->asked.t, h)) return false;
-  in->changed = -1.0;
+  in->parting.changed = -1.0;
   ali3_events_begin(in, step->asked.depth);
   if (ali3_divides_ahead(in, &step->asked) || fastest_turn(in) * h > MOST_TURN || !goes_on(in, h)) return false;
   if (ali3_inputs_begin(in, step->asked.t, h) != ALI3_OK) return false;
   ali3_vectors_copy_unwritten(in, to, from);
   if (ali3_input_jump(in, h) != ALI3_OK) return false;
   ali3_guides_step(in, from, to, step->asked.t, h);
-  memcpy(to->used, in->input, (size_t)z->nu * sizeof(double));
+  memcpy(to->used, in->inputs.set, (size_t)z->nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)z->ny * sizeof(double));
   to->h_last[0] = h;
   return true;
@@ -119,17 +119,17 @@ static ali3_status leave(ali3_lane_group *g, int32_t l, const ali3_whole_step *s
   ali3_guides_work(in, &in->next, g->guides[l]);
   const ali3_status status = ali3_accept(in);
   if (status != ALI3_OK) return status;
-  in->t_now = step->asked.t;
+  in->clock.now = step->asked.t;
   ali3_balance_motion(in, square[0], square[g->width], square[2 * g->width]);
   return ALI3_OK;
 }
 
 /* Back to where the step began, for the instance to make it alone. */
 static ali3_status alone(ali3_instance *in, const ali3_whole_step *step) {
-  if (in->backed_up) ali3_vectors_copy(in, &in->now, &in->start);
-  memcpy(in->input, in->input_from, (size_t)in->system->size.nu * sizeof(double));
-  in->backed_up = false;
-  in->capped = false;
+  if (in->kept.backed_up) ali3_vectors_copy(in, &in->now, &in->kept.start);
+  memcpy(in->inputs.set, in->inputs.from, (size_t)in->system->size.nu * sizeof(double));
+  in->kept.backed_up = false;
+  in->bound.capped = false;
   in->report = step->before;
   return ali3_advance(in, &step->asked);
 }
@@ -198,7 +198,7 @@ ali3_status ali3_many_run(ali3_many *many, int32_t n, ali3_lane *lane, double h,
   for (int32_t l = 0; l < n; l++) {
     lane[l].status = (int32_t)ali3_check_method(lane[l].instance);
     lane[l].done = lane[l].alone = 0;
-    lane[l].instance->call_residual = 0.0;
+    lane[l].instance->bound.call_residual = 0.0;
   }
   for (int64_t k = 0; k < n_steps; k++) {
     for (int32_t l = 0; l < n; l++) {

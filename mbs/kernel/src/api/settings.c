@@ -6,15 +6,15 @@
 #include "../state/work.h"
 
 void ali3_count_work(ali3_instance *in, int64_t *left) {
-  if (in != NULL) in->work_left = left;
+  if (in != NULL) in->bound.work_left = left;
 }
 
 ali3_status ali3_set_settings(ali3_instance *in, const ali3_settings *settings) {
   if (in == NULL || settings == NULL || !ali3_settings_valid(settings)) return ALI3_BAD_ARGUMENT;
   const bool other = settings->method != in->settings.method;
   in->settings = *settings;
-  if (in->initialised) ali3_balance_open(in, ali3_has_balance(in)); /* another method may have had none */
-  if (in->initialised && other) ali3_work_reopen(in);
+  if (in->start.initialised) ali3_balance_open(in, ali3_has_balance(in)); /* another method may have had none */
+  if (in->start.initialised && other) ali3_work_reopen(in);
   return ALI3_OK;
 }
 

@@ -19,10 +19,10 @@ static void set(ali3_instance *in, int32_t number, bool on) {
     in->now.on[number] = 0.0;
     return;
   }
-  if (!in->initialised) return; /* at the start rows hold what the drawing says */
-  ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
+  if (!in->start.initialised) return; /* at the start rows hold what the drawing says */
+  ali3_constraints(in, in->now.q, in->now.s, in->step.Phi, in->tangent.J);
   for (int32_t k = 0; k < S->size.nc; k++)
-    if (S->row_switch[k] == number) in->now.anchor[k] = in->Phi[k];
+    if (S->row_switch[k] == number) in->now.anchor[k] = in->step.Phi[k];
 }
 
 /* Velocities go to the nearest ones in the metric of the mass (an impact without rebound), accelerations and
@@ -30,17 +30,17 @@ static void set(ali3_instance *in, int32_t number, bool on) {
 ali3_status ali3_set_switch(ali3_instance *in, int32_t number, int32_t on) {
   if (in == NULL || number < 0 || number >= in->system->size.n_switch || (on != 0 && on != 1)) return ALI3_BAD_ARGUMENT;
   if ((in->now.on[number] != 0.0) == (on == 1)) return ALI3_OK;
-  if (!in->initialised) {
+  if (!in->start.initialised) {
     set(in, number, on == 1);
     return ALI3_OK;
   }
-  ali3_vectors_copy(in, &in->start, &in->now);
+  ali3_vectors_copy(in, &in->kept.start, &in->now);
   const double before = ali3_kinetic_energy(in);
   set(in, number, on == 1);
   const ali3_status status = ali3_solve_rates(in, false);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
-    ali3_vectors_copy(in, &in->now, &in->start);
+    ali3_vectors_copy(in, &in->now, &in->kept.start);
     in->report.failures++;
     return status;
   }

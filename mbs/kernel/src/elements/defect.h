@@ -5,9 +5,9 @@
 #include "../instance.h"
 #include "element.h"
 
-/* r = -wK (change of the forces of elements since the iterate, whose signals have the rates in->ud_at) - B' S times the
- * change of their signals to those of q and qd, S the tangents in F. Of positions far away differences lose digits, of
- * rates they do not. */
+/* r = -wK (change of the forces of elements since the iterate, whose signals have the rates in->element.ud_at) - B' S
+ * times the change of their signals to those of q and qd, S the tangents in F. Of positions far away differences lose
+ * digits, of rates they do not. */
 ALI3_PER_WIDTH void ali3_elements_defect(ali3_instance *in, double h, truth lanes, const real *q, const real *qd,
                                          real *r);
 
@@ -15,9 +15,9 @@ ALI3_PER_WIDTH void ali3_elements_defect(ali3_instance *in, double h, truth lane
 static inline void ali3_add_defect(const ali3_instance *in, int32_t e, const real *ud, const real *f, real *r) {
   const ali3_system *S = in->system;
   const int32_t *signal = S->el_sig + S->el_sig_ptr[e], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
-  const real *before = in->element_force + S->el_sig_ptr[e], *row = in->S_tangent + S->el_S_off[e];
+  const real *before = in->element.force + S->el_sig_ptr[e], *row = in->element.S_made + S->el_S_off[e];
   real change[ALI3_MAX_SIGNALS];
-  for (int32_t i = 0; i < n; i++) change[i] = (ud[i] - in->ud_at[signal[i]]) / in->rule.rate;
+  for (int32_t i = 0; i < n; i++) change[i] = (ud[i] - in->element.ud_at[signal[i]]) / in->rule.rate;
   for (int32_t i = 0; i < n; i++, row += n) {
     real defect = -in->rule.c * (f[i] - before[i]);
     for (int32_t j = 0; j < n; j++) defect -= row[j] * change[j];

@@ -13,8 +13,12 @@
 
 /* Arguments that are the same for all elements. */
 static ali3_element_args common(const ali3_instance *in, const ali3_force_call *call) {
-  return (ali3_element_args){
-      .h = call->h, .reach = call->reach, .wC = call->wC, .wK = call->wK, .input = in->force_input, .roads = in->road};
+  return (ali3_element_args){.h = call->h,
+                             .reach = call->reach,
+                             .wC = call->wC,
+                             .wK = call->wK,
+                             .input = in->inputs.forces,
+                             .roads = in->roads.used};
 }
 
 /* Those of element e at its own signals u and their rates ud; f and S live with the caller. */
@@ -31,7 +35,7 @@ static void prepare(const ali3_instance *in, const ali3_force_call *call, int32_
   a->ud = ud;
   a->y_old = call->y_old + size->state;
   a->y_new = call->y_new + size->state;
-  a->real = in->el_real + size->real;
+  a->real = in->parameters.el_real + size->real;
   a->integer = S->el_int + size->integer;
   a->f = f;
   a->S = tangent;
@@ -45,8 +49,8 @@ static void prepare(const ali3_instance *in, const ali3_force_call *call, int32_
 static void local(const ali3_instance *in, int32_t e, double *u, double *ud) {
   const ali3_system *S = in->system;
   for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
-    *u++ = in->u[S->el_sig[i]];
-    *ud++ = in->ud[S->el_sig[i]];
+    *u++ = in->element.u[S->el_sig[i]];
+    *ud++ = in->element.ud[S->el_sig[i]];
   }
 }
 
@@ -71,15 +75,15 @@ bool ali3_element_forces(ali3_instance *in, const ali3_force_call *call, int32_t
 /* Power and forces on their signals of the elements whose work a sensor asks for. */
 static void watch(ali3_instance *in) {
   const ali3_system *S = in->system;
-  double *restrict force = in->watched + S->n_work;
+  double *restrict force = in->watch.now + S->n_work;
   for (int32_t k = 0; k < S->n_work; k++) {
     const int32_t e = S->work_element[k];
     double power = 0.0;
     for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
-      const double f = *force++ = in->element_force[i];
-      power += f * in->ud[S->el_sig[i]];
+      const double f = *force++ = in->element.force[i];
+      power += f * in->element.ud[S->el_sig[i]];
     }
-    in->watched[k] = power;
+    in->watch.now[k] = power;
   }
 }
 
@@ -88,7 +92,7 @@ static void look(ali3_instance *in, const double *q, const double *qd) {
   if (in->system->n_tabled > 0) {
     ali3_tabled_prepare(in, q);
     ali3_tabled_extend(in, q, qd, NULL, false);
-    q = in->extended[0], qd = in->extended[1];
+    q = in->tabled.extended[0], qd = in->tabled.extended[1];
   }
   if (in->system->n_active > 0) ali3_active_signals(in, q, qd);
 }
@@ -102,34 +106,34 @@ void ali3_elements_forces(ali3_instance *in, const ali3_force_call *call) {
   const int32_t n = call->discrete ? S->size.ne : S->n_alone;
   for (int32_t k = 0; k < n; k++) {
     const int32_t e = call->discrete ? k : S->alone[k];
-    double *tangent = call->tangent && S->el_front[e] >= 0 ? in->S + S->el_S_off[e] : NULL;
-    double *f = in->element_force + S->el_sig_ptr[e];
+    double *tangent = call->tangent && S->el_front[e] >= 0 ? in->element.S + S->el_S_off[e] : NULL;
+    double *f = in->element.force + S->el_sig_ptr[e];
     const int32_t beside = S->el_beside[e];
     if (beside < 0) local(in, e, u, ud);
-    in->idle[e] =
-        evaluate(in, call, e, beside < 0 ? u : in->u + beside, beside < 0 ? ud : in->ud + beside, f, tangent, &a);
+    in->element.idle[e] = evaluate(in, call, e, beside < 0 ? u : in->element.u + beside,
+                                   beside < 0 ? ud : in->element.ud + beside, f, tangent, &a);
   }
 }
 
 void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
   const ali3_system *S = in->system;
-  double *Q = S->n_tabled > 0 ? in->extended_force : call->Q; /* with those on dependents behind */
+  double *Q = S->n_tabled > 0 ? in->tabled.force : call->Q; /* with those on dependents behind */
   look(in, call->q, call->qd);
-  memcpy(Q, in->gravity_force, (size_t)S->size.nq * sizeof(double));
+  memcpy(Q, in->mass.gravity, (size_t)S->size.nq * sizeof(double));
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, call->q);
     ali3_flexible_forces(in, call->q, call->qd, call->discrete, call->Q);
-    in->wC = call->wC;
-    in->wK = call->wK;
+    in->element.wC = call->wC;
+    in->element.wK = call->wK;
   }
   if (S->n_tabled > 0) {
     memset(Q + S->size.nq, 0, (size_t)S->n_dependent * sizeof(double));
-    in->wC = call->wC;
-    in->wK = call->wK;
+    in->element.wC = call->wC;
+    in->element.wK = call->wK;
   }
   if (S->size.ne > 0) {
     ali3_elements_forces(in, call);
-    ali3_add_forces(in, in->element_force, Q);
+    ali3_add_forces(in, in->element.force, Q);
   }
   if (S->n_tabled > 0) ali3_tabled_forces(in, call->qd, call->Q);
   if (!call->iterate) watch(in);
@@ -137,10 +141,10 @@ void ali3_forces(ali3_instance *in, const ali3_force_call *call) {
 
 /* The same with flexible and tabled bodies, their changing mass too. */
 void ali3_forces_tangent(ali3_instance *in, double *F) {
-  if (in->system->n_flexible > 0) ali3_flexible_tangent(in, 1.0, in->wC, in->wK, F);
+  if (in->system->n_flexible > 0) ali3_flexible_tangent(in, 1.0, in->element.wC, in->element.wK, F);
   if (in->system->size.ne > 0) ali3_elements_tangent(in, F);
   if (in->system->n_tabled > 0) {
-    ali3_tabled_tangent(in, 1.0, in->wK, F);
+    ali3_tabled_tangent(in, 1.0, in->element.wK, F);
     ali3_tabled_elements_tangent(in, F);
   }
 }
@@ -151,9 +155,9 @@ void ali3_law_pieces(ali3_instance *in, uint32_t *piece) {
   const ali3_force_call call = {.q = in->now.q,
                                 .qd = in->now.qd,
                                 .y_old = in->now.y,
-                                .y_new = in->y_work,
-                                .out = in->out_work,
-                                .potential = in->potential_work};
+                                .y_new = in->element.y,
+                                .out = in->element.out,
+                                .potential = in->element.potential};
   look(in, call.q, call.qd);
   for (int32_t e = 0; e < in->system->size.ne; e++) {
     ali3_element_args a = common(in, &call);
@@ -174,9 +178,9 @@ void ali3_elements_defect(ali3_instance *in, double h, bool lanes, const double 
                                 .h = h,
                                 .wC = in->rule.wC,
                                 .wK = in->rule.c,
-                                .y_new = in->y_work,
-                                .out = in->out_work,
-                                .potential = in->potential_work};
+                                .y_new = in->element.y,
+                                .out = in->element.out,
+                                .potential = in->element.potential};
   (void)lanes;
   memset(r, 0, (size_t)S->size.nq * sizeof *r);
   ali3_active_signals(in, q, qd);

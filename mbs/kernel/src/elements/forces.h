@@ -8,7 +8,7 @@ typedef struct {
   double h, wC, wK, reach;
   bool tangent;
   bool discrete; /* over a step from in->now, by discrete gradients where there are any */
-  bool iterate; /* one of several: in->watched stays, the forces of the last are in in->element_force */
+  bool iterate; /* one of several: in->watch.now stays, the forces of the last are in in->element.force */
   double *Q, *y_new, *out, *potential;
 } ali3_force_call;
 void ali3_forces(ali3_instance *in, const ali3_force_call *call);

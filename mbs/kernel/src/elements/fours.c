@@ -40,15 +40,16 @@ static void evaluate(ali3_instance *in, const ali3_force_call *call, const int32
   for (int l = 0; l < ALI3_FOUR; l++) {
     const ali3_element_size *of = S->el_size + e[l];
     signal[l] = S->el_sig + S->el_sig_ptr[e[l]];
-    own[l] = in->el_real + of->real;
+    own[l] = in->parameters.el_real + of->real;
     old[l] = call->y_old + of->state;
-    f[l] = in->element_force + S->el_sig_ptr[e[l]];
-    T[l] = in->S + S->el_S_off[e[l]];
+    f[l] = in->element.force + S->el_sig_ptr[e[l]];
+    T[l] = in->element.S + S->el_S_off[e[l]];
     y_new[l] = call->y_new + of->state;
     out[l] = call->out + of->out;
   }
   for (int32_t i = 0; i < n; i++)
-    for (int l = 0; l < ALI3_FOUR; l++) to->u[i][l] = in->u[signal[l][i]], to->ud[i][l] = in->ud[signal[l][i]];
+    for (int l = 0; l < ALI3_FOUR; l++)
+      to->u[i][l] = in->element.u[signal[l][i]], to->ud[i][l] = in->element.ud[signal[l][i]];
   put_side_by_side((double *)to->numbers, own, size->nreal);
   put_side_by_side((double *)to->y_old, old, size->nstate);
   memset(to->f, 0, (size_t)n * sizeof *to->f);
@@ -80,7 +81,7 @@ static void evaluate(ali3_instance *in, const ali3_force_call *call, const int32
   if (tangent) take_apart(T, (const double *)to->S, n * n);
   take_apart(y_new, (const double *)to->y_new, size->nstate);
   take_apart(out, (const double *)to->out, size->nout);
-  for (int l = 0; l < ALI3_FOUR; l++) call->potential[e[l]] = a.potential[l], in->idle[e[l]] = a.idle != 0;
+  for (int l = 0; l < ALI3_FOUR; l++) call->potential[e[l]] = a.potential[l], in->element.idle[e[l]] = a.idle != 0;
 }
 
 /* Laws of lanes compute branches that are not chosen: what these raise is neither trapped nor left to the host. */

@@ -49,6 +49,6 @@ void ali3_fours_derive(ali3_system *s) {
 
 const struct ali3_road *ali3_fours_road(const ali3_instance *in, int32_t number, int32_t *type, double *numbers,
                                         double *friction_factor) {
-  *type = ali3_road_numbers(in->road + number, numbers, friction_factor);
-  return in->road + number;
+  *type = ali3_road_numbers(in->roads.used + number, numbers, friction_factor);
+  return in->roads.used + number;
 }

@@ -24,16 +24,16 @@ ALI3_INLINED void three_signals(const ali3_system *S, int32_t i, const real *q, 
   ali3_three_put(ud, &rates);
 }
 
-/* in->u, in->ud of the signals that elements use. */
+/* in->element.u, in->element.ud of the signals that elements use. */
 ALI3_INLINED void active_signals(ali3_instance *in, const real *q, const real *qd) {
   const ali3_system *S = in->system;
   const int32_t *ptr = S->sig_ptr, *col = S->sig_col;
   const double *val = S->sig_val;
-  if (ALI3_GENERATED(S, signals, (val, S->sig_const, q, qd, in->u, in->ud))) return;
+  if (ALI3_GENERATED(S, signals, (val, S->sig_const, q, qd, in->element.u, in->element.ud))) return;
   for (int32_t a = 0; a < S->n_active; a++) {
     const int32_t i = S->active_signal[a];
     if (S->active_triple[a]) {
-      three_signals(S, i, q, qd, in->u + i, in->ud + i);
+      three_signals(S, i, q, qd, in->element.u + i, in->element.ud + i);
       a += 2;
       continue;
     }
@@ -43,8 +43,8 @@ ALI3_INLINED void active_signals(ali3_instance *in, const real *q, const real *q
       u += v * q[col[k]];
       ud += v * qd[col[k]];
     }
-    in->u[i] = u;
-    in->ud[i] = ud;
+    in->element.u[i] = u;
+    in->element.ud[i] = ud;
   }
 }
 
@@ -61,9 +61,9 @@ ALI3_INLINED void add_three(const ali3_system *S, int32_t i, const real *f, real
 /* Q += the forces f of all elements on their signals, but for idle ones. */
 ALI3_INLINED void add_forces(const ali3_instance *in, const real *f, real *Q) {
   const ali3_system *S = in->system;
-  if (ALI3_GENERATED(S, forces, (S->sig_val, in->idle, f, Q))) return;
+  if (ALI3_GENERATED(S, forces, (S->sig_val, in->element.idle, f, Q))) return;
   for (int32_t e = 0; e < S->size.ne; e++) {
-    const truth idle = in->idle[e];
+    const truth idle = in->element.idle[e];
     const bool some = ali3_any(idle);
     if (some && !ali3_any(ali3_not(idle))) continue;
     for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
@@ -198,16 +198,16 @@ ALI3_INLINED void elements_tangent(ali3_instance *in, real *F) {
   const ali3_system *S = in->system;
   const int32_t *local = S->el_entry_local;
   const double *value = S->el_entry_value;
-  real *SB = in->SB;
+  real *SB = in->element.SB;
   for (int32_t e = 0; e < S->size.ne; e++) {
-    const truth idle = in->idle[e];
+    const truth idle = in->element.idle[e];
     if (S->el_front[e] < 0 || !ali3_any(ali3_not(idle))) continue;
     const place p = place_of(S, e, F);
     if (p.m == 0) continue; /* on a tabled body */
     if (p.n == WRITTEN_OUT)
-      tangent_times(S, e, &p, WRITTEN_OUT, in->S + S->el_S_off[e], SB);
+      tangent_times(S, e, &p, WRITTEN_OUT, in->element.S + S->el_S_off[e], SB);
     else
-      tangent_times(S, e, &p, p.n, in->S + S->el_S_off[e], SB);
+      tangent_times(S, e, &p, p.n, in->element.S + S->el_S_off[e], SB);
     for (int32_t s = 0, k = S->el_entry_ptr[e]; s < p.n; s++) {
       const int32_t at = S->el_sig_ptr[e] + s, signal = S->el_sig[at];
       const int32_t count = S->sig_ptr[signal + 1] - S->sig_ptr[signal], end = k + count;

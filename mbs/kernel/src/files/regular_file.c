@@ -78,7 +78,7 @@ static const char *reason(int error) {
   case EACCES:
     return "it may not be read";
   case EISDIR:
-    return "it is no regular file";
+    return "it is not a regular file";
 #if defined(ELOOP)
   case ELOOP:
     return "its links go in a circle";

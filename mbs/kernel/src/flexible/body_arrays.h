@@ -28,11 +28,11 @@ static inline ali3_flexible ali3_flexible_of(const ali3_instance *in, int32_t b)
   const ali3_system *s = in->system;
   const int64_t first = s->flex_mode_ptr[b], n = s->flex_mode_ptr[b + 1] - first, square = s->flex_square[b];
 #ifdef ALI3_WIDTH
-  const real *P = in->flex_P, *c = in->flex_c;
+  const real *P = in->flexible.P, *c = in->flexible.c;
 #else
   const double *P = s->flex_P, *c = s->flex_c;
 #endif
-  real *work = in->flex + ALI3_FLEX_COUPLING * (int64_t)b + ALI3_FLEX_OF_MODE * first;
+  real *work = in->flexible.prepared + ALI3_FLEX_COUPLING * (int64_t)b + ALI3_FLEX_OF_MODE * first;
   const ali3_flexible f = {.n = (int32_t)n,
                            .frame = s->flex_frame + 12 * (int64_t)b,
                            .mode = s->flex_mode + first,

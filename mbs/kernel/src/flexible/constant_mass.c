@@ -21,7 +21,7 @@ ALI3_INLINED void add_columns(const real *val, const int32_t *mirror, const real
 /* Rows i to i + n - 1, which have the same columns. */
 ALI3_INLINED void many_rows(const ali3_instance *in, int32_t i, int32_t n, const real *x, real *out) {
   const ali3_system *S = in->system;
-  const real *val = in->mass_val, none = {0};
+  const real *val = in->mass.val, none = {0};
   const int32_t *col = S->mass_col, end = S->mass_ptr[i + 1];
   for (int32_t j = i; j < i + n; j++) out[j] = none;
   int32_t k = S->mass_ptr[i];
@@ -35,12 +35,12 @@ ALI3_INLINED void many_rows(const ali3_instance *in, int32_t i, int32_t n, const
 ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y,
                              bool stretches, bool both) {
   const ali3_system *S = in->system;
-  const real *val = in->mass_val;
+  const real *val = in->mass.val;
   const int32_t *ptr = S->mass_ptr, *col = S->mass_col;
   for (int32_t i = 0; i < S->size.nq; i++) {
     const int32_t alike = S->mass_alike[i];
     real sum_x = {0}, sum_y = {0};
-    if (alike == 0 && in->mass_isotropic) {
+    if (alike == 0 && in->mass.isotropic) {
       ali3_three three_x = {0}, three_y = {0};
       ALI3_SHORT
       for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
@@ -80,7 +80,7 @@ ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, const real 
 }
 
 ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, real *out) {
-  if (in->mass_isotropic && ALI3_GENERATED(in->system, mass_times, (in->mass_val, x, out))) return;
+  if (in->mass.isotropic && ALI3_GENERATED(in->system, mass_times, (in->mass.val, x, out))) return;
   if (in->system->n_flexible > 0)
     times_mass(in, x, x, out, out, true, false);
   else
@@ -92,8 +92,8 @@ ALI3_BY_PROCESSOR(in->system, void, constant_mass_times, (const ali3_instance *i
 
 ALI3_INLINED void constant_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x,
                                            real *out_y) {
-  if (in->mass_isotropic && ALI3_GENERATED(in->system, mass_times, (in->mass_val, x, out_x)) &&
-      ALI3_GENERATED(in->system, mass_times, (in->mass_val, y, out_y)))
+  if (in->mass.isotropic && ALI3_GENERATED(in->system, mass_times, (in->mass.val, x, out_x)) &&
+      ALI3_GENERATED(in->system, mass_times, (in->mass.val, y, out_y)))
     return;
   if (in->system->n_flexible > 0)
     times_mass(in, x, y, out_x, out_y, true, true);

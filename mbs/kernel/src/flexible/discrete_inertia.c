@@ -17,7 +17,7 @@ static void add_gradient(const ali3_instance *in, const double *v, double weight
     const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
     const int64_t square = (int64_t)n * n;
-    double *restrict rate = in->flex_work, *restrict force = rate + n, *restrict scaled = force + n;
+    double *restrict rate = in->flexible.work, *restrict force = rate + n, *restrict scaled = force + n;
     double x[12];
     ali3_gather(12, f.frame, v, x);
     ali3_gather(n, f.mode, v, rate);

@@ -15,7 +15,7 @@
 ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, const real *q) {
   const int32_t n = f->n;
   const int64_t square = (int64_t)n * n;
-  real *restrict eta = in->flex_work, *restrict even = eta + n, *restrict odd = even + n;
+  real *restrict eta = in->flexible.work, *restrict even = eta + n, *restrict odd = even + n;
   ali3_gather(9, f->frame + 3, q, f->A);
   ali3_amplitudes(f, q, eta);
   for (int i = 0; i < 3; i++) ali3_add_product(n, f->E + i * square, eta, f->c + 4 * i * n, f->D + 4 * i * n);
@@ -50,7 +50,7 @@ ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const real *x, re
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
-    real *restrict rate = in->flex_work, *restrict force = rate + n;
+    real *restrict rate = in->flexible.work, *restrict force = rate + n;
     real v[12], local[3], back[3], local_r[3] = {0};
     ali3_gather(12, f.frame, x, v);
     ali3_amplitudes(&f, x, rate);
@@ -85,7 +85,7 @@ ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const 
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const int32_t n = f.n;
-    real *restrict x = in->flex_work, *restrict sum = x + n, *restrict rate = sum + n;
+    real *restrict x = in->flexible.work, *restrict sum = x + n, *restrict rate = sum + n;
     const double *g = f.gravity, turning = discrete ? 0.0 : 1.0;
     real Ad[9];
     ali3_gather(9, f.frame + 3, qd, Ad);
@@ -186,9 +186,9 @@ ALI3_BY_PROCESSOR(in->system, void, flexible_tangent,
                   (const ali3_instance *in, double wM, double wC, double wK, real *F), (in, wM, wC, wK, F))
 
 #ifndef ALI3_WIDTH /* of one instance alone */
-/* K eta with the amplitudes eta of x, which stay in in->flex_work. */
+/* K eta with the amplitudes eta of x, which stay in in->flexible.work. */
 ALI3_INLINED const double *elastic_force(const ali3_instance *in, const ali3_flexible *f, const double *x) {
-  double *eta = in->flex_work, *force = eta + f->n;
+  double *eta = in->flexible.work, *force = eta + f->n;
   ali3_amplitudes(f, x, eta);
   memset(force, 0, (size_t)f->n * sizeof(double));
   ali3_accumulate(f->n, f->K, eta, force);
@@ -200,7 +200,7 @@ ALI3_INLINED void flexible_energy(const ali3_instance *in, const double *q, doub
   for (int32_t b = 0; b < in->system->n_flexible; b++) {
     const ali3_flexible f = ali3_flexible_of(in, b);
     const double *force = elastic_force(in, &f, q);
-    *elastic += 0.5 * ali3_product_from_far(force, in->flex_work, f.n);
+    *elastic += 0.5 * ali3_product_from_far(force, in->flexible.work, f.n);
     for (int i = 0; i < 3; i++)
       for (int k = 0; k < 3; k++) *gravity -= f.gravity[k] * f.A[3 * i + k] * f.S[i];
   }

@@ -45,59 +45,70 @@ static void place_vectors(const ali3_lane_group *g, ali3_lane_vectors *v, bool p
 
 static void place_step(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_sizes *z = &g->system->size;
-  real **of_coordinates[] = {
-      &g->mass_floor, &g->mass_floor_inverse, &g->gravity_force, &g->D,     &g->d0, &g->r, &g->x, &g->w, &g->hat, &g->Q,
-      &g->shifted,    &g->correction_q,       &g->step_q,        &g->mean_a};
-  real **of_rows[] = {&g->Phi,   &g->Phit,           &g->gamma,    &g->mu,        &g->lam,
-                      &g->drive, &g->correction_lam, &g->step_lam, &g->newton_lam};
+  real **of_coordinates[] = {&g->mass.floor,    &g->mass.floor_inverse,
+                             &g->mass.gravity,  &g->step.D,
+                             &g->step.d0,       &g->step.r,
+                             &g->step.x,        &g->step.w,
+                             &g->step.hat,      &g->step.Q,
+                             &g->step.shifted,  &g->mixing.correction_q,
+                             &g->mixing.step_q, &g->mean_a};
+  real **of_rows[] = {&g->step.Phi,
+                      &g->step.Phit,
+                      &g->step.gamma,
+                      &g->step.mu,
+                      &g->step.lam,
+                      &g->step.drive,
+                      &g->mixing.correction_lam,
+                      &g->mixing.step_lam,
+                      &g->newton_lam};
   for (size_t k = 0; k < sizeof of_coordinates / sizeof *of_coordinates; k++)
     *of_coordinates[k] = items(g, pool, (size_t)z->nq);
   for (size_t k = 0; k < sizeof of_rows / sizeof *of_rows; k++) *of_rows[k] = items(g, pool, (size_t)z->nc);
-  g->guide_mean = items(g, pool, (size_t)z->ng);
-  g->guide_follows = items(g, pool, (size_t)z->ng);
+  g->guide.mean = items(g, pool, (size_t)z->ng);
+  g->guide.follows = items(g, pool, (size_t)z->ng);
   g->discarded = ali3_pool_array(pool, ali3_vector_count(g->system) + (size_t)g->system->n_tabled_base * BASE_NUMBERS);
 }
 
 static void place_tangents(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const ali3_sizes *z = &S->size;
-  g->mass_val = items(g, pool, (size_t)z->nnz_mass);
-  g->J = items(g, pool, (size_t)z->nnz_rows);
-  g->J_tangent = items(g, pool, (size_t)z->nnz_rows);
-  g->F = items(g, pool, (size_t)z->front_size);
-  g->F_new = items(g, pool, (size_t)z->front_size);
-  g->local = items(g, pool, ALI3_LOCAL * (size_t)S->max_front);
-  g->u = items(g, pool, (size_t)z->nsig);
-  g->ud = items(g, pool, (size_t)z->nsig);
-  g->S = items(g, pool, (size_t)S->el_S_off[z->ne]);
-  g->SB = items(g, pool, ali3_signal_work(S));
-  g->element_force = items(g, pool, (size_t)S->el_sig_ptr[z->ne]);
+  g->mass.val = items(g, pool, (size_t)z->nnz_mass);
+  g->tangent.J = items(g, pool, (size_t)z->nnz_rows);
+  g->tangent.J_made = items(g, pool, (size_t)z->nnz_rows);
+  g->tangent.F = items(g, pool, (size_t)z->front_size);
+  g->tangent.F_new = items(g, pool, (size_t)z->front_size);
+  g->tangent.local = items(g, pool, ALI3_LOCAL * (size_t)S->max_front);
+  g->element.u = items(g, pool, (size_t)z->nsig);
+  g->element.ud = items(g, pool, (size_t)z->nsig);
+  g->element.S = items(g, pool, (size_t)S->el_S_off[z->ne]);
+  g->element.SB = items(g, pool, ali3_signal_work(S));
+  g->element.force = items(g, pool, (size_t)S->el_sig_ptr[z->ne]);
   g->ways = items(g, pool, (size_t)S->n_work_force);
-  g->idle = items(g, pool, (size_t)z->ne);
+  g->element.idle = items(g, pool, (size_t)z->ne);
 }
 
 /* Flexible bodies, and what defect_correction.c needs where there are any. */
 static void place_flexible(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const size_t any = S->n_flexible > 0, modes = (size_t)S->n_flex_mode;
-  g->flex = items(g, pool, ALI3_FLEX_COUPLING * (size_t)S->n_flexible + ALI3_FLEX_OF_MODE * modes);
-  g->flex_work = items(g, pool, 3 * (size_t)S->max_modes);
-  g->flex_P = items(g, pool, 3 * modes);
-  g->flex_c = items(g, pool, 9 * modes);
-  g->stage = items(g, pool, any * 3 * (size_t)S->size.nq);
-  g->S_tangent = items(g, pool, any * (size_t)S->el_S_off[S->size.ne]);
-  g->ud_at = items(g, pool, any * (size_t)S->size.nsig);
+  g->flexible.prepared = items(g, pool, ALI3_FLEX_COUPLING * (size_t)S->n_flexible + ALI3_FLEX_OF_MODE * modes);
+  g->flexible.work = items(g, pool, 3 * (size_t)S->max_modes);
+  g->flexible.P = items(g, pool, 3 * modes);
+  g->flexible.c = items(g, pool, 9 * modes);
+  g->step.stage = items(g, pool, any * 3 * (size_t)S->size.nq);
+  g->element.S_made = items(g, pool, any * (size_t)S->el_S_off[S->size.ne]);
+  g->element.ud_at = items(g, pool, any * (size_t)S->size.nsig);
 }
 
 static void place_tabled(ali3_lane_group *g, ali3_pool *pool) {
   const ali3_system *S = g->system;
   const size_t extended = S->n_tabled > 0 ? (size_t)(S->size.nq + S->n_dependent) : 0;
-  g->tabled = items(g, pool, (size_t)S->n_tabled * (sizeof *g->tabled / sizeof(double)));
-  g->tabled_base = items(g, pool, (size_t)S->n_tabled_base * BASE_NUMBERS);
-  g->tabled_parameter = items(g, pool, (size_t)S->n_tabled_parameter * (sizeof *g->tabled_parameter / sizeof(double)));
-  g->tabled_square = items(g, pool, (size_t)S->tabled_square);
-  for (int k = 0; k < 3; k++) g->extended[k] = items(g, pool, extended);
-  g->extended_force = items(g, pool, extended);
+  g->tabled.item = items(g, pool, (size_t)S->n_tabled * (sizeof *g->tabled.item / sizeof(double)));
+  g->tabled.base = items(g, pool, (size_t)S->n_tabled_base * BASE_NUMBERS);
+  g->tabled.parameter = items(g, pool, (size_t)S->n_tabled_parameter * (sizeof *g->tabled.parameter / sizeof(double)));
+  g->tabled.square = items(g, pool, (size_t)S->tabled_square);
+  for (int k = 0; k < 3; k++) g->tabled.extended[k] = items(g, pool, extended);
+  g->tabled.force = items(g, pool, extended);
 }
 
 static bool has_law(const ali3_element_type *type) {
@@ -135,7 +146,7 @@ static void place_counts(ali3_lane_group *g, ali3_pool *pool) {
                          &g->report.solves,
                          &g->report.negative_pivots};
   real **numbers[] = {&g->residual, &g->reach, &g->violation, &g->velocity_violation, &g->open_power, &g->work, &g->end,
-                      &g->open,     &g->size,  &g->guides,    &g->gravity_const,      &g->weight};
+                      &g->open,     &g->size,  &g->guides,    &g->mass.gravity_const, &g->weight};
   for (size_t k = 0; k < sizeof masks / sizeof *masks; k++) *masks[k] = items(g, pool, 1);
   for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) *numbers[k] = items(g, pool, 1);
   g->squares = items(g, pool, 3);
@@ -200,7 +211,7 @@ static void roads(ali3_lane_group *g) {
     ali3_lane_road *road = &g->road[r];
     for (int32_t l = 0; l < g->used; l++) {
       double numbers[ALI3_ROAD_NUMBERS];
-      const int32_t type = ali3_road_numbers(&g->lane[l]->road[r], numbers, &road->friction_factor[l]);
+      const int32_t type = ali3_road_numbers(&g->lane[l]->roads.used[r], numbers, &road->friction_factor[l]);
       road->type = l == 0 || road->type == type ? type : ALI3_ROAD_COUNT;
       for (int32_t i = 0; i < ALI3_ROAD_NUMBERS; i++) road->numbers[i * g->width + l] = numbers[i];
     }
@@ -210,16 +221,16 @@ static void roads(ali3_lane_group *g) {
 /* What parameters change and steps do not. */
 void ali3_group_parameters(ali3_lane_group *g) {
   const ali3_sizes *z = &g->system->size;
-  PUT(g, g->mass_val, z->nnz_mass, in, in->mass_val);
-  g->mass_isotropic = true;
-  for (int32_t l = 0; l < g->used; l++) g->mass_isotropic &= g->lane[l]->mass_isotropic;
-  PUT(g, g->mass_floor, z->nq, in, in->mass_floor);
-  PUT(g, g->mass_floor_inverse, z->nq, in, in->mass_floor_inverse);
-  PUT(g, g->gravity_force, z->nq, in, in->gravity_force);
-  PUT(g, g->gravity_const, 1, in, &in->gravity_const);
-  PUT(g, g->flex_P, 3 * (int32_t)g->system->n_flex_mode, in, in->system->flex_P);
-  PUT(g, g->flex_c, 9 * (int32_t)g->system->n_flex_mode, in, in->system->flex_c);
-  PUT(g, g->el_real, g->system->el_real_ptr[z->ne], in, in->el_real);
+  PUT(g, g->mass.val, z->nnz_mass, in, in->mass.val);
+  g->mass.isotropic = true;
+  for (int32_t l = 0; l < g->used; l++) g->mass.isotropic &= g->lane[l]->mass.isotropic;
+  PUT(g, g->mass.floor, z->nq, in, in->mass.floor);
+  PUT(g, g->mass.floor_inverse, z->nq, in, in->mass.floor_inverse);
+  PUT(g, g->mass.gravity, z->nq, in, in->mass.gravity);
+  PUT(g, g->mass.gravity_const, 1, in, &in->mass.gravity_const);
+  PUT(g, g->flexible.P, 3 * (int32_t)g->system->n_flex_mode, in, in->system->flex_P);
+  PUT(g, g->flexible.c, 9 * (int32_t)g->system->n_flex_mode, in, in->system->flex_c);
+  PUT(g, g->el_real, g->system->el_real_ptr[z->ne], in, in->parameters.el_real);
   roads(g);
 }
 
@@ -234,7 +245,7 @@ void ali3_group_from(ali3_lane_group *g) {
   PUT(g, g->now.s, ng, in, in->now.s);
   PUT(g, g->now.sd, ng, in, in->now.sd);
   PUT(g, g->now.sdd, ng, in, in->now.sdd);
-  PUT(g, g->guide_follows, ng, in, in->guide_follows);
+  PUT(g, g->guide.follows, ng, in, in->guide.follows);
   PUT(g, g->next.s, ng, in, in->next.s);
   PUT(g, g->next.sd, ng, in, in->next.sd);
   PUT(g, g->next.sdd, ng, in, in->next.sdd);
@@ -246,9 +257,9 @@ void ali3_group_from(ali3_lane_group *g) {
     PUT(g, g->now.past_a, ALI3_PAST * nq, in, in->now.past_a);
     PUT(g, g->now.past_lam, ALI3_PAST * nc, in, in->now.past_lam);
   }
-  PUT(g, g->input, S->size.nu, in, in->force_input);
+  PUT(g, g->input, S->size.nu, in, in->inputs.forces);
   for (int32_t r = 0; r < S->nr; r++) /* of the others the instance may be gone, and the place is none on its road */
-    for (int32_t l = 0; l < g->width; l++) g->road[r].lane[l] = g->lanes[l] ? &g->lane[l]->road[r] : NULL;
+    for (int32_t l = 0; l < g->width; l++) g->road[r].lane[l] = g->lanes[l] ? &g->lane[l]->roads.used[r] : NULL;
   for (int32_t e = 0, end; e < S->size.ne; e = end) {
     end = same_way(g, e);
     const int32_t first = S->el_state_ptr[e], n = S->el_state_ptr[end] - first;
@@ -290,17 +301,17 @@ void ali3_group_to(const ali3_lane_group *g) {
   TAKE(g, in, in->next.qdd, g->next.qdd, nq);
   TAKE(g, in, in->next.lam, g->next.lam, S->size.nc);
   if (S->n_flexible > 0) {
-    TAKE(g, in, in->D, g->D, nq);
+    TAKE(g, in, in->step.D, g->step.D, nq);
   } else {
     TAKE(g, in, in->next.past_a, g->mean_a, nq);
     TAKE(g, in, in->next.past_lam, g->newton_lam, S->size.nc);
   }
   for (int32_t b = 0; b < S->n_flexible; b++) { /* axes and moments, for the energy of their weight */
     const int32_t at = ALI3_FLEX_COUPLING * b + ALI3_FLEX_OF_MODE * S->flex_mode_ptr[b];
-    TAKE(g, in, in->flex + at, g->flex + at * g->width, ALI3_FLEX_COUPLING);
+    TAKE(g, in, in->flexible.prepared + at, g->flexible.prepared + at * g->width, ALI3_FLEX_COUPLING);
   }
   if (S->n_tabled_base > 0) /* for the energy of their weight */
-    TAKE(g, in, (double *)in->tabled_base, (const double *)g->tabled_base, S->n_tabled_base * BASE_NUMBERS);
+    TAKE(g, in, (double *)in->tabled.base, (const double *)g->tabled.base, S->n_tabled_base * BASE_NUMBERS);
   for (int32_t e = 0, end; e < S->size.ne; e = end) {
     end = same_way(g, e);
     const int32_t state = S->el_state_ptr[e], n_state = S->el_state_ptr[end] - state;
@@ -314,7 +325,7 @@ void ali3_group_to(const ali3_lane_group *g) {
   for (int32_t k = 0, end; k < S->n_work; k = end) {
     const int32_t first = S->el_sig_ptr[S->work_element[k]];
     for (end = k + 1; end < S->n_work && S->work_element[end] == S->work_element[end - 1] + 1;) end++;
-    TAKE(g, in, in->element_force + first, g->element_force + first * g->width, S->work_ptr[end] - S->work_ptr[k]);
+    TAKE(g, in, in->element.force + first, g->element.force + first * g->width, S->work_ptr[end] - S->work_ptr[k]);
   }
   for (int32_t l = 0; l < g->used; l++)
     if (g->good[l]) counts(g, l);

@@ -40,23 +40,38 @@ struct ali3_lane_group {
   ali3_rule rule;
   double h, alpha;
   ali3_lane_vectors now, next;
-  bool mass_isotropic;
-  real *mass_val, *mass_floor, *mass_floor_inverse, *gravity_force;
-  real *D, *d0, *r, *x, *w, *hat, *Q, *shifted, *correction_q, *step_q; /* nq, as those of an instance */
-  real *Phi, *Phit, *gamma, *mu, *lam, *drive, *correction_lam, *step_lam; /* nc */
-  real *guide_mean, *guide_follows; /* ng */
-  real *J, *J_tangent, *F, *local;
-  real *F_new; /* of lanes that get a new tangent while others keep theirs */
-  real *u, *ud, *S, *SB;
-  ali3_tabled_work *tabled; /* as those of an instance, with numbers of all lanes */
-  ali3_tabled_base_work *tabled_base;
-  ali3_tabled_parameter_work *tabled_parameter;
-  real *tabled_square, *extended[3], *extended_force;
-  real *element_force;
+  struct {
+    real *val, *floor, *floor_inverse, *gravity, *gravity_const;
+    bool isotropic;
+  } mass; /* this and what follows as that of an instance, with numbers of all lanes */
+  struct {
+    real *D, *d0, *r, *x, *w, *hat, *Q, *stage, *shifted, *Phi, *Phit, *gamma, *mu, *lam, *drive;
+  } step;
+  struct {
+    real *correction_q, *step_q, *correction_lam, *step_lam;
+  } mixing;
+  struct {
+    real *J, *J_made, *F, *local;
+    real *F_new; /* of lanes that get a new tangent while others keep theirs */
+  } tangent;
+  struct {
+    real *u, *ud, *force, *S, *SB, *S_made, *ud_at;
+    ali3_mask *idle;
+  } element;
+  struct {
+    real *prepared, *work;
+    real *P, *c; /* numbers of the System, the same in all lanes */
+  } flexible;
+  struct {
+    ali3_tabled_work *item;
+    ali3_tabled_base_work *base;
+    ali3_tabled_parameter_work *parameter;
+    real *square, *extended[3], *force;
+  } tabled;
+  struct {
+    real *mean, *follows;
+  } guide;
   real *ways; /* of elements whose work is watched, see ../state/work.c */
-  real *flex, *flex_work, *flex_P, *flex_c; /* of flexible bodies; numbers of the System, the same in all lanes */
-  real *stage, *S_tangent, *ud_at; /* of defect_correction.c */
-  ali3_mask *idle;
   real *el_real, *input, *out, *potential;
   ali3_lane_road *road;
   bool *by_law; /* ne: the element is computed in vectors */
@@ -69,7 +84,7 @@ struct ali3_lane_group {
     ali3_mask *factorizations, *solves, *negative_pivots;
   } report;
   real *residual, *reach, *violation, *velocity_violation, *open_power, *work, *end, *open, *size, *guides;
-  real *gravity_const, *weight; /* energy of gravity without its linear part; at the end of a step */
+  real *weight; /* energy of gravity at the end of a step */
   real *squares; /* 3, of balance_squares */
 };
 

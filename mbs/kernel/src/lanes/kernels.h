@@ -43,6 +43,7 @@ static inline real lane_cosine(real x) {
 #include "../methods/extrapolation.c"
 #include "../methods/projection.c"
 #include "../rows/constraints.c"
+#include "../rows/row_products.c"
 #include "../rows/velocity_rows.c"
 #include "../state/work_ways.c"
 #include "../tabled/table.c"

@@ -21,8 +21,8 @@ static ali3_force_call call_of(const ali3_lane_group *g, int32_t l) {
 static void local(const ali3_lane_group *g, int32_t e, int32_t l, double *u, double *ud) {
   const ali3_system *S = g->system;
   for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
-    *u++ = g->u[S->el_sig[i] * g->width + l];
-    *ud++ = g->ud[S->el_sig[i] * g->width + l];
+    *u++ = g->element.u[S->el_sig[i] * g->width + l];
+    *ud++ = g->element.ud[S->el_sig[i] * g->width + l];
   }
 }
 
@@ -34,8 +34,8 @@ static void one(ali3_lane_group *g, const ali3_force_call *call, int32_t e, int3
   const bool wanted = tangent && S->el_front[e] >= 0;
   local(g, e, l, u, ud);
   const bool idle = ali3_element_forces(g->lane[l], call, e, u, ud, f, wanted ? T : NULL);
-  g->idle[e * width + l] = idle ? -1 : 0;
-  real *to = g->S + (int64_t)S->el_S_off[e] * width + l;
+  g->element.idle[e * width + l] = idle ? -1 : 0;
+  real *to = g->element.S + (int64_t)S->el_S_off[e] * width + l;
   for (int32_t i = 0; i < n; i++) forces[i * width + l] = f[i];
   if (wanted && !(idle && S->n_flexible == 0)) /* nobody reads it there */
     for (int32_t i = 0; i < n * n; i++) to[i * width] = T[i];

@@ -24,14 +24,14 @@ static void law(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
   const int32_t *signal = S->el_sig + S->el_sig_ptr[e], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
   const int32_t beside = S->el_beside[e];
   real u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS]; /* of an element whose signals do not lie side by side */
-  for (int32_t i = 0; beside < 0 && i < n; i++) u[i] = g->u[signal[i]], ud[i] = g->ud[signal[i]];
+  for (int32_t i = 0; beside < 0 && i < n; i++) u[i] = g->element.u[signal[i]], ud[i] = g->element.ud[signal[i]];
   ali3_element_args a = {.nsig = n,
                          .nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e],
                          .nint = S->el_int_ptr[e + 1] - S->el_int_ptr[e],
                          .nstate = S->el_state_ptr[e + 1] - S->el_state_ptr[e],
                          .nout = S->el_out_ptr[e + 1] - S->el_out_ptr[e],
-                         .u = beside < 0 ? u : g->u + beside,
-                         .ud = beside < 0 ? ud : g->ud + beside,
+                         .u = beside < 0 ? u : g->element.u + beside,
+                         .ud = beside < 0 ? ud : g->element.ud + beside,
                          .y_old = g->now.y + S->el_state_ptr[e],
                          .y_new = g->next.y + S->el_state_ptr[e],
                          .h = g->h,
@@ -43,13 +43,13 @@ static void law(ali3_lane_group *g, int32_t e, real *f, bool tangent) {
                          .input = g->input,
                          .roads = g->road,
                          .f = f,
-                         .S = tangent && S->el_front[e] >= 0 ? g->S + S->el_S_off[e] : NULL,
+                         .S = tangent && S->el_front[e] >= 0 ? g->element.S + S->el_S_off[e] : NULL,
                          .out = g->out + S->el_out_ptr[e]};
   memset(a.f, 0, (size_t)n * sizeof *a.f);
   if (a.S != NULL) memset(a.S, 0, (size_t)(n * n) * sizeof *a.S);
   law_of(S->el_kind[e])(&a);
   g->potential[e] = a.potential;
-  g->idle[e] = (truth){0} - a.idle;
+  g->element.idle[e] = (truth){0} - a.idle;
 }
 
 /* Element e of the lanes in in->evaluated. */
@@ -64,7 +64,7 @@ static void element(ali3_lane_group *in, int32_t e, real *f, bool tangent) {
 static void elements(ali3_lane_group *in, truth lanes, bool tangent) {
   const ali3_system *S = in->system;
   *in->evaluated = lanes;
-  for (int32_t e = 0; e < S->size.ne; e++) element(in, e, in->element_force + S->el_sig_ptr[e], tangent);
+  for (int32_t e = 0; e < S->size.ne; e++) element(in, e, in->element.force + S->el_sig_ptr[e], tangent);
 }
 
 /* The next iterate writes again what elements have beside f; lanes that have ended come to the same. */
@@ -77,7 +77,8 @@ void ali3_elements_defect(ali3_lane_group *in, double h, truth lanes, const real
   ali3_active_signals(in, q, qd);
   for (int32_t e = 0; e < S->size.ne; e++) {
     if (S->el_front[e] < 0) continue;
-    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) ud[i - S->el_sig_ptr[e]] = in->ud[S->el_sig[i]];
+    for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++)
+      ud[i - S->el_sig_ptr[e]] = in->element.ud[S->el_sig[i]];
     element(in, e, f, false);
     ali3_add_defect(in, e, ud, f, r);
   }
@@ -90,33 +91,33 @@ static void forces(ali3_lane_group *in, truth lanes, bool tangent) {
   if (S->n_tabled > 0) {
     ali3_tabled_prepare(in, q);
     ali3_tabled_extend(in, q, qd, NULL, false);
-    memset(in->extended_force + nq, 0, (size_t)S->n_dependent * sizeof *q);
-    q = in->extended[0], qd = in->extended[1];
+    memset(in->tabled.force + nq, 0, (size_t)S->n_dependent * sizeof *q);
+    q = in->tabled.extended[0], qd = in->tabled.extended[1];
   }
   ali3_active_signals(in, q, qd);
-  real *Q = S->n_tabled > 0 ? in->extended_force : in->Q; /* with those on dependents behind */
-  memcpy(Q, in->gravity_force, (size_t)nq * sizeof *Q);
+  real *Q = S->n_tabled > 0 ? in->tabled.force : in->step.Q; /* with those on dependents behind */
+  memcpy(Q, in->mass.gravity, (size_t)nq * sizeof *Q);
   if (S->n_flexible > 0) {
     ali3_flexible_prepare(in, q);
     ali3_flexible_forces(in, q, qd, false, Q);
   }
   elements(in, lanes, tangent);
-  ali3_add_forces(in, in->element_force, Q);
-  if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, in->Q);
+  ali3_add_forces(in, in->element.force, Q);
+  if (S->n_tabled > 0) ali3_tabled_forces(in, in->next.qd, in->step.Q);
 }
 
 static void evaluate(ali3_lane_group *in, truth lanes, bool tangent) {
   const ali3_system *S = in->system;
   const double c = in->rule.c, rate = in->rule.rate;
-  const real *D = in->D, *d0 = in->d0, *now = in->now.q, *hat = in->hat, *Q = in->Q;
-  real *q = in->next.q, *qd = in->next.qd, *w = in->w, *r = in->r;
+  const real *D = in->step.D, *d0 = in->step.d0, *now = in->now.q, *hat = in->step.hat, *Q = in->step.Q;
+  real *q = in->next.q, *qd = in->next.qd, *w = in->step.w, *r = in->step.r;
   for (int32_t i = 0; i < S->size.nq; i++) {
     q[i] = now[i] + D[i];
     qd[i] = rate * D[i] + hat[i];
     w[i] = D[i] - d0[i];
   }
-  ali3_constraints(in, in->next.q, in->next.s, in->Phi, in->J);
-  ali3_velocity_values(in, in->J, in->next.qd, rate, in->Phi);
+  ali3_constraints(in, in->next.q, in->next.s, in->step.Phi, in->tangent.J);
+  ali3_velocity_values(in, in->tangent.J, in->next.qd, rate, in->step.Phi);
   forces(in, lanes, tangent);
   ali3_mass_times(in, w, r);
   for (int32_t i = 0; i < S->size.nq; i++) r[i] -= c * Q[i];
@@ -149,12 +150,12 @@ static inline real largest_of(const real *x, const real *of_lanes, const double 
 static truth judge(ali3_lane_group *in) {
   const ali3_system *S = in->system;
   const double c = in->rule.c;
-  const real *r = in->r;
-  real *x = in->x;
-  ali3_rows_transposed(S, in->J, in->next.lam, x);
+  const real *r = in->step.r;
+  real *x = in->step.x;
+  ali3_rows_transposed(S, in->tangent.J, in->next.lam, x);
   for (int32_t i = 0; i < S->size.nq; i++) x[i] = r[i] + c * x[i];
-  *in->residual = largest_of(x, in->mass_floor_inverse, NULL, S->size.nq, in->worst_coordinate);
-  *in->violation = largest_of(in->Phi, NULL, S->row_measure, S->size.nc, in->worst_row);
+  *in->residual = largest_of(x, in->mass.floor_inverse, NULL, S->size.nq, in->worst_coordinate);
+  *in->violation = largest_of(in->step.Phi, NULL, S->row_measure, S->size.nc, in->worst_row);
   return (*in->residual < 1e300) & (*in->violation < 1e300);
 }
 
@@ -162,14 +163,14 @@ static truth closed(const ali3_lane_group *in) {
   const ali3_system *S = in->system;
   truth all = {0};
   for (int32_t k = 0; k < S->size.nc; k++)
-    all |= ~(ali3_abs(in->Phi[k]) * S->row_measure[k] <= S->fine * in->settings.tolerance_phi + S->row_round[k]);
+    all |= ~(ali3_abs(in->step.Phi[k]) * S->row_measure[k] <= S->fine * in->settings.tolerance_phi + S->row_round[k]);
   return ~all;
 }
 
 /* The tangent (23) of the present iterate for some lanes, and its factor; the others keep theirs. */
 static void tangent(ali3_lane_group *in, truth lanes, bool first) {
   const ali3_system *S = in->system;
-  real *F = first ? in->F : in->F_new;
+  real *F = first ? in->tangent.F : in->tangent.F_new;
   *in->at_work = lanes;
   for (int32_t f = 0; f < S->size.nf; f++) {
     const int64_t n = S->front_ptr[f + 1] - S->front_ptr[f];
@@ -177,13 +178,13 @@ static void tangent(ali3_lane_group *in, truth lanes, bool first) {
     for (int64_t j = 0; j < n; j++) memset(block + j * n + j, 0, (size_t)(n - j) * sizeof *F);
   }
   for (int64_t k = 0; k < S->n_mass_col; k++)
-    if (S->mass_pos[k] >= 0) F[S->mass_pos[k]] = in->mass_val[k];
-  ali3_rows_square(in, in->J, in->rule.c * in->alpha, F);
+    if (S->mass_pos[k] >= 0) F[S->mass_pos[k]] = in->mass.val[k];
+  ali3_rows_square(in, in->tangent.J, in->rule.c * in->alpha, F);
   if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, in->rule.c, F);
   if (S->n_flexible > 0) {
     ali3_flexible_tangent(in, 1.0, in->rule.wC, in->rule.c, F);
     for (int32_t i = 0; i < S->el_S_off[S->size.ne]; i++)
-      in->S_tangent[i] = first ? in->S[i] : ali3_where(lanes, in->S[i], in->S_tangent[i]);
+      in->element.S_made[i] = first ? in->element.S[i] : ali3_where(lanes, in->element.S[i], in->element.S_made[i]);
   }
   ali3_elements_tangent(in, F);
   if (S->n_tabled > 0) {
@@ -192,13 +193,14 @@ static void tangent(ali3_lane_group *in, truth lanes, bool first) {
   }
   ali3_factorise(in, F);
   if (first) { /* the next iterate makes all of J */
-    real *here = in->J;
-    in->J = in->J_tangent;
-    in->J_tangent = here;
+    real *here = in->tangent.J;
+    in->tangent.J = in->tangent.J_made;
+    in->tangent.J_made = here;
     return;
   }
-  for (int32_t i = 0; i < S->size.nnz_rows; i++) in->J_tangent[i] = ali3_where(lanes, in->J[i], in->J_tangent[i]);
-  for (int32_t i = 0; i < S->size.front_size; i++) in->F[i] = ali3_where(lanes, F[i], in->F[i]);
+  for (int32_t i = 0; i < S->size.nnz_rows; i++)
+    in->tangent.J_made[i] = ali3_where(lanes, in->tangent.J[i], in->tangent.J_made[i]);
+  for (int32_t i = 0; i < S->size.front_size; i++) in->tangent.F[i] = ali3_where(lanes, F[i], in->tangent.F[i]);
 }
 
 /* One Newton correction (21) and the multiplier update of the lanes that are not finished; returns where it is finite. */
@@ -206,16 +208,16 @@ static truth correct(ali3_lane_group *in, truth lanes, truth kept, truth mixes, 
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c, alpha = in->alpha;
-  const real *Phi = in->Phi, *r = in->r, *w = in->w, *gamma = in->gamma;
-  real *lam = in->next.lam, *mu = in->mu, *x = in->x, *change = in->lam, *D = in->D;
+  const real *Phi = in->step.Phi, *r = in->step.r, *w = in->step.w, *gamma = in->step.gamma;
+  real *lam = in->next.lam, *mu = in->step.mu, *x = in->step.x, *change = in->step.lam, *D = in->step.D;
   *in->at_work = lanes;
   for (int32_t k = 0; k < nc; k++) mu[k] = ali3_where(kept, ali3_same(0.0), lam[k]) + alpha * Phi[k];
-  ali3_rows_transposed(S, in->J_tangent, mu, in->w);
+  ali3_rows_transposed(S, in->tangent.J_made, mu, in->step.w);
   for (int32_t i = 0; i < nq; i++) x[i] = -(ali3_where(kept, x[i], r[i]) + c * w[i]);
-  ali3_solve(in, in->F, x);
+  ali3_solve(in, in->tangent.F, x);
   const truth finite = all_finite(x, nq);
   if (ali3_defect_corrected(S)) ali3_defect_correction(in, in->h, iteration, lanes & finite);
-  ali3_rows_times(S, in->J_tangent, x, in->gamma);
+  ali3_rows_times(S, in->tangent.J_made, x, in->step.gamma);
   for (int32_t k = 0; k < nc; k++) change[k] = alpha * (Phi[k] + gamma[k]);
   ali3_accelerate(in, mixes);
   for (int32_t k = 0; k < nc; k++) lam[k] = ali3_where(lanes, lam[k] + change[k], lam[k]);
@@ -257,25 +259,25 @@ static void predict(ali3_lane_group *in) {
   const double h = in->h;
   truth goes_on = {0};
   if (in->system->n_flexible > 0) {
-    for (int32_t i = 0; i < nq; i++) in->D[i] = h * (2.0 * in->now.mean[i] - in->now.mean_before[i]);
+    for (int32_t i = 0; i < nq; i++) in->step.D[i] = h * (2.0 * in->now.mean[i] - in->now.mean_before[i]);
     memcpy(in->next.lam, in->now.lam, (size_t)nc * sizeof *in->next.lam);
     return;
   }
   if (in->settings.predictor == ALI3_PREDICTOR_PARABOLA) goes_on = ali3_history_smooth(in, ALI3_PARABOLA, h, false);
-  if (ali3_any(goes_on)) ali3_extrapolate(in, 0.5 * h, ALI3_PARABOLA, in->x, in->next.lam);
+  if (ali3_any(goes_on)) ali3_extrapolate(in, 0.5 * h, ALI3_PARABOLA, in->step.x, in->next.lam);
   for (int32_t k = 0; k < nc; k++) {
     const real lam = in->now.lam[k];
     in->next.lam[k] = lam + ALI3_SHARE * (ali3_where(goes_on, in->next.lam[k], lam) - lam);
   }
   for (int32_t i = 0; i < nq; i++)
-    in->D[i] = h * in->now.qd[i] + 0.5 * h * h * ali3_where(goes_on, in->x[i], in->now.qdd[i]);
+    in->step.D[i] = h * in->now.qd[i] + 0.5 * h * h * ali3_where(goes_on, in->step.x[i], in->now.qdd[i]);
 }
 
 /* What balance_squares of methods/energy_balance.c sums, in its order. */
 static void speed_squares(const ali3_lane_group *in, double h, const real *v0, const real *a, const real *v1,
                           real out[3]) {
   enum { FOUR = 4 };
-  const real *m = in->mass_floor;
+  const real *m = in->mass.floor;
   const int32_t nq = in->system->size.nq;
   real speed[FOUR] = {0}, change[FOUR] = {0}, miss[FOUR] = {0};
   int32_t i = 0;
@@ -305,32 +307,32 @@ static void step(ali3_lane_group *in) {
   in->rule = rule;
   predict(in);
   for (int32_t i = 0; i < nq; i++) {
-    in->d0[i] = h * in->now.qd[i] + c * in->now.qdd[i];
-    in->hat[i] = -in->now.qd[i];
+    in->step.d0[i] = h * in->now.qd[i] + c * in->now.qdd[i];
+    in->step.hat[i] = -in->now.qd[i];
   }
   newton(in);
   if (!ali3_any(*in->good)) return;
   for (int32_t i = 0; i < nq; i++) {
-    in->next.qdd[i] = (in->D[i] - in->d0[i]) / c;
-    in->mean_a[i] = 2.0 * (in->D[i] - h * in->now.qd[i]) / (h * h);
+    in->next.qdd[i] = (in->step.D[i] - in->step.d0[i]) / c;
+    in->mean_a[i] = 2.0 * (in->step.D[i] - h * in->now.qd[i]) / (h * h);
   }
   memcpy(in->newton_lam, in->next.lam, (size_t)in->system->size.nc * sizeof *in->newton_lam);
-  ali3_constraint_rate(in, in->next.q, &in->next, in->Phit);
+  ali3_constraint_rate(in, in->next.q, &in->next, in->step.Phit);
   const double left = ali3_round_left(in->system, c);
   real kinetic, work = ali3_constraint_work(in, h, in->guides);
-  turning_rates(in, in->mu, in->Phit);
+  turning_rates(in, in->step.mu, in->step.Phit);
   *in->at_work = *in->good;
-  *in->velocity_violation = ali3_project(in, c * in->alpha, in->Phit, in->next.qd, NULL, VELOCITY_TOLERANCE,
+  *in->velocity_violation = ali3_project(in, c * in->alpha, in->step.Phit, in->next.qd, NULL, VELOCITY_TOLERANCE,
                                          left * rule.rate, MAX_SWEEPS, true);
-  ali3_constraint_gamma(in, in->next.q, in->next.qd, &in->next, in->gamma);
+  ali3_constraint_gamma(in, in->next.q, in->next.qd, &in->next, in->step.gamma);
   *in->at_work = *in->good;
-  ali3_project(in, c * in->alpha, in->gamma, in->next.qdd, in->next.lam, ACCELERATION_TOLERANCE, left / c, MAX_SWEEPS,
-               false);
+  ali3_project(in, c * in->alpha, in->step.gamma, in->next.qdd, in->next.lam, ACCELERATION_TOLERANCE, left / c,
+               MAX_SWEEPS, false);
   work += ali3_projection_work(in, &kinetic, in->end, in->open, in->guides) + 0.5 * h * *in->open_power;
   *in->work = work;
   *in->size = ali3_energy_size(in, h, kinetic);
-  *in->weight = *in->gravity_const;
-  for (int32_t i = 0; i < nq; i++) *in->weight -= in->gravity_force[i] * in->next.q[i];
+  *in->weight = *in->mass.gravity_const;
+  for (int32_t i = 0; i < nq; i++) *in->weight -= in->mass.gravity[i] * in->next.q[i];
   speed_squares(in, h, in->now.qd, in->now.qdd, in->next.qd, in->squares);
   ali3_work_ways(in, in->ways);
 }

@@ -41,7 +41,7 @@ static bool may_divide(const ali3_instance *in, int32_t depth) {
 bool ali3_leaves_parts(ali3_instance *in, const ali3_request *request, int32_t iterations) {
   const int64_t left = request->iterations_end - in->report.iterations;
   if (in->settings.step_iterations > 0 && left < 2 * (int64_t)iterations) {
-    in->capped = true;
+    in->bound.capped = true;
     return false;
   }
   in->report.divisions++;
@@ -49,7 +49,7 @@ bool ali3_leaves_parts(ali3_instance *in, const ali3_request *request, int32_t i
 }
 
 /* The change from which on parts of the present step are halved. */
-static double most_change(const ali3_instance *in, double rate) { return fmin(rate * in->whole_length, ABRUPT); }
+static double most_change(const ali3_instance *in, double rate) { return fmin(rate * in->inputs.whole_length, ABRUPT); }
 
 /* Whether a part with such a report.change_rate is made in halves. Its parts may change less; who judges
  * abrupt steps afterwards is told of the whole. */
@@ -77,7 +77,7 @@ bool ali3_divides(ali3_instance *in, const ali3_request *request) {
     double *largest = kind == TYRE ? &largest_load : &largest_force;
     most[kind] = more(most[kind], change_of(contact, in->now.out, in->next.out, largest));
   }
-  in->changed = fmax(fmax(most[TYRE], most[CONTACT]), most[STOP]);
+  in->parting.changed = fmax(fmax(most[TYRE], most[CONTACT]), most[STOP]);
   largest_force = fmax(largest_force, largest_load);
   const double load = over(most[TYRE], ABRUPT * largest_load),
                force = over(most[CONTACT], most_change(in, CONTACT_RATE) * largest_force),
@@ -91,8 +91,8 @@ static bool beyond(const ali3_instance *in, const ali3_contact_forces_of *contac
   const ali3_system *S = in->system;
   const ali3_element_size *at = S->el_size + contact->element;
   const ali3_element_type *kind = S->el_kind[contact->element];
-  return kind->stops(in->el_real + at->real, in->next.out + at->out) ||
-         kind->stops(in->el_real + at->real, in->now.out + at->out);
+  return kind->stops(in->parameters.el_real + at->real, in->next.out + at->out) ||
+         kind->stops(in->parameters.el_real + at->real, in->now.out + at->out);
 }
 
 /* Largest change of a judged force in the step; without roads of springs beyond their stops alone. */
@@ -113,5 +113,5 @@ void ali3_abrupt_force(ali3_instance *in) {
     if (contact->tyre) /* the start has no step before it */
       r->largest_load = more(more(r->largest_load, in->next.out[contact->judged]), in->now.out[contact->judged]);
   }
-  if ((in->changed < 0.0 ? changed(in) : in->changed) > ABRUPT * r->largest_force) r->abrupt_steps++;
+  if ((in->parting.changed < 0.0 ? changed(in) : in->parting.changed) > ABRUPT * r->largest_force) r->abrupt_steps++;
 }

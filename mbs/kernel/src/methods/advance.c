@@ -42,14 +42,14 @@ static ali3_status advance_part(ali3_instance *in, const ali3_request *part) {
   const ali3_method *method = ali3_method_of(in);
   const bool limited = in->settings.step_iterations > 0;
   const int64_t made_before = in->report.iterations;
-  if (made_before - in->iterations_before > MOST_ITERATIONS) return ALI3_TOO_DEAR;
-  if (in->work_left != NULL && *in->work_left <= 0) return ALI3_TOO_DEAR;
-  in->changed = -1.0;
-  in->event = 1.0;
+  if (made_before - in->bound.iterations_before > MOST_ITERATIONS) return ALI3_TOO_DEAR;
+  if (in->bound.work_left != NULL && *in->bound.work_left <= 0) return ALI3_TOO_DEAR;
+  in->parting.changed = -1.0;
+  in->parting.event = 1.0;
   const int64_t divisions = in->report.divisions;
   const ali3_status status = ali3_divides_ahead(in, part) ? ALI3_UNRESOLVED : by_method(in, part);
-  if (in->work_left != NULL) *in->work_left -= 1 + in->report.iterations - made_before;
-  if (status == ALI3_OK) in->t_now = part->t;
+  if (in->bound.work_left != NULL) *in->bound.work_left -= 1 + in->report.iterations - made_before;
+  if (status == ALI3_OK) in->clock.now = part->t;
   if (status == ALI3_OK && method->motion != NULL) method->motion(in, part->h);
   if (status != ALI3_OK && ali3_roads_status(in) != ALI3_OK) return ALI3_ROAD_LOST;
   const bool divided = in->report.divisions != divisions;
@@ -59,8 +59,8 @@ static ali3_status advance_part(ali3_instance *in, const ali3_request *part) {
   if (!divided) in->report.halvings++;
   ali3_back_up(in);
   const int64_t made = in->report.iterations;
-  const bool located = in->event < 1.0;
-  const double share = located ? in->event : 0.5;
+  const bool located = in->parting.event < 1.0;
+  const double share = located ? in->parting.event : 0.5;
   ali3_request first = *part, second = *part;
   first.t = part->t - (1.0 - share) * part->h;
   first.h = share * part->h;
@@ -79,7 +79,7 @@ static const double ROUND_OFF = 4.0 * DBL_EPSILON; /* of the time of a jump: gui
 static ali3_status guide_jump(ali3_instance *in, double time) {
   const bool counts = in->system->n_guide_work > 0;
   const double before = counts ? ali3_kinetic_energy(in) : 0.0;
-  in->t_now = time;
+  in->clock.now = time;
   ali3_guides_time(in, &in->now, time + ROUND_OFF * fabs(time));
   const ali3_status status = ali3_solve_rates(in, false);
   if (status != ALI3_OK) return status;
@@ -92,7 +92,8 @@ static ali3_status guide_jump(ali3_instance *in, double time) {
  * `*guide`: when a guide jumps there, else infinity. */
 static double part_end(const ali3_instance *in, double t, double h, double *guide) {
   const double inputs = ali3_inputs_until(in, t), near = AT_END * h;
-  const double until = in->system->size.ng > 0 ? ali3_guides_break(in, in->t_now + near, inputs + near) : inputs + near;
+  const double until =
+      in->system->size.ng > 0 ? ali3_guides_break(in, in->clock.now + near, inputs + near) : inputs + near;
   *guide = until < inputs + near ? until : HUGE_VAL;
   return until < t - near ? fmin(until, inputs) : fmin(inputs, t);
 }
@@ -115,11 +116,11 @@ ali3_status ali3_advance(ali3_instance *in, const ali3_request *request) {
   ali3_back_up(in);
   if (until < t) in->report.divisions++;
   part.t = fmin(until, guide - ROUND_OFF * fabs(guide));
-  if (until < t) part.h = until - in->t_now;
+  if (until < t) part.h = until - in->clock.now;
   if (guide < HUGE_VAL) part.reading = ALI3_READ_ALL; /* the jump reads the state before it */
   ali3_status status = advance_part(in, &part);
   if (status == ALI3_OK) status = guide < HUGE_VAL ? guide_jump(in, fmax(until, guide)) : ALI3_OK;
-  in->iterations_before = in->report.iterations;
+  in->bound.iterations_before = in->report.iterations;
   rest.h = t - until;
   return status == ALI3_OK && until < t ? ali3_advance(in, &rest) : status;
 }

@@ -44,7 +44,7 @@ static ali3_force_call call_of(ali3_instance *in, double h, bool tangent) {
                            .wK = in->rule.c,
                            .tangent = tangent,
                            .iterate = true,
-                           .Q = in->Q,
+                           .Q = in->step.Q,
                            .y_new = to->y,
                            .out = to->out,
                            .potential = to->potential};
@@ -54,13 +54,14 @@ static ali3_force_call call_of(ali3_instance *in, double h, bool tangent) {
 ALI3_INLINED void evaluate(ali3_instance *in, double h, bool tangent) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  const double c = in->rule.c, rate = in->rule.rate, *from = in->now.q, *D = in->D, *d0 = in->d0, *hat = in->hat;
+  const double c = in->rule.c, rate = in->rule.rate, *from = in->now.q, *D = in->step.D, *d0 = in->step.d0,
+               *hat = in->step.hat;
   ali3_vectors *to = &in->next;
-  double *q = to->q, *qd = to->qd, *w = in->w, *r = in->r, *Q = in->Q;
+  double *q = to->q, *qd = to->qd, *w = in->step.w, *r = in->step.r, *Q = in->step.Q;
   ALI3_EACH(0, nq, ALI3_AT(q) = ALI3_AT(from) + ALI3_AT(D); ALI3_AT(qd) = rate * ALI3_AT(D) + ALI3_AT(hat);
             ALI3_AT(w) = ALI3_AT(D) - ALI3_AT(d0))
-  ali3_constraints(in, to->q, to->s, in->Phi, in->J);
-  if (in->system->n_velocity_row > 0) ali3_velocity_values(in, in->J, to->qd, rate, in->Phi);
+  ali3_constraints(in, to->q, to->s, in->step.Phi, in->tangent.J);
+  if (in->system->n_velocity_row > 0) ali3_velocity_values(in, in->tangent.J, to->qd, rate, in->step.Phi);
   const ali3_force_call call = call_of(in, h, tangent);
   ali3_forces(in, &call);
   ali3_mass_times(in, w, r);
@@ -69,9 +70,9 @@ ALI3_INLINED void evaluate(ali3_instance *in, double h, bool tangent) {
 
 /* Judges the residual with the multipliers. */
 ALI3_INLINED bool judge(ali3_instance *in) {
-  const double c = in->rule.c, *r = in->r;
-  double *x = in->x;
-  ali3_rows_transposed(in->system, in->J, in->next.lam, x);
+  const double c = in->rule.c, *r = in->step.r;
+  double *x = in->step.x;
+  ali3_rows_transposed(in->system, in->tangent.J, in->next.lam, x);
   ALI3_EACH(0, in->system->size.nq, ALI3_AT(x) = ALI3_AT(r) + c * ALI3_AT(x))
   return ali3_judge(in, x);
 }
@@ -79,8 +80,8 @@ ALI3_INLINED bool judge(ali3_instance *in) {
 /* The tangent (23) of the present iterate, by generated code. */
 static void assemble_generated(ali3_instance *in, double alpha) {
   const ali3_system *S = in->system;
-  const ali3_tangent_parts parts = {.front_mass = in->front_mass,
-                                    .J = in->J,
+  const ali3_tangent_parts parts = {.front_mass = in->mass.front,
+                                    .J = in->tangent.J,
                                     .lam = in->next.lam,
                                     .s = in->next.s,
                                     .hess_val = S->hess_val,
@@ -91,11 +92,11 @@ static void assemble_generated(ali3_instance *in, double alpha) {
                                     .cosine = ali3_cos,
                                     .sine = ali3_sin,
                                     .sig_val = S->sig_val,
-                                    .S = in->S,
-                                    .idle = in->idle,
+                                    .S = in->element.S,
+                                    .idle = in->element.idle,
                                     .square = in->rule.c * alpha,
                                     .geometric = in->rule.c};
-  S->generated.tangent(&parts, in->F);
+  S->generated.tangent(&parts, in->tangent.F);
 }
 
 /* The tangent goes to the fronts. */
@@ -104,47 +105,47 @@ static void assemble(ali3_instance *in, double alpha) {
     assemble_generated(in, alpha);
     return;
   }
-  ali3_mass_to_fronts(in, in->F);
-  ali3_rows_square(in, in->J, in->rule.c * alpha, in->F);
-  if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, in->rule.c, in->F);
-  ali3_forces_tangent(in, in->F);
+  ali3_mass_to_fronts(in, in->tangent.F);
+  ali3_rows_square(in, in->tangent.J, in->rule.c * alpha, in->tangent.F);
+  if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, in->rule.c, in->tangent.F);
+  ali3_forces_tangent(in, in->tangent.F);
 }
 
 /* That tangent, factorised. */
 static ali3_status tangent(ali3_instance *in, double alpha) {
   const ali3_system *S = in->system;
   assemble(in, alpha);
-  double *J = in->J;
-  in->J = in->J_tangent;
-  in->J_tangent = J;
+  double *J = in->tangent.J;
+  in->tangent.J = in->tangent.J_made;
+  in->tangent.J_made = J;
   if (ali3_defect_corrected(S)) { /* T_e of defect_correction.c */
-    double *here = in->S;
-    in->S = in->S_tangent;
-    in->S_tangent = here;
+    double *here = in->element.S;
+    in->element.S = in->element.S_made;
+    in->element.S_made = here;
   }
-  return ali3_factorise(in, in->F);
+  return ali3_factorise(in, in->tangent.F);
 }
 
-/* One Newton correction (21) and the multiplier update. A `kept` tangent is that of an earlier iterate; in->x then has
- * the judged residual. `mixes`: the correction before it tells of it. The Phi_q that the penalty multiplies is always
- * that of the tangent: the penalty would amplify what a later one has outside its range. */
+/* One Newton correction (21) and the multiplier update. A `kept` tangent is that of an earlier iterate; in->step.x then
+ * has the judged residual. `mixes`: the correction before it tells of it. The Phi_q that the penalty multiplies is
+ * always that of the tangent: the penalty would amplify what a later one has outside its range. */
 ALI3_INLINED ali3_status correct(ali3_instance *in, double h, double alpha, int32_t iteration, bool kept, bool mixes) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   const double c = in->rule.c;
-  double *lam = in->next.lam, *mu = in->mu, *x = in->x, *D = in->D, *change = in->lam;
-  const double *balance = kept ? x : in->r, *Phi = in->Phi, *w = in->w, *opening = in->gamma;
+  double *lam = in->next.lam, *mu = in->step.mu, *x = in->step.x, *D = in->step.D, *change = in->step.lam;
+  const double *balance = kept ? x : in->step.r, *Phi = in->step.Phi, *w = in->step.w, *opening = in->step.gamma;
   if (kept)
     ALI3_EACH(0, nc, ALI3_AT(mu) = 0.0 + alpha * ALI3_AT(Phi))
   else
     ALI3_EACH(0, nc, ALI3_AT(mu) = ALI3_AT(lam) + alpha * ALI3_AT(Phi))
-  ali3_rows_transposed(S, in->J_tangent, mu, in->w);
+  ali3_rows_transposed(S, in->tangent.J_made, mu, in->step.w);
   ALI3_EACH(0, nq, ALI3_AT(x) = -(ALI3_AT(balance) + c * ALI3_AT(w)))
-  ali3_solve(in, in->F, x);
+  ali3_solve(in, in->tangent.F, x);
   if (!ali3_finite_inlined(x, nq)) return ALI3_NOT_FINITE;
   if (ali3_defect_corrected(S)) ali3_defect_correction(in, h, iteration, true);
   if (in->settings.update == ALI3_UPDATE_LINEARISED) {
-    ali3_rows_times(S, in->J_tangent, x, in->gamma);
+    ali3_rows_times(S, in->tangent.J_made, x, in->step.gamma);
     ALI3_EACH(0, nc, ALI3_AT(change) = alpha * (ALI3_AT(Phi) + ALI3_AT(opening)))
     ali3_accelerate(in, mixes);
     ali3_add(lam, change, nc);
@@ -157,8 +158,8 @@ ALI3_INLINED ali3_status correct(ali3_instance *in, double h, double alpha, int3
 static ali3_status capped(ali3_instance *in) {
   const double left = fmax(in->report.residual, in->report.violation);
   if (left > ALI3_LOST * in->system->fine) return ALI3_NOT_CONVERGED;
-  in->capped = true;
-  in->capped_residual = left;
+  in->bound.capped = true;
+  in->bound.capped_residual = left;
   return ALI3_OK;
 }
 
@@ -183,12 +184,12 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, 
     if (in->report.last_iterations > in->report.max_iterations) in->report.max_iterations = in->report.last_iterations;
     evaluate(in, h, false);
     if (settings->update == ALI3_UPDATE_PAPER) /* (16) */
-      for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->Phi[k];
+      for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] += alpha * in->step.Phi[k];
     if (!judge(in)) return ALI3_NOT_FINITE;
     if (in->report.residual <= fine * settings->tolerance_r) {
-      if (ali3_closed(in->system, in->Phi, fine * settings->tolerance_phi)) return ALI3_OK;
+      if (ali3_closed(in->system, in->step.Phi, fine * settings->tolerance_phi)) return ALI3_OK;
       if (in->report.violation > CLOSES * open && /* far from the drawing no iteration closes rows further */
-          ali3_closed_here(in->system, in->Phi, in->next.q, fine * settings->tolerance_phi))
+          ali3_closed_here(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
         return ALI3_OK;
     }
     open = in->report.violation;
@@ -204,7 +205,7 @@ ALI3_INLINED ali3_status newton(ali3_instance *in, const ali3_request *request, 
     ali3_elements_forces(in, &call);
   }
   if (most > 0 && in->report.residual <= fine * settings->tolerance_r &&
-      ali3_closed_here(in->system, in->Phi, in->next.q, fine * settings->tolerance_phi))
+      ali3_closed_here(in->system, in->step.Phi, in->next.q, fine * settings->tolerance_phi))
     return ALI3_OK; /* far from the drawing no iteration closes rows further */
   return limited && most > 0 ? capped(in) : ALI3_NOT_CONVERGED;
 }
@@ -217,7 +218,7 @@ ALI3_INLINED void trapezoidal(ali3_instance *in, double h) {
   const ali3_rule rule = {.c = 0.25 * h * h, .rate = 2.0 / h, .wC = 0.5 * h};
   in->rule = rule;
   const double *qd = in->now.qd, *qdd = in->now.qdd;
-  double *d0 = in->d0, *hat = in->hat;
+  double *d0 = in->step.d0, *hat = in->step.hat;
   ALI3_EACH(0, in->system->size.nq, ALI3_AT(d0) = h * ALI3_AT(qd) + rule.c * ALI3_AT(qdd); ALI3_AT(hat) = -ALI3_AT(qd))
 }
 
@@ -234,7 +235,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
     in->report.fastest_rate = turning;
     return ALI3_TURNS_TOO_FAR;
   }
-  in->capped |= turning * h > MOST_TURN;
+  in->bound.capped |= turning * h > MOST_TURN;
   ali3_status status = ali3_input_jump(in, h);
   if (status != ALI3_OK) return status;
   ali3_guides_step(in, from, to, request->t, h);
@@ -244,7 +245,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   else
     trapezoidal(in, h);
   const double c = in->rule.c;
-  memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
+  memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
   memcpy(to->y_last, from->y, (size_t)S->size.ny * sizeof(double));
   /* derivatives of a step are those of the trapezoidal rule, also in a damped start */
   to->h_last[0] = in->settings.method == ALI3_METHOD_GENERALISED_ALPHA ? 0.0 : h;
@@ -254,7 +255,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
     status = ali3_newton(in, request, alpha);
   }
   if (status != ALI3_OK) return status;
-  const double *D = in->D, *d0 = in->d0;
+  const double *D = in->step.D, *d0 = in->step.d0;
   double *qdd = to->qdd;
   ALI3_EACH(0, nq, ALI3_AT(qdd) = (ALI3_AT(D) - ALI3_AT(d0)) / c)
   if (is_alpha)
@@ -267,7 +268,7 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
                                 .h = h,
                                 .wC = in->rule.wC,
                                 .wK = c,
-                                .Q = in->Q,
+                                .Q = in->step.Q,
                                 .y_new = to->y,
                                 .out = to->out,
                                 .potential = to->potential};
@@ -275,23 +276,23 @@ ALI3_INLINED ali3_status augmented_lagrangian(ali3_instance *in, const ali3_requ
   if (ali3_contact_event(in, request) || ali3_divides(in, request)) return ALI3_UNRESOLVED;
   ali3_predict_rates(in, h);
   ali3_predict_accept(in, h); /* before the projection: these multipliers balance the next step as they did this one */
-  ali3_constraint_rate(in, to->q, to, in->Phit);
+  ali3_constraint_rate(in, to->q, to, in->step.Phit);
   double guides = 0.0;
   if (in->settings.project) {
     const double left = ali3_round_left(S, c);
     double kinetic, end, open, work = ali3_constraint_work(in, h, &guides);
-    turning_rates(in, in->mu, in->Phit);
-    in->report.velocity_violation =
-        ali3_project(in, c * alpha, in->Phit, to->qd, NULL, VELOCITY_TOLERANCE, left * in->rule.rate, MAX_SWEEPS, true);
-    ali3_constraint_gamma(in, to->q, to->qd, to, in->gamma);
-    ali3_project(in, c * alpha, in->gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, left / c, MAX_SWEEPS, false);
+    turning_rates(in, in->step.mu, in->step.Phit);
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, VELOCITY_TOLERANCE,
+                                                 left * in->rule.rate, MAX_SWEEPS, true);
+    ali3_constraint_gamma(in, to->q, to->qd, to, in->step.gamma);
+    ali3_project(in, c * alpha, in->step.gamma, to->qdd, to->lam, ACCELERATION_TOLERANCE, left / c, MAX_SWEEPS, false);
     /* with the work that the forces did in this step which the last (25) left without balance */
     work += ali3_projection_work(in, &kinetic, &end, &open, &guides) + 0.5 * h * in->report.open_power;
     const ali3_status resolved = ali3_energy_watch(in, request, work, kinetic, end, open);
     if (resolved != ALI3_OK) return resolved;
   } else {
     if (S->n_guide_work > 0) ali3_constraint_work(in, h, &guides);
-    in->report.velocity_violation = ali3_project(in, c * alpha, in->Phit, to->qd, NULL, 0.0, 0.0, 0, false);
+    in->report.velocity_violation = ali3_project(in, c * alpha, in->step.Phit, to->qd, NULL, 0.0, 0.0, 0, false);
   }
   ali3_guides_work(in, to, guides);
   ali3_work_step(in, 0.5);

@@ -7,8 +7,8 @@
 static bool conservative(const ali3_instance *in, int32_t e) {
   const ali3_element_type *type = in->system->el_kind[e];
   const int32_t first = in->system->el_real_ptr[e], n = in->system->el_real_ptr[e + 1] - first;
-  return type->conservative &&
-         !(type->lossy != NULL && type->lossy(in->el_real + first, n, in->system->el_int + in->system->el_int_ptr[e]));
+  return type->conservative && !(type->lossy != NULL && type->lossy(in->parameters.el_real + first, n,
+                                                                    in->system->el_int + in->system->el_int_ptr[e]));
 }
 
 /* Neither elements nor flexible bodies damp. */

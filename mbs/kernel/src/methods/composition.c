@@ -20,13 +20,13 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   const double share[STAGES] = {OUTER, OUTER, 1.0 - 4.0 * OUTER, OUTER, OUTER};
   int32_t iterations = 0, most = in->report.max_iterations;
   double done = -1.0; /* time from the end of the step, in steps */
-  ali3_vectors_copy(in, &in->whole, &in->now);
+  ali3_vectors_copy(in, &in->kept.whole, &in->now);
   for (int stage = 0; stage < STAGES; stage++) {
     done = stage == STAGES - 1 ? 0.0 : done + share[stage];
     const ali3_status status = ali3_energy_momentum(in, t + done * h, share[stage] * h, 1.0 + done - 0.5 * share[stage],
                                                     stage == STAGES - 1 && request->reading != ALI3_READ_NOTHING);
     if (status != ALI3_OK) {
-      ali3_vectors_copy(in, &in->now, &in->whole);
+      ali3_vectors_copy(in, &in->now, &in->kept.whole);
       return status;
     }
     iterations += in->report.last_iterations;
@@ -36,7 +36,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   return ALI3_OK;
 }
 
-static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->whole, h); }
+static void motion(ali3_instance *in, double h) { ali3_energy_momentum_motion(in, &in->kept.whole, h); }
 
 static ali3_status takes(const ali3_instance *in) {
   const ali3_status status = ali3_needs_no_states(in);

@@ -21,32 +21,32 @@
 #include "../rows/constraints.h"
 #include "energy_watch.h"
 
-/* in->drive: w + h (Phi_t1 - Phi_t0)/12. Its product with lam0 - lam is what the rows' h R' lam0 and the work of drives
- * leave. */
+/* in->step.drive: w + h (Phi_t1 - Phi_t0)/12. Its product with lam0 - lam is what the rows' h R' lam0 and the work of
+ * drives leave. */
 static void drives(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   ali3_vectors mean = in->next;
-  mean.sd = in->guide_mean;
+  mean.sd = in->guide.mean;
   for (int32_t g = 0; g < S->size.ng; g++) mean.sd[g] = (in->next.s[g] - in->now.s[g]) / h;
-  ali3_constraint_rate(in, in->next.q, &mean, in->mu);
-  ali3_constraint_rate(in, in->now.q, &in->now, in->drive);
+  ali3_constraint_rate(in, in->next.q, &mean, in->step.mu);
+  ali3_constraint_rate(in, in->now.q, &in->now, in->step.drive);
   for (int32_t i = 0; i < S->n_driven; i++) {
     const int32_t k = S->driven_row[i];
-    in->drive[k] = h * (0.5 * in->mu[k] + (in->Phit[k] - in->drive[k]) / 12.0);
+    in->step.drive[k] = h * (0.5 * in->step.mu[k] + (in->step.Phit[k] - in->step.drive[k]) / 12.0);
   }
 }
 
 /* Whether the work of drives is that of their rows: filtered guides move, or nothing is projected. */
 static truth by_rows(const ali3_instance *in) {
   truth any = {0};
-  for (int32_t g = 0; g < in->system->size.ng; g++) any |= in->guide_follows[g] != 0.0;
+  for (int32_t g = 0; g < in->system->size.ng; g++) any |= in->guide.follows[g] != 0.0;
   if (!in->settings.project) any |= ali3_not(any);
   return any;
 }
 
-/* Before the projections: in->J and in->Phit are of the end of the step, in->next.lam those of Newton's loop. The part
- * of the multipliers after (25) is still to be added, to *guides, the work of drives, too. Leaves Phi_q v of the rates
- * in in->mu, with which (24) begins. */
+/* Before the projections: in->tangent.J and in->step.Phit are of the end of the step, in->next.lam those of Newton's
+ * loop. The part of the multipliers after (25) is still to be added, to *guides, the work of drives, too. Leaves Phi_q
+ * v of the rates in in->step.mu, with which (24) begins. */
 ALI3_INLINED real constraint_work(ali3_instance *in, double h, real *guides) {
   const ali3_system *S = in->system;
   real work = {0}, first = {0}, second = {0}, newton = {0};
@@ -56,16 +56,16 @@ ALI3_INLINED real constraint_work(ali3_instance *in, double h, real *guides) {
     own = by_rows(in);
     for (int32_t i = 0; i < S->n_driven; i++) {
       const int32_t k = S->driven_row[i];
-      first += (h * in->mu[k] - in->drive[k]) * in->now.lam[k];
-      second += in->drive[k] * in->now.lam[k];
-      in->drive[k] = ali3_where(own, ali3_same(0.0), in->drive[k]);
+      first += (h * in->step.mu[k] - in->step.drive[k]) * in->now.lam[k];
+      second += in->step.drive[k] * in->now.lam[k];
+      in->step.drive[k] = ali3_where(own, ali3_same(0.0), in->step.drive[k]);
     }
   }
-  ali3_rows_times_both(S, in->J, in->D, in->next.qd, in->gamma, in->mu);
-  for (int32_t k = 0; k < S->size.nc; k++) work -= 0.5 * in->gamma[k] * (in->next.lam[k] - in->now.lam[k]);
+  ali3_rows_times_both(S, in->tangent.J, in->step.D, in->next.qd, in->step.gamma, in->step.mu);
+  for (int32_t k = 0; k < S->size.nc; k++) work -= 0.5 * in->step.gamma[k] * (in->next.lam[k] - in->now.lam[k]);
   for (int32_t i = 0; i < S->n_driven; i++) {
     const int32_t k = S->driven_row[i];
-    newton -= 0.5 * in->gamma[k] * (in->next.lam[k] - in->now.lam[k]);
+    newton -= 0.5 * in->step.gamma[k] * (in->next.lam[k] - in->now.lam[k]);
   }
   *guides = first + ali3_where(own, second + newton, ali3_same(0.0));
   return work + ali3_where(own, -newton, second);
@@ -81,8 +81,8 @@ ALI3_INLINED real projection_work(ali3_instance *in, real *kinetic, real *end, r
   const ali3_vectors *v = &in->next;
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
-  real *w = in->w, *x = in->x, *change = in->r, *left = in->d0;
-  const real *D = in->D, *hat = in->hat, *qd = v->qd, *Q = in->Q;
+  real *w = in->step.w, *x = in->step.x, *change = in->step.r, *left = in->step.d0;
+  const real *D = in->step.D, *hat = in->step.hat, *qd = v->qd, *Q = in->step.Q;
   const double rate = in->rule.rate;
   ALI3_EACH(0, nq, ALI3_AT(w) = 0.5 * (rate * ALI3_AT(D) + ALI3_AT(hat) + ALI3_AT(qd));
             ALI3_AT(change) = 2.0 * (ALI3_AT(qd) - ALI3_AT(w)))
@@ -92,8 +92,8 @@ ALI3_INLINED real projection_work(ali3_instance *in, real *kinetic, real *end, r
   real power = ali3_product_from_far(qd, left, nq), drive = {0};
   for (int32_t i = 0; i < S->n_driven; i++) {
     const int32_t k = S->driven_row[i];
-    power -= v->lam[k] * in->Phit[k];
-    drive += v->lam[k] * in->drive[k];
+    power -= v->lam[k] * in->step.Phit[k];
+    drive += v->lam[k] * in->step.drive[k];
   }
   *kinetic = 0.5 * twice;
   *end = 0.5 * (twice + given);
@@ -108,12 +108,12 @@ ALI3_BY_PROCESSOR(in->system, real, projection_work,
                   (ali3_instance * in, real *kinetic, real *end, real *open, real *guides),
                   (in, kinetic, end, open, guides))
 
-/* What an error of the energy is judged beside: the kinetic energy, what the forces in in->Q can give in a step and
- * what the tolerance of the residual leaves open. */
+/* What an error of the energy is judged beside: the kinetic energy, what the forces in in->step.Q can give in a step
+ * and what the tolerance of the residual leaves open. */
 ALI3_INLINED real energy_size(const ali3_instance *in, double h, real kinetic) {
   const double left = 2.0 * in->system->fine * in->settings.tolerance_r / h;
   const double rest = left * left, square = h * h;
-  const real *Q = in->Q, *inverse = in->mass_floor_inverse, *m = in->mass_floor;
+  const real *Q = in->step.Q, *inverse = in->mass.floor_inverse, *m = in->mass.floor;
   real even = {0}, odd = {0}; /* so that additions need not wait for each other */
   int32_t i = 0;
   for (; i + 1 < in->system->size.nq; i += 2) {

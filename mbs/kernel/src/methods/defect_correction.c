@@ -20,14 +20,14 @@ static const double FALLS = 0.5; /* of the last change of d, at most, or the for
 /* The last change of d that is worth a solve, negative, goes to `change`; returns its size, m. */
 static real defect(ali3_instance *in, double h, truth lanes, real *last, real *change) {
   const int32_t nq = in->system->size.nq;
-  real *q = in->w, *qd = in->stage + 2 * nq, largest = {0};
+  real *q = in->step.w, *qd = in->step.stage + 2 * nq, largest = {0};
   for (int32_t i = 0; i < nq; i++) {
-    q[i] = in->next.q[i] + in->x[i];
-    qd[i] = in->next.qd[i] + in->rule.rate * in->x[i];
+    q[i] = in->next.q[i] + in->step.x[i];
+    qd[i] = in->next.qd[i] + in->rule.rate * in->step.x[i];
   }
   ali3_elements_defect(in, h, lanes, q, qd, change);
   for (int32_t i = 0; i < nq; i++) {
-    const real d = change[i], size = ali3_abs(d - last[i]) * in->mass_floor_inverse[i];
+    const real d = change[i], size = ali3_abs(d - last[i]) * in->mass.floor_inverse[i];
     change[i] = last[i] - d;
     last[i] = d;
     largest = ali3_where(ali3_not(size <= largest), size, largest); /* a NaN ends it */
@@ -35,16 +35,16 @@ static real defect(ali3_instance *in, double h, truth lanes, real *last, real *c
   return largest;
 }
 
-/* in->x is the correction by the tangent; forces and signals are those of the present iterate. */
+/* in->step.x is the correction by the tangent; forces and signals are those of the present iterate. */
 void ali3_defect_correction(ali3_instance *in, double h, int32_t iteration, truth lanes) {
   const int32_t nq = in->system->size.nq;
   const double tolerance = in->system->fine * in->settings.tolerance_r;
-  real *last = in->stage, *change = last + nq, before = ali3_same(HUGE_VAL);
-  const real largest = ali3_largest(in->x, nq);
+  real *last = in->step.stage, *change = last + nq, before = ali3_same(HUGE_VAL);
+  const real largest = ali3_largest(in->step.x, nq);
   truth open = lanes & ali3_not(largest < SMALL * tolerance);
   if (iteration == 0) open &= ali3_not(largest > TOO_LARGE);
   if (!ali3_any(open)) return;
-  memcpy(in->ud_at, in->ud, (size_t)in->system->size.nsig * sizeof *in->ud);
+  memcpy(in->element.ud_at, in->element.ud, (size_t)in->system->size.nsig * sizeof *in->element.ud);
   memset(last, 0, (size_t)nq * sizeof *last);
   for (int k = 0; k < CORRECTIONS; k++) {
     const real size = defect(in, h, open, last, change);
@@ -52,7 +52,7 @@ void ali3_defect_correction(ali3_instance *in, double h, int32_t iteration, trut
     if (!ali3_any(open)) return;
     before = size;
     ALI3_AT_WORK(in, open);
-    ali3_solve(in, in->F, change);
-    for (int32_t i = 0; i < nq; i++) in->x[i] = ali3_where(open, in->x[i] + change[i], in->x[i]);
+    ali3_solve(in, in->tangent.F, change);
+    for (int32_t i = 0; i < nq; i++) in->step.x[i] = ali3_where(open, in->step.x[i] + change[i], in->step.x[i]);
   }
 }

@@ -48,9 +48,9 @@ static void weights(double x, int order, double weight[DATA]) {
   }
 }
 
-/* q, qd and qdd of *to at x, -1 to 1, of the step of h that in->origin, in->centre and in->now hold. */
+/* q, qd and qdd of *to at x, -1 to 1, of the step of h that in->kept.origin, in->kept.centre and in->now hold. */
 void ali3_interpolate(const ali3_instance *in, double h, double x, ali3_vectors *to) {
-  const ali3_vectors *node[NODES] = {&in->origin, &in->centre, &in->now};
+  const ali3_vectors *node[NODES] = {&in->kept.origin, &in->kept.centre, &in->now};
   const double unit[3] = {1.0, 0.5 * h, 0.25 * h * h};
   double *result[3] = {to->q, to->qd, to->qdd}, weight[DATA];
   for (int order = 0; order < 3; order++) {
@@ -70,43 +70,43 @@ static bool polynomial(ali3_instance *in, const ali3_measure *measure, double t,
   const int32_t nq = in->system->size.nq;
   const double x = 2.0 * (when - t) / h - 1.0;
   ali3_vectors *at = &in->next;
-  ali3_vectors_copy(in, at, x < 0.0 ? &in->centre : &in->now);
+  ali3_vectors_copy(in, at, x < 0.0 ? &in->kept.centre : &in->now);
   ali3_interpolate(in, h, x, at);
-  memcpy(in->D, at->qdd, (size_t)nq * sizeof(double));
+  memcpy(in->step.D, at->qdd, (size_t)nq * sizeof(double));
   ali3_guides_time(in, at, when);
-  in->t_now = when;
+  in->clock.now = when;
   ali3_status status = ali3_inputs_begin(in, when, 0.0);
   if (status == ALI3_OK) status = ali3_index_one(in, at);
   in->report.iterations--; /* nothing that the motion needed */
   if (status != ALI3_OK) return false;
   for (int32_t i = 0; i < nq; i++) {
-    const double defect = at->qdd[i] - in->D[i];
-    in->w[i] = OF_POSITION * h * h * defect;
-    in->r[i] = OF_VELOCITY * h * defect;
+    const double defect = at->qdd[i] - in->step.D[i];
+    in->step.w[i] = OF_POSITION * h * h * defect;
+    in->step.r[i] = OF_VELOCITY * h * defect;
   }
-  return ali3_distance(in, measure, in->w, in->r, ali3_rate(in, measure)) <= measure->control->tolerance;
+  return ali3_distance(in, measure, in->step.w, in->step.r, ali3_rate(in, measure)) <= measure->control->tolerance;
 }
 
 /* Where there are element states or filtered guides, just behind the start: its forces and states with the motion of
  * the polynomial. */
 static void beside_start(ali3_instance *in, double t, double h, double when) {
-  ali3_vectors_copy(in, &in->next, &in->origin);
+  ali3_vectors_copy(in, &in->next, &in->kept.origin);
   ali3_interpolate(in, h, 2.0 * (when - t) / h - 1.0, &in->next);
   ali3_guides_time(in, &in->next, when);
   ali3_work_beside(in, when - t);
 }
 
-/* in->next by a step of the method from the start or the centre; in->now, the end, waits in in->coarse. */
+/* in->next by a step of the method from the start or the centre; in->now, the end, waits in in->kept.coarse. */
 static ali3_status side_step(ali3_instance *in, double t, double h, double when) {
   const ali3_report before = in->report;
   const double middle = t + 0.5 * h;
   const bool second = when > middle + LEAST_PART * h;
   const double from = second ? middle : t;
-  ali3_vectors_copy(in, &in->coarse, &in->now);
-  ali3_vectors_copy(in, &in->now, second ? &in->centre : &in->origin);
+  ali3_vectors_copy(in, &in->kept.coarse, &in->now);
+  ali3_vectors_copy(in, &in->now, second ? &in->kept.centre : &in->kept.origin);
   const ali3_status status = ali3_trial_step(in, from, when - from, ALI3_READ_ALL);
   if (status == ALI3_OK) ali3_vectors_copy(in, &in->next, &in->now);
-  ali3_vectors_copy(in, &in->now, &in->coarse);
+  ali3_vectors_copy(in, &in->now, &in->kept.coarse);
   ali3_balance_restore(&in->report, &before);
   return status;
 }
@@ -116,7 +116,8 @@ static void look(ali3_instance *in, double *out, double *positions) {
   if (positions != NULL) memcpy(positions, in->now.q, (size_t)in->system->size.nq * sizeof(double));
 }
 
-/* Sensors (ns) and coordinates (nq) at time `when` of the step from t that in->origin, in->centre, in->now hold. */
+/* Sensors (ns) and coordinates (nq) at time `when` of the step from t that in->kept.origin, in->kept.centre, in->now
+ * hold. */
 ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, double t, double h, double when,
                               double *out, double *positions) {
   const bool relative = ali3_method_of(in)->relative;
@@ -139,6 +140,6 @@ ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, do
   look(in, out, positions);
   in->next = in->now;
   in->now = end;
-  memcpy(in->input, end.used, (size_t)in->system->size.nu * sizeof(double));
+  memcpy(in->inputs.set, end.used, (size_t)in->system->size.nu * sizeof(double));
   return ALI3_OK;
 }

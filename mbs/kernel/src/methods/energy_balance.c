@@ -15,10 +15,10 @@ static const double REST = 1e-6; /* m/s: a slower motion counts as rest, and its
 /* Potential energy of v; flexible bodies prepared at its position. `weight`: that of gravity, NULL: it is not known. */
 static double potential(const ali3_instance *in, const ali3_vectors *v, const double *weight) {
   const ali3_system *S = in->system;
-  double gravity = in->gravity_const, elastic = 0.0;
+  double gravity = in->mass.gravity_const, elastic = 0.0;
   if (weight == NULL) {
     ali3_bodies_energy(in, v->q, &gravity, &elastic);
-    for (int32_t i = 0; i < S->size.nq; i++) gravity -= in->gravity_force[i] * v->q[i];
+    for (int32_t i = 0; i < S->size.nq; i++) gravity -= in->mass.gravity[i] * v->q[i];
   } else {
     gravity = *weight;
   }
@@ -34,7 +34,7 @@ static void kinetic_energy(ali3_report *r, double kinetic, double energy) {
 /* Of in->now, J. */
 double ali3_kinetic_energy(ali3_instance *in) {
   ali3_bodies_prepare(in, in->now.q);
-  return 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->w);
+  return 0.5 * ali3_mass_product(in, in->now.qd, in->now.qd, in->step.w);
 }
 
 /* Kinetic and potential energy of in->now, J. */
@@ -50,9 +50,9 @@ void ali3_balance_open(ali3_instance *in, bool balanced) {
   if (!balanced) return;
   const double kinetic = ali3_kinetic_energy(in);
   double rest = 0.0;
-  for (int32_t i = 0; i < in->system->size.nq; i++) rest += 0.5 * REST * REST * in->mass_floor[i];
+  for (int32_t i = 0; i < in->system->size.nq; i++) rest += 0.5 * REST * REST * in->mass.floor[i];
   for (int32_t i = 0; i < in->system->size.nq; i++)
-    in->report.energy_floor += in->system->fine * in->settings.tolerance_r * fabs(in->gravity_force[i]);
+    in->report.energy_floor += in->system->fine * in->settings.tolerance_r * fabs(in->mass.gravity[i]);
   in->report.kinetic_peak = fmax(in->report.kinetic_peak, rest);
   kinetic_energy(&in->report, kinetic, kinetic + potential(in, &in->now, NULL));
 }
@@ -81,7 +81,7 @@ void ali3_balance_motion(ali3_instance *in, double speed, double change, double 
 /* Sums over coordinates, weighted by m: of v1^2, of d^2 with d = v1 - v0, and of (d - h a)^2. */
 ALI3_INLINED void balance_squares(const ali3_instance *in, double h, const double *v0, const double *a,
                                   const double *v1, double out[3]) {
-  const double *m = in->mass_floor;
+  const double *m = in->mass.floor;
   const int32_t nq = in->system->size.nq;
   ali3_four speed = {0}, change = {0}, miss = {0};
   int32_t i = 0;

@@ -60,8 +60,8 @@ static double raised_penalty(const ali3_instance *in, double h) {
   for (int32_t k = 0; k < S->size.nc; k++) {
     double square = 0.0;
     for (int32_t i = S->row_ptr[k]; i < S->row_ptr[k + 1]; i++) {
-      const double change = in->J[i] - in->J0[i];
-      square += change * change * in->mass_floor_inverse[S->row_col[i]];
+      const double change = in->tangent.J[i] - in->discrete.J0[i];
+      square += change * change * in->mass.floor_inverse[S->row_col[i]];
     }
     if (square > turn) turn = square;
   }
@@ -74,19 +74,20 @@ static void evaluate(ali3_instance *in, double h) {
   const int32_t nq = S->size.nq;
   const double c = 0.5 * h * h, inverse = 1.0 / h;
   ali3_vectors *to = &in->next;
-  const double *from = in->now.q, *own = in->now.own, *D = in->D, *Q = in->Q;
-  double *q = to->q, *middle = in->middle, *rate = in->rate, *w = in->w, *r = in->r, *x = in->x;
+  const double *from = in->now.q, *own = in->now.own, *D = in->step.D, *Q = in->step.Q;
+  double *q = to->q, *middle = in->discrete.middle, *rate = in->discrete.rate, *w = in->step.w, *r = in->step.r,
+         *x = in->step.x;
   ALI3_EACH(0, nq, ALI3_AT(q) = ALI3_AT(from) + ALI3_AT(D); ALI3_AT(middle) = ALI3_AT(from) + 0.5 * ALI3_AT(D);
             ALI3_AT(rate) = inverse * ALI3_AT(D); ALI3_AT(w) = ALI3_AT(D) - h * ALI3_AT(own))
   if (S->n_flexible > 0) {
-    for (int32_t i = 0; i < nq; i++) in->x[i] = 2.0 * in->rate[i] - in->now.own[i];
-    ali3_flexible_momentum(in, to->q, in->x, in->d0);
+    for (int32_t i = 0; i < nq; i++) in->step.x[i] = 2.0 * in->discrete.rate[i] - in->now.own[i];
+    ali3_flexible_momentum(in, to->q, in->step.x, in->step.d0);
   }
-  ali3_constraints(in, to->q, to->s, in->Phi, in->J);
-  ali3_discrete_rows(in, in->D, to->q, &in->now, to);
-  if (S->n_velocity_row > 0) ali3_velocity_middle(in, in->A, in->D, in->Phi, in->J);
-  const ali3_force_call call = {.q = in->middle,
-                                .qd = in->rate,
+  ali3_constraints(in, to->q, to->s, in->step.Phi, in->tangent.J);
+  ali3_discrete_rows(in, in->step.D, to->q, &in->now, to);
+  if (S->n_velocity_row > 0) ali3_velocity_middle(in, in->discrete.A, in->step.D, in->step.Phi, in->tangent.J);
+  const ali3_force_call call = {.q = in->discrete.middle,
+                                .qd = in->discrete.rate,
                                 .y_old = in->now.y,
                                 .h = 0.5 * h,
                                 .wC = 0.5 * h,
@@ -94,103 +95,103 @@ static void evaluate(ali3_instance *in, double h) {
                                 .tangent = true,
                                 .discrete = true,
                                 .iterate = true,
-                                .Q = in->Q,
+                                .Q = in->step.Q,
                                 .y_new = to->y,
                                 .out = to->out,
                                 .potential = to->potential};
-  in->force_input = in->input_middle;
+  in->inputs.forces = in->inputs.middle;
   ali3_forces(in, &call);
-  in->force_input = in->input;
+  in->inputs.forces = in->inputs.set;
   ali3_constant_mass_times(in, w, r);
   if (S->n_flexible > 0) {
-    for (int32_t i = 0; i < nq; i++) in->w[i] *= inverse;
-    ali3_discrete_inertia(in, h, in->hat, in->d0, in->rate, in->w, in->r);
+    for (int32_t i = 0; i < nq; i++) in->step.w[i] *= inverse;
+    ali3_discrete_inertia(in, h, in->step.hat, in->step.d0, in->discrete.rate, in->step.w, in->step.r);
   }
-  ali3_rows_transposed(S, in->A, to->lam, x);
+  ali3_rows_transposed(S, in->discrete.A, to->lam, x);
   ALI3_EACH(0, nq, ALI3_AT(r) += c * (ALI3_AT(x) - ALI3_AT(Q)))
 }
 
-/* Whether in->J0 is Phi_q of v, bit for bit; `remember`: it is now. */
+/* Whether in->discrete.J0 is Phi_q of v, bit for bit; `remember`: it is now. */
 static bool same_place(ali3_instance *in, const ali3_vectors *v, bool remember) {
   const ali3_sizes *z = &in->system->size;
   const double *part[3] = {v->q, v->s, v->on};
   const int32_t n[3] = {z->nq, z->ng, z->n_switch};
-  double *at = in->at_J0;
-  in->has_J0 |= remember;
-  for (int k = 0; k < 3 && in->has_J0; at += n[k], k++) {
+  double *at = in->discrete.at_J0;
+  in->discrete.has_J0 |= remember;
+  for (int k = 0; k < 3 && in->discrete.has_J0; at += n[k], k++) {
     const size_t size = (size_t)n[k] * sizeof(double);
     if (remember)
       ali3_copy_few(at, part[k], n[k]);
     else if (n[k] > 0 && memcmp(at, part[k], size) != 0)
       return false;
   }
-  return in->has_J0;
+  return in->discrete.has_J0;
 }
 
 /* The exact tangent M + h^2/4 (K + sum lam_k H_k) + h/2 C + weight A' Phi_q(q1), slightly unsymmetric. */
 static ali3_status factorise(ali3_instance *in, double h, double weight) {
-  double *J = in->J, *A = in->A;
-  ali3_mass_to_fronts(in, in->F);
-  if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, 0.25 * h * h, in->F);
-  ali3_forces_tangent(in, in->F);
-  ali3_mirror(in, in->F);
-  ali3_rows_product(in, A, J, weight, in->F);
-  in->J = in->J_tangent;
-  in->J_tangent = J;
-  in->A = in->A_tangent;
-  in->A_tangent = A;
-  return ali3_factorise_lu(in, 1, in->F);
+  double *J = in->tangent.J, *A = in->discrete.A;
+  ali3_mass_to_fronts(in, in->tangent.F);
+  if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, 0.25 * h * h, in->tangent.F);
+  ali3_forces_tangent(in, in->tangent.F);
+  ali3_mirror(in, in->tangent.F);
+  ali3_rows_product(in, A, J, weight, in->tangent.F);
+  in->tangent.J = in->tangent.J_made;
+  in->tangent.J_made = J;
+  in->discrete.A = in->discrete.A_made;
+  in->discrete.A_made = A;
+  return ali3_factorise_lu(in, 1, in->tangent.F);
 }
 
 static ali3_status correct(ali3_instance *in, double weight, double alpha, int32_t iteration) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
-  const double *Phi = in->Phi, *r = in->r, *opening = in->gamma;
-  double *mu = in->mu, *x = in->x, *change = in->lam;
+  const double *Phi = in->step.Phi, *r = in->step.r, *opening = in->step.gamma;
+  double *mu = in->step.mu, *x = in->step.x, *change = in->step.lam;
   ALI3_EACH(0, nc, ALI3_AT(mu) = weight * ALI3_AT(Phi))
-  ali3_rows_transposed(S, in->A_tangent, mu, x);
+  ali3_rows_transposed(S, in->discrete.A_made, mu, x);
   ALI3_EACH(0, nq, ALI3_AT(x) = -(ALI3_AT(r) + ALI3_AT(x)))
-  ali3_solve_lu(in, 1, in->F, x);
+  ali3_solve_lu(in, 1, in->tangent.F, x);
   if (!ali3_finite(x, nq)) return ALI3_NOT_FINITE;
-  ali3_rows_times(S, in->J_tangent, x, in->gamma);
+  ali3_rows_times(S, in->tangent.J_made, x, in->step.gamma);
   ALI3_EACH(0, nc, ALI3_AT(change) = alpha * (ALI3_AT(Phi) + ALI3_AT(opening)))
   ali3_accelerate(in, iteration > 0);
   ali3_add(in->next.lam, change, nc);
-  ali3_add(in->D, x, nq);
+  ali3_add(in->step.D, x, nq);
   return ALI3_OK;
 }
 
 /* The larger of what is left of the balance and of the rows, each in parts of its tolerance. */
 static double error(const ali3_instance *in, double *r, double *v) {
   *r = in->report.residual / (in->system->fine * in->settings.tolerance_r);
-  *v = ali3_opening(in->system, in->Phi) / (in->system->fine * in->settings.tolerance_phi);
+  *v = ali3_opening(in->system, in->step.Phi) / (in->system->fine * in->settings.tolerance_phi);
   return fmax(*r, *v);
 }
 
 /* Back to the iterate before the last correction. */
 static ali3_status undo(ali3_instance *in, double h) {
-  for (int32_t i = 0; i < in->system->size.nq; i++) in->D[i] -= in->step_q[i];
-  for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] -= in->step_lam[k];
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->step.D[i] -= in->mixing.step_q[i];
+  for (int32_t k = 0; k < in->system->size.nc; k++) in->next.lam[k] -= in->mixing.step_lam[k];
   evaluate(in, h);
-  return ali3_judge(in, in->r) ? ALI3_OK : ALI3_NOT_FINITE;
+  return ali3_judge(in, in->step.r) ? ALI3_OK : ALI3_NOT_FINITE;
 }
 
 /* First guess and all that belongs to it. */
 static bool start(ali3_instance *in, double h) {
   const int32_t past = in->settings.method == ALI3_METHOD_ENERGY_MOMENTUM ? ALI3_PAST : COMPOSED_PAST;
-  ali3_history_predict(in, 0.5 * h, ali3_history_order(in, past), in->d0, in->next.lam);
-  for (int32_t i = 0; i < in->system->size.nq; i++) in->D[i] = h * in->now.own[i] + 0.5 * h * h * in->d0[i];
+  ali3_history_predict(in, 0.5 * h, ali3_history_order(in, past), in->step.d0, in->next.lam);
+  for (int32_t i = 0; i < in->system->size.nq; i++) in->step.D[i] = h * in->now.own[i] + 0.5 * h * h * in->step.d0[i];
   evaluate(in, h);
-  return ali3_judge(in, in->r);
+  return ali3_judge(in, in->step.r);
 }
 
 /* Size of the last correction in parts of what accelerations add to the step, in the metric of the masses. */
 static double change_of(const ali3_instance *in) {
   double change = 0.0, size = 0.0;
   for (int32_t i = 0; i < in->system->size.nq; i++) {
-    const double m = in->mass_floor[i];
-    change += m * in->step_q[i] * in->step_q[i];
-    size += m * in->w[i] * in->w[i];
+    const double m = in->mass.floor[i];
+    change += m * in->mixing.step_q[i] * in->mixing.step_q[i];
+    size += m * in->step.w[i] * in->step.w[i];
   }
   return size > 0.0 ? sqrt(change / size) : 0.0;
 }
@@ -204,7 +205,7 @@ static double need_of(const ali3_instance *in, double h) {
   double change = 0.0, size = 0.0;
   if (!(v->history[ALI3_HISTORY_COUNT] >= 2.0) || time[0] == time[1]) return ROUND_OFF;
   for (int32_t i = 0; i < nq; i++) {
-    const double a = v->past_a[i], difference = a - v->past_a[nq + i], m = in->mass_floor[i];
+    const double a = v->past_a[i], difference = a - v->past_a[nq + i], m = in->mass.floor[i];
     change += m * difference * difference;
     size += m * a * a;
   }
@@ -231,7 +232,7 @@ static ali3_status newton(ali3_instance *in, double h, double weight, bool patie
     if (status != ALI3_OK) return ali3_newton_ended(in, status);
     ++*iterations;
     evaluate(in, h);
-    if (!ali3_judge(in, in->r)) return ALI3_NOT_FINITE;
+    if (!ali3_judge(in, in->step.r)) return ALI3_NOT_FINITE;
     const double size = error(in, &r, &v), ratio = last > 0.0 ? size / last : 0.0;
     if (r <= least_r && v <= least_v && (!composed || change_of(in) * fmin(1.0, ratio) <= need)) return ALI3_OK;
     if (last <= 1.0 && size > last) return undo(in, h);
@@ -261,9 +262,9 @@ static ali3_status solve(ali3_instance *in, double h, double *weight, int32_t *i
 /* Removes the part of lam that causes no force (redundant rows): round-off that extrapolation would let grow. */
 static void clean(ali3_instance *in, double weight, double *lam) {
   const ali3_system *S = in->system;
-  ali3_rows_transposed(S, in->A_tangent, lam, in->x);
-  ali3_solve_lu(in, 1, in->F, in->x);
-  ali3_rows_times(S, in->J_tangent, in->x, lam);
+  ali3_rows_transposed(S, in->discrete.A_made, lam, in->step.x);
+  ali3_solve_lu(in, 1, in->tangent.F, in->step.x);
+  ali3_rows_times(S, in->tangent.J_made, in->step.x, lam);
   for (int32_t k = 0; k < S->size.nc; k++) lam[k] *= weight;
 }
 
@@ -272,8 +273,8 @@ static void clean(ali3_instance *in, double weight, double *lam) {
 static double work_of_drives(ali3_instance *in) {
   const ali3_system *S = in->system;
   double work = 0.0;
-  ali3_rows_times(S, in->A, in->D, in->mu);
-  for (int32_t i = 0; i < S->n_driven; i++) work -= in->next.lam[S->driven_row[i]] * in->mu[S->driven_row[i]];
+  ali3_rows_times(S, in->discrete.A, in->step.D, in->step.mu);
+  for (int32_t i = 0; i < S->n_driven; i++) work -= in->next.lam[S->driven_row[i]] * in->step.mu[S->driven_row[i]];
   return work;
 }
 
@@ -296,34 +297,34 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
   ali3_guides_step(in, from, to, t, h);
   ali3_status status = ali3_inputs_at(in, share);
   if (status != ALI3_OK) return status;
-  memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
+  memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
   if (!same_place(in, from, false)) {
-    ali3_constraints(in, from->q, from->s, in->Phi, in->J0);
+    ali3_constraints(in, from->q, from->s, in->step.Phi, in->discrete.J0);
     same_place(in, from, true);
   }
-  if (S->n_flexible > 0) ali3_flexible_momentum(in, from->q, from->own, in->hat);
+  if (S->n_flexible > 0) ali3_flexible_momentum(in, from->q, from->own, in->step.hat);
   status = solve(in, h, &weight, &iterations);
   in->report.iterations += iterations;
   ali3_iterations_since(in, in->report.iterations - iterations);
   if (status != ALI3_OK) return status;
-  const double twice = 2.0 / h, square = h * h, *D = in->D, *before = from->own;
-  double *own = to->own, *d0 = in->d0;
+  const double twice = 2.0 / h, square = h * h, *D = in->step.D, *before = from->own;
+  double *own = to->own, *d0 = in->step.d0;
   ALI3_EACH(0, nq, ALI3_AT(own) = twice * ALI3_AT(D) - ALI3_AT(before);
             ALI3_AT(d0) = 2.0 * (ALI3_AT(D) - h * ALI3_AT(before)) / square)
   ali3_work_step(in, 1.0);
   if (S->n_guide_work > 0) to->work[S->n_work] = from->work[S->n_work] + work_of_drives(in);
   ali3_predict_rates(in, h);
   clean(in, weight, to->lam);
-  ali3_history_append(in, h, in->d0);
+  ali3_history_append(in, h, in->step.d0);
   if (S->size.ny > 0) {
-    ali3_history_velocity(in, h, in->w);
+    ali3_history_velocity(in, h, in->step.w);
     const ali3_force_call call = {.q = to->q,
-                                  .qd = in->w,
+                                  .qd = in->step.w,
                                   .y_old = from->y,
                                   .h = h,
                                   .wC = 0.5 * h,
                                   .wK = 0.25 * h * h,
-                                  .Q = in->Q,
+                                  .Q = in->step.Q,
                                   .y_new = to->y,
                                   .out = to->out,
                                   .potential = to->potential};
@@ -331,9 +332,9 @@ ali3_status ali3_energy_momentum(ali3_instance *in, double t, double h, double s
     ali3_forces_accept(in, &call);
   }
   to->h_last[0] = 0.0;
-  if (S->n_velocity_row > 0) ali3_constraints(in, to->q, to->s, in->Phi, in->J); /* A at the end */
+  if (S->n_velocity_row > 0) ali3_constraints(in, to->q, to->s, in->step.Phi, in->tangent.J); /* A at the end */
   same_place(in, to, true);
-  memcpy(in->J0, in->J, (size_t)S->size.nnz_rows * sizeof(double));
+  memcpy(in->discrete.J0, in->tangent.J, (size_t)S->size.nnz_rows * sizeof(double));
   if (carries_projected(in)) ali3_energy_momentum_carry(in, to, weight);
   if (reported) status = ali3_energy_momentum_show(in, to);
   return status == ALI3_OK ? ali3_accept(in) : status;

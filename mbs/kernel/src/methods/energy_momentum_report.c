@@ -24,28 +24,29 @@ static const double SAME_STEP = 1e-6; /* relative difference of two steps that c
 static void scale(ali3_instance *in, const ali3_vectors *v) {
   const int32_t nq = in->system->size.nq;
   ali3_bodies_prepare(in, v->q);
-  const double ratio = ali3_mass_product(in, v->own, v->own, in->x) / ali3_mass_product(in, v->qd, v->qd, in->x);
+  const double ratio =
+      ali3_mass_product(in, v->own, v->own, in->step.x) / ali3_mass_product(in, v->qd, v->qd, in->step.x);
   for (int32_t k = 0; k < in->system->size.nc; k++)
-    if (in->Phit[k] != 0.0) return;
+    if (in->step.Phit[k] != 0.0) return;
   if (!(ratio > LEAST_RATIO && ratio < MOST_RATIO)) return;
   const double factor = sqrt(ratio);
   for (int32_t i = 0; i < nq; i++) v->qd[i] *= factor;
 }
 
 /* What a System with flexible bodies carries: v->own goes to the rows with the tangent of the step, which is
- * unsymmetric and spreads what is taken away by A. Needs Phi_q in in->J. */
+ * unsymmetric and spreads what is taken away by A. Needs Phi_q in in->tangent.J. */
 void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weight) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq;
   double violation;
-  ali3_constraint_rate(in, v->q, v, in->Phit);
+  ali3_constraint_rate(in, v->q, v, in->step.Phit);
   memcpy(v->qd, v->own, (size_t)nq * sizeof(double));
   for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
-    if (ali3_rates_closed(in, in->Phit, v->qd, VELOCITY_TOLERANCE, 0.0, &violation)) break;
-    for (int32_t k = 0; k < S->size.nc; k++) in->mu[k] *= weight;
-    ali3_rows_transposed(S, in->A_tangent, in->mu, in->x);
-    ali3_solve_lu(in, 1, in->F, in->x);
-    for (int32_t i = 0; i < nq; i++) v->qd[i] -= in->x[i];
+    if (ali3_rates_closed(in, in->step.Phit, v->qd, VELOCITY_TOLERANCE, 0.0, &violation)) break;
+    for (int32_t k = 0; k < S->size.nc; k++) in->step.mu[k] *= weight;
+    ali3_rows_transposed(S, in->discrete.A_made, in->step.mu, in->step.x);
+    ali3_solve_lu(in, 1, in->tangent.F, in->step.x);
+    for (int32_t i = 0; i < nq; i++) v->qd[i] -= in->step.x[i];
   }
   scale(in, v);
   memcpy(v->own, v->qd, (size_t)nq * sizeof(double));
@@ -55,23 +56,28 @@ void ali3_energy_momentum_carry(ali3_instance *in, ali3_vectors *v, double weigh
  * move velocities along M^-1 Phi_q', and any other direction would leave driven motion with one order less. v->qdd and
  * v->lam are those of the forces there: of the order of positions and velocities, and of nothing but the state,
  * whatever steps led to it. Middles of past steps would give them less accurately: the error of the carried velocity
- * along rows of prescribed motion changes its sign from step to step. Needs Phi_q in in->J. */
+ * along rows of prescribed motion changes its sign from step to step. Needs Phi_q in in->tangent.J. */
 ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   const int64_t factorizations = in->report.factorizations, solves = in->report.solves;
-  const ali3_force_call call = {
-      .q = v->q, .qd = v->qd, .y_old = v->y, .Q = in->Q, .y_new = in->y_work, .out = v->out, .potential = v->potential};
+  const ali3_force_call call = {.q = v->q,
+                                .qd = v->qd,
+                                .y_old = v->y,
+                                .Q = in->step.Q,
+                                .y_new = in->element.y,
+                                .out = v->out,
+                                .potential = v->potential};
   ali3_status status = ali3_index_one_factorise(in, v->q);
   if (status == ALI3_OK) {
-    memcpy(in->J_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));
+    memcpy(in->tangent.J_made, in->tangent.J, (size_t)S->size.nnz_rows * sizeof(double));
     memcpy(v->qd, v->own, (size_t)S->size.nq * sizeof(double));
-    ali3_constraint_rate(in, v->q, v, in->Phit);
-    in->report.velocity_violation =
-        ali3_project(in, ALI3_INDEX_ONE_PENALTY, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, 0.0, MAX_SWEEPS, false);
+    ali3_constraint_rate(in, v->q, v, in->step.Phit);
+    in->report.velocity_violation = ali3_project(in, ALI3_INDEX_ONE_PENALTY, in->step.Phit, v->qd, NULL,
+                                                 VELOCITY_TOLERANCE, 0.0, MAX_SWEEPS, false);
     scale(in, v);
-    ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
+    ali3_constraint_gamma(in, v->q, v->qd, v, in->step.gamma);
     ali3_forces(in, &call);
-    status = ali3_index_one_solve(in, in->Q, in->gamma, ROUND_OFF, v->qdd, v->lam);
+    status = ali3_index_one_solve(in, in->step.Q, in->step.gamma, ROUND_OFF, v->qdd, v->lam);
   }
   in->report.factorizations = factorizations; /* those of steps are counted */
   in->report.solves = solves;
@@ -80,7 +86,7 @@ ali3_status ali3_energy_momentum_show(ali3_instance *in, ali3_vectors *v) {
 
 /* After steps of which nothing was read. */
 void ali3_energy_momentum_report(ali3_instance *in) {
-  ali3_constraints(in, in->now.q, in->now.s, in->Phi, in->J);
+  ali3_constraints(in, in->now.q, in->now.s, in->step.Phi, in->tangent.J);
   ali3_energy_momentum_show(in, &in->now);
 }
 

@@ -28,7 +28,7 @@ ali3_status ali3_energy_judge(ali3_instance *in, const ali3_request *request, do
   const bool driven = in->system->n_gterm_row > 0; /* a guide whose rate jumps adds energy instantly */
   const bool resolved = driven || worse <= (halves_left(in, request) ? MOST_OF_A_PART : MOST) * size;
   if (!resolved && in->settings.step_iterations == 0) return ALI3_UNRESOLVED;
-  in->capped |= !resolved; /* no halves: the balance and the count say it */
+  in->bound.capped |= !resolved; /* no halves: the balance and the count say it */
   ali3_balance_energy(in, error, end, weight);
   in->report.open_power = open;
   return ALI3_OK;

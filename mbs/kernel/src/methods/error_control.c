@@ -44,24 +44,25 @@ static bool valid(const ali3_control *c) {
 }
 
 static void set_time(ali3_instance *in, double t) {
-  in->t_base = t;
-  in->h_last = 0.0;
-  in->count = 0;
-  in->t_now = t;
+  in->clock.base = t;
+  in->clock.h = 0.0;
+  in->clock.count = 0;
+  in->clock.now = t;
 }
 
 /* Where inputs or guides jump: accelerations and multipliers of what comes after, without a past. */
 ali3_status ali3_refresh(ali3_instance *in) {
   if (in == NULL) return ALI3_BAD_ARGUMENT;
-  if (!in->initialised) return ALI3_NOT_INITIALISED;
-  in->t_now = ali3_time(in);
-  ali3_vectors_copy(in, &in->start, &in->now);
-  ali3_guides_time(in, &in->now, in->t_now);
-  ali3_status status = in->input_function != NULL ? ali3_inputs_begin(in, in->t_now, 0.0) : ALI3_OK;
-  if (in->input_function != NULL) memcpy(in->input, in->input_begin, (size_t)in->system->size.nu * sizeof(double));
+  if (!in->start.initialised) return ALI3_NOT_INITIALISED;
+  in->clock.now = ali3_time(in);
+  ali3_vectors_copy(in, &in->kept.start, &in->now);
+  ali3_guides_time(in, &in->now, in->clock.now);
+  ali3_status status = in->inputs.function != NULL ? ali3_inputs_begin(in, in->clock.now, 0.0) : ALI3_OK;
+  if (in->inputs.function != NULL)
+    memcpy(in->inputs.set, in->inputs.begin, (size_t)in->system->size.nu * sizeof(double));
   if (status == ALI3_OK) status = ali3_solve_rates(in, false);
   if (status != ALI3_OK) {
-    ali3_vectors_copy(in, &in->now, &in->start);
+    ali3_vectors_copy(in, &in->now, &in->kept.start);
     return status;
   }
   memset(in->now.history, 0, ALI3_HISTORY * sizeof(double));
@@ -147,7 +148,7 @@ static double next_step(const ali3_control *c, double size, double tried, double
 
 /* Back to before a step that was made and is not kept. */
 static void take_back(ali3_instance *in, const ali3_report *before) {
-  ali3_vectors_copy(in, &in->now, &in->origin);
+  ali3_vectors_copy(in, &in->now, &in->kept.origin);
   in->report.steps = before->steps;
   ali3_balance_restore(&in->report, before);
 }
@@ -207,10 +208,10 @@ static void finish(ali3_instance *in) {
 
 /* Whether inputs are others than those that the last step ended with. */
 static bool jumped(ali3_instance *in) {
-  if (in->input_function == NULL)
-    return memcmp(in->input, in->now.used, (size_t)in->system->size.nu * sizeof(double)) != 0;
-  in->t_now = ali3_time(in);
-  return ali3_inputs_begin(in, in->t_now, 0.0) != ALI3_OK || ali3_inputs_jump(in);
+  if (in->inputs.function == NULL)
+    return memcmp(in->inputs.set, in->now.used, (size_t)in->system->size.nu * sizeof(double)) != 0;
+  in->clock.now = ali3_time(in);
+  return ali3_inputs_begin(in, in->clock.now, 0.0) != ALI3_OK || ali3_inputs_jump(in);
 }
 
 static ali3_status run(ali3_instance *in, const ali3_measure *measure, double t_end, int64_t most_steps,
@@ -243,7 +244,7 @@ ali3_status ali3_control_run(ali3_instance *in, ali3_control *control, const dou
   if (in == NULL || !valid(control) || record == NULL || done == NULL || *done < 0 || !(t_end - t_end == 0.0) ||
       (record->n > 0 && record->time == NULL))
     return ALI3_BAD_ARGUMENT;
-  if (!in->initialised) return ALI3_NOT_INITIALISED;
+  if (!in->start.initialised) return ALI3_NOT_INITIALISED;
   ali3_status status = ali3_check_method(in);
   if (status != ALI3_OK) return status;
   const ali3_measure measure = {control, scale};

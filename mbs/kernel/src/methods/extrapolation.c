@@ -21,11 +21,11 @@ void ali3_lagrange(const real *time, int32_t n, real t, real *weight) {
   }
 }
 
-/* in->w: the last mean acceleration without what the n steps before, with these weights, would have predicted. */
+/* in->step.w: the last mean acceleration without what the n steps before, with these weights, would have predicted. */
 ALI3_INLINED void history_miss(const ali3_instance *in, int32_t n, const real *weight) {
   const int32_t nq = in->system->size.nq;
   const real *a = in->now.past_a, *before = a + nq, first = weight[0];
-  real *miss = in->w;
+  real *miss = in->step.w;
   ALI3_EACH(0, nq, ALI3_AT(miss) = ALI3_AT(a) - first * ALI3_AT(before))
   for (int32_t k = 1; k < n; k++) ali3_add_multiple(miss, a + (int64_t)(k + 1) * nq, -weight[k], nq);
 }
@@ -37,7 +37,7 @@ ALI3_BY_PROCESSOR(in->system, void, history_miss, (const ali3_instance *in, int3
  * change. */
 ALI3_INLINED truth history_smooth(const ali3_instance *in, int32_t n, double h, bool controlled) {
   const int32_t nq = in->system->size.nq;
-  const real *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a, *miss = in->w;
+  const real *history = in->now.history, *time = history + ALI3_HISTORY_TIME, *a = in->now.past_a, *miss = in->step.w;
   real weight[ALI3_PAST], error = {0}, change = {0};
   const truth near =
       (history[ALI3_HISTORY_COUNT] > (double)n) & ((controlled ? CONTROLLED_FAR : FAR) * (time[0] - time[1]) > h);
@@ -45,7 +45,7 @@ ALI3_INLINED truth history_smooth(const ali3_instance *in, int32_t n, double h, 
   ali3_lagrange(time + 1, n, time[0], weight);
   history_miss(in, n, weight);
   for (int32_t i = 0; i < nq; i++) {
-    const real m = in->mass_floor[i], one = a[i] - a[nq + i];
+    const real m = in->mass.floor[i], one = a[i] - a[nq + i];
     error += m * miss[i] * miss[i];
     change += m * one * one;
   }

@@ -48,24 +48,24 @@ void ali3_alpha_rule(ali3_instance *in, double h) {
   const ali3_rule rule = {.c = c, .rate = rate, .wC = c * rate};
   const ali3_vectors *from = &in->now;
   in->rule = rule;
-  for (int32_t g = 0; g < in->system->size.ng; g++) in->guide_follows[g] = 0.0; /* no mean of two multipliers */
+  for (int32_t g = 0; g < in->system->size.ng; g++) in->guide.follows[g] = 0.0; /* no mean of two multipliers */
   ali3_history_own(in, ALI3_METHOD_GENERALISED_ALPHA, from->qdd);
   if (damped_first(in, h)) {
     const ali3_rule first = {.c = 0.5 * h * h, .rate = 2.0 / h, .wC = h};
     in->rule = first;
     for (int32_t i = 0; i < in->system->size.nq; i++) {
-      in->d0[i] = h * from->qd[i];
-      in->hat[i] = -from->qd[i];
+      in->step.d0[i] = h * from->qd[i];
+      in->step.hat[i] = -from->qd[i];
     }
     return;
   }
   const bool last = ali3_damped_start(in, h) && in->report.steps == DAMPED_STEPS - 1;
   for (int32_t i = 0; i < in->system->size.nq; i++) {
     const double known = h * from->qd[i] + (0.5 - x.beta) * h * h * from->own[i];
-    in->d0[i] = known - c * (x.am * from->own[i] - x.af * from->qdd[i]) / (1.0 - x.af);
-    in->hat[i] = from->qd[i] + (1.0 - x.gamma) * h * from->own[i] -
-                 x.gamma / x.beta * (from->qd[i] + (0.5 - x.beta) * h * from->own[i]);
-    if (last) in->hat[i] -= LEFT_BEHIND * h * (from->qdd[i] - from->own[i]);
+    in->step.d0[i] = known - c * (x.am * from->own[i] - x.af * from->qdd[i]) / (1.0 - x.af);
+    in->step.hat[i] = from->qd[i] + (1.0 - x.gamma) * h * from->own[i] -
+                      x.gamma / x.beta * (from->qd[i] + (0.5 - x.beta) * h * from->own[i]);
+    if (last) in->step.hat[i] -= LEFT_BEHIND * h * (from->qdd[i] - from->own[i]);
   }
 }
 
@@ -74,6 +74,7 @@ void ali3_alpha_accept(ali3_instance *in, double h) {
   const bool first = damped_first(in, h);
   memcpy(in->next.history, in->now.history, ALI3_HISTORY * sizeof(double));
   for (int32_t i = 0; i < in->system->size.nq; i++)
-    in->next.own[i] = first ? (in->D[i] - in->d0[i]) / in->rule.c
-                            : (in->D[i] - h * in->now.qd[i] - (0.5 - beta) * h * h * in->now.own[i]) / (beta * h * h);
+    in->next.own[i] =
+        first ? (in->step.D[i] - in->step.d0[i]) / in->rule.c
+              : (in->step.D[i] - h * in->now.qd[i] - (0.5 - beta) * h * h * in->now.own[i]) / (beta * h * h);
 }

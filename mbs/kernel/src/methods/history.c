@@ -41,7 +41,7 @@ int32_t ali3_history_order(const ali3_instance *in, int32_t most) {
     ali3_lagrange(time + 1, m, time[0], weight);
     ali3_history_miss(in, m, weight);
     for (int32_t i = 0; i < nq; i++) {
-      error += in->w[i] * in->w[i];
+      error += in->step.w[i] * in->step.w[i];
       square += v->past_a[i] * v->past_a[i];
     }
     if (error < least) {
@@ -104,11 +104,11 @@ void ali3_history_velocity(const ali3_instance *in, double h, double *v) {
   double along = 0.0, square = 0.0;
   for (int32_t i = 0; i < nq; i++) {
     const double last = from->own[i] - half * from->past_a[i];
-    const double line = share * (in->rate[i] - last), m = in->mass_floor[i];
-    v[i] = in->next.own[i] - in->rate[i];
+    const double line = share * (in->discrete.rate[i] - last), m = in->mass.floor[i];
+    v[i] = in->next.own[i] - in->discrete.rate[i];
     along += m * v[i] * line;
     square += m * v[i] * v[i];
   }
   const double part = square > 0.0 ? fmin(1.0, fmax(0.0, along / square)) : 0.0;
-  for (int32_t i = 0; i < nq; i++) v[i] = in->rate[i] + part * v[i];
+  for (int32_t i = 0; i < nq; i++) v[i] = in->discrete.rate[i] + part * v[i];
 }

@@ -19,42 +19,42 @@
 static void forces(ali3_instance *in, const double *input, double *Q, double *y, double *potential) {
   const ali3_vectors *v = &in->now;
   const ali3_force_call call = {
-      .q = v->q, .qd = v->qd, .y_old = v->y, .Q = Q, .y_new = y, .out = in->out_work, .potential = potential};
-  in->force_input = input;
+      .q = v->q, .qd = v->qd, .y_old = v->y, .Q = Q, .y_new = y, .out = in->element.out, .potential = potential};
+  in->inputs.forces = input;
   ali3_forces(in, &call);
-  in->force_input = in->input;
+  in->inputs.forces = in->inputs.set;
 }
 
 static void add(double *to, const double *change, int32_t n) {
   for (int32_t i = 0; i < n; i++) to[i] += change[i];
 }
 
-/* in->x and in->lam: by how much accelerations and multipliers at in->now change when inputs do; nothing is solved where
- * no force changes, then *jumps is false. `force` gets the watched forces before, in->watched has those behind;
- * in->next.y and in->y_work have the states of elements.
- * M x + Phi_q' lam = change of Q, Phi_q x = 0 by the penalty; modes of flexible bodies that the step h does not resolve
- * follow as slowly as the trapezoidal rule lets them, by the weights of its tangent: else they would ring. */
+/* in->step.x and in->step.lam: by how much accelerations and multipliers at in->now change when inputs do; nothing is
+ * solved where no force changes, then *jumps is false. `force` gets the watched forces before, in->watch.now has those
+ * behind; in->next.y and in->element.y have the states of elements. M x + Phi_q' lam = change of Q, Phi_q x = 0 by the
+ * penalty; modes of flexible bodies that the step h does not resolve follow as slowly as the trapezoidal rule lets
+ * them, by the weights of its tangent: else they would ring. */
 static ali3_status input_change(ali3_instance *in, double h, const double *before, const double *behind, double *force,
                                 bool *jumps) {
   const ali3_system *S = in->system;
   const ali3_vectors *v = &in->now;
   const int32_t nq = S->size.nq;
-  forces(in, before, in->x, in->next.y, in->next.potential); /* of a step that is to come: it writes them again */
-  for (int32_t i = 0; i < S->n_work_force; i++) force[i] = in->watched[S->n_work + i];
-  forces(in, behind, in->Q, in->y_work, in->potential_work);
-  ali3_work_of_inputs(in, in->next.potential, in->potential_work);
-  *jumps = memcmp(in->x, in->Q, (size_t)nq * sizeof(double)) != 0;
+  forces(in, before, in->step.x, in->next.y, in->next.potential); /* of a step that is to come: it writes them again */
+  for (int32_t i = 0; i < S->n_work_force; i++) force[i] = in->watch.now[S->n_work + i];
+  forces(in, behind, in->step.Q, in->element.y, in->element.potential);
+  ali3_work_of_inputs(in, in->next.potential, in->element.potential);
+  *jumps = memcmp(in->step.x, in->step.Q, (size_t)nq * sizeof(double)) != 0;
   if (!*jumps) return ALI3_OK;
-  for (int32_t i = 0; i < nq; i++) in->x[i] = in->Q[i] - in->x[i];
-  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
-  ali3_mass_to_fronts(in, in->F);
-  ali3_rows_square(in, in->J, ALI3_INDEX_ONE_PENALTY, in->F);
-  if (S->n_flexible + S->n_tabled > 0) ali3_bodies_tangent(in, 1.0, 0.5 * h, 0.25 * h * h, in->F);
-  const ali3_status status = ali3_factorise(in, in->F);
+  for (int32_t i = 0; i < nq; i++) in->step.x[i] = in->step.Q[i] - in->step.x[i];
+  ali3_constraints(in, v->q, v->s, in->step.Phi, in->tangent.J);
+  ali3_mass_to_fronts(in, in->tangent.F);
+  ali3_rows_square(in, in->tangent.J, ALI3_INDEX_ONE_PENALTY, in->tangent.F);
+  if (S->n_flexible + S->n_tabled > 0) ali3_bodies_tangent(in, 1.0, 0.5 * h, 0.25 * h * h, in->tangent.F);
+  const ali3_status status = ali3_factorise(in, in->tangent.F);
   if (status != ALI3_OK) return status;
-  ali3_solve(in, in->F, in->x);
-  ali3_rows_times(S, in->J, in->x, in->lam);
-  for (int32_t k = 0; k < S->size.nc; k++) in->lam[k] *= ALI3_INDEX_ONE_PENALTY;
+  ali3_solve(in, in->tangent.F, in->step.x);
+  ali3_rows_times(S, in->tangent.J, in->step.x, in->step.lam);
+  for (int32_t k = 0; k < S->size.nc; k++) in->step.lam[k] *= ALI3_INDEX_ONE_PENALTY;
   return ALI3_OK;
 }
 
@@ -64,23 +64,23 @@ ali3_status ali3_input_jump(ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   ali3_vectors *v = &in->now;
-  double *before = in->direction.step_force, *watched = v->watched + S->n_work;
+  double *before = in->kept.direction.step_force, *watched = v->watched + S->n_work;
   bool jumps;
   if (!ali3_inputs_jump(in)) return ALI3_OK;
   ali3_back_up(in);
-  const ali3_status status = input_change(in, h, v->used, in->input_begin, before, &jumps);
+  const ali3_status status = input_change(in, h, v->used, in->inputs.begin, before, &jumps);
   if (status != ALI3_OK) return status;
   /* By their change: Newton's loop balanced forces of elements with states half a step before these. */
-  for (int32_t i = 0; i < S->n_work_force; i++) watched[i] += in->watched[S->n_work + i] - before[i];
-  memcpy(v->used, in->input_begin, (size_t)S->size.nu * sizeof(double));
+  for (int32_t i = 0; i < S->n_work_force; i++) watched[i] += in->watch.now[S->n_work + i] - before[i];
+  memcpy(v->used, in->inputs.begin, (size_t)S->size.nu * sizeof(double));
   if (!jumps) return ALI3_OK;
-  add(v->qdd, in->x, nq);
-  add(v->lam, in->lam, nc);
-  for (int32_t i = 0; i < S->size.ny; i++) v->y[i] += in->y_work[i] - in->next.y[i];
-  if (v->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_GENERALISED_ALPHA) add(v->own, in->x, nq);
+  add(v->qdd, in->step.x, nq);
+  add(v->lam, in->step.lam, nc);
+  for (int32_t i = 0; i < S->size.ny; i++) v->y[i] += in->element.y[i] - in->next.y[i];
+  if (v->history[ALI3_HISTORY_OWNER] == (double)ALI3_METHOD_GENERALISED_ALPHA) add(v->own, in->step.x, nq);
   for (int k = 0; k < ALI3_PAST && v->history[ALI3_HISTORY_COUNT] > 0.0; k++) {
-    add(v->past_a + (int64_t)k * nq, in->x, nq);
-    add(v->past_lam + (int64_t)k * nc, in->lam, nc);
+    add(v->past_a + (int64_t)k * nq, in->step.x, nq);
+    add(v->past_lam + (int64_t)k * nc, in->step.lam, nc);
   }
   return ALI3_OK;
 }

@@ -16,11 +16,11 @@ double ali3_penalty(const ali3_instance *in, double h) {
   return s->alpha > 0.0 ? s->alpha : (1.0 + (stiff < MOST_STIFF ? stiff : MOST_STIFF)) / (s->eps_rel * h * h);
 }
 
-/* The balance r (nq) and the rows in in->Phi go into the report. Returns false when something is not finite. */
+/* The balance r (nq) and the rows in in->step.Phi go into the report. Returns false when something is not finite. */
 bool ali3_judge(ali3_instance *in, const double *r) {
   const ali3_system *S = in->system;
-  in->report.residual = ali3_worst_size(S, r, in->mass_floor_inverse, S->size.nq, &in->report.worst_coordinate);
-  in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
+  in->report.residual = ali3_worst_size(S, r, in->mass.floor_inverse, S->size.nq, &in->report.worst_coordinate);
+  in->report.violation = ali3_violation(S, in->step.Phi, &in->report.worst_row);
   return in->report.residual < 1e300 && in->report.violation < 1e300;
 }
 

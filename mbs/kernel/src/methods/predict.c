@@ -19,16 +19,16 @@ ALI3_INLINED bool predict(ali3_instance *in, const ali3_request *request, bool f
   const ali3_vectors *from = &in->now;
   double *lam = in->next.lam;
   if (S->n_flexible > 0) {
-    for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = h * (2.0 * from->mean[i] - from->mean_before[i]);
+    for (int32_t i = 0; i < S->size.nq; i++) in->step.D[i] = h * (2.0 * from->mean[i] - from->mean_before[i]);
     memcpy(lam, from->lam, (size_t)S->size.nc * sizeof *lam);
     return false;
   }
   ali3_history_own(in, in->settings.method, from->qdd);
   const bool goes_on = from_past && in->settings.predictor == ALI3_PREDICTOR_PARABOLA &&
                        ali3_history_smooth(in, ALI3_PARABOLA, h, request->controlled);
-  ali3_history_predict(in, 0.5 * h, goes_on ? ALI3_PARABOLA : 0, in->x, lam);
-  const double *last = from->lam, *qd = from->qd, *x = in->x, half = 0.5 * h * h;
-  double *D = in->D;
+  ali3_history_predict(in, 0.5 * h, goes_on ? ALI3_PARABOLA : 0, in->step.x, lam);
+  const double *last = from->lam, *qd = from->qd, *x = in->step.x, half = 0.5 * h * h;
+  double *D = in->step.D;
   ALI3_EACH(0, S->size.nc, ALI3_AT(lam) = ALI3_AT(last) + ALI3_SHARE * (ALI3_AT(lam) - ALI3_AT(last)))
   ALI3_EACH(0, S->size.nq, ALI3_AT(D) = h * ALI3_AT(qd) + half * ALI3_AT(x))
   return goes_on;
@@ -40,8 +40,8 @@ ALI3_BY_PROCESSOR(in->system, bool, predict, (ali3_instance * in, const ali3_req
 /* Stores the mean acceleration and the multipliers of the step from in->now to in->next. */
 void ali3_predict_accept(ali3_instance *in, double h) {
   if (in->system->n_flexible > 0) return;
-  const double *D = in->D, *qd = in->now.qd, square = h * h;
-  double *x = in->x;
+  const double *D = in->step.D, *qd = in->now.qd, square = h * h;
+  double *x = in->step.x;
   ALI3_EACH(0, in->system->size.nq, ALI3_AT(x) = 2.0 * (ALI3_AT(D) - h * ALI3_AT(qd)) / square)
   ali3_history_append(in, h, x);
 }
@@ -50,7 +50,7 @@ void ali3_predict_accept(ali3_instance *in, double h) {
 void ali3_predict_rates(ali3_instance *in, double h) {
   if (in->system->n_flexible == 0) return;
   for (int32_t i = 0; i < in->system->size.nq; i++) {
-    in->next.mean[i] = in->D[i] / h;
+    in->next.mean[i] = in->step.D[i] / h;
     in->next.mean_before[i] = in->now.mean[i];
   }
 }

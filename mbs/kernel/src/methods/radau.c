@@ -47,10 +47,12 @@ static const double second[STAGES][STAGES] = {{0.02183503419072274, -0.019857254
                                               {0.17719058743194561, 0.03816496580927726, -0.00737596352989574},
                                               {0.31804138174397717, 0.18195861825602283, 0.00000000000000000}};
 
-static double *acceleration(const ali3_instance *in, int i) { return in->stage + (int64_t)i * in->system->size.nq; }
+static double *acceleration(const ali3_instance *in, int i) {
+  return in->step.stage + (int64_t)i * in->system->size.nq;
+}
 static double *residual(const ali3_instance *in, int i) { return acceleration(in, STAGES + i); }
 static double *of_rows(const ali3_instance *in, double *v, int i) { return v + (int64_t)i * in->system->size.nc; }
-static double *power_of(const ali3_instance *in, int i) { return in->stage_power + (int64_t)i * in->system->n_work; }
+static double *power_of(const ali3_instance *in, int i) { return in->watch.stages + (int64_t)i * in->system->n_work; }
 static double *of_entries(const ali3_instance *in, double *v, int i) { return v + i * in->system->size.nnz_rows; }
 
 /* Position, velocity, guides and inputs of stage i. */
@@ -64,7 +66,7 @@ static void place(ali3_instance *in, double t, double h, int i) {
     to->q[k] = from->q[k] +
                h * (node[i] * from->qd[k] + h * (second[i][0] * a0[k] + second[i][1] * a1[k] + second[i][2] * a2[k]));
   }
-  in->force_input = in->stage_input + (int64_t)i * in->system->size.nu;
+  in->inputs.forces = in->inputs.stage + (int64_t)i * in->system->size.nu;
   ali3_guides_time(in, to, t - (1.0 - node[i]) * h);
 }
 
@@ -76,7 +78,7 @@ static void forces(ali3_instance *in, double wC, double wK) {
                                 .wC = wC,
                                 .wK = wK,
                                 .tangent = wC + wK > 0.0,
-                                .Q = in->Q,
+                                .Q = in->step.Q,
                                 .y_new = to->y,
                                 .out = to->out,
                                 .potential = to->potential};
@@ -88,16 +90,16 @@ static bool evaluate(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   double largest = 0.0, open = 0.0;
   for (int i = 0; i < STAGES; i++) { /* ascending: the number behind a stage, which it may write, is of the next one */
-    double *Phi = of_rows(in, in->stage_Phi, i), *J = of_entries(in, in->stage_J, i), *r = residual(in, i);
+    double *Phi = of_rows(in, in->radau.Phi, i), *J = of_entries(in, in->radau.J, i), *r = residual(in, i);
     place(in, t, h, i);
     ali3_constraints(in, in->next.q, in->next.s, Phi, J);
     forces(in, 0.0, 0.0);
-    if (S->n_work > 0) memcpy(power_of(in, i), in->watched, (size_t)S->n_work * sizeof(double));
+    if (S->n_work > 0) memcpy(power_of(in, i), in->watch.now, (size_t)S->n_work * sizeof(double));
     ali3_mass_times(in, acceleration(in, i), r);
-    ali3_rows_transposed(S, J, of_rows(in, in->stage_lam, i), in->x);
+    ali3_rows_transposed(S, J, of_rows(in, in->radau.lam, i), in->step.x);
     for (int32_t k = 0; k < S->size.nq; k++) {
-      r[k] += in->x[k] - in->Q[k];
-      const double size = 0.5 * h * h * fabs(r[k]) * in->mass_floor_inverse[k];
+      r[k] += in->step.x[k] - in->step.Q[k];
+      const double size = 0.5 * h * h * fabs(r[k]) * in->mass.floor_inverse[k];
       if (!(size <= largest) && largest == largest) { /* a NaN stays */
         largest = size;
         in->report.worst_coordinate = k;
@@ -121,8 +123,9 @@ static void merge(ali3_instance *in, double h, int stage) {
   const ali3_system *S = in->system;
   for (int32_t f = 0; f < S->size.nf; f++) {
     const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f];
-    const double *M = in->F + S->front_off[f], *C = in->F_C + S->front_off[f], *K = in->F_K + S->front_off[f];
-    double *block = in->F_stages + (int64_t)STAGES * STAGES * S->front_off[f];
+    const double *M = in->tangent.F + S->front_off[f], *C = in->radau.F_C + S->front_off[f],
+                 *K = in->radau.F_K + S->front_off[f];
+    double *block = in->radau.F + (int64_t)STAGES * STAGES * S->front_off[f];
     for (int k = 0; k < STAGES; k++) {
       const double wM = k == stage ? 1.0 : 0.0, wC = h * first[stage][k], wK = h * h * second[stage][k];
       for (int32_t j = 0; j < n; j++)
@@ -136,38 +139,39 @@ static void merge(ali3_instance *in, double h, int stage) {
   }
 }
 
-/* The tangent at the present stages; in->F, in->F_C, in->F_K stay those of the last one. */
+/* The tangent at the present stages; in->tangent.F, in->radau.F_C, in->radau.F_K stay those of the last one. */
 static ali3_status factorise(ali3_instance *in, double t, double h, double alpha) {
   const ali3_system *S = in->system;
   const size_t size = (size_t)S->size.front_size * sizeof(double);
   const bool flexible = S->n_flexible > 0;
-  memcpy(in->stage_J_tangent, in->stage_J, STAGES * (size_t)S->size.nnz_rows * sizeof(double));
+  memcpy(in->radau.J_made, in->radau.J, STAGES * (size_t)S->size.nnz_rows * sizeof(double));
   for (int i = 0; i < STAGES; i++) {
     place(in, t, h, i);
-    ali3_mass_to_fronts(in, in->F);
-    memset(in->F_C, 0, size);
-    memset(in->F_K, 0, size);
+    ali3_mass_to_fronts(in, in->tangent.F);
+    memset(in->radau.F_C, 0, size);
+    memset(in->radau.F_K, 0, size);
     forces(in, 1.0, 0.0);
-    ali3_elements_tangent(in, in->F_C);
+    ali3_elements_tangent(in, in->radau.F_C);
     forces(in, 0.0, 1.0);
-    ali3_elements_tangent(in, in->F_K);
+    ali3_elements_tangent(in, in->radau.F_K);
     if (flexible) {
-      ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
-      ali3_bodies_tangent(in, 0.0, 1.0, 0.0, in->F_C);
-      ali3_bodies_tangent(in, 0.0, 0.0, 1.0, in->F_K);
+      ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->tangent.F);
+      ali3_bodies_tangent(in, 0.0, 1.0, 0.0, in->radau.F_C);
+      ali3_bodies_tangent(in, 0.0, 0.0, 1.0, in->radau.F_K);
     }
-    if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, of_rows(in, in->stage_lam, i), 1.0, in->F_K);
-    ali3_rows_square(in, of_entries(in, in->stage_J, i), alpha, in->F_K);
+    if (in->settings.geometric)
+      ali3_geometric(in, in->next.q, in->next.s, of_rows(in, in->radau.lam, i), 1.0, in->radau.F_K);
+    ali3_rows_square(in, of_entries(in, in->radau.J, i), alpha, in->radau.F_K);
     merge(in, h, i);
   }
-  return ali3_factorise_lu(in, STAGES, in->F_stages);
+  return ali3_factorise_lu(in, STAGES, in->radau.F);
 }
 
-/* in->w = sum_k (A^2)_ik x_k of the interleaved corrections. */
+/* in->step.w = sum_k (A^2)_ik x_k of the interleaved corrections. */
 static void twice(ali3_instance *in, int i) {
   for (int32_t k = 0; k < in->system->size.nq; k++) {
-    const double *x = in->stage_x + STAGES * (int64_t)k;
-    in->w[k] = second[i][0] * x[0] + second[i][1] * x[1] + second[i][2] * x[2];
+    const double *x = in->radau.x + STAGES * (int64_t)k;
+    in->step.w[k] = second[i][0] * x[0] + second[i][1] * x[1] + second[i][2] * x[2];
   }
 }
 
@@ -177,7 +181,7 @@ static double size_of(const ali3_instance *in, const double *v, int64_t along, i
   for (int32_t k = 0; k < in->system->size.nq; k++)
     for (int i = 0; i < STAGES; i++) {
       const double x = v[k * along + i * across];
-      square += in->mass_floor[k] * x * x;
+      square += in->mass.floor[k] * x * x;
     }
   return sqrt(square);
 }
@@ -187,29 +191,29 @@ static ali3_status correct(ali3_instance *in, double h, double alpha, double *ch
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   for (int i = 0; i < STAGES; i++) {
-    const double *Phi = of_rows(in, in->stage_Phi, i), *r = residual(in, i);
-    for (int32_t k = 0; k < nc; k++) in->mu[k] = alpha * Phi[k];
-    ali3_rows_transposed(S, of_entries(in, in->stage_J_tangent, i), in->mu, in->x);
-    for (int32_t k = 0; k < nq; k++) in->stage_x[STAGES * k + i] = -(r[k] + in->x[k]);
+    const double *Phi = of_rows(in, in->radau.Phi, i), *r = residual(in, i);
+    for (int32_t k = 0; k < nc; k++) in->step.mu[k] = alpha * Phi[k];
+    ali3_rows_transposed(S, of_entries(in, in->radau.J_made, i), in->step.mu, in->step.x);
+    for (int32_t k = 0; k < nq; k++) in->radau.x[STAGES * k + i] = -(r[k] + in->step.x[k]);
   }
-  ali3_solve_lu(in, STAGES, in->F_stages, in->stage_x);
-  if (!ali3_finite(in->stage_x, STAGES * (int64_t)nq)) return ALI3_NOT_FINITE;
+  ali3_solve_lu(in, STAGES, in->radau.F, in->radau.x);
+  if (!ali3_finite(in->radau.x, STAGES * (int64_t)nq)) return ALI3_NOT_FINITE;
   for (int i = 0; i < STAGES; i++) {
-    double *lam = of_rows(in, in->stage_lam, i), *a = acceleration(in, i);
-    const double *Phi = of_rows(in, in->stage_Phi, i);
+    double *lam = of_rows(in, in->radau.lam, i), *a = acceleration(in, i);
+    const double *Phi = of_rows(in, in->radau.Phi, i);
     twice(in, i);
-    ali3_rows_times(S, of_entries(in, in->stage_J_tangent, i), in->w, in->mu);
-    for (int32_t k = 0; k < nc; k++) lam[k] += alpha * (Phi[k] + h * h * in->mu[k]);
-    for (int32_t k = 0; k < nq; k++) a[k] += in->stage_x[STAGES * k + i];
+    ali3_rows_times(S, of_entries(in, in->radau.J_made, i), in->step.w, in->step.mu);
+    for (int32_t k = 0; k < nc; k++) lam[k] += alpha * (Phi[k] + h * h * in->step.mu[k]);
+    for (int32_t k = 0; k < nq; k++) a[k] += in->radau.x[STAGES * k + i];
   }
-  const double size = size_of(in, in->stage, 1, nq);
-  *change = size > 0.0 ? size_of(in, in->stage_x, STAGES, 1) / size : 0.0;
+  const double size = size_of(in, in->step.stage, 1, nq);
+  *change = size > 0.0 ? size_of(in, in->radau.x, STAGES, 1) / size : 0.0;
   return ALI3_OK;
 }
 
 static double opening(const ali3_instance *in) {
   double largest = 0.0;
-  for (int i = 0; i < STAGES; i++) largest = fmax(largest, ali3_opening(in->system, of_rows(in, in->stage_Phi, i)));
+  for (int i = 0; i < STAGES; i++) largest = fmax(largest, ali3_opening(in->system, of_rows(in, in->radau.Phi, i)));
   return largest;
 }
 
@@ -247,7 +251,7 @@ static bool predict(ali3_instance *in, double h) {
   const double *time = in->now.history + ALI3_HISTORY_TIME;
   const bool near = -time[LAST] > 0.0 && (1.0 - node[0]) * h <= LONGEST * -time[LAST];
   for (int i = 0; i < STAGES; i++)
-    ali3_history_predict(in, node[i] * h, near ? STAGES : 1, acceleration(in, i), of_rows(in, in->stage_lam, i));
+    ali3_history_predict(in, node[i] * h, near ? STAGES : 1, acceleration(in, i), of_rows(in, in->radau.lam, i));
   return near;
 }
 
@@ -256,14 +260,14 @@ static bool predict(ali3_instance *in, double h) {
 static void clean(ali3_instance *in, double h, double alpha) {
   const ali3_system *S = in->system;
   for (int i = 0; i < STAGES; i++) {
-    ali3_rows_transposed(S, of_entries(in, in->stage_J_tangent, i), of_rows(in, in->stage_lam, i), in->x);
-    for (int32_t k = 0; k < S->size.nq; k++) in->stage_x[STAGES * k + i] = in->x[k];
+    ali3_rows_transposed(S, of_entries(in, in->radau.J_made, i), of_rows(in, in->radau.lam, i), in->step.x);
+    for (int32_t k = 0; k < S->size.nq; k++) in->radau.x[STAGES * k + i] = in->step.x[k];
   }
-  ali3_solve_lu(in, STAGES, in->F_stages, in->stage_x);
+  ali3_solve_lu(in, STAGES, in->radau.F, in->radau.x);
   for (int i = 0; i < STAGES; i++) {
-    double *lam = of_rows(in, in->stage_lam, i);
+    double *lam = of_rows(in, in->radau.lam, i);
     twice(in, i);
-    ali3_rows_times(S, of_entries(in, in->stage_J_tangent, i), in->w, lam);
+    ali3_rows_times(S, of_entries(in, in->radau.J_made, i), in->step.w, lam);
     for (int32_t k = 0; k < S->size.nc; k++) lam[k] *= alpha * h * h;
   }
 }
@@ -282,7 +286,7 @@ static void remember(ali3_instance *in, double h) {
     const int place = LAST - i;
     to->history[ALI3_HISTORY_TIME + place] = (node[i] - 1.0) * h;
     memcpy(to->past_a + (size_t)place * nq, acceleration(in, i), nq * sizeof(double));
-    memcpy(to->past_lam + (size_t)place * nc, of_rows(in, in->stage_lam, i), nc * sizeof(double));
+    memcpy(to->past_lam + (size_t)place * nc, of_rows(in, in->radau.lam, i), nc * sizeof(double));
   }
 }
 
@@ -293,21 +297,21 @@ static ali3_status project(ali3_instance *in, double h, double alpha) {
   const double weight = h * h * alpha;
   ali3_vectors *v = &in->next;
   const size_t entries = (size_t)S->size.nnz_rows * sizeof(double);
-  memcpy(in->J, of_entries(in, in->stage_J, LAST), entries);
-  memcpy(in->J_tangent, in->J, entries);
+  memcpy(in->tangent.J, of_entries(in, in->radau.J, LAST), entries);
+  memcpy(in->tangent.J_made, in->tangent.J, entries);
   if (in->settings.project) {
-    ali3_mass_to_fronts(in, in->F);
-    if (S->n_flexible > 0) ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
-    ali3_rows_square(in, in->J, weight, in->F);
-    const ali3_status status = ali3_factorise(in, in->F);
+    ali3_mass_to_fronts(in, in->tangent.F);
+    if (S->n_flexible > 0) ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->tangent.F);
+    ali3_rows_square(in, in->tangent.J, weight, in->tangent.F);
+    const ali3_status status = ali3_factorise(in, in->tangent.F);
     if (status != ALI3_OK) return status;
   }
   const int32_t sweeps = in->settings.project ? SWEEPS : 0;
-  ali3_constraint_rate(in, v->q, v, in->Phit);
+  ali3_constraint_rate(in, v->q, v, in->step.Phit);
   in->report.velocity_violation =
-      ali3_project(in, weight, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, 0.0, sweeps, false);
-  ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
-  ali3_project(in, weight, in->gamma, v->qdd, v->lam, ACCELERATION_TOLERANCE, 0.0, sweeps, false);
+      ali3_project(in, weight, in->step.Phit, v->qd, NULL, VELOCITY_TOLERANCE, 0.0, sweeps, false);
+  ali3_constraint_gamma(in, v->q, v->qd, v, in->step.gamma);
+  ali3_project(in, weight, in->step.gamma, v->qdd, v->lam, ACCELERATION_TOLERANCE, 0.0, sweeps, false);
   return ALI3_OK;
 }
 
@@ -316,7 +320,7 @@ static ali3_status inputs(ali3_instance *in) {
   ali3_status status = ALI3_OK;
   for (int i = 0; i < STAGES && status == ALI3_OK; i++) {
     status = ali3_inputs_at(in, node[i]);
-    memcpy(in->stage_input + (int64_t)i * nu, in->input_middle, (size_t)nu * sizeof(double));
+    memcpy(in->inputs.stage + (int64_t)i * nu, in->inputs.middle, (size_t)nu * sizeof(double));
   }
   return status;
 }
@@ -326,13 +330,13 @@ static double work_of_drives(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   double work = 0.0;
   for (int i = 0; i < STAGES; i++) {
-    const double *lam = of_rows(in, in->stage_lam, i);
+    const double *lam = of_rows(in, in->radau.lam, i);
     place(in, t, h, i);
-    ali3_rows_times(S, of_entries(in, in->stage_J, i), in->next.qd, in->mu);
+    ali3_rows_times(S, of_entries(in, in->radau.J, i), in->next.qd, in->step.mu);
     for (int32_t k = 0; k < S->n_driven; k++)
-      work -= h * first[LAST][i] * lam[S->driven_row[k]] * in->mu[S->driven_row[k]];
+      work -= h * first[LAST][i] * lam[S->driven_row[k]] * in->step.mu[S->driven_row[k]];
   }
-  in->force_input = in->input;
+  in->inputs.forces = in->inputs.set;
   return work;
 }
 
@@ -348,20 +352,20 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   ali3_status status = inputs(in);
   if (status != ALI3_OK) return status;
   status = newton(in, t, h, alpha, predict(in, h));
-  in->force_input = in->input;
+  in->inputs.forces = in->inputs.set;
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
-  memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
+  memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
   if (S->n_guide_work > 0) ali3_guides_work(in, to, work_of_drives(in, t, h));
   memcpy(to->qdd, acceleration(in, LAST), nq * sizeof(double));
-  memcpy(to->lam, of_rows(in, in->stage_lam, LAST), (size_t)S->size.nc * sizeof(double));
+  memcpy(to->lam, of_rows(in, in->radau.lam, LAST), (size_t)S->size.nc * sizeof(double));
   for (int i = 0; i < STAGES; i++) ali3_work_stage(in, h * first[LAST][i], power_of(in, i), to->work);
   ali3_work_store(in, to);
   clean(in, h, alpha);
   remember(in, h);
   status = project(in, h, alpha);
   if (status != ALI3_OK) return status;
-  for (int32_t i = 0; i < S->size.nq; i++) in->D[i] = to->q[i] - from->q[i];
+  for (int32_t i = 0; i < S->size.nq; i++) in->step.D[i] = to->q[i] - from->q[i];
   ali3_predict_rates(in, h);
   to->h_last[0] = 0.0;
   return ali3_accept(in);

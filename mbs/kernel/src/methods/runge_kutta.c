@@ -30,12 +30,12 @@ enum { STAGES = ALI3_STAGES, SWEEPS = 3 };
 static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
 static const double VELOCITY_TOLERANCE = 1e-12;
 
-/* Power of the forces in in->Q and of drives at the state that has just been solved. */
+/* Power of the forces in in->step.Q and of drives at the state that has just been solved. */
 static double power(ali3_instance *in, const ali3_vectors *v) {
   double sum = 0.0;
-  ali3_constraint_rate(in, v->q, v, in->Phit);
-  for (int32_t i = 0; i < in->system->size.nq; i++) sum += v->qd[i] * in->Q[i];
-  for (int32_t k = 0; k < in->system->size.nc; k++) sum += v->lam[k] * in->Phit[k];
+  ali3_constraint_rate(in, v->q, v, in->step.Phit);
+  for (int32_t i = 0; i < in->system->size.nq; i++) sum += v->qd[i] * in->step.Q[i];
+  for (int32_t k = 0; k < in->system->size.nc; k++) sum += v->lam[k] * in->step.Phit[k];
   return sum;
 }
 
@@ -51,7 +51,7 @@ static void combine(ali3_instance *in, double h, double time, const double *row,
     in->next.q[i] = 0.0;
   }
   for (int j = 0; j < stages; j++) {
-    const double *restrict a = in->stage + (int64_t)j * nq, first = row[j], twice = second[j];
+    const double *restrict a = in->step.stage + (int64_t)j * nq, first = row[j], twice = second[j];
     if (first == 0.0 && twice == 0.0) continue;
     for (int32_t i = 0; i < nq; i++) {
       in->next.qd[i] += first * a[i];
@@ -68,21 +68,21 @@ static void combine(ali3_instance *in, double h, double time, const double *row,
 static ali3_status close(ali3_instance *in) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->next;
-  memcpy(in->J_tangent, in->J, (size_t)S->size.nnz_rows * sizeof(double));
+  memcpy(in->tangent.J_made, in->tangent.J, (size_t)S->size.nnz_rows * sizeof(double));
   for (int sweep = 0;; sweep++) {
-    ali3_constraints(in, v->q, v->s, in->Phi, in->J);
-    in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
-    if (ali3_closed(S, in->Phi, S->fine * in->settings.tolerance_phi)) break;
+    ali3_constraints(in, v->q, v->s, in->step.Phi, in->tangent.J);
+    in->report.violation = ali3_violation(S, in->step.Phi, &in->report.worst_row);
+    if (ali3_closed(S, in->step.Phi, S->fine * in->settings.tolerance_phi)) break;
     if (!(in->report.violation < 1e300)) return ALI3_NOT_FINITE;
     if (sweep == in->settings.max_iterations) return ALI3_NOT_CONVERGED;
-    for (int32_t k = 0; k < S->size.nc; k++) in->mu[k] = ALPHA * in->Phi[k];
-    ali3_rows_transposed(S, in->J_tangent, in->mu, in->x);
-    ali3_solve(in, in->F, in->x);
-    for (int32_t i = 0; i < S->size.nq; i++) v->q[i] -= in->x[i];
+    for (int32_t k = 0; k < S->size.nc; k++) in->step.mu[k] = ALPHA * in->step.Phi[k];
+    ali3_rows_transposed(S, in->tangent.J_made, in->step.mu, in->step.x);
+    ali3_solve(in, in->tangent.F, in->step.x);
+    for (int32_t i = 0; i < S->size.nq; i++) v->q[i] -= in->step.x[i];
   }
-  ali3_constraint_rate(in, v->q, v, in->Phit);
+  ali3_constraint_rate(in, v->q, v, in->step.Phit);
   in->report.velocity_violation =
-      ali3_project(in, ALPHA, in->Phit, v->qd, NULL, VELOCITY_TOLERANCE, 0.0, SWEEPS, false);
+      ali3_project(in, ALPHA, in->step.Phit, v->qd, NULL, VELOCITY_TOLERANCE, 0.0, SWEEPS, false);
   return ALI3_OK;
 }
 
@@ -104,13 +104,14 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   const int32_t nq = S->size.nq;
   const int64_t before = in->report.iterations;
   ali3_vectors *from = &in->now, *to = &in->next;
-  in->force_input = in->input_middle;
+  in->inputs.forces = in->inputs.middle;
   ali3_status status = after_jump(in);
-  memcpy(in->stage, to->qdd, (size_t)nq * sizeof(double));
-  memcpy(to->used, in->input, (size_t)S->size.nu * sizeof(double));
-  const bool watched = S->n_flexible + S->n_tabled == 0; /* else M changes, and in->Q has inertia forces */
-  const double kinetic = watched ? 0.5 * ali3_mass_product(in, from->qd, from->qd, in->r) : 0.0;
-  double work = watched ? h * ali3_order_8.weight[0] * ali3_mass_product(in, from->qd, in->stage, in->r) : 0.0;
+  memcpy(in->step.stage, to->qdd, (size_t)nq * sizeof(double));
+  memcpy(to->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
+  const bool watched = S->n_flexible + S->n_tabled == 0; /* else M changes, and in->step.Q has inertia forces */
+  const double kinetic = watched ? 0.5 * ali3_mass_product(in, from->qd, from->qd, in->step.r) : 0.0;
+  double work =
+      watched ? h * ali3_order_8.weight[0] * ali3_mass_product(in, from->qd, in->step.stage, in->step.r) : 0.0;
   ali3_work_stage(in, h * ali3_order_8.weight[0], to->watched, to->work);
   const bool guides = S->n_guide_work > 0;
   double drives = guides ? h * ali3_order_8.weight[0] * ali3_guides_power(in, to) : 0.0;
@@ -120,12 +121,12 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
     status = ali3_inputs_at(in, ali3_order_8.node[stage]);
     if (status != ALI3_OK) break;
     status = ali3_index_one(in, to);
-    ali3_work_stage(in, h * ali3_order_8.weight[stage], in->watched, to->work);
+    ali3_work_stage(in, h * ali3_order_8.weight[stage], in->watch.now, to->work);
     if (guides) drives += h * ali3_order_8.weight[stage] * ali3_guides_power(in, to);
     if (watched) work += h * ali3_order_8.weight[stage] * power(in, to);
-    memcpy(in->stage + (int64_t)stage * nq, to->qdd, (size_t)nq * sizeof(double));
+    memcpy(in->step.stage + (int64_t)stage * nq, to->qdd, (size_t)nq * sizeof(double));
   }
-  in->force_input = in->input;
+  in->inputs.forces = in->inputs.set;
   if (status == ALI3_OK) {
     combine(in, h, 1.0, ali3_order_8.weight, STAGES);
     ali3_guides_time(in, to, t);
@@ -134,14 +135,14 @@ static ali3_status step(ali3_instance *in, const ali3_request *request) {
   if (status == ALI3_OK) status = ali3_index_one(in, to);
   ali3_work_store(in, to);
   if (status == ALI3_OK && watched) {
-    const double gained = 0.5 * ali3_mass_product(in, to->qd, to->qd, in->r) - kinetic;
+    const double gained = 0.5 * ali3_mass_product(in, to->qd, to->qd, in->step.r) - kinetic;
     status = ali3_energy_watch(in, request, gained - work, kinetic + fmax(gained, 0.0), kinetic + gained, 0.0);
   }
   ali3_iterations_since(in, before);
   if (status != ALI3_OK) return status;
   ali3_guides_work(in, to, drives);
   to->history[ALI3_HISTORY_OWNER] = ALI3_METHOD_RUNGE_KUTTA_8;
-  for (int32_t i = 0; i < nq; i++) in->D[i] = to->q[i] - from->q[i];
+  for (int32_t i = 0; i < nq; i++) in->step.D[i] = to->q[i] - from->q[i];
   ali3_predict_rates(in, h);
   to->h_last[0] = 0.0;
   return ali3_accept(in);

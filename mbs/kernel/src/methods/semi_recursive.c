@@ -100,16 +100,16 @@ static ali3_status accelerations(ali3_instance *in, const double *qd, double *qd
     const ali3_force_call call = {.q = v->q,
                                   .qd = v->qd,
                                   .y_old = in->now.y,
-                                  .Q = in->Q,
+                                  .Q = in->step.Q,
                                   .y_new = v->y,
                                   .out = v->out,
                                   .potential = v->potential};
     ali3_forces(in, &call);
-    ali3_tree_load(in, in->Q);
+    ali3_tree_load(in, in->step.Q);
   }
   ali3_tree_mass(T, w);
   ali3_angles_mass(S, w);
-  if (S->size.ne > 0) ali3_angles_load(S, w, in->Q);
+  if (S->size.ne > 0) ali3_angles_load(S, w, in->step.Q);
   if (T->n_row > 0) {
     ali3_loops_bias(S, w);
     good = ali3_loops_solve(T, w, qdd);
@@ -210,10 +210,10 @@ static ali3_status show(ali3_instance *in, ali3_vectors *v, ali3_reading reading
   if (status != ALI3_OK) return status;
   ali3_tree_write(in, v->q, v->qd, v->qdd); /* those of the multipliers' solution have its error */
   in->report.iterations--; /* evaluations of the method itself are counted */
-  in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
-  ali3_rows_times(S, in->J, v->qd, in->mu);
+  in->report.violation = ali3_violation(S, in->step.Phi, &in->report.worst_row);
+  ali3_rows_times(S, in->tangent.J, v->qd, in->step.mu);
   int32_t worst = 0;
-  in->report.velocity_violation = ali3_violation(S, in->mu, &worst);
+  in->report.velocity_violation = ali3_violation(S, in->step.mu, &worst);
   return ALI3_OK;
 }
 
@@ -259,7 +259,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
   ali3_tree_work *w = in->tree;
   ali3_status status = ali3_inputs_at(in, 0.0);
   if (status != ALI3_OK) return status;
-  in->force_input = in->input_middle;
+  in->inputs.forces = in->inputs.middle;
   if (!(mine && recall(in, in->now.own)))
     status = begin(in);
   else if (ali3_inputs_jump(in))
@@ -277,9 +277,9 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
     position(in);
     memcpy(w->stage[stage], w->sum + n, (size_t)n * sizeof(double));
     status = accelerations(in, w->sum + n, w->stage[stage] + n);
-    ali3_work_stage(in, h * rule->weight[stage], in->watched, in->work_sum);
+    ali3_work_stage(in, h * rule->weight[stage], in->watch.now, in->watch.sum);
   }
-  in->force_input = in->input;
+  in->inputs.forces = in->inputs.set;
   if (status == ALI3_OK) {
     combine(in, h, rule->weight, rule->stages);
     status = close(in);
@@ -293,7 +293,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
   turn_back(S, w);
   ali3_vectors *v = read ? &in->next : &in->now;
   if (read) ali3_vectors_copy(in, v, &in->now);
-  ali3_work_stage(in, 1.0, in->work_sum, v->work);
+  ali3_work_stage(in, 1.0, in->watch.sum, v->work);
   ali3_work_store(in, v);
   if (read) {
     status = show(in, v, request->reading, request->controlled);
@@ -303,7 +303,7 @@ static ali3_status step(ali3_instance *in, const ali3_request *request, const al
   v->history[ALI3_HISTORY_OWNER] = ALI3_METHOD_SEMI_RECURSIVE;
   v->history[ALI3_HISTORY_COUNT] = 0.0;
   v->h_last[0] = 0.0;
-  memcpy(v->used, in->input, (size_t)S->size.nu * sizeof(double));
+  memcpy(v->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
   return read ? ali3_accept(in) : ALI3_OK;
 }
 

@@ -16,9 +16,9 @@ enum { TRUSTED = 6 };
 
 /* A step from time t that is never halved inside; the caller restores what a failed one changed. */
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading reading) {
-  in->backed_up = false;
-  in->iterations_before = in->report.iterations;
-  in->t_now = t;
+  in->kept.backed_up = false;
+  in->bound.iterations_before = in->report.iterations;
+  in->clock.now = t;
   const ali3_request request = {.t = t + h, .h = h, .reading = reading, .controlled = true};
   return ali3_advance(in, &request);
 }
@@ -33,7 +33,7 @@ double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const
   const ali3_system *S = in->system;
   double largest = 0.0;
   for (int32_t i = 0; i < S->size.nq; i++) {
-    const double size = fabs(q[i]), speed = in->mass_missing[i] == 0.0 ? fabs(qd[i]) / rate : 0.0;
+    const double size = fabs(q[i]), speed = in->mass.missing[i] == 0.0 ? fabs(qd[i]) / rate : 0.0;
     const double part = scale_of(measure, i) * fmax(size, speed);
     if (!(part <= largest) && largest == largest) largest = part; /* a NaN stays */
   }
@@ -45,40 +45,40 @@ double ali3_rate(const ali3_instance *in, const ali3_measure *measure) {
   const ali3_system *S = in->system;
   double largest = 0.0;
   for (int32_t i = 0; i < S->size.nq; i++)
-    if (in->mass_missing[i] == 0.0) largest = fmax(largest, scale_of(measure, i) * fabs(in->now.qd[i]));
+    if (in->mass.missing[i] == 0.0) largest = fmax(largest, scale_of(measure, i) * fabs(in->now.qd[i]));
   return fmax(measure->control->rate, largest / measure->control->length);
 }
 
-/* From in->now, which stays in in->origin, to in->now by way of in->centre; *error in parts of the length. A failed
- * step leaves in->now as it was. */
+/* From in->now, which stays in in->kept.origin, to in->now by way of in->kept.centre; *error in parts of the length. A
+ * failed step leaves in->now as it was. */
 ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, double t, double h, double *error) {
   const int32_t nq = in->system->size.nq;
   const ali3_report before = in->report;
-  ali3_vectors_copy(in, &in->origin, &in->now);
+  ali3_vectors_copy(in, &in->kept.origin, &in->now);
   ali3_status status = ali3_trial_step(in, t, h, ALI3_READ_SENSORS);
   ali3_balance_restore(&in->report, &before);
-  ali3_vectors_copy(in, &in->coarse, &in->now);
-  ali3_vectors_copy(in, &in->now, &in->origin);
+  ali3_vectors_copy(in, &in->kept.coarse, &in->now);
+  ali3_vectors_copy(in, &in->now, &in->kept.origin);
   if (status == ALI3_OK) status = ali3_trial_step(in, t, 0.5 * h, ALI3_READ_SENSORS);
   if (status == ALI3_OK) {
     in->report.steps++;
-    ali3_vectors_copy(in, &in->centre, &in->now);
+    ali3_vectors_copy(in, &in->kept.centre, &in->now);
     status = ali3_trial_step(in, t + 0.5 * h, 0.5 * h, ALI3_READ_SENSORS);
   }
   if (status == ALI3_OK) {
     const int32_t order = ali3_method_order(in) < TRUSTED ? ali3_method_order(in) : TRUSTED;
     const double share = 1.0 / (ldexp(1.0, order) - 1.0);
     for (int32_t i = 0; i < nq; i++) {
-      in->w[i] = share * (in->now.q[i] - in->coarse.q[i]);
-      in->x[i] = share * (in->now.qd[i] - in->coarse.qd[i]);
+      in->step.w[i] = share * (in->now.q[i] - in->kept.coarse.q[i]);
+      in->step.x[i] = share * (in->now.qd[i] - in->kept.coarse.qd[i]);
     }
-    *error = ali3_distance(in, measure, in->w, in->x, ali3_rate(in, measure));
+    *error = ali3_distance(in, measure, in->step.w, in->step.x, ali3_rate(in, measure));
     in->report.steps++;
     if (*error < 1e300) return ALI3_OK;
     status = ALI3_NOT_FINITE;
   }
   ali3_balance_restore(&in->report, &before);
   in->report.steps = before.steps;
-  ali3_vectors_copy(in, &in->now, &in->origin);
+  ali3_vectors_copy(in, &in->now, &in->kept.origin);
   return status;
 }

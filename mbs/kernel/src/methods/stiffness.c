@@ -35,7 +35,7 @@ static bool accelerations(ali3_instance *in, const double *x, const double *v, d
  * the geometric mean of the last growths, since pairs of eigenvalues make them swing. 0 where it cannot be found. */
 static double fastest_rate(ali3_instance *in) {
   const int32_t nq = in->system->size.nq;
-  double *x = in->stage, *v = x + nq, *a0 = v + nq, *a = a0 + nq, growth = 1.0;
+  double *x = in->step.stage, *v = x + nq, *a0 = v + nq, *a = a0 + nq, growth = 1.0;
   for (int32_t i = 0; i < nq; i++) {
     x[i] = 1.0 + 0.23 * (double)(i % 5); /* along no symmetry of the model */
     v[i] = 1.0 + 0.37 * (double)(i % 7);

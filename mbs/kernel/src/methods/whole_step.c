@@ -18,7 +18,7 @@
 /* The inputs go straight to `end` (nu), or are held where it is NULL. */
 ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3_reading reading,
                             ali3_whole_step *step) {
-  if (!in->initialised) return ALI3_NOT_INITIALISED;
+  if (!in->start.initialised) return ALI3_NOT_INITIALISED;
   ali3_roads_forgive(in);
   if (ali3_wheels_watch(in) != ALI3_OK && ali3_roads_status(in) == ALI3_OK) {
     in->report.last_status = ALI3_WHEEL_IN_ROAD;
@@ -32,16 +32,16 @@ ali3_status ali3_step_begin(ali3_instance *in, double h, const double *end, ali3
   }
   const ali3_status aimed = ali3_inputs_aim(in, h, end);
   if (aimed != ALI3_OK) return aimed;
-  step->t_base = h == in->h_last ? in->t_base : ali3_time(in); /* an integer counter while h stays the same */
-  step->count = h == in->h_last ? in->count + 1 : 1;
+  step->t_base = h == in->clock.h ? in->clock.base : ali3_time(in); /* an integer counter while h stays the same */
+  step->count = h == in->clock.h ? in->clock.count + 1 : 1;
   step->asked = (ali3_request){
       .t = step->t_base + (double)step->count * h, .h = h, .depth = in->settings.max_halvings, .reading = reading};
   step->before = in->report;
-  in->capped = false;
-  in->capped_residual = 0.0;
-  in->iterations_before = step->before.iterations;
-  in->backed_up = false; /* only halves and a new owner of the history change in->now before a step is good */
-  in->t_now = ali3_time(in);
+  in->bound.capped = false;
+  in->bound.capped_residual = 0.0;
+  in->bound.iterations_before = step->before.iterations;
+  in->kept.backed_up = false; /* only halves and a new owner of the history change in->now before a step is good */
+  in->clock.now = ali3_time(in);
   ali3_branch_before(in);
   return ALI3_OK;
 }
@@ -51,8 +51,8 @@ ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_s
   if (status == ALI3_OK) status = ali3_branch_after(in, &step->asked);
   in->report.last_status = (int32_t)status;
   if (status != ALI3_OK) {
-    if (in->backed_up) ali3_vectors_copy(in, &in->now, &in->start);
-    memcpy(in->input, in->input_from, (size_t)in->system->size.nu * sizeof(double));
+    if (in->kept.backed_up) ali3_vectors_copy(in, &in->now, &in->kept.start);
+    memcpy(in->inputs.set, in->inputs.from, (size_t)in->system->size.nu * sizeof(double));
     ali3_balance_restore(&in->report, &step->before);
     in->report.failures++;
     return status;
@@ -62,13 +62,13 @@ ali3_status ali3_step_end(ali3_instance *in, const ali3_whole_step *step, ali3_s
   in->report.steps++;
   const bool balanced = ali3_has_balance(in);
   if (balanced || step->asked.reading != ALI3_READ_NOTHING) ali3_energy_trend(in, balanced);
-  if (in->capped) {
+  if (in->bound.capped) {
     in->report.capped++;
-    in->report.capped_residual = fmax(in->report.capped_residual, in->capped_residual);
-    in->call_residual = fmax(in->call_residual, in->capped_residual);
+    in->report.capped_residual = fmax(in->report.capped_residual, in->bound.capped_residual);
+    in->bound.call_residual = fmax(in->bound.call_residual, in->bound.capped_residual);
   }
-  in->t_base = step->t_base;
-  in->h_last = step->asked.h;
-  in->count = step->count;
+  in->clock.base = step->t_base;
+  in->clock.h = step->asked.h;
+  in->clock.count = step->count;
   return ALI3_OK;
 }

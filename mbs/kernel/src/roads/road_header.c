@@ -52,7 +52,7 @@ const char *ali3_road_header_problem(const unsigned char *bytes, int64_t size, a
   memcpy(h, bytes + 16, sizeof *h);
   if (machine != 1) return "this machine is not little endian";
   if (memcmp(bytes, "ALI3ROAD", 8) != 0)
-    return "it is no road file; make one of a CSV table, NumPy arrays, pictures or a TOML file by: ali3 road INPUT "
+    return "it is not a road file; make one of a CSV table, NumPy arrays, pictures or a TOML file by: ali3 road INPUT "
            "OUTPUT.road";
   if (size < ALI3_ROAD_HEADER) return "it ends too early: it was cut off";
   if (*version != ALI3_ROAD_VERSION && *version != ALI3_ROAD_SHARED)

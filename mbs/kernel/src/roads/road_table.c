@@ -110,7 +110,7 @@ static int row(const reader *r, const char *line, const char *line_end, int64_t 
     else if (good)
       to[k - 1] = value;
     else
-      return refuse(r, "'%.*s' in line %d is no number", (int)(stop - cell < 20 ? stop - cell : 20), cell, r->line);
+      return refuse(r, "'%.*s' in line %d is not a number", (int)(stop - cell < 20 ? stop - cell : 20), cell, r->line);
     cell = next;
   }
   return cell == NULL || refuse(r, "line %d has more cells than the first one", r->line);

@@ -57,10 +57,10 @@ ALI3_INLINED void angle(const ali3_system *S, const double *q, const int32_t *t,
   put(t[KIND], nn * det * fabs(det), c * fabs(c), nn * nn * dot(a, a) * dot(b, b), sine, cosine);
 }
 
-/* Of all triads, signed squares of sines in in->mode_sine and of cosines in in->mode_cosine. */
+/* Of all triads, signed squares of sines in in->branch.sine and of cosines in in->branch.cosine. */
 ALI3_INLINED void mode_angles(ali3_instance *in, const double *q) {
   const int32_t *t = in->system->mode_triad, *end = t + in->system->n_mode_triad;
-  for (double *sine = in->mode_sine, *cosine = in->mode_cosine; t < end; t += ITEMS)
+  for (double *sine = in->branch.sine, *cosine = in->branch.cosine; t < end; t += ITEMS)
     angle(in->system, q, t, sine++, cosine++);
 }
 
@@ -97,8 +97,8 @@ int32_t ali3_mode_left(const ali3_instance *in, int64_t loop) {
   uint32_t signs = 0, definite = 0;
   if (cell == end) return -1;
   for (int32_t k = 0; k < n; k++) {
-    signs |= bit(in->mode_sine[first + k], 2 * k, &definite);
-    signs |= bit(in->mode_cosine[first + k], 2 * k + 1, &definite);
+    signs |= bit(in->branch.sine[first + k], 2 * k, &definite);
+    signs |= bit(in->branch.cosine[first + k], 2 * k + 1, &definite);
   }
   for (int32_t i = cell; i < end; i += 2)
     if (((signs ^ (uint32_t)S->mode_cell[i]) & (uint32_t)S->mode_cell[i + 1] & definite) == 0) return -1;

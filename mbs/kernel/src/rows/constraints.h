@@ -11,6 +11,8 @@ ALI3_PER_WIDTH void ali3_constraint_gamma(ali3_instance *in, const real *q, cons
                                           real *gamma);
 ALI3_PER_WIDTH void ali3_geometric(ali3_instance *in, const real *q, const real *s, const real *lam, double weight,
                                    real *F);
+
+/* row_products.c */
 ALI3_PER_WIDTH void ali3_rows_square(ali3_instance *in, const real *J, double weight, real *F);
 ALI3_PER_WIDTH void ali3_rows_product(ali3_instance *in, const real *A, const real *J, double weight, real *F);
 ALI3_PER_WIDTH void ali3_rows_times(const ali3_system *S, const real *J, const real *x, real *out);

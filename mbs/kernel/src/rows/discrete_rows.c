@@ -17,8 +17,8 @@ static void correct_guided(const ali3_instance *in, const double *D, const doubl
     const double a = s0[g->guide], b = s1[g->guide];
     const double quarter = 0.25 * g->term.h * (g->power == 1 ? b - a : (b - a) * (b + a));
     if (g->term.a >= 0 && g->term.b >= 0) {
-      in->A[g->term.ja] -= quarter * D[g->term.b];
-      in->A[g->term.jb] -= quarter * D[g->term.a];
+      in->discrete.A[g->term.ja] -= quarter * D[g->term.b];
+      in->discrete.A[g->term.jb] -= quarter * D[g->term.a];
     }
   }
 }
@@ -43,19 +43,19 @@ static void correct_angle(const ali3_instance *in, const double *D, const double
     sum_c += x->hc * product;
     difference_s += x->hs * change;
     difference_c += x->hc * change;
-    if (x->a >= 0) in->A[x->ja] -= quarter * db;
-    if (x->b >= 0) in->A[x->jb] -= quarter * da;
+    if (x->a >= 0) in->discrete.A[x->ja] -= quarter * db;
+    if (x->b >= 0) in->discrete.A[x->jb] -= quarter * da;
   }
-  in->A[S->angle_theta_j[i]] +=
+  in->discrete.A[S->angle_theta_j[i]] +=
       0.25 * (change_s * difference_s + change_c * difference_c) + 0.5 * excess * (sm * sum_s + cm * sum_c);
 }
 
-/* in->A from in->J0 and in->J, Phi_q at the start and at the end q1 of the step. */
+/* in->discrete.A from in->discrete.J0 and in->tangent.J, Phi_q at the start and at the end q1 of the step. */
 void ali3_discrete_rows(ali3_instance *in, const double *D, const double *q1, const ali3_vectors *from,
                         const ali3_vectors *to) {
   const ali3_system *S = in->system;
-  const double *at_start = in->J0, *at_end = in->J;
-  double *A = in->A;
+  const double *at_start = in->discrete.J0, *at_end = in->tangent.J;
+  double *A = in->discrete.A;
   ALI3_EACH(0, S->size.nnz_rows, ALI3_AT(A) = 0.5 * (ALI3_AT(at_start) + ALI3_AT(at_end)))
   correct_guided(in, D, from->s, to->s);
   for (int64_t i = 0; i < S->n_angle_row; i++) correct_angle(in, D, q1, i);

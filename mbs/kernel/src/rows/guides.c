@@ -16,14 +16,14 @@ bool ali3_guide_filters(int32_t type) { return type == ALI3_GUIDE_OF_INPUT || ty
 /* What inputs ask of a filtered guide. */
 double ali3_guide_demand(const ali3_instance *in, int32_t g, const double *input) {
   const ali3_system *S = in->system;
-  const double *real = in->guide_real + S->guide_real_ptr[g];
+  const double *real = in->parameters.guide_real + S->guide_real_ptr[g];
   const double first = real[GAIN] * input[S->guide_input[g]];
   return S->guide_type[g] == ALI3_GUIDE_OF_INPUT ? first : first + real[GAIN_2] * input[S->guide_second[g]];
 }
 
 /* A demand held between the limits of its guide. */
 double ali3_guide_held(const ali3_instance *in, int32_t g, double demand) {
-  const double *real = in->guide_real + in->system->guide_real_ptr[g];
+  const double *real = in->parameters.guide_real + in->system->guide_real_ptr[g];
   if (in->system->guide_type[g] == ALI3_GUIDE_OF_INPUT) return demand;
   return demand < real[LOW] ? real[LOW] : demand > real[HIGH] ? real[HIGH] : demand;
 }
@@ -37,7 +37,7 @@ static ali3_cubic_table table_of(const double *real, int32_t nreal) { return ali
 /* ds/du of a guide by a table of u. */
 double ali3_guide_slope(const ali3_instance *in, int32_t g, const double *s) {
   const int32_t *at = in->system->guide_real_ptr + g;
-  const ali3_cubic_table table = table_of(in->guide_real + at[0], at[1] - at[0]);
+  const ali3_cubic_table table = table_of(in->parameters.guide_real + at[0], at[1] - at[0]);
   double slope;
   ali3_cubic_value(&table, s[in->system->guide_input[g]], &slope, NULL);
   return slope;
@@ -108,7 +108,7 @@ void ali3_guides_measure(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] != ALI3_GUIDE_OF_TIME) continue;
-    const double *real = in->guide_real + S->guide_real_ptr[g];
+    const double *real = in->parameters.guide_real + S->guide_real_ptr[g];
     double least[2] = {HUGE_VAL, HUGE_VAL}, most[2] = {-HUGE_VAL, -HUGE_VAL};
     for (int32_t i = 0; i < (int32_t)real[0]; i++)
       for (int32_t part = 0; part < 3; part++) {
@@ -120,7 +120,7 @@ void ali3_guides_measure(ali3_instance *in) {
         }
       }
     for (int32_t k = 0; k < 2; k++)
-      in->guide_jump[2 * g + k] = fmax(ABRUPT * (most[k] - least[k]), SAME * fmax(fabs(most[k]), fabs(least[k])));
+      in->guide.jump[2 * g + k] = fmax(ABRUPT * (most[k] - least[k]), SAME * fmax(fabs(most[k]), fabs(least[k])));
   }
 }
 
@@ -137,11 +137,11 @@ static double first_break(const ali3_instance *in, double t, double end, bool al
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (S->guide_type[g] != ALI3_GUIDE_OF_TIME) continue;
-    const double *real = in->guide_real + S->guide_real_ptr[g], *breaks = real + 1;
+    const double *real = in->parameters.guide_real + S->guide_real_ptr[g], *breaks = real + 1;
     const int32_t n = (int32_t)real[0];
     if (end <= breaks[0] || t >= breaks[n]) continue;
     for (int32_t i = t < breaks[0] ? 0 : piece_at(real, t) + 1; i <= n && breaks[i] < end; i++)
-      if (breaks[i] > t && (all || jumps(real, i, in->guide_jump + 2 * g))) end = breaks[i];
+      if (breaks[i] > t && (all || jumps(real, i, in->guide.jump + 2 * g))) end = breaks[i];
   }
   return end;
 }
@@ -155,7 +155,7 @@ double ali3_guides_break(const ali3_instance *in, double t, double end) { return
 /* s = f(u): s' = f' u' and s'' = f' u'' + f'' u'^2. */
 static void guide_by_table(const ali3_instance *in, ali3_vectors *v, int32_t g) {
   const int32_t *at = in->system->guide_real_ptr + g, u = in->system->guide_input[g];
-  const ali3_cubic_table table = table_of(in->guide_real + at[0], at[1] - at[0]);
+  const ali3_cubic_table table = table_of(in->parameters.guide_real + at[0], at[1] - at[0]);
   double slope, curvature;
   v->s[g] = ali3_cubic_derivatives(&table, v->s[u], &slope, &curvature);
   v->sd[g] = slope * v->sd[u];
@@ -167,7 +167,7 @@ void ali3_guides_time(const ali3_instance *in, ali3_vectors *v, double t) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++)
     if (S->guide_type[g] == ALI3_GUIDE_OF_TIME)
-      guide_of_time(in->guide_real + S->guide_real_ptr[g], t, &v->s[g], &v->sd[g], &v->sdd[g]);
+      guide_of_time(in->parameters.guide_real + S->guide_real_ptr[g], t, &v->s[g], &v->sd[g], &v->sdd[g]);
     else if (S->guide_type[g] == ALI3_GUIDE_BY_TABLE)
       guide_by_table(in, v, g);
 }
@@ -176,7 +176,7 @@ void ali3_guides_start(const ali3_instance *in, ali3_vectors *v, double t) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
     if (!ali3_guide_filters(S->guide_type[g])) continue;
-    v->s[g] = target_of(in, g, in->input); /* at rest where its input holds it */
+    v->s[g] = target_of(in, g, in->inputs.set); /* at rest where its input holds it */
     v->sd[g] = v->sdd[g] = 0.0;
   }
   ali3_guides_time(in, v, t);
@@ -188,14 +188,14 @@ void ali3_guides_step(const ali3_instance *in, const ali3_vectors *from, ali3_ve
     if (!ali3_guide_filters(S->guide_type[g])) continue;
     /* exact solution of s'' = w^2 (gain u - s) - 2 w s' for an input that goes straight from its value at the start of
      * the step to that at its end; held at the end it would lead by h/2, which is an error of first order */
-    const double *real = in->guide_real + S->guide_real_ptr[g];
-    const double w = real[0], target = target_of(in, g, in->input), before = target_of(in, g, in->input_begin),
+    const double *real = in->parameters.guide_real + S->guide_real_ptr[g];
+    const double w = real[0], target = target_of(in, g, in->inputs.set), before = target_of(in, g, in->inputs.begin),
                  slope = (target - before) / h, lag = 2.0 * slope / w;
     const double e = from->s[g] - before + lag, rate = from->sd[g] - slope + w * e, decay = ali3_exp(-w * h);
     to->s[g] = target - lag + (e + rate * h) * decay;
     to->sd[g] = slope + (from->sd[g] - slope - w * rate * h) * decay;
     to->sdd[g] = w * w * (target - to->s[g]) - 2.0 * w * to->sd[g];
-    in->guide_follows[g] = from->sd[g] != 0.0 || from->sdd[g] != 0.0 || to->sd[g] != 0.0 || to->sdd[g] != 0.0;
+    in->guide.follows[g] = from->sd[g] != 0.0 || from->sdd[g] != 0.0 || to->sd[g] != 0.0 || to->sdd[g] != 0.0;
   }
   ali3_guides_time(in, to, t); /* behind those that tables go over */
 }

@@ -9,7 +9,6 @@
 static const double PI = 3.141592653589793;
 static const double STANDS = 0.01; /* the same of coordinates: rates and forces of what moves less are those of rest */
 static const double NO_TURN = 1e-3; /* rad: a smaller turn counts only where nothing else moves, 1 mm at 1 m */
-static const double ALIKE = 1e-6; /* of the size: places that differ by less do not move by themselves */
 
 enum { KINDS = 4 }; /* of sizes in a unit: places and rates, loads, each always judged or not */
 
@@ -59,8 +58,8 @@ static void leave_out(const ali3_judged *what, int32_t n, int32_t kind, double *
     if (!(what[i].kind & kind)) size[i] = 0.0;
 }
 
-void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared *seen, double length, int32_t guided,
-                         double *size) {
+void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared *seen, double length, double energy,
+                         int32_t guided, double *size) {
   double largest[ALI3_JUDGED_COUNT * KINDS] = {0.0}, moved[ALI3_JUDGED_COUNT * KINDS] = {0.0};
   bool others = false, loads = true, moves = false;
   for (int32_t i = 0; i < n; i++) {
@@ -75,7 +74,10 @@ void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared
                         : unit == ALI3_JUDGED_RAD        ? 1.0
                         : unit == ALI3_JUDGED_COORDINATE ? fmax(length, 1.0)
                                                          : HUGE_VAL;
-    const double unseen = most < HUGE_VAL ? DBL_EPSILON * most : 0.0; /* of coordinates: less is no motion */
+    const double unseen = most < HUGE_VAL           ? DBL_EPSILON * most /* of coordinates: less is no motion */
+                          : unit == ALI3_JUDGED_N   ? energy / length
+                          : unit == ALI3_JUDGED_N_M ? energy
+                                                    : 0.0;
     const double rest =
         fmax((unit == ALI3_JUDGED_COORDINATE ? STANDS : ALI3_STILL) * fmin(largest[group], most), unseen);
     size[i] = !(moved[group] > rest) || !follows(seen + i) ? 0.0
@@ -87,7 +89,7 @@ void ali3_compared_sizes(const ali3_judged *what, int32_t n, const ali3_compared
     if (others && what[i].unit == ALI3_JUDGED_RAD && size[i] <= NO_TURN) size[i] = 0.0;
     if (!(size[i] > 0.0)) continue;
     loads &= (what[i].kind & ALI3_JUDGED_LOAD) != 0;
-    moves |= what[i].kind & ALI3_JUDGED_PLACE && (!guided || seen[i].gap > ALIKE * size[i]);
+    moves |= what[i].kind & ALI3_JUDGED_PLACE && (!guided || seen[i].gap > ALI3_STILL * size[i]);
   }
   if (loads || moves) leave_out(what, n, ALI3_JUDGED_ALWAYS, size);
 }
@@ -102,10 +104,4 @@ double ali3_compared_error(int32_t n, const ali3_compared *seen, const double *s
     *worst = i;
   }
   return error;
-}
-
-double ali3_error_of(double apart, double ratio, int32_t order) {
-  double factor = 1.0;
-  for (int32_t i = 0; i < order; i++) factor *= ratio;
-  return apart * factor / (factor - 1.0);
 }

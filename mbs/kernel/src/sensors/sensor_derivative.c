@@ -1,5 +1,5 @@
-/* Rates of the sensors that have one: their change along in->direction, a direction in the space of states, which is
- * (qd, qdd, ...); a function for each such type. */
+/* Rates of the sensors that have one: their change along in->kept.direction, a direction in the space of states, which
+ * is (qd, qdd, ...); a function for each such type. */
 #include <math.h>
 #include <string.h>
 
@@ -19,7 +19,7 @@ typedef struct {
 static double signal(const ali3_instance *in, const ali3_vectors *x, int32_t i, int32_t order) {
   const ali3_system *S = in->system;
   const double *column = order == 0 ? x->q : (order == 1 ? x->qd : x->qdd);
-  if (S->n_tabled > 0) column = in->extended[order + (x == &in->direction)]; /* a direction is a rate */
+  if (S->n_tabled > 0) column = in->tabled.extended[order + (x == &in->kept.direction)]; /* a direction is a rate */
   double sum = 0.0;
   for (int32_t k = S->sig_ptr[i]; k < S->sig_ptr[i + 1]; k++) sum += S->sig_val[k] * column[S->sig_col[k]];
   return sum;
@@ -29,7 +29,7 @@ static moving vector(const ali3_instance *in, const int32_t *v, int32_t order, i
   moving m = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   for (int32_t i = 0; i < n; i++) {
     m.v[i] = signal(in, &in->now, v[i], order) + (order == 0 ? in->system->sig_const[v[i]] : 0.0);
-    m.d[i] = signal(in, &in->direction, v[i], order);
+    m.d[i] = signal(in, &in->kept.direction, v[i], order);
   }
   return m;
 }
@@ -50,11 +50,11 @@ static double angle_change(double y, double x, double dy, double dx) {
 }
 
 static double change_signal(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in, &in->direction, v[0], 0);
+  return real[0] * signal(in, &in->kept.direction, v[0], 0);
 }
 
 static double change_signal_rate(const ali3_instance *in, const int32_t *v, const double *real) {
-  return real[0] * signal(in, &in->direction, v[0], 1);
+  return real[0] * signal(in, &in->kept.direction, v[0], 1);
 }
 
 static double change_component(const ali3_instance *in, const int32_t *v, const double *real) {
@@ -112,12 +112,12 @@ static void flexible_energy(const ali3_instance *in, double *kinetic, double *gr
   const int32_t nq = in->system->size.nq;
   for (int side = -1; side <= 1; side += 2) {
     double twice = 0.0, of_weight = 0.0, of_strain = 0.0;
-    for (int32_t i = 0; i < nq; i++) in->w[i] = in->now.q[i] + side * in->direction.q[i];
-    ali3_bodies_prepare(in, in->w);
-    ali3_bodies_energy(in, in->w, &of_weight, &of_strain);
-    memset(in->x, 0, (size_t)nq * sizeof(double));
-    ali3_flexible_mass_times(in, in->now.qd, in->x);
-    for (int32_t i = 0; i < nq; i++) twice += in->x[i] * in->now.qd[i];
+    for (int32_t i = 0; i < nq; i++) in->step.w[i] = in->now.q[i] + side * in->kept.direction.q[i];
+    ali3_bodies_prepare(in, in->step.w);
+    ali3_bodies_energy(in, in->step.w, &of_weight, &of_strain);
+    memset(in->step.x, 0, (size_t)nq * sizeof(double));
+    ali3_flexible_mass_times(in, in->now.qd, in->step.x);
+    for (int32_t i = 0; i < nq; i++) twice += in->step.x[i] * in->now.qd[i];
     *kinetic += 0.25 * side * twice;
     *gravity += 0.5 * side * of_weight;
     *elastic += 0.5 * side * of_strain;
@@ -130,13 +130,13 @@ static double change_energy(const ali3_instance *in, const int32_t *v, const dou
   double kinetic = 0.0, gravity = 0.0, elastic = 0.0;
   if (S->n_flexible > 0) flexible_energy(in, &kinetic, &gravity, &elastic);
   ali3_bodies_prepare(in, in->now.q);
-  ali3_mass_times(in, in->now.qd, in->x);
+  ali3_mass_times(in, in->now.qd, in->step.x);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    kinetic += in->x[i] * in->direction.qd[i];
-    gravity -= in->gravity_force[i] * in->direction.q[i];
+    kinetic += in->step.x[i] * in->kept.direction.qd[i];
+    gravity -= in->mass.gravity[i] * in->kept.direction.q[i];
   }
   if (S->n_tabled > 0) ali3_tabled_power(in, in->now.qd, &kinetic, &gravity);
-  for (int32_t e = 0; e < S->size.ne; e++) elastic += in->direction.potential[e];
+  for (int32_t e = 0; e < S->size.ne; e++) elastic += in->kept.direction.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
   return kinds[v[0]];
 }
@@ -174,7 +174,7 @@ static double change_angle_about(const ali3_instance *in, const int32_t *v, cons
 }
 
 static double change_guide(const ali3_instance *in, const int32_t *v, const double *real) {
-  const double *of_order[3] = {in->direction.s, in->direction.sd, in->direction.sdd};
+  const double *of_order[3] = {in->kept.direction.s, in->kept.direction.sd, in->kept.direction.sdd};
   return real[0] * of_order[v[1]][v[0]];
 }
 
@@ -205,12 +205,12 @@ static unsigned char rate_known(int32_t type, const int32_t *v) {
 
 ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *known) {
   if (in == NULL || rates == NULL || known == NULL) return ALI3_BAD_ARGUMENT;
-  if (!in->initialised) return ALI3_NOT_INITIALISED;
+  if (!in->start.initialised) return ALI3_NOT_INITIALISED;
   const ali3_system *S = in->system;
   const ali3_vectors *now = &in->now;
-  ali3_vectors *d = &in->direction;
+  ali3_vectors *d = &in->kept.direction;
   const size_t nq = (size_t)S->size.nq * sizeof(double), ng = (size_t)S->size.ng * sizeof(double);
-  memset(d->q, 0, in->n_vector * sizeof(double));
+  memset(d->q, 0, in->kept.n * sizeof(double));
   if (nq > 0) {
     memcpy(d->q, now->qd, nq);
     memcpy(d->qd, now->qdd, nq);
@@ -226,7 +226,7 @@ ali3_status ali3_sensor_rates(ali3_instance *in, double *rates, unsigned char *k
   for (int32_t i = 0; i < S->size.ns; i++) {
     const int32_t type = S->sen_type[i], *v = S->sen_int + S->sen_int_ptr[i];
     known[i] = rate_known(type, v);
-    rates[i] = known[i] ? change_of[type](in, v, in->sen_real + S->sen_real_ptr[i]) : 0.0;
+    rates[i] = known[i] ? change_of[type](in, v, in->parameters.sen_real + S->sen_real_ptr[i]) : 0.0;
   }
   return ALI3_OK;
 }

@@ -16,7 +16,7 @@
 /* Signal i (order 0) or its first or second rate. */
 static double signal(const ali3_instance *in, int32_t i, int32_t order) {
   const double *own = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
-  const double *x = in->system->n_tabled > 0 ? in->extended[order] : own;
+  const double *x = in->system->n_tabled > 0 ? in->tabled.extended[order] : own;
   return ali3_signal_at(in->system, i, x, order > 0);
 }
 
@@ -146,13 +146,13 @@ static double value_element_output(const ali3_instance *in, const int32_t *v, co
 static double value_energy(const ali3_instance *in, const int32_t *v, const double *real) {
   (void)real;
   const ali3_system *S = in->system;
-  double kinetic = 0.0, gravity = in->gravity_const, elastic = 0.0;
+  double kinetic = 0.0, gravity = in->mass.gravity_const, elastic = 0.0;
   ali3_bodies_prepare(in, in->now.q);
   ali3_bodies_energy(in, in->now.q, &gravity, &elastic);
-  ali3_mass_times(in, in->now.qd, in->x);
+  ali3_mass_times(in, in->now.qd, in->step.x);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    kinetic += 0.5 * in->x[i] * in->now.qd[i];
-    gravity -= in->gravity_force[i] * in->now.q[i];
+    kinetic += 0.5 * in->step.x[i] * in->now.qd[i];
+    gravity -= in->mass.gravity[i] * in->now.q[i];
   }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->now.potential[e];
   const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
@@ -162,9 +162,9 @@ static double value_energy(const ali3_instance *in, const int32_t *v, const doub
 static double value_mass(const ali3_instance *in, const int32_t *v, const double *real) {
   double sum = real[0];
   (void)v;
-  for (int64_t k = 0; k < in->system->n_payload_mass; k++) sum += in->payload_mass[k];
+  for (int64_t k = 0; k < in->system->n_payload_mass; k++) sum += in->parameters.payload_mass[k];
   for (int64_t k = 0; k < in->system->n_inertia_real; k += ALI3_INERTIA_REALS)
-    sum += in->inertia_real[k] - in->system->inertia_real[k];
+    sum += in->parameters.inertia_real[k] - in->system->inertia_real[k];
   return sum;
 }
 
@@ -291,7 +291,7 @@ static sensor_function *const value_of[ALI3_SENSOR_TYPE_COUNT] = {
 
 static double value(const ali3_instance *in, int32_t i) {
   const ali3_system *S = in->system;
-  return value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], in->sen_real + S->sen_real_ptr[i]);
+  return value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], in->parameters.sen_real + S->sen_real_ptr[i]);
 }
 
 static void prepare(const ali3_instance *in) {

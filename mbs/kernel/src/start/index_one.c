@@ -19,38 +19,43 @@ static const double ALPHA = ALI3_INDEX_ONE_PENALTY;
 ali3_status ali3_index_one(ali3_instance *in, ali3_vectors *v) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
-  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
-  ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
-  const ali3_force_call call = {
-      .q = v->q, .qd = v->qd, .y_old = in->now.y, .Q = in->Q, .y_new = v->y, .out = v->out, .potential = v->potential};
+  ali3_constraints(in, v->q, v->s, in->step.Phi, in->tangent.J);
+  ali3_constraint_gamma(in, v->q, v->qd, v, in->step.gamma);
+  const ali3_force_call call = {.q = v->q,
+                                .qd = v->qd,
+                                .y_old = in->now.y,
+                                .Q = in->step.Q,
+                                .y_new = v->y,
+                                .out = v->out,
+                                .potential = v->potential};
   ali3_forces(in, &call);
-  ali3_mass_to_fronts(in, in->F);
-  if (S->n_flexible + S->n_tabled > 0) ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
-  ali3_rows_square(in, in->J, ALPHA, in->F);
-  const ali3_status status = ali3_factorise(in, in->F);
+  ali3_mass_to_fronts(in, in->tangent.F);
+  if (S->n_flexible + S->n_tabled > 0) ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->tangent.F);
+  ali3_rows_square(in, in->tangent.J, ALPHA, in->tangent.F);
+  const ali3_status status = ali3_factorise(in, in->tangent.F);
   if (status != ALI3_OK) return status;
   for (int solve = 0; solve < SOLVES; solve++) {
-    ali3_rows_times(S, in->J, v->qdd, in->mu);
-    for (int32_t k = 0; k < nc; k++) in->mu[k] = v->lam[k] + ALPHA * (in->mu[k] + in->gamma[k]);
-    ali3_rows_transposed(S, in->J, in->mu, in->x);
-    ali3_mass_times(in, v->qdd, in->r);
-    for (int32_t i = 0; i < nq; i++) in->x[i] = in->Q[i] - in->r[i] - in->x[i];
-    ali3_solve(in, in->F, in->x);
-    for (int32_t i = 0; i < nq; i++) v->qdd[i] += in->x[i];
-    ali3_rows_times(S, in->J, in->x, v->lam);
-    for (int32_t k = 0; k < nc; k++) v->lam[k] = in->mu[k] + ALPHA * v->lam[k];
+    ali3_rows_times(S, in->tangent.J, v->qdd, in->step.mu);
+    for (int32_t k = 0; k < nc; k++) in->step.mu[k] = v->lam[k] + ALPHA * (in->step.mu[k] + in->step.gamma[k]);
+    ali3_rows_transposed(S, in->tangent.J, in->step.mu, in->step.x);
+    ali3_mass_times(in, v->qdd, in->step.r);
+    for (int32_t i = 0; i < nq; i++) in->step.x[i] = in->step.Q[i] - in->step.r[i] - in->step.x[i];
+    ali3_solve(in, in->tangent.F, in->step.x);
+    for (int32_t i = 0; i < nq; i++) v->qdd[i] += in->step.x[i];
+    ali3_rows_times(S, in->tangent.J, in->step.x, v->lam);
+    for (int32_t k = 0; k < nc; k++) v->lam[k] = in->step.mu[k] + ALPHA * v->lam[k];
   }
   in->report.iterations++;
   return ali3_finite(v->qdd, nq) ? ALI3_OK : ALI3_NOT_FINITE;
 }
 
-/* F = M(q) + ALPHA Phi_q' Phi_q, factorised; Phi_q in in->J. */
+/* F = M(q) + ALPHA Phi_q' Phi_q, factorised; Phi_q in in->tangent.J. */
 ali3_status ali3_index_one_factorise(ali3_instance *in, const double *q) {
   ali3_bodies_prepare(in, q);
-  ali3_mass_to_fronts(in, in->F);
-  ali3_rows_square(in, in->J, ALPHA, in->F);
-  ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
-  return ali3_factorise(in, in->F);
+  ali3_mass_to_fronts(in, in->tangent.F);
+  ali3_rows_square(in, in->tangent.J, ALPHA, in->tangent.F);
+  ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->tangent.F);
+  return ali3_factorise(in, in->tangent.F);
 }
 
 /* M x + Phi_q' lam = Q, Phi_q x = -b, in corrections with the factorised metric; x and lam start from zero. Ends at the
@@ -63,28 +68,28 @@ ali3_status ali3_index_one_solve(ali3_instance *in, const double *Q, const doubl
   memset(lam, 0, (size_t)nc * sizeof(double));
   for (int iteration = 0; iteration < ITERATIONS; iteration++) {
     double force = 0.0, force_scale = 0.0, violation = 0.0, violation_scale = 0.0;
-    ali3_mass_times(in, x, in->r);
-    ali3_rows_transposed(S, in->J, lam, in->x);
-    ali3_rows_times(S, in->J, x, in->mu);
+    ali3_mass_times(in, x, in->step.r);
+    ali3_rows_transposed(S, in->tangent.J, lam, in->step.x);
+    ali3_rows_times(S, in->tangent.J, x, in->step.mu);
     for (int32_t i = 0; i < nq; i++) {
-      in->r[i] -= Q[i];
-      force = fmax(force, fabs(in->r[i] + in->x[i]) * in->mass_floor_inverse[i]);
-      force_scale = fmax(force_scale, (fabs(in->r[i]) + fabs(in->x[i])) * in->mass_floor_inverse[i]);
+      in->step.r[i] -= Q[i];
+      force = fmax(force, fabs(in->step.r[i] + in->step.x[i]) * in->mass.floor_inverse[i]);
+      force_scale = fmax(force_scale, (fabs(in->step.r[i]) + fabs(in->step.x[i])) * in->mass.floor_inverse[i]);
     }
     for (int32_t k = 0; k < nc; k++) {
-      violation_scale = fmax(violation_scale, fabs(in->mu[k]) + fabs(b[k]));
-      in->mu[k] += b[k];
-      violation = fmax(violation, fabs(in->mu[k]));
-      in->mu[k] = lam[k] + ALPHA * in->mu[k];
+      violation_scale = fmax(violation_scale, fabs(in->step.mu[k]) + fabs(b[k]));
+      in->step.mu[k] += b[k];
+      violation = fmax(violation, fabs(in->step.mu[k]));
+      in->step.mu[k] = lam[k] + ALPHA * in->step.mu[k];
     }
     if (force <= tolerance * force_scale && violation <= tolerance * violation_scale) break;
-    ali3_rows_transposed(S, in->J, in->mu, in->x);
-    for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->x[i]);
-    ali3_solve(in, in->F, in->x);
-    if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
-    for (int32_t i = 0; i < nq; i++) x[i] += in->x[i];
-    ali3_rows_times(S, in->J, in->x, in->Phi);
-    for (int32_t k = 0; k < nc; k++) lam[k] = in->mu[k] + ALPHA * in->Phi[k];
+    ali3_rows_transposed(S, in->tangent.J, in->step.mu, in->step.x);
+    for (int32_t i = 0; i < nq; i++) in->step.x[i] = -(in->step.r[i] + in->step.x[i]);
+    ali3_solve(in, in->tangent.F, in->step.x);
+    if (!ali3_finite(in->step.x, nq)) return ALI3_NOT_FINITE;
+    for (int32_t i = 0; i < nq; i++) x[i] += in->step.x[i];
+    ali3_rows_times(S, in->tangent.J, in->step.x, in->step.Phi);
+    for (int32_t k = 0; k < nc; k++) lam[k] = in->step.mu[k] + ALPHA * in->step.Phi[k];
   }
   return ALI3_OK;
 }

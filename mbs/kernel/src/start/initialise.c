@@ -32,12 +32,12 @@ enum { POSITION_ITERATIONS = 200 };
 static ali3_status factorise_metric(ali3_instance *in, const double *q) {
   const ali3_system *S = in->system;
   ali3_bodies_prepare(in, q);
-  ali3_mass_to_fronts(in, in->F);
-  for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += in->mass_missing[i];
-  ali3_rows_square(in, in->J, ALPHA, in->F);
-  ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->F);
-  ali3_flexible_stiffen(in, BENDING, in->F);
-  return ali3_factorise(in, in->F);
+  ali3_mass_to_fronts(in, in->tangent.F);
+  for (int32_t i = 0; i < S->size.nq; i++) in->tangent.F[S->diagonal_pos[i]] += in->mass.missing[i];
+  ali3_rows_square(in, in->tangent.J, ALPHA, in->tangent.F);
+  ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->tangent.F);
+  ali3_flexible_stiffen(in, BENDING, in->tangent.F);
+  return ali3_factorise(in, in->tangent.F);
 }
 
 /* Minimises w' (M + BENDING K) w on Phi = 0, w the way from the position given: added up, for a difference of positions
@@ -45,36 +45,37 @@ static ali3_status factorise_metric(ali3_instance *in, const double *q) {
 static ali3_status close_position(ali3_instance *in) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
-  double *q = in->next.q, *lam = in->next.lam, *w = in->w;
+  double *q = in->next.q, *lam = in->next.lam, *w = in->step.w;
   memcpy(q, in->now.q, (size_t)nq * sizeof(double));
   memset(w, 0, (size_t)nq * sizeof(double));
   memset(lam, 0, (size_t)nc * sizeof(double));
   for (int iteration = 0;; iteration++) {
-    ali3_constraints(in, q, in->now.s, in->Phi, in->J);
-    ali3_velocity_release(in, in->J);
-    in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
+    ali3_constraints(in, q, in->now.s, in->step.Phi, in->tangent.J);
+    ali3_velocity_release(in, in->tangent.J);
+    in->report.violation = ali3_violation(S, in->step.Phi, &in->report.worst_row);
     if (in->report.violation <= CLOSED) break;
     if (!(in->report.violation < 1e300)) return ALI3_NOT_ASSEMBLED;
-    if (iteration == POSITION_ITERATIONS) return ali3_opening(S, in->Phi) <= ASSEMBLED ? ALI3_OK : ALI3_NOT_ASSEMBLED;
+    if (iteration == POSITION_ITERATIONS)
+      return ali3_opening(S, in->step.Phi) <= ASSEMBLED ? ALI3_OK : ALI3_NOT_ASSEMBLED;
     const ali3_status status = factorise_metric(in, q);
     if (status != ALI3_OK) return status;
-    ali3_mass_times(in, w, in->r);
-    ali3_flexible_elastic(in, BENDING, w, in->r);
-    for (int32_t k = 0; k < nc; k++) in->mu[k] = lam[k] + ALPHA * in->Phi[k];
-    ali3_rows_transposed(S, in->J, in->mu, in->x);
-    for (int32_t i = 0; i < nq; i++) in->x[i] = -(in->r[i] + in->mass_missing[i] * w[i] + in->x[i]);
-    ali3_solve(in, in->F, in->x);
-    if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+    ali3_mass_times(in, w, in->step.r);
+    ali3_flexible_elastic(in, BENDING, w, in->step.r);
+    for (int32_t k = 0; k < nc; k++) in->step.mu[k] = lam[k] + ALPHA * in->step.Phi[k];
+    ali3_rows_transposed(S, in->tangent.J, in->step.mu, in->step.x);
+    for (int32_t i = 0; i < nq; i++) in->step.x[i] = -(in->step.r[i] + in->mass.missing[i] * w[i] + in->step.x[i]);
+    ali3_solve(in, in->tangent.F, in->step.x);
+    if (!ali3_finite(in->step.x, nq)) return ALI3_NOT_FINITE;
     double longest = 0.0;
     for (int32_t i = 0; i < nq; i++)
-      if (fabs(in->x[i]) > longest) longest = fabs(in->x[i]);
+      if (fabs(in->step.x[i]) > longest) longest = fabs(in->step.x[i]);
     const double part = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
-    ali3_rows_times(S, in->J, in->x, in->gamma);
+    ali3_rows_times(S, in->tangent.J, in->step.x, in->step.gamma);
     for (int32_t k = 0; k < nc; k++) /* a shortened step gives no information on the multipliers */
-      lam[k] = part < 1.0 ? 0.0 : in->mu[k] + ALPHA * in->gamma[k];
+      lam[k] = part < 1.0 ? 0.0 : in->step.mu[k] + ALPHA * in->step.gamma[k];
     for (int32_t i = 0; i < nq; i++) {
-      w[i] += part * in->x[i];
-      q[i] += part * in->x[i];
+      w[i] += part * in->step.x[i];
+      q[i] += part * in->step.x[i];
     }
   }
   memcpy(in->now.q, q, (size_t)nq * sizeof(double));
@@ -86,17 +87,17 @@ static ali3_status close_velocity(ali3_instance *in) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->now;
   const int32_t nq = S->size.nq, nc = S->size.nc;
-  ali3_constraint_rate(in, v->q, v, in->Phit);
-  ali3_rows_times(S, in->J, v->qd, in->gamma);
-  for (int32_t k = 0; k < nc; k++) in->gamma[k] += in->Phit[k];
-  memset(in->D, 0, (size_t)nq * sizeof(double));
-  const ali3_status status = ali3_index_one_solve(in, in->D, in->gamma, ROUND_OFF, in->w, in->lam);
+  ali3_constraint_rate(in, v->q, v, in->step.Phit);
+  ali3_rows_times(S, in->tangent.J, v->qd, in->step.gamma);
+  for (int32_t k = 0; k < nc; k++) in->step.gamma[k] += in->step.Phit[k];
+  memset(in->step.D, 0, (size_t)nq * sizeof(double));
+  const ali3_status status = ali3_index_one_solve(in, in->step.D, in->step.gamma, ROUND_OFF, in->step.w, in->step.lam);
   if (status != ALI3_OK) return status;
-  for (int32_t i = 0; i < nq; i++) v->qd[i] += in->w[i];
-  ali3_rows_times(S, in->J, v->qd, in->gamma);
-  for (int32_t k = 0; k < nc; k++) in->gamma[k] += in->Phit[k];
+  for (int32_t i = 0; i < nq; i++) v->qd[i] += in->step.w[i];
+  ali3_rows_times(S, in->tangent.J, v->qd, in->step.gamma);
+  for (int32_t k = 0; k < nc; k++) in->step.gamma[k] += in->step.Phit[k];
   int32_t worst = 0;
-  in->report.velocity_violation = ali3_violation(S, in->gamma, &worst);
+  in->report.velocity_violation = ali3_violation(S, in->step.gamma, &worst);
   return ALI3_OK;
 }
 
@@ -105,32 +106,37 @@ static ali3_status close_velocity(ali3_instance *in) {
 ali3_status ali3_solve_rates(ali3_instance *in, bool start) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->now;
-  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+  ali3_constraints(in, v->q, v->s, in->step.Phi, in->tangent.J);
   ali3_status status = ali3_index_one_factorise(in, v->q);
   if (status == ALI3_OK) status = close_velocity(in);
   if (status != ALI3_OK) return status;
-  ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
-  const ali3_force_call call = {
-      .q = v->q, .qd = v->qd, .y_old = v->y, .Q = in->Q, .y_new = in->y_work, .out = v->out, .potential = v->potential};
-  memcpy(v->used, in->input, (size_t)S->size.nu * sizeof(double));
+  ali3_constraint_gamma(in, v->q, v->qd, v, in->step.gamma);
+  const ali3_force_call call = {.q = v->q,
+                                .qd = v->qd,
+                                .y_old = v->y,
+                                .Q = in->step.Q,
+                                .y_new = in->element.y,
+                                .out = v->out,
+                                .potential = v->potential};
+  memcpy(v->used, in->inputs.set, (size_t)S->size.nu * sizeof(double));
   memcpy(v->y_last, v->y, (size_t)S->size.ny * sizeof(double));
   v->h_last[0] = 0.0;
   ali3_forces(in, &call);
   if (start) {
     ali3_forces_accept(in, &call);
-    memcpy(v->y, in->y_work, (size_t)S->size.ny * sizeof(double));
+    memcpy(v->y, in->element.y, (size_t)S->size.ny * sizeof(double));
     ali3_forces(in, &call);
   }
-  if (!ali3_finite(in->Q, S->size.nq)) return ALI3_NOT_FINITE;
+  if (!ali3_finite(in->step.Q, S->size.nq)) return ALI3_NOT_FINITE;
   ali3_work_store(in, v);
   if (start) ali3_work_start(in, v);
   if (S->n_flexible > 0) {
     memcpy(v->mean, v->qd, (size_t)S->size.nq * sizeof(double));
     memcpy(v->mean_before, v->qd, (size_t)S->size.nq * sizeof(double));
   }
-  status = ali3_index_one_solve(in, in->Q, in->gamma, ROUND_OFF, v->qdd, v->lam);
+  status = ali3_index_one_solve(in, in->step.Q, in->step.gamma, ROUND_OFF, v->qdd, v->lam);
   if (status != ALI3_OK) return status;
-  return ali3_finite(v->q, (int64_t)in->n_vector) ? ali3_roads_status(in) : ALI3_NOT_FINITE;
+  return ali3_finite(v->q, (int64_t)in->kept.n) ? ali3_roads_status(in) : ALI3_NOT_FINITE;
 }
 
 ali3_status ali3_solve_initial(ali3_instance *in, double t) {

@@ -37,8 +37,8 @@ static ali3_status take_state(ali3_instance *in, const ali3_instance *without) {
   const ali3_sizes *z = &S->size;
   const ali3_vectors *from = &without->now;
   ali3_vectors *v = &in->now;
-  if (z->np > 0 && memcmp(in->parameter, without->parameter, (size_t)z->np * sizeof(double)) != 0) {
-    copy(in->parameter, without->parameter, z->np);
+  if (z->np > 0 && memcmp(in->parameters.value, without->parameters.value, (size_t)z->np * sizeof(double)) != 0) {
+    copy(in->parameters.value, without->parameters.value, z->np);
     if (ali3_parameters_apply(in) != ALI3_OK) return ALI3_BAD_ARGUMENT;
   }
   follow(S, from->q, S->ported_const, v->q);
@@ -50,9 +50,9 @@ static ali3_status take_state(ali3_instance *in, const ali3_instance *without) {
   copy(v->sdd, from->sdd, z->ng);
   copy(v->on, from->on, z->n_switch);
   copy(v->used, from->used, z->nu);
-  copy(in->input, from->used, z->nu);
+  copy(in->inputs.set, from->used, z->nu);
   v->h_last[0] = from->h_last[0];
-  in->initialised = 1;
+  in->start.initialised = 1;
   return ALI3_OK;
 }
 
@@ -64,8 +64,8 @@ static void forces(ali3_instance *in) {
                                 .qd = v->qd,
                                 .y_old = stepped ? v->y_last : v->y,
                                 .h = v->h_last[0],
-                                .Q = in->Q,
-                                .y_new = in->y_work,
+                                .Q = in->step.Q,
+                                .y_new = in->element.y,
                                 .out = v->out,
                                 .potential = v->potential};
   ali3_forces(in, &call);
@@ -73,15 +73,16 @@ static void forces(ali3_instance *in) {
 
 ali3_status ali3_ports_follow(ali3_instance *in, const ali3_instance *without) {
   if (in == NULL || without == NULL || !same_model(in->system, without->system)) return ALI3_BAD_ARGUMENT;
-  if (!without->initialised) return ALI3_NOT_INITIALISED;
+  if (!without->start.initialised) return ALI3_NOT_INITIALISED;
   ali3_vectors *v = &in->now;
   ali3_status status = take_state(in, without);
   if (status != ALI3_OK) return status;
-  memcpy(in->road, without->road, (size_t)in->system->nr * sizeof *in->road); /* tiles that are in memory */
+  memcpy(in->roads.used, without->roads.used,
+         (size_t)in->system->nr * sizeof *in->roads.used); /* tiles that are in memory */
   forces(in);
-  memcpy(in->road, in->own_road, (size_t)in->system->nr * sizeof *in->road);
-  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
-  ali3_constraint_gamma(in, v->q, v->qd, v, in->gamma);
+  memcpy(in->roads.used, in->roads.own, (size_t)in->system->nr * sizeof *in->roads.used);
+  ali3_constraints(in, v->q, v->s, in->step.Phi, in->tangent.J);
+  ali3_constraint_gamma(in, v->q, v->qd, v, in->step.gamma);
   status = ali3_index_one_factorise(in, v->q);
-  return status == ALI3_OK ? ali3_index_one_solve(in, in->Q, in->gamma, TOLERANCE, v->qdd, v->lam) : status;
+  return status == ALI3_OK ? ali3_index_one_solve(in, in->step.Q, in->step.gamma, TOLERANCE, v->qdd, v->lam) : status;
 }

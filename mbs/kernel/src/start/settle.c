@@ -18,10 +18,10 @@ static const double HELD_FROM = 0.7; /* of the settling */
 
 /* M_ii of the bodies prepared. */
 static double mass_of(ali3_instance *in, int32_t i) {
-  memset(in->x, 0, (size_t)in->system->size.nq * sizeof(double));
-  in->x[i] = 1.0;
-  ali3_mass_times(in, in->x, in->r);
-  return in->r[i];
+  memset(in->step.x, 0, (size_t)in->system->size.nq * sizeof(double));
+  in->step.x[i] = 1.0;
+  ali3_mass_times(in, in->step.x, in->step.r);
+  return in->step.r[i];
 }
 
 /* -1: there is none. */
@@ -67,9 +67,9 @@ bool ali3_hold(ali3_instance *in, ali3_held_motion *held) {
 /* x turned by the angle of this cosine and sine, in place. */
 static void turn(ali3_instance *in, double c, double s, bool rate, double *x) {
   const ali3_system *S = in->system;
-  for (int32_t i = 0; i < S->size.nq; i++) in->w[i] = ali3_turned(S, i, x, rate);
+  for (int32_t i = 0; i < S->size.nq; i++) in->step.w[i] = ali3_turned(S, i, x, rate);
   for (int32_t i = 0; i < S->size.nq; i++)
-    if (S->pose_partner[i] != 0) x[i] = c * x[i] + s * in->w[i];
+    if (S->pose_partner[i] != 0) x[i] = c * x[i] + s * in->step.w[i];
 }
 
 /* out = q + way (x, y): seen from a place far away no digits are lost. */
@@ -95,7 +95,8 @@ void ali3_put_back(ali3_instance *in, const ali3_held_motion *start, double kept
   double *q = in->now.q, *qd = in->now.qd;
   ali3_held_motion now = *start;
   double spread;
-  const double slope[2] = {ali3_climb(in, S->pose_x, in->x, &spread), ali3_climb(in, S->pose_y, in->x, &spread)};
+  const double slope[2] = {ali3_climb(in, S->pose_x, in->step.x, &spread),
+                           ali3_climb(in, S->pose_y, in->step.x, &spread)};
   look(in, &now);
   const double rise = slope[0] * (start->place[0] - now.place[0]) + slope[1] * (start->place[1] - now.place[1]);
   shift(S, q, -now.place[0], -now.place[1], q);
@@ -104,26 +105,26 @@ void ali3_put_back(ali3_instance *in, const ali3_held_motion *start, double kept
   turn(in, c, s, false, q);
   turn(in, c, s, true, qd);
   look(in, &now);
-  for (int32_t i = 0; i < S->size.nq; i++) in->w[i] = ali3_turned(S, i, q, false);
+  for (int32_t i = 0; i < S->size.nq; i++) in->step.w[i] = ali3_turned(S, i, q, false);
   const double rate = (1.0 - kept) * (start->rate - now.rate);
   const double vx = (1.0 - kept) * (start->velocity[0] - now.velocity[0]);
   const double vy = (1.0 - kept) * (start->velocity[1] - now.velocity[1]);
   const double vz = slope[0] * vx + slope[1] * vy;
   for (int32_t i = 0; i < S->size.nq; i++)
-    qd[i] += rate * in->w[i] + vx * S->pose_x[i] + vy * S->pose_y[i] + vz * S->pose_z[i];
+    qd[i] += rate * in->step.w[i] + vx * S->pose_x[i] + vy * S->pose_y[i] + vz * S->pose_z[i];
   shift(S, q, start->place[0], start->place[1], q);
   for (int32_t i = 0; i < S->size.nq; i++) q[i] += rise * S->pose_z[i];
 }
 
-/* The held motion, level, in in->w; how fast the road rises under it. */
+/* The held motion, level, in in->step.w; how fast the road rises under it. */
 static double held_climb(ali3_instance *in, const ali3_held_motion *held, double *spread) {
   const ali3_system *S = in->system;
-  shift(S, in->now.q, -held->place[0], -held->place[1], in->x);
+  shift(S, in->now.q, -held->place[0], -held->place[1], in->step.x);
   for (int32_t i = 0; i < S->size.nq; i++) {
     const double along = held->velocity[0] * S->pose_x[i] + held->velocity[1] * S->pose_y[i];
-    in->w[i] = held->rate * ali3_turned(S, i, in->x, false) + along;
+    in->step.w[i] = held->rate * ali3_turned(S, i, in->step.x, false) + along;
   }
-  return ali3_climb(in, in->w, in->x, spread);
+  return ali3_climb(in, in->step.w, in->step.x, spread);
 }
 
 void ali3_follow_slope(ali3_instance *in, const ali3_held_motion *held) {
@@ -139,7 +140,7 @@ double ali3_unsettled_speed(ali3_instance *in, const ali3_held_motion *held) {
   double most = spread;
   for (int32_t i = 0; i < S->size.nq; i++) {
     if (S->pose_partner[i] == 0 && S->pose_z[i] == 0.0) continue; /* wheels turn */
-    most = fmax(most, fabs(in->now.qd[i] - in->w[i] - climb * S->pose_z[i]));
+    most = fmax(most, fabs(in->now.qd[i] - in->step.w[i] - climb * S->pose_z[i]));
   }
   return most;
 }

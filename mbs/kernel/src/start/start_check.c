@@ -18,14 +18,14 @@ ali3_element_args ali3_start_arguments(const ali3_instance *in, const ali3_road 
       .nreal = S->el_real_ptr[e + 1] - S->el_real_ptr[e],
       .nint = S->el_int_ptr[e + 1] - S->el_int_ptr[e],
       .u = u,
-      .real = in->el_real + S->el_real_ptr[e],
+      .real = in->parameters.el_real + S->el_real_ptr[e],
       .integer = S->el_int + S->el_int_ptr[e],
       .roads = roads,
   };
   if (S->n_tabled > 0) {
     ali3_tabled_prepare(in, q);
     ali3_tabled_extend(in, q, q, NULL, true);
-    q = in->extended[0];
+    q = in->tabled.extended[0];
   }
   for (int32_t i = 0; i < a.nsig; i++) {
     const int32_t signal = S->el_sig[first + i];
@@ -39,7 +39,7 @@ ali3_element_args ali3_start_arguments(const ali3_instance *in, const ali3_road 
 static ali3_start_verdict verdict(const ali3_instance *in, int32_t e, double raised) {
   double u[ALI3_MAX_SIGNALS] = {0.0};
   if (in->system->el_kind[e]->start == NULL) return (ali3_start_verdict){0};
-  const ali3_element_args a = ali3_start_arguments(in, in->road, in->now.q, e, u);
+  const ali3_element_args a = ali3_start_arguments(in, in->roads.used, in->now.q, e, u);
   return in->system->el_kind[e]->start(&a, raised);
 }
 
@@ -69,7 +69,7 @@ static const double NO_FORCE = 1e-6; /* of the weight */
 
 /* Depth, m, down to which the tyre of element e is one: on a road without faces to its hub. */
 static double to_hub(const ali3_instance *in, int32_t e) {
-  return (1.0 - ALI3_TYRE_HUB) * in->el_real[in->system->el_real_ptr[e]];
+  return (1.0 - ALI3_TYRE_HUB) * in->parameters.el_real[in->system->el_real_ptr[e]];
 }
 
 /* The first wheel whose centre is deep in its grid; what rims meet on any road goes into `report`, if there is one. */
@@ -80,9 +80,9 @@ static ali3_status look(const ali3_instance *in, ali3_report *report, int32_t *e
     const ali3_system *S = in->system;
     double u[ALI3_MAX_SIGNALS] = {0.0}, spacing[2];
     if (S->el_kind[e]->depth != ali3_tyre_depth) continue;
-    const bool grid = ali3_road_spacing(&in->road[S->el_int[S->el_int_ptr[e]]], spacing);
+    const bool grid = ali3_road_spacing(&in->roads.used[S->el_int[S->el_int_ptr[e]]], spacing);
     if (!grid && !(report != NULL && in->now.out[S->el_out_ptr[e] + ALI3_TYRE_DEFLECTION] > to_hub(in, e))) continue;
-    const ali3_element_args a = ali3_start_arguments(in, in->road, in->now.q, e, u);
+    const ali3_element_args a = ali3_start_arguments(in, in->roads.used, in->now.q, e, u);
     const ali3_start_verdict v = S->el_kind[e]->start(&a, 0.0);
     const double sunk = v.excess, pressed = grid ? v.pressed : sunk + a.real[0] - to_hub(in, e);
     if (report != NULL && pressed > report->rim_pressed) {
@@ -112,7 +112,7 @@ ali3_status ali3_wheels_watch(ali3_instance *in) { return look(in, &in->report, 
 
 double ali3_no_force(const ali3_instance *in) {
   double most = 0.0;
-  for (int32_t i = 0; in != NULL && i < in->system->size.nq; i++) most = fmax(most, fabs(in->gravity_force[i]));
+  for (int32_t i = 0; in != NULL && i < in->system->size.nq; i++) most = fmax(most, fabs(in->mass.gravity[i]));
   return NO_FORCE * most;
 }
 
@@ -124,7 +124,7 @@ ali3_status ali3_rim_text(const ali3_instance *in, int32_t *element, char *text,
   double spacing[2];
   text[0] = 0;
   if (element != NULL) *element = pressed ? e : -1;
-  if (pressed && ali3_road_spacing(&in->road[in->system->el_int[in->system->el_int_ptr[e]]], spacing))
+  if (pressed && ali3_road_spacing(&in->roads.used[in->system->el_int[in->system->el_int_ptr[e]]], spacing))
     snprintf(text, size,
              "At %.4g s a wheel at x = %.4g m, y = %.4g m was driven into a face of the road that is too high or too "
              "steep at its speed: the rim is pressed in by %.2g m more than it holds, so loads from there on are those "

@@ -17,14 +17,14 @@ enum { ITERATIONS = 400 };
 /* Start of a scene at q, and how a pose moves it: of a horizontal component the other one turns in. */
 static void set_start(ali3_instance *in, const double *q) {
   const ali3_system *S = in->system;
-  memcpy(in->start_q, q, (size_t)S->size.nq * sizeof(double));
+  memcpy(in->start.q, q, (size_t)S->size.nq * sizeof(double));
   for (int32_t i = 0; S->size.has_pose && i < S->size.nq; i++) {
     if (S->pose_partner[i] == 0) {
       const double moved = S->pose_0[i] + (q[i] - S->q0[i]); /* spins have no place */
-      in->pose_0[i] = S->pose_0[i] == S->q0[i] ? q[i] : moved; /* the same without round-off */
+      in->start.pose_0[i] = S->pose_0[i] == S->q0[i] ? q[i] : moved; /* the same without round-off */
     } else {
-      in->pose_cos[i] = q[i];
-      in->pose_sin[i] = ali3_turned(S, i, q, false);
+      in->start.pose_cos[i] = q[i];
+      in->start.pose_sin[i] = ali3_turned(S, i, q, false);
     }
   }
 }
@@ -34,55 +34,55 @@ static bool changed(const ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t p = 0; p < S->size.np; p++)
     for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
-      if (S->par_target[k] != ALI3_TARGET_ROAD && in->parameter[p] != S->par_value[p]) return true;
+      if (S->par_target[k] != ALI3_TARGET_ROAD && in->parameters.value[p] != S->par_value[p]) return true;
   return false;
 }
 
 static void exchange_roads(ali3_instance *in) {
-  ali3_road *road = in->road;
-  in->road = in->own_road;
-  in->own_road = road;
+  ali3_road *road = in->roads.used;
+  in->roads.used = in->roads.own;
+  in->roads.own = road;
 }
 
 /* Roads of the System, the values for the search, the inputs' start values; the instance's own stay in *_work. */
 static ali3_status prepare(ali3_instance *in) {
   const ali3_system *S = in->system;
-  memcpy(in->parameter_work, in->parameter, (size_t)S->size.np * sizeof(double));
-  memcpy(in->input_work, in->input, (size_t)S->size.nu * sizeof(double));
-  for (int64_t i = 0; i < S->n_static_par; i++) in->parameter[S->static_par[i]] = S->static_value[i];
+  memcpy(in->parameters.work, in->parameters.value, (size_t)S->size.np * sizeof(double));
+  memcpy(in->inputs.work, in->inputs.set, (size_t)S->size.nu * sizeof(double));
+  for (int64_t i = 0; i < S->n_static_par; i++) in->parameters.value[S->static_par[i]] = S->static_value[i];
   const ali3_status status = ali3_parameters_apply(in);
   ali3_parameters_switch(in);
   exchange_roads(in);
   for (int32_t p = 0; p < S->size.np; p++)
     for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
       if (S->par_target[k] == ALI3_TARGET_ROAD)
-        in->road_real[S->par_index[k]] = ali3_parameter_writes(S, k, S->par_value[p]);
-  memcpy(in->input, S->input_start, (size_t)S->size.nu * sizeof(double));
+        in->parameters.road_real[S->par_index[k]] = ali3_parameter_writes(S, k, S->par_value[p]);
+  memcpy(in->inputs.set, S->input_start, (size_t)S->size.nu * sizeof(double));
   return status;
 }
 
 static void put_back(ali3_instance *in) {
   const ali3_system *S = in->system;
-  memcpy(in->parameter, in->parameter_work, (size_t)S->size.np * sizeof(double));
-  memcpy(in->input, in->input_work, (size_t)S->size.nu * sizeof(double));
+  memcpy(in->parameters.value, in->parameters.work, (size_t)S->size.np * sizeof(double));
+  memcpy(in->inputs.set, in->inputs.work, (size_t)S->size.nu * sizeof(double));
   exchange_roads(in);
   ali3_parameters_apply(in);
   ali3_parameters_switch(in);
 }
 
-/* The equilibrium in in->stage (nq), its states in in->now.y, from where that of the file was sought: the same values then give the same bits,
- * whether a file has them or an instance. */
+/* The equilibrium in in->step.stage (nq), its states in in->now.y, from where that of the file was sought: the same
+ * values then give the same bits, whether a file has them or an instance. */
 static ali3_status search(ali3_instance *in, double t) {
   const ali3_system *S = in->system;
-  ali3_vectors_copy(in, &in->whole, &in->now);
+  ali3_vectors_copy(in, &in->kept.whole, &in->now);
   memcpy(in->now.q, S->n_static_q > 0 ? S->static_q : S->q0, (size_t)S->size.nq * sizeof(double));
   const double *y = S->n_static_q > S->size.nq ? S->static_q + S->size.nq : S->y0;
   memcpy(in->now.y, y, (size_t)S->size.ny * sizeof(double));
   const ali3_status status = ali3_solve_static(in, t, TOLERANCE, ITERATIONS);
-  memcpy(in->stage, in->now.q, (size_t)S->size.nq * sizeof(double));
-  memcpy(in->y_work, in->now.y, (size_t)S->size.ny * sizeof(double));
-  ali3_vectors_copy(in, &in->now, &in->whole);
-  if (status == ALI3_OK) memcpy(in->now.y, in->y_work, (size_t)S->size.ny * sizeof(double));
+  memcpy(in->step.stage, in->now.q, (size_t)S->size.nq * sizeof(double));
+  memcpy(in->element.y, in->now.y, (size_t)S->size.ny * sizeof(double));
+  ali3_vectors_copy(in, &in->now, &in->kept.whole);
+  if (status == ALI3_OK) memcpy(in->now.y, in->element.y, (size_t)S->size.ny * sizeof(double));
   if (status == ALI3_OK || status == ALI3_NO_MEMORY) return status;
   return ALI3_NO_EQUILIBRIUM;
 }
@@ -90,12 +90,12 @@ static ali3_status search(ali3_instance *in, double t) {
 /* Before a start at time t: moves it to the equilibrium of the parameters, unless coordinates were given. */
 ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
   const ali3_system *S = in->system;
-  if (S->n_static_start == 0 || in->placed == ALI3_PLACED_BY_Q) return ALI3_OK;
+  if (S->n_static_start == 0 || in->start.placed == ALI3_PLACED_BY_Q) return ALI3_OK;
   const bool solve = changed(in);
-  if (!solve && !in->start_moved) return ALI3_OK;
+  if (!solve && !in->start.moved) return ALI3_OK;
   memcpy(in->now.y, S->y0, (size_t)S->size.ny * sizeof(double));
   ali3_start_of_file(in);
-  in->start_moved = false;
+  in->start.moved = false;
   if (solve) {
     const ali3_report before = in->report;
     ali3_status status = prepare(in);
@@ -104,11 +104,11 @@ ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
     if (status != ALI3_OK) return status;
     in->report = before; /* the search is no part of the run */
     double most = 0.0;
-    for (int32_t i = 0; i < S->size.nq; i++) most = fmax(most, fabs(in->stage[i] - S->q0[i]));
-    in->start_moved = most > (S->n_static_q > 0 ? 0.0 : SAME);
-    if (in->start_moved) set_start(in, in->stage);
+    for (int32_t i = 0; i < S->size.nq; i++) most = fmax(most, fabs(in->step.stage[i] - S->q0[i]));
+    in->start.moved = most > (S->n_static_q > 0 ? 0.0 : SAME);
+    if (in->start.moved) set_start(in, in->step.stage);
   }
-  if (in->placed == ALI3_PLACED_BY_POSE) return ali3_set_pose(in, in->pose);
-  memcpy(in->now.q, in->start_q, (size_t)S->size.nq * sizeof(double));
+  if (in->start.placed == ALI3_PLACED_BY_POSE) return ali3_set_pose(in, in->start.pose);
+  memcpy(in->now.q, in->start.q, (size_t)S->size.nq * sizeof(double));
   return ALI3_OK;
 }

@@ -26,16 +26,16 @@ static double depth(const ali3_instance *in, const ali3_road *roads, const doubl
   return in->system->el_kind[e]->depth(&a, raised, part);
 }
 
-/* Depths of the drawing on the roads of the file, in in->potential_work. True where any element touches. */
+/* Depths of the drawing on the roads of the file, in in->element.potential. True where any element touches. */
 static bool drawn_depths(ali3_instance *in) {
   const ali3_system *S = in->system;
   bool touching = false;
-  if (S->n_road_real > 0) memcpy(in->road_real, S->road_real, (size_t)S->n_road_real * sizeof(double));
+  if (S->n_road_real > 0) memcpy(in->parameters.road_real, S->road_real, (size_t)S->n_road_real * sizeof(double));
   for (int32_t e = 0; e < S->size.ne; e++) {
     double part;
     if (S->el_kind[e]->depth == NULL) continue;
-    in->potential_work[e] = depth(in, in->own_road, in->start_q, e, 0.0, &part);
-    touching = touching || in->potential_work[e] > 0.0;
+    in->element.potential[e] = depth(in, in->roads.own, in->start.q, e, 0.0, &part);
+    touching = touching || in->element.potential[e] > 0.0;
   }
   ali3_parameters_apply(in);
   return touching;
@@ -43,14 +43,14 @@ static bool drawn_depths(ali3_instance *in) {
 
 static double depth_now(const ali3_instance *in, int32_t e) {
   double part;
-  return in->system->el_kind[e]->depth != NULL ? depth(in, in->road, in->now.q, e, 0.0, &part) : -INFINITY;
+  return in->system->el_kind[e]->depth != NULL ? depth(in, in->roads.used, in->now.q, e, 0.0, &part) : -INFINITY;
 }
 
 /* The rise from `from` on at which element e at q is as deep as `wanted`. */
 static double rise_of(const ali3_instance *in, const double *q, int32_t e, double from, double wanted) {
   double rise = from, part = 1.0;
   for (int k = 0; k < MOST_MOVES; k++) {
-    const double excess = depth(in, in->road, q, e, rise, &part) - wanted;
+    const double excess = depth(in, in->roads.used, q, e, rise, &part) - wanted;
     if (!(fabs(excess) > LEVEL)) break;
     rise += excess * part;
   }
@@ -60,23 +60,24 @@ static double rise_of(const ali3_instance *in, const double *q, int32_t e, doubl
 void ali3_start_on_road(ali3_instance *in) {
   const ali3_system *S = in->system;
   double lift = -INFINITY, part;
-  in->lift = in->uneven = 0.0;
-  if (!in->to_lift || !S->size.has_pose || !ali3_roads_from_outside(in)) return;
+  in->start.lift = in->start.uneven = 0.0;
+  if (!in->start.to_lift || !S->size.has_pose || !ali3_roads_from_outside(in)) return;
   const bool touching = drawn_depths(in);
   for (int32_t e = 0; e < S->size.ne; e++)
-    if (S->el_kind[e]->depth != NULL && (!touching || in->potential_work[e] > 0.0))
-      lift = fmax(lift, rise_of(in, in->now.q, e, 0.0, in->potential_work[e]));
+    if (S->el_kind[e]->depth != NULL && (!touching || in->element.potential[e] > 0.0))
+      lift = fmax(lift, rise_of(in, in->now.q, e, 0.0, in->element.potential[e]));
   if (!(lift > -INFINITY)) return; /* nothing meets a road */
   for (int32_t e = 0; e < S->size.ne && touching; e++) {
     if (S->el_kind[e]->depth == NULL) continue;
-    if (in->potential_work[e] <= 0.0 && depth(in, in->road, in->now.q, e, lift, &part) > 0.0)
+    if (in->element.potential[e] <= 0.0 && depth(in, in->roads.used, in->now.q, e, lift, &part) > 0.0)
       lift = fmax(lift, rise_of(in, in->now.q, e, lift, 0.0));
   }
   for (int32_t e = 0; e < S->size.ne && touching; e++)
-    if (S->el_kind[e]->depth != NULL && in->potential_work[e] > 0.0)
-      in->uneven = fmax(in->uneven, in->potential_work[e] - depth(in, in->road, in->now.q, e, lift, &part));
+    if (S->el_kind[e]->depth != NULL && in->element.potential[e] > 0.0)
+      in->start.uneven =
+          fmax(in->start.uneven, in->element.potential[e] - depth(in, in->roads.used, in->now.q, e, lift, &part));
   if (fabs(lift) <= LEVEL) return;
-  in->lift = lift;
+  in->start.lift = lift;
   for (int32_t i = 0; i < S->size.nq; i++) in->now.q[i] += lift * S->pose_z[i];
 }
 
@@ -116,11 +117,11 @@ double ali3_climb(const ali3_instance *in, const double *rate, double *q, double
 ali3_status ali3_start_text(const ali3_instance *in, char *text, size_t size) {
   if (in == NULL || text == NULL || size == 0) return ALI3_BAD_ARGUMENT;
   text[0] = 0;
-  if (in->uneven > UNEVEN)
+  if (in->start.uneven > UNEVEN)
     snprintf(text, size,
              "The road is not level where this starts: the start is raised by %.3g m so that nothing is in the road, "
              "and the part that hangs highest above its place of rest sinks by %.3g m.",
-             in->lift, in->uneven);
+             in->start.lift, in->start.uneven);
   return ALI3_OK;
 }
 

@@ -1,7 +1,7 @@
 /* Static equilibrium by a pseudo-transient Newton iteration: mass / c + stiffness, with c growing while the balance
  * improves. The mass keeps free directions (position on a plane) where they are. A coordinate that no row, stiffness
- * or weight touches, such as the spin of a driven wheel, cannot come into balance at rest: it is held. in->w marks
- * with 0 what may be held, in->d0 what is; both have 1 elsewhere.
+ * or weight touches, such as the spin of a driven wheel, cannot come into balance at rest: it is held. in->step.w marks
+ * with 0 what may be held, in->step.d0 what is; both have 1 elsewhere.
  *
  * At rest friction holds nothing before it is deflected. Where there is no equilibrium without it, the way from the
  * drawing is taken as one step of LONG, whose end then has the deflections: what damps does nothing, what sticks is a
@@ -31,13 +31,13 @@ static const double ROUND_OFF = 1e-12; /* of the forces in balance */
 /* rad: between these iterations have turned a scene that floats, as nothing holds it; it is put back to the drawing */
 static const double TURNED = 1e-12, HELD = 1e-6;
 
-/* Forces at rest, g = Phi_q' lam - Q in in->r; largest |g_i| goes to the report, what lies above round-off is
+/* Forces at rest, g = Phi_q' lam - Q in in->step.r; largest |g_i| goes to the report, what lies above round-off is
  * returned. `h`: of the step from the drawing, or 0. */
 static double balance(ali3_instance *in, double c, double h) {
   const ali3_system *S = in->system;
   ali3_vectors *v = &in->next;
   double largest = 0.0, scale = 0.0;
-  ali3_constraints(in, v->q, v->s, in->Phi, in->J);
+  ali3_constraints(in, v->q, v->s, in->step.Phi, in->tangent.J);
   for (int32_t i = 0; h > 0.0 && i < S->size.nq; i++) v->qd[i] = 2.0 * (v->q[i] - in->now.q[i]) / h;
   const ali3_force_call call = {.q = v->q,
                                 .qd = v->qd,
@@ -46,39 +46,39 @@ static double balance(ali3_instance *in, double c, double h) {
                                 .wC = h > 0.0 ? 2.0 * c / h : 0.0,
                                 .wK = c,
                                 .tangent = true,
-                                .Q = in->Q,
-                                .y_new = in->y_work,
-                                .out = in->out_work,
-                                .potential = in->potential_work};
+                                .Q = in->step.Q,
+                                .y_new = in->element.y,
+                                .out = in->element.out,
+                                .potential = in->element.potential};
   ali3_forces(in, &call);
-  ali3_rows_transposed(S, in->J, v->lam, in->r);
+  ali3_rows_transposed(S, in->tangent.J, v->lam, in->step.r);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    scale = fmax(scale, fabs(in->Q[i]));
-    in->r[i] = in->d0[i] * (in->r[i] - in->Q[i]);
-    if (!(fabs(in->r[i]) <= largest) && largest == largest) { /* a NaN stays */
-      largest = fabs(in->r[i]);
+    scale = fmax(scale, fabs(in->step.Q[i]));
+    in->step.r[i] = in->step.d0[i] * (in->step.r[i] - in->step.Q[i]);
+    if (!(fabs(in->step.r[i]) <= largest) && largest == largest) { /* a NaN stays */
+      largest = fabs(in->step.r[i]);
       in->report.worst_coordinate = i;
     }
   }
   in->report.residual = largest;
-  in->report.violation = ali3_violation(S, in->Phi, &in->report.worst_row);
+  in->report.violation = ali3_violation(S, in->step.Phi, &in->report.worst_row);
   return largest <= ROUND_OFF * scale ? 0.0 : largest;
 }
 
 /* T = M + c (K + sum lam_k H_k) + PENALTY Phi_q' Phi_q; an indefinite T gives no descent direction. */
 static ali3_status factorise(ali3_instance *in, double c) {
   const ali3_system *S = in->system;
-  ali3_mass_to_fronts(in, in->F);
-  for (int32_t i = 0; i < S->size.nq; i++) in->F[S->diagonal_pos[i]] += in->mass_missing[i];
-  ali3_rows_square(in, in->J, PENALTY, in->F);
-  ali3_geometric(in, in->next.q, in->next.s, in->next.lam, c, in->F);
-  ali3_forces_tangent(in, in->F);
+  ali3_mass_to_fronts(in, in->tangent.F);
+  for (int32_t i = 0; i < S->size.nq; i++) in->tangent.F[S->diagonal_pos[i]] += in->mass.missing[i];
+  ali3_rows_square(in, in->tangent.J, PENALTY, in->tangent.F);
+  ali3_geometric(in, in->next.q, in->next.s, in->next.lam, c, in->tangent.F);
+  ali3_forces_tangent(in, in->tangent.F);
   for (int32_t i = 0; i < S->size.nq; i++) {
     const int32_t pos = S->diagonal_pos[i];
-    in->d0[i] = in->F[pos] == in->front_mass[pos] + in->mass_missing[i] ? in->w[i] : 1.0;
-    in->r[i] *= in->d0[i];
+    in->step.d0[i] = in->tangent.F[pos] == in->mass.front[pos] + in->mass.missing[i] ? in->step.w[i] : 1.0;
+    in->step.r[i] *= in->step.d0[i];
   }
-  const ali3_status status = ali3_factorise(in, in->F);
+  const ali3_status status = ali3_factorise(in, in->tangent.F);
   return status == ALI3_OK && in->report.negative_pivots > 0 ? ALI3_SINGULAR : status;
 }
 
@@ -87,30 +87,30 @@ static ali3_status correct(ali3_instance *in, double c, double *part) {
   const ali3_system *S = in->system;
   const int32_t nq = S->size.nq, nc = S->size.nc;
   double *lam = in->next.lam, longest = 0.0;
-  for (int32_t k = 0; k < nc; k++) in->mu[k] = PENALTY * in->Phi[k];
-  ali3_rows_transposed(S, in->J, in->mu, in->x);
-  for (int32_t i = 0; i < nq; i++) in->x[i] = -(c * in->r[i] + in->x[i]);
-  ali3_solve(in, in->F, in->x);
-  if (!ali3_finite(in->x, nq)) return ALI3_NOT_FINITE;
+  for (int32_t k = 0; k < nc; k++) in->step.mu[k] = PENALTY * in->step.Phi[k];
+  ali3_rows_transposed(S, in->tangent.J, in->step.mu, in->step.x);
+  for (int32_t i = 0; i < nq; i++) in->step.x[i] = -(c * in->step.r[i] + in->step.x[i]);
+  ali3_solve(in, in->tangent.F, in->step.x);
+  if (!ali3_finite(in->step.x, nq)) return ALI3_NOT_FINITE;
   for (int32_t i = 0; i < nq; i++)
-    if (fabs(in->x[i]) > longest) longest = fabs(in->x[i]);
+    if (fabs(in->step.x[i]) > longest) longest = fabs(in->step.x[i]);
   *part = longest > LONGEST_STEP ? LONGEST_STEP / longest : 1.0;
-  ali3_rows_times(S, in->J, in->x, in->gamma);
-  for (int32_t k = 0; k < nc; k++) lam[k] += *part * PENALTY / c * (in->Phi[k] + in->gamma[k]);
-  for (int32_t i = 0; i < nq; i++) in->next.q[i] += *part * in->x[i];
+  ali3_rows_times(S, in->tangent.J, in->step.x, in->step.gamma);
+  for (int32_t k = 0; k < nc; k++) lam[k] += *part * PENALTY / c * (in->step.Phi[k] + in->step.gamma[k]);
+  for (int32_t i = 0; i < nq; i++) in->next.q[i] += *part * in->step.x[i];
   return ALI3_OK;
 }
 
 static void mark(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t i = 0; i < S->size.nq; i++) {
-    in->w[i] = in->gravity_force[i] == 0.0 ? 0.0 : 1.0;
-    in->d0[i] = 1.0;
+    in->step.w[i] = in->mass.gravity[i] == 0.0 ? 0.0 : 1.0;
+    in->step.d0[i] = 1.0;
   }
-  for (int32_t k = 0; k < S->size.nnz_rows; k++) in->w[S->row_col[k]] = 1.0;
+  for (int32_t k = 0; k < S->size.nnz_rows; k++) in->step.w[S->row_col[k]] = 1.0;
 }
 
-/* The equilibrium in in->next, from in->now; in->y_work has its states. */
+/* The equilibrium in in->next, from in->now; in->element.y has its states. */
 static ali3_status search(ali3_instance *in, double tolerance, int32_t max_iterations, double h) {
   ali3_status status = ALI3_OK;
   ali3_vectors_copy(in, &in->next, &in->now);
@@ -153,7 +153,7 @@ ali3_status ali3_solve_static(ali3_instance *in, double t, double tolerance, int
   status = search(in, tolerance, max_iterations, 0.0);
   if (status != ALI3_OK && S->size.ny > 0) {
     status = search(in, tolerance, max_iterations, LONG);
-    if (status == ALI3_OK) memcpy(in->now.y, in->y_work, (size_t)S->size.ny * sizeof(double));
+    if (status == ALI3_OK) memcpy(in->now.y, in->element.y, (size_t)S->size.ny * sizeof(double));
   }
   if (status != ALI3_OK) return status;
   memcpy(in->now.q, in->next.q, (size_t)S->size.nq * sizeof(double));

@@ -15,14 +15,14 @@ enum { MOMENTS = 4 }; /* in ali3_tabled.mass: the first of xx, yy, zz, yz, zx, x
 void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_system *T = s->turned;
   const size_t tabled = T != NULL ? (size_t)T->n_tabled : 0;
-  in->axis_real = ali3_pool_array(p, (size_t)s->n_axis_real);
-  in->turned = T != NULL ? ali3_pool_items(p, 1, sizeof *in->turned) : NULL;
-  in->turned_val = ali3_pool_array(p, T != NULL ? (size_t)T->n_sig_val : 0);
-  in->turned_const = ali3_pool_array(p, T != NULL ? (size_t)T->n_sig_const : 0);
-  in->turned_entry = ali3_pool_array(p, T != NULL ? (size_t)T->el_entry_ptr[T->size.ne] : 0);
-  in->turned_speed = ali3_pool_array(p, T != NULL ? (size_t)T->n_pose_speed : 0);
-  in->turned_tabled = ali3_pool_items(p, tabled, sizeof *in->turned_tabled);
-  in->turned_mass = ali3_pool_array(p, tabled * ALI3_TABLED_MOMENTS);
+  in->parameters.axis_real = ali3_pool_array(p, (size_t)s->n_axis_real);
+  in->axes.system = T != NULL ? ali3_pool_items(p, 1, sizeof *in->axes.system) : NULL;
+  in->axes.val = ali3_pool_array(p, T != NULL ? (size_t)T->n_sig_val : 0);
+  in->axes.constant = ali3_pool_array(p, T != NULL ? (size_t)T->n_sig_const : 0);
+  in->axes.entry = ali3_pool_array(p, T != NULL ? (size_t)T->el_entry_ptr[T->size.ne] : 0);
+  in->axes.speed = ali3_pool_array(p, T != NULL ? (size_t)T->n_pose_speed : 0);
+  in->axes.tabled = ali3_pool_items(p, tabled, sizeof *in->axes.tabled);
+  in->axes.mass = ali3_pool_array(p, tabled * ALI3_TABLED_MOMENTS);
 }
 
 /* Columns: forward and level, along the axis, up in the plane of the wheel. */
@@ -36,7 +36,7 @@ static void axes_of(const double *angle, double R[AXES][AXES]) {
 /* The turn from the drawing. */
 static void turn_of(const ali3_instance *in, int64_t k, double Q[AXES][AXES]) {
   double now[AXES][AXES], drawn[AXES][AXES];
-  axes_of(in->axis_real + REALS * k, now);
+  axes_of(in->parameters.axis_real + REALS * k, now);
   axes_of(in->base->axis_real + REALS * k, drawn);
   for (int i = 0; i < AXES; i++)
     for (int j = 0; j < AXES; j++) {
@@ -57,7 +57,7 @@ static bool equal(const double *one, const double *other, int64_t n) {
 }
 
 bool ali3_axis_as_drawn(const ali3_instance *in, int64_t k) {
-  return equal(in->axis_real + REALS * k, in->base->axis_real + REALS * k, REALS);
+  return equal(in->parameters.axis_real + REALS * k, in->base->axis_real + REALS * k, REALS);
 }
 
 void ali3_axis_moments(const ali3_instance *in, int64_t k, double change[3][3]) {
@@ -73,13 +73,13 @@ void ali3_axis_moments(const ali3_instance *in, int64_t k, double change[3][3]) 
 static void write_signal(ali3_instance *in, int32_t to, const int32_t *frame, const double w[AXES]) {
   const ali3_system *T = in->base->turned;
   const int32_t first = T->sig_ptr[to], n = T->sig_ptr[to + 1] - first;
-  memset(in->turned_val + first, 0, (size_t)n * sizeof(double));
-  in->turned_const[to] = 0.0;
+  memset(in->axes.val + first, 0, (size_t)n * sizeof(double));
+  in->axes.constant[to] = 0.0;
   for (int j = 0; j < AXES; j++) {
     const int32_t from = frame[AXES * j];
     for (int32_t a = T->sig_ptr[from]; a < T->sig_ptr[from + 1]; a++)
-      in->turned_val[first + ali3_find(T->sig_col + first, n, T->sig_col[a])] += w[j] * T->sig_val[a];
-    in->turned_const[to] += w[j] * T->sig_const[from];
+      in->axes.val[first + ali3_find(T->sig_col + first, n, T->sig_col[a])] += w[j] * T->sig_val[a];
+    in->axes.constant[to] += w[j] * T->sig_const[from];
   }
 }
 
@@ -97,9 +97,9 @@ static void write_signals(ali3_instance *in, int64_t k) {
 /* As derived: the coefficients of the signals of all elements in turn. */
 static void write_entries(ali3_instance *in) {
   const ali3_system *T = in->base->turned;
-  double *to = in->turned_entry;
+  double *to = in->axes.entry;
   for (int64_t i = 0; i < T->n_el_sig; i++)
-    for (int32_t k = T->sig_ptr[T->el_sig[i]]; k < T->sig_ptr[T->el_sig[i] + 1]; k++) *to++ = in->turned_val[k];
+    for (int32_t k = T->sig_ptr[T->el_sig[i]]; k < T->sig_ptr[T->el_sig[i] + 1]; k++) *to++ = in->axes.val[k];
 }
 
 static void write_moments(ali3_instance *in, int64_t k) {
@@ -109,30 +109,31 @@ static void write_moments(ali3_instance *in, int64_t k) {
   if (table < 0) return;
   ali3_axis_moments(in, k, change);
   for (int i = 0; i < 6; i++)
-    in->turned_mass[ALI3_TABLED_MOMENTS * table + MOMENTS + i] += change[place[i][0]][place[i][1]];
+    in->axes.mass[ALI3_TABLED_MOMENTS * table + MOMENTS + i] += change[place[i][0]][place[i][1]];
 }
 
 /* The spin of a start with a speed: that of a wheel that rolls, whose loaded radius grows as it leans. */
 static void write_speed(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->base;
-  const double *radius = S->axis_rolling + 2 * k, *drawn = S->axis_real + REALS * k, *now = in->axis_real + REALS * k;
+  const double *radius = S->axis_rolling + 2 * k, *drawn = S->axis_real + REALS * k,
+               *now = in->parameters.axis_real + REALS * k;
   if (!S->size.has_pose || !(radius[0] > 0.0)) return;
   const double leaned = radius[0] + radius[1] * (1.0 / ali3_cos(now[1]) - 1.0 / ali3_cos(drawn[1]));
-  in->turned_speed[S->axis_spin[k]] = ali3_cos(now[0]) * ali3_cos(now[1]) / leaned;
+  in->axes.speed[S->axis_spin[k]] = ali3_cos(now[0]) * ali3_cos(now[1]) / leaned;
 }
 
 void ali3_axes_apply(ali3_instance *in) {
   const ali3_system *S = in->base, *T = S->turned;
   in->system = S;
-  if (T == NULL || equal(in->axis_real, S->axis_real, S->n_axis_real)) return;
-  memcpy(in->turned_val, T->sig_val, (size_t)T->n_sig_val * sizeof(double));
-  memcpy(in->turned_const, T->sig_const, (size_t)T->n_sig_const * sizeof(double));
-  if (T->n_pose_speed > 0) memcpy(in->turned_speed, T->pose_speed, (size_t)T->n_pose_speed * sizeof(double));
+  if (T == NULL || equal(in->parameters.axis_real, S->axis_real, S->n_axis_real)) return;
+  memcpy(in->axes.val, T->sig_val, (size_t)T->n_sig_val * sizeof(double));
+  memcpy(in->axes.constant, T->sig_const, (size_t)T->n_sig_const * sizeof(double));
+  if (T->n_pose_speed > 0) memcpy(in->axes.speed, T->pose_speed, (size_t)T->n_pose_speed * sizeof(double));
   for (int32_t i = 0; i < T->n_tabled; i++) {
-    double *mass = in->turned_mass + ALI3_TABLED_MOMENTS * i;
+    double *mass = in->axes.mass + ALI3_TABLED_MOMENTS * i;
     memcpy(mass, T->tabled[i].mass, ALI3_TABLED_MOMENTS * sizeof(double));
-    in->turned_tabled[i] = T->tabled[i];
-    in->turned_tabled[i].mass = mass;
+    in->axes.tabled[i] = T->tabled[i];
+    in->axes.tabled[i].mass = mass;
   }
   for (int64_t k = 0; k < S->n_axis_inertia; k++) {
     if (ali3_axis_as_drawn(in, k)) continue;
@@ -141,15 +142,15 @@ void ali3_axes_apply(ali3_instance *in) {
     write_speed(in, k);
   }
   write_entries(in);
-  *in->turned = *T;
-  in->turned->sig_val = in->turned_val;
-  in->turned->sig_const = in->turned_const;
-  in->turned->el_entry_value = in->turned_entry;
-  in->turned->tabled = in->turned_tabled;
-  in->turned->pose_speed = in->turned_speed;
-  in->system = in->turned;
+  *in->axes.system = *T;
+  in->axes.system->sig_val = in->axes.val;
+  in->axes.system->sig_const = in->axes.constant;
+  in->axes.system->el_entry_value = in->axes.entry;
+  in->axes.system->tabled = in->axes.tabled;
+  in->axes.system->pose_speed = in->axes.speed;
+  in->system = in->axes.system;
 }
 
 bool ali3_axes_same(const ali3_instance *one, const ali3_instance *other) {
-  return equal(one->axis_real, other->axis_real, one->base->n_axis_real);
+  return equal(one->parameters.axis_real, other->parameters.axis_real, one->base->n_axis_real);
 }

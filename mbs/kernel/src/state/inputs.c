@@ -16,25 +16,25 @@ static const double ROUND_OFF = 1e-13;
 
 /* Whether inputs (nu) give all roads at ports their normals. */
 static ali3_status normals(ali3_instance *in, const double *input) {
-  const double *const used = in->force_input;
-  in->force_input = input;
+  const double *const used = in->inputs.forces;
+  in->inputs.forces = input;
   const ali3_status status = ali3_roads_normals(in);
-  in->force_input = used;
+  in->inputs.forces = used;
   return status;
 }
 
 /* Inputs of the function at time t to `to` (nu), held in their ranges. */
 static ali3_status ask(ali3_instance *in, double t, bool after, double *to) {
   const ali3_system *S = in->system;
-  memcpy(in->input_work, in->input, (size_t)S->size.nu * sizeof(double));
-  const ali3_float_control host = in->host_control;
+  memcpy(in->inputs.work, in->inputs.set, (size_t)S->size.nu * sizeof(double));
+  const ali3_float_control host = in->inputs.host_control;
   ali3_float_control_restore(host);
-  const int32_t refused = in->input_function(in->input_context, t, after ? 1 : 0, in->input_work);
+  const int32_t refused = in->inputs.function(in->inputs.context, t, after ? 1 : 0, in->inputs.work);
   ali3_float_control_set();
-  in->host_control = host;
+  in->inputs.host_control = host;
   if (refused != 0) return ALI3_BAD_ARGUMENT;
-  if (!ali3_finite(in->input_work, S->size.nu)) return ALI3_BAD_ARGUMENT;
-  for (int32_t i = 0; i < S->size.nu; i++) to[i] = fmax(S->input_min[i], fmin(S->input_max[i], in->input_work[i]));
+  if (!ali3_finite(in->inputs.work, S->size.nu)) return ALI3_BAD_ARGUMENT;
+  for (int32_t i = 0; i < S->size.nu; i++) to[i] = fmax(S->input_min[i], fmin(S->input_max[i], in->inputs.work[i]));
   return normals(in, to);
 }
 
@@ -43,51 +43,52 @@ static ali3_status ask(ali3_instance *in, double t, bool after, double *to) {
 ali3_status ali3_inputs_aim(ali3_instance *in, double h, const double *end) {
   const ali3_system *S = in->system;
   if (end != NULL && !ali3_finite(end, S->size.nu)) return ALI3_BAD_ARGUMENT;
-  in->whole_time = ali3_time(in);
-  in->whole_length = h;
+  in->inputs.whole_time = ali3_time(in);
+  in->inputs.whole_length = h;
   for (int32_t i = 0; i < S->size.nu; i++) {
-    in->input_from[i] = in->input[i];
-    in->input_to[i] = end != NULL ? fmax(S->input_min[i], fmin(S->input_max[i], end[i])) : in->input[i];
+    in->inputs.from[i] = in->inputs.set[i];
+    in->inputs.to[i] = end != NULL ? fmax(S->input_min[i], fmin(S->input_max[i], end[i])) : in->inputs.set[i];
   }
   return ALI3_OK;
 }
 
-/* Inputs at both ends of a step, or a part of one, of size h that ends at time t: in->input_begin and in->input. */
+/* Inputs at both ends of a step, or a part of one, of size h that ends at time t: in->inputs.begin and in->inputs.set. */
 ali3_status ali3_inputs_begin(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
-  in->input_time = in->t_now;
-  in->input_length = h;
-  if (in->input_function != NULL) {
-    const ali3_status status = ask(in, in->t_now, true, in->input_begin);
-    return status == ALI3_OK ? ask(in, t, false, in->input) : status;
+  in->inputs.part_time = in->clock.now;
+  in->inputs.part_length = h;
+  if (in->inputs.function != NULL) {
+    const ali3_status status = ask(in, in->clock.now, true, in->inputs.begin);
+    return status == ALI3_OK ? ask(in, t, false, in->inputs.set) : status;
   }
-  const double left = in->whole_time + in->whole_length - t;
-  memcpy(in->input_begin, in->t_now == in->whole_time ? in->input_from : in->now.used,
+  const double left = in->inputs.whole_time + in->inputs.whole_length - t;
+  memcpy(in->inputs.begin, in->clock.now == in->inputs.whole_time ? in->inputs.from : in->now.used,
          (size_t)S->size.nu * sizeof(double));
-  memcpy(in->input, in->input_to, (size_t)S->size.nu * sizeof(double));
-  if (left > fmax(NEAR * in->whole_length, 4.0 * DBL_EPSILON * fabs(t))) /* late times are coarse */
+  memcpy(in->inputs.set, in->inputs.to, (size_t)S->size.nu * sizeof(double));
+  if (left > fmax(NEAR * in->inputs.whole_length, 4.0 * DBL_EPSILON * fabs(t))) /* late times are coarse */
     for (int32_t i = 0; i < S->size.nu; i++)
-      in->input[i] -= left / in->whole_length * (in->input_to[i] - in->input_from[i]);
+      in->inputs.set[i] -= left / in->inputs.whole_length * (in->inputs.to[i] - in->inputs.from[i]);
   return ali3_roads_normals(in);
 }
 
-/* in->input_middle becomes the inputs at a share, 0 to 1, of the step that was given to ali3_inputs_begin. */
+/* in->inputs.middle becomes the inputs at a share, 0 to 1, of the step that was given to ali3_inputs_begin. */
 ali3_status ali3_inputs_at(ali3_instance *in, double share) {
-  const double *u0 = in->input_begin;
+  const double *u0 = in->inputs.begin;
   const size_t size = (size_t)in->system->size.nu * sizeof(double);
-  if (in->input_function != NULL && share > 0.0 && share < 1.0)
-    return ask(in, in->input_time + share * in->input_length, false, in->input_middle);
-  if (in->input_function != NULL)
-    memcpy(in->input_middle, share > 0.0 ? in->input : u0, size);
+  if (in->inputs.function != NULL && share > 0.0 && share < 1.0)
+    return ask(in, in->inputs.part_time + share * in->inputs.part_length, false, in->inputs.middle);
+  if (in->inputs.function != NULL)
+    memcpy(in->inputs.middle, share > 0.0 ? in->inputs.set : u0, size);
   else
-    for (int32_t i = 0; i < in->system->size.nu; i++) in->input_middle[i] = u0[i] + share * (in->input[i] - u0[i]);
+    for (int32_t i = 0; i < in->system->size.nu; i++)
+      in->inputs.middle[i] = u0[i] + share * (in->inputs.set[i] - u0[i]);
   return ALI3_OK;
 }
 
 /* Whether the inputs jump at the start of the step: the accelerations that the last one left then do not hold. */
 bool ali3_inputs_jump(const ali3_instance *in) {
   for (int32_t i = 0; i < in->system->size.nu; i++) {
-    const double before = in->now.used[i], behind = in->input_begin[i];
+    const double before = in->now.used[i], behind = in->inputs.begin[i];
     if (fabs(behind - before) > ROUND_OFF * (fabs(behind) + fabs(before))) return true;
   }
   return false;
@@ -95,27 +96,27 @@ bool ali3_inputs_jump(const ali3_instance *in) {
 
 ali3_status ali3_set_input_function(ali3_instance *in, ali3_input_function *function, void *context) {
   if (in == NULL) return ALI3_BAD_ARGUMENT;
-  in->input_function = function;
-  in->input_context = context;
-  in->n_breaks = 0;
+  in->inputs.function = function;
+  in->inputs.context = context;
+  in->inputs.n_breaks = 0;
   return ALI3_OK;
 }
 
 ali3_status ali3_set_input_breaks(ali3_instance *in, const double *time, int64_t n) {
   if (in == NULL || n < 0 || (n > 0 && time == NULL)) return ALI3_BAD_ARGUMENT;
-  in->input_break = time;
-  in->n_breaks = n;
+  in->inputs.breaks = time;
+  in->inputs.n_breaks = n;
   return ALI3_OK;
 }
 
 /* The first break of the inputs after the present time and before t, else t. */
 double ali3_inputs_until(const ali3_instance *in, double t) {
-  int64_t low = 0, high = in->n_breaks;
+  int64_t low = 0, high = in->inputs.n_breaks;
   while (low < high) {
     const int64_t middle = low + (high - low) / 2;
-    const bool past = in->input_break[middle] <= in->t_now;
+    const bool past = in->inputs.breaks[middle] <= in->clock.now;
     low = past ? middle + 1 : low;
     high = past ? high : middle;
   }
-  return low < in->n_breaks && in->input_break[low] < t ? in->input_break[low] : t;
+  return low < in->inputs.n_breaks && in->inputs.breaks[low] < t ? in->inputs.breaks[low] : t;
 }

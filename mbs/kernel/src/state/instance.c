@@ -34,9 +34,9 @@ ali3_status ali3_instance_new(const ali3_system *s, ali3_instance **out) {
   ali3_workspace_place(s, in, &pool);
   in->system = in->base = s;
   in->release = s->memory.release;
-  in->n_roads = s->nr;
-  in->n_vector = ali3_vector_count(s);
-  in->force_input = in->input;
+  in->roads.n = s->nr;
+  in->kept.n = ali3_vector_count(s);
+  in->inputs.forces = in->inputs.set;
   ali3_masses_start(in);
   if (s->tree != NULL) ali3_tree_start(s, in->tree);
   const ali3_status status = ali3_reset(in);
@@ -97,45 +97,46 @@ ali3_status ali3_reset(ali3_instance *in) {
   const ali3_report none = {0};
   in->settings = ali3_default_settings();
   in->report = none;
-  in->t_base = in->h_last = 0.0;
-  in->count = 0;
-  in->initialised = 0;
-  in->input_function = NULL;
-  in->n_breaks = 0;
-  in->mode_known = false;
-  in->placed = ALI3_PLACED_BY_FILE;
-  in->start_moved = false;
-  in->to_lift = true;
-  in->lift = in->uneven = 0.0;
+  in->clock.base = in->clock.h = 0.0;
+  in->clock.count = 0;
+  in->start.initialised = 0;
+  in->inputs.function = NULL;
+  in->inputs.n_breaks = 0;
+  in->branch.known = false;
+  in->start.placed = ALI3_PLACED_BY_FILE;
+  in->start.moved = false;
+  in->start.to_lift = true;
+  in->start.lift = in->start.uneven = 0.0;
   ali3_start_of_file(in);
-  memset(in->now.q, 0, in->n_vector * sizeof(double));
+  memset(in->now.q, 0, in->kept.n * sizeof(double));
   copy(in->now.q, S->q0, S->size.nq);
   copy(in->now.qd, S->qd0, S->size.nq);
   copy(in->now.y, S->y0, S->size.ny);
-  for (int32_t k = 0; k < S->size.n_switch; k++) in->now.on[k] = in->switch_on[k] = (double)S->switch_start[k];
-  copy(in->input, S->input_start, S->size.nu);
+  for (int32_t k = 0; k < S->size.n_switch; k++)
+    in->now.on[k] = in->parameters.switch_on[k] = (double)S->switch_start[k];
+  copy(in->inputs.set, S->input_start, S->size.nu);
   copy(in->now.used, S->input_start, S->size.nu);
-  copy(in->parameter, S->par_value, S->size.np);
-  copy(in->el_real, S->el_real, S->n_el_real);
-  copy(in->guide_real, S->guide_real, S->n_guide_real);
+  copy(in->parameters.value, S->par_value, S->size.np);
+  copy(in->parameters.el_real, S->el_real, S->n_el_real);
+  copy(in->parameters.guide_real, S->guide_real, S->n_guide_real);
   ali3_guides_measure(in);
-  copy(in->road_real, S->road_real, S->n_road_real);
-  copy(in->payload_mass, S->payload_mass, S->n_payload_mass);
-  copy(in->armature_ratio, S->armature_ratio, S->n_armature_ratio);
-  copy(in->inertia_real, S->inertia_real, S->n_inertia_real);
-  copy(in->axis_real, S->axis_real, S->n_axis_real);
-  copy(in->sen_real, S->sen_real, S->n_sen_real);
+  copy(in->parameters.road_real, S->road_real, S->n_road_real);
+  copy(in->parameters.payload_mass, S->payload_mass, S->n_payload_mass);
+  copy(in->parameters.armature_ratio, S->armature_ratio, S->n_armature_ratio);
+  copy(in->parameters.inertia_real, S->inertia_real, S->n_inertia_real);
+  copy(in->parameters.axis_real, S->axis_real, S->n_axis_real);
+  copy(in->parameters.sen_real, S->sen_real, S->n_sen_real);
   for (int32_t g = 0; g < S->size.ng; g++)
-    if (ali3_guide_filters(S->guide_type[g])) in->now.s[g] = in->guide_real[S->guide_real_ptr[g] + 2];
+    if (ali3_guide_filters(S->guide_type[g])) in->now.s[g] = in->parameters.guide_real[S->guide_real_ptr[g] + 2];
   for (int32_t r = 0; r < S->nr; r++) {
     const ali3_road road = {.type = S->road_type[r],
                             .nreal = S->road_real_ptr[r + 1] - S->road_real_ptr[r],
-                            .real = in->road_real + S->road_real_ptr[r],
-                            .file = in->road[r].file,
-                            .input = &in->force_input};
-    in->road[r] = in->own_road[r] = road;
-    in->own_road[r].file = NULL;
-    in->own_road[r].input = &S->input_start; /* the drawing is one on what the inputs start with */
+                            .real = in->parameters.road_real + S->road_real_ptr[r],
+                            .file = in->roads.used[r].file,
+                            .input = &in->inputs.forces};
+    in->roads.used[r] = in->roads.own[r] = road;
+    in->roads.own[r].file = NULL;
+    in->roads.own[r].input = &S->input_start; /* the drawing is one on what the inputs start with */
   }
   return ali3_parameters_apply(in);
 }
@@ -143,13 +144,13 @@ ali3_status ali3_reset(ali3_instance *in) {
 /* Clamped to the range of the input. */
 ali3_status ali3_set_input(ali3_instance *in, int32_t index, double value) {
   if (in == NULL || index < 0 || index >= in->system->size.nu || !(value - value == 0.0)) return ALI3_BAD_ARGUMENT;
-  in->input[index] = fmax(in->system->input_min[index], fmin(in->system->input_max[index], value));
+  in->inputs.set[index] = fmax(in->system->input_min[index], fmin(in->system->input_max[index], value));
   return ALI3_OK;
 }
 
 ali3_status ali3_get_input(const ali3_instance *in, int32_t index, double *value) {
   if (in == NULL || value == NULL || index < 0 || index >= in->system->size.nu) return ALI3_BAD_ARGUMENT;
-  *value = in->input[index];
+  *value = in->inputs.set[index];
   return ALI3_OK;
 }
 
@@ -162,16 +163,16 @@ ali3_status ali3_set_pose(ali3_instance *in, const double *pose) {
   const ali3_system *S = in->system;
   const double c = ali3_cos(yaw), s = ali3_sin(yaw);
   for (int32_t i = 0; i < S->size.nq; i++) {
-    in->now.q[i] = in->pose_0[i] + c * in->pose_cos[i] + s * in->pose_sin[i] + x * S->pose_x[i] + y * S->pose_y[i] +
-                   z * S->pose_z[i];
+    in->now.q[i] = in->start.pose_0[i] + c * in->start.pose_cos[i] + s * in->start.pose_sin[i] + x * S->pose_x[i] +
+                   y * S->pose_y[i] + z * S->pose_z[i];
     in->now.qd[i] = speed * (c * S->pose_x[i] + s * S->pose_y[i] + S->pose_speed[i]);
     if (left != 0.0) in->now.qd[i] += left * (c * S->pose_y[i] - s * S->pose_x[i]);
-    if (rate != 0.0) in->now.qd[i] += rate * (c * in->pose_sin[i] - s * in->pose_cos[i]);
+    if (rate != 0.0) in->now.qd[i] += rate * (c * in->start.pose_sin[i] - s * in->start.pose_cos[i]);
   }
-  memmove(in->pose, pose, sizeof in->pose);
-  in->placed = ALI3_PLACED_BY_POSE;
-  in->to_lift = true;
-  in->initialised = 0;
+  memmove(in->start.pose, pose, sizeof in->start.pose);
+  in->start.placed = ALI3_PLACED_BY_POSE;
+  in->start.to_lift = true;
+  in->start.initialised = 0;
   return ALI3_OK;
 }
 
@@ -181,10 +182,10 @@ ali3_status ali3_set_q(ali3_instance *in, const double *q, const double *qd) {
   if ((q != NULL && !ali3_finite(q, nq)) || (qd != NULL && !ali3_finite(qd, nq))) return ALI3_BAD_ARGUMENT;
   if (q != NULL) {
     copy(in->now.q, q, nq);
-    in->placed = ALI3_PLACED_BY_Q;
-    in->to_lift = false;
+    in->start.placed = ALI3_PLACED_BY_Q;
+    in->start.to_lift = false;
   }
   if (qd != NULL) copy(in->now.qd, qd, nq);
-  in->initialised = 0;
+  in->start.initialised = 0;
   return ALI3_OK;
 }

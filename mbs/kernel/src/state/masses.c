@@ -20,30 +20,30 @@ static bool changes(const ali3_system *s) {
 void ali3_masses_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const bool loaded = changes(s);
   const size_t nq = loaded ? (size_t)s->size.nq : 0;
-  in->payload_mass = ali3_pool_array(p, (size_t)s->n_payload_mass);
-  in->armature_ratio = ali3_pool_array(p, (size_t)s->n_armature_ratio);
-  in->inertia_real = ali3_pool_array(p, (size_t)s->n_inertia_real);
-  in->own_masses.val = ali3_pool_array(p, loaded ? (size_t)s->size.nnz_mass : 0);
-  in->own_masses.front = ali3_pool_array(p, loaded ? (size_t)s->size.front_size : 0);
-  in->own_masses.floor = ali3_pool_array(p, nq);
-  in->own_masses.floor_inverse = ali3_pool_array(p, nq);
-  in->own_masses.missing = ali3_pool_array(p, nq);
-  in->own_masses.gravity = ali3_pool_array(p, nq);
+  in->parameters.payload_mass = ali3_pool_array(p, (size_t)s->n_payload_mass);
+  in->parameters.armature_ratio = ali3_pool_array(p, (size_t)s->n_armature_ratio);
+  in->parameters.inertia_real = ali3_pool_array(p, (size_t)s->n_inertia_real);
+  in->mass.own.val = ali3_pool_array(p, loaded ? (size_t)s->size.nnz_mass : 0);
+  in->mass.own.front = ali3_pool_array(p, loaded ? (size_t)s->size.front_size : 0);
+  in->mass.own.floor = ali3_pool_array(p, nq);
+  in->mass.own.floor_inverse = ali3_pool_array(p, nq);
+  in->mass.own.missing = ali3_pool_array(p, nq);
+  in->mass.own.gravity = ali3_pool_array(p, nq);
 }
 
 /* Once, for a new instance. */
 void ali3_masses_start(ali3_instance *in) {
   const ali3_system *S = in->system;
-  const ali3_masses *own = &in->own_masses;
+  const ali3_own_masses *own = &in->mass.own;
   const bool loaded = changes(S);
-  in->mass_val = loaded ? own->val : S->mass_val;
-  in->mass_isotropic = true;
-  in->front_mass = loaded ? own->front : S->front_mass;
-  in->mass_floor = loaded ? own->floor : S->mass_floor;
-  in->mass_floor_inverse = loaded ? own->floor_inverse : S->mass_floor_inverse;
-  in->mass_missing = loaded ? own->missing : S->mass_missing;
-  in->gravity_force = loaded ? own->gravity : S->gravity_force;
-  in->gravity_const = S->gravity_const[0];
+  in->mass.val = loaded ? own->val : S->mass_val;
+  in->mass.isotropic = true;
+  in->mass.front = loaded ? own->front : S->front_mass;
+  in->mass.floor = loaded ? own->floor : S->mass_floor;
+  in->mass.floor_inverse = loaded ? own->floor_inverse : S->mass_floor_inverse;
+  in->mass.missing = loaded ? own->missing : S->mass_missing;
+  in->mass.gravity = loaded ? own->gravity : S->gravity_force;
+  in->mass.gravity_const = S->gravity_const[0];
 }
 
 /* A mass on a signal whose component of gravity is g. */
@@ -54,11 +54,11 @@ static void add(ali3_instance *in, int32_t signal, double mass, double g) {
     const int32_t row = S->sig_col[a], start = S->mass_ptr[row];
     for (int32_t b = first; b < end; b++) {
       const int32_t at = ali3_find(S->mass_col + start, S->mass_ptr[row + 1] - start, S->sig_col[b]);
-      in->own_masses.val[start + at] += mass * (S->sig_val[a] * S->sig_val[b]);
+      in->mass.own.val[start + at] += mass * (S->sig_val[a] * S->sig_val[b]);
     }
-    in->own_masses.gravity[row] += mass * g * S->sig_val[a];
+    in->mass.own.gravity[row] += mass * g * S->sig_val[a];
   }
-  in->gravity_const -= mass * g * S->sig_const[signal];
+  in->mass.gravity_const -= mass * g * S->sig_const[signal];
 }
 
 /* A moment of mass between the signals of two vectors. */
@@ -67,7 +67,7 @@ static void couple(ali3_instance *in, int32_t one, int32_t other, double moment)
   for (int32_t a = S->sig_ptr[one]; a < S->sig_ptr[one + 1]; a++) {
     const int32_t row = S->sig_col[a], start = S->mass_ptr[row], n = S->mass_ptr[row + 1] - start;
     for (int32_t b = S->sig_ptr[other]; b < S->sig_ptr[other + 1]; b++)
-      in->own_masses.val[start + ali3_find(S->mass_col + start, n, S->sig_col[b])] +=
+      in->mass.own.val[start + ali3_find(S->mass_col + start, n, S->sig_col[b])] +=
           moment * (S->sig_val[a] * S->sig_val[b]);
   }
 }
@@ -89,7 +89,8 @@ static void moments(const double *real, const double *origin, double out[4][4]) 
 /* What the inertia of body k changes, nothing where it is that of the System. */
 static void weigh(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->system;
-  const double *old = S->inertia_real + k * ALI3_INERTIA_REALS, *now = in->inertia_real + k * ALI3_INERTIA_REALS;
+  const double *old = S->inertia_real + k * ALI3_INERTIA_REALS,
+               *now = in->parameters.inertia_real + k * ALI3_INERTIA_REALS;
   const int32_t *signal = S->inertia_signal + k * ALI3_INERTIA_SIGNALS;
   double before[4][4], after[4][4];
   if (memcmp(old, now, ALI3_INERTIA_REALS * sizeof(double)) == 0) return;
@@ -101,8 +102,8 @@ static void weigh(ali3_instance *in, int64_t k) {
       const double first = (after[0][v] - before[0][v]) * S->inertia_gravity[x];
       for (int w = 0; w < 4; w++) couple(in, own, signal[3 * w + x], after[v][w] - before[v][w]);
       for (int32_t a = S->sig_ptr[own]; a < S->sig_ptr[own + 1]; a++)
-        in->own_masses.gravity[S->sig_col[a]] += first * S->sig_val[a];
-      in->gravity_const -= first * S->sig_const[own];
+        in->mass.own.gravity[S->sig_col[a]] += first * S->sig_val[a];
+      in->mass.gravity_const -= first * S->sig_const[own];
     }
 }
 
@@ -110,8 +111,8 @@ static void weigh(ali3_instance *in, int64_t k) {
 static void turn(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->system;
   const int32_t row = S->armature_col[k], start = S->mass_ptr[row];
-  double *mass = in->own_masses.val + start + ali3_find(S->mass_col + start, S->mass_ptr[row + 1] - start, row);
-  const double old = S->armature_ratio[k], now = in->armature_ratio[k];
+  double *mass = in->mass.own.val + start + ali3_find(S->mass_col + start, S->mass_ptr[row + 1] - start, row);
+  const double old = S->armature_ratio[k], now = in->parameters.armature_ratio[k];
   *mass = fmax(*mass + S->armature_inertia[k] * (now * now - old * old), 0.0);
 }
 
@@ -133,24 +134,25 @@ static void carry(ali3_instance *in) {
   double *carried = in->tree->composite;
   memcpy(carried, T->composite, sizeof T->composite);
   for (int64_t k = 0; k < in->system->n_tree_payload_body; k++)
-    for (int32_t b = in->system->tree_payload_body[k]; b > 0; b = T->parent[b]) carried[b] += in->payload_mass[k];
+    for (int32_t b = in->system->tree_payload_body[k]; b > 0; b = T->parent[b])
+      carried[b] += in->parameters.payload_mass[k];
 }
 
 /* After payloads, ratios, inertias or axes have changed. */
 void ali3_masses_apply(ali3_instance *in) {
   const ali3_system *S = in->system;
-  const ali3_masses *own = &in->own_masses;
+  const ali3_own_masses *own = &in->mass.own;
   if (S->tree != NULL) carry(in);
   if (!changes(S)) return;
   memcpy(own->val, S->mass_val, (size_t)S->size.nnz_mass * sizeof(double));
   memcpy(own->gravity, S->gravity_force, (size_t)S->size.nq * sizeof(double));
-  in->gravity_const = S->gravity_const[0];
+  in->mass.gravity_const = S->gravity_const[0];
   for (int64_t i = 0; i < 3 * S->n_payload_mass; i++)
-    if (in->payload_mass[i / 3] > 0.0)
-      add(in, S->payload_signal[i], in->payload_mass[i / 3], S->payload_gravity[i % 3]);
+    if (in->parameters.payload_mass[i / 3] > 0.0)
+      add(in, S->payload_signal[i], in->parameters.payload_mass[i / 3], S->payload_gravity[i % 3]);
   for (int64_t k = 0; k < S->n_armature_ratio; k++) turn(in, k);
   for (int64_t k = 0; k < S->n_inertia_real / ALI3_INERTIA_REALS; k++) weigh(in, k);
   for (int64_t k = 0; k < S->n_axis_inertia; k++) tilt(in, k);
-  in->mass_isotropic = ali3_mass_isotropic(S, own->val);
+  in->mass.isotropic = ali3_mass_isotropic(S, own->val);
   ali3_mass_in_fronts(S, own->val, own->front, own->floor, own->floor_inverse, own->missing);
 }

@@ -23,22 +23,22 @@ typedef struct {
 } targets;
 
 static targets targets_of(const ali3_instance *in) {
-  return (targets){{[ALI3_TARGET_ELEMENT] = in->el_real,
-                    [ALI3_TARGET_GUIDE] = in->guide_real,
-                    [ALI3_TARGET_ROAD] = in->road_real,
-                    [ALI3_TARGET_PAYLOAD] = in->payload_mass,
-                    [ALI3_TARGET_SWITCH] = in->switch_on,
-                    [ALI3_TARGET_ARMATURE] = in->armature_ratio,
-                    [ALI3_TARGET_INERTIA] = in->inertia_real,
-                    [ALI3_TARGET_SENSOR] = in->sen_real,
-                    [ALI3_TARGET_AXIS] = in->axis_real}};
+  return (targets){{[ALI3_TARGET_ELEMENT] = in->parameters.el_real,
+                    [ALI3_TARGET_GUIDE] = in->parameters.guide_real,
+                    [ALI3_TARGET_ROAD] = in->parameters.road_real,
+                    [ALI3_TARGET_PAYLOAD] = in->parameters.payload_mass,
+                    [ALI3_TARGET_SWITCH] = in->parameters.switch_on,
+                    [ALI3_TARGET_ARMATURE] = in->parameters.armature_ratio,
+                    [ALI3_TARGET_INERTIA] = in->parameters.inertia_real,
+                    [ALI3_TARGET_SENSOR] = in->parameters.sen_real,
+                    [ALI3_TARGET_AXIS] = in->parameters.axis_real}};
 }
 
 static void write(ali3_instance *in, int32_t p) {
   const ali3_system *S = in->system;
   const targets target = targets_of(in);
   for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
-    target.of[S->par_target[k]][S->par_index[k]] = ali3_parameter_writes(S, k, in->parameter[p]);
+    target.of[S->par_target[k]][S->par_index[k]] = ali3_parameter_writes(S, k, in->parameters.value[p]);
 }
 
 /* The check of target k, or with k = -1 of all data. */
@@ -58,7 +58,7 @@ static bool writes_to(const ali3_system *S, int32_t p, int32_t family) {
 void ali3_parameters_switch(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int64_t k = 0; k < S->n_par_target; k++)
-    if (S->par_target[k] == ALI3_TARGET_SWITCH) in->now.on[S->par_index[k]] = in->switch_on[S->par_index[k]];
+    if (S->par_target[k] == ALI3_TARGET_SWITCH) in->now.on[S->par_index[k]] = in->parameters.switch_on[S->par_index[k]];
 }
 
 /* All of them; refused as a whole when an element, guide or road cannot take its data. */
@@ -67,14 +67,14 @@ ali3_status ali3_parameters_apply(ali3_instance *in) {
   ali3_guides_measure(in);
   ali3_axes_apply(in);
   ali3_masses_apply(in);
-  if (!in->initialised) ali3_parameters_switch(in);
+  if (!in->start.initialised) ali3_parameters_switch(in);
   return check(in, -1) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
 }
 
 /* One of them, and the checks of what it writes to. */
 static ali3_status take(ali3_instance *in, int32_t p, double value) {
   const ali3_system *S = in->system;
-  in->parameter[p] = value;
+  in->parameters.value[p] = value;
   write(in, p);
   if (writes_to(S, p, ALI3_TARGET_GUIDE)) ali3_guides_measure(in);
   for (int32_t k = S->par_ptr[p]; k < S->par_ptr[p + 1]; k++)
@@ -89,8 +89,8 @@ static bool in_range(const ali3_instance *in, int32_t index, double value) {
 
 ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value) {
   if (!in_range(in, index, value)) return ALI3_BAD_ARGUMENT;
-  const double before = in->parameter[index];
-  if (in->initialised && in->system->n_par_fixed > 0 && in->system->par_fixed[index]) return ALI3_FIXED_PARAMETER;
+  const double before = in->parameters.value[index];
+  if (in->start.initialised && in->system->n_par_fixed > 0 && in->system->par_fixed[index]) return ALI3_FIXED_PARAMETER;
   const ali3_status status = take(in, index, value);
   if (status != ALI3_OK) take(in, index, before);
   in->report.free_states = 0;
@@ -106,7 +106,7 @@ ali3_status ali3_set_parameter(ali3_instance *in, int32_t index, double value) {
 
 ali3_status ali3_try_parameter(ali3_instance *in, int32_t index, double value) {
   if (!in_range(in, index, value)) return ALI3_BAD_ARGUMENT;
-  const double before = in->parameter[index];
+  const double before = in->parameters.value[index];
   const ali3_status status = take(in, index, value);
   take(in, index, before);
   return status;
@@ -114,6 +114,6 @@ ali3_status ali3_try_parameter(ali3_instance *in, int32_t index, double value) {
 
 ali3_status ali3_get_parameter(const ali3_instance *in, int32_t index, double *value) {
   if (in == NULL || value == NULL || index < 0 || index >= in->system->size.np) return ALI3_BAD_ARGUMENT;
-  *value = in->parameter[index];
+  *value = in->parameters.value[index];
   return ALI3_OK;
 }

@@ -5,7 +5,9 @@
 
 #include "../instance.h"
 
-double ali3_time(const ali3_instance *in) { return in != NULL ? in->t_base + (double)in->count * in->h_last : 0.0; }
+double ali3_time(const ali3_instance *in) {
+  return in != NULL ? in->clock.base + (double)in->clock.count * in->clock.h : 0.0;
+}
 
 ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out) {
   if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
@@ -54,11 +56,8 @@ double ali3_solver_value(const ali3_instance *in, int32_t kind) {
   }
 }
 
-double ali3_capped_residual(const ali3_instance *in) { return in != NULL ? in->call_residual : 0.0; }
+double ali3_capped_residual(const ali3_instance *in) { return in != NULL ? in->bound.call_residual : 0.0; }
 
-ali3_doubt ali3_run_doubt(const ali3_report *r) {
-  if (r == NULL || r->steps < ALI3_DOUBT_FROM) return ALI3_DOUBT_NONE;
-  if (ali3_energy_balance(r) > ALI3_BALANCE_WRONG && fabs(r->energy_error) > r->energy_floor) return ALI3_DOUBT_BALANCE;
-  const bool halved = (double)r->halvings > ALI3_HALVINGS_SUSPECT * (double)r->steps;
-  return halved ? ALI3_DOUBT_HALVINGS : ALI3_DOUBT_NONE;
+int32_t ali3_balance_wrong(const ali3_report *r) {
+  return r != NULL && ali3_energy_balance(r) > ALI3_WRONG_ERROR && fabs(r->energy_error) > r->energy_floor;
 }

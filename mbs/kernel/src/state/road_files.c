@@ -17,53 +17,53 @@ ali3_status ali3_set_road(ali3_instance *in, int32_t road, const char *path, cha
     file = ali3_road_file_open(path, memory->allocate, memory->release, message, message_size);
     if (file == NULL) return ALI3_BAD_ROAD;
   }
-  ali3_road_file_close(in->road[road].file);
-  in->road[road].file = file;
-  in->initialised = 0;
-  in->to_lift = in->placed != ALI3_PLACED_BY_Q;
+  ali3_road_file_close(in->roads.used[road].file);
+  in->roads.used[road].file = file;
+  in->start.initialised = 0;
+  in->start.to_lift = in->start.placed != ALI3_PLACED_BY_Q;
   return ALI3_OK;
 }
 
 ali3_status ali3_roads_status(const ali3_instance *in) {
   for (int32_t r = 0; r < in->system->nr; r++)
-    if (in->road[r].file != NULL && ali3_road_file_lost(in->road[r].file) != NULL) return ALI3_ROAD_LOST;
+    if (in->roads.used[r].file != NULL && ali3_road_file_lost(in->roads.used[r].file) != NULL) return ALI3_ROAD_LOST;
   return ALI3_OK;
 }
 
 void ali3_roads_forgive(ali3_instance *in) {
   for (int32_t r = 0; r < in->system->nr; r++)
-    if (in->road[r].file != NULL) ali3_road_file_forgive(in->road[r].file);
+    if (in->roads.used[r].file != NULL) ali3_road_file_forgive(in->roads.used[r].file);
 }
 
 bool ali3_roads_from_outside(const ali3_instance *in) {
   for (int32_t r = 0; r < in->system->nr; r++)
-    if (in->road[r].file != NULL || in->road[r].type == ALI3_ROAD_PORT) return true;
+    if (in->roads.used[r].file != NULL || in->roads.used[r].type == ALI3_ROAD_PORT) return true;
   return false;
 }
 
 ali3_status ali3_roads_normals(const ali3_instance *in) {
   for (int32_t r = 0; r < in->system->nr; r++)
-    if (!ali3_port_normals(&in->road[r])) return ALI3_BAD_NORMAL;
+    if (!ali3_port_normals(&in->roads.used[r])) return ALI3_BAD_NORMAL;
   return ALI3_OK;
 }
 
 const char *ali3_road_lost(const ali3_instance *in) {
   for (int32_t r = 0; in != NULL && r < in->system->nr; r++)
-    if (in->road[r].file != NULL && ali3_road_file_lost(in->road[r].file) != NULL)
-      return ali3_road_file_lost(in->road[r].file);
+    if (in->roads.used[r].file != NULL && ali3_road_file_lost(in->roads.used[r].file) != NULL)
+      return ali3_road_file_lost(in->roads.used[r].file);
   return "";
 }
 
 uint32_t ali3_model_crc(const ali3_instance *in) {
   uint32_t crc = in->system->crc;
   for (int32_t r = 0; r < in->system->nr; r++)
-    if (in->road[r].file != NULL) {
-      const uint32_t parts[3] = {crc, (uint32_t)r, ali3_road_file_identity(in->road[r].file)};
+    if (in->roads.used[r].file != NULL) {
+      const uint32_t parts[3] = {crc, (uint32_t)r, ali3_road_file_identity(in->roads.used[r].file)};
       crc = ali3_crc32(parts, sizeof parts);
     }
   return crc;
 }
 
 void ali3_roads_close(ali3_instance *in) {
-  for (int32_t r = 0; r < in->n_roads; r++) ali3_road_file_close(in->road[r].file);
+  for (int32_t r = 0; r < in->roads.n; r++) ali3_road_file_close(in->roads.used[r].file);
 }

@@ -23,27 +23,27 @@ void ali3_snapshot_take(const ali3_instance *in, void *snapshot) {
   ali3_snapshot_head *head = snapshot;
   double *vector = (double *)(head + 1);
   head->report = in->report;
-  head->t_base = in->t_base;
-  head->h_last = in->h_last;
-  head->count = in->count;
-  copy(vector, in->now.q, in->n_vector);
-  copy(vector + in->n_vector, in->input, nu);
-  copy(vector + in->n_vector + nu, in->parameter, np);
+  head->t_base = in->clock.base;
+  head->h_last = in->clock.h;
+  head->count = in->clock.count;
+  copy(vector, in->now.q, in->kept.n);
+  copy(vector + in->kept.n, in->inputs.set, nu);
+  copy(vector + in->kept.n + nu, in->parameters.value, np);
 }
 
 void ali3_snapshot_restore(ali3_instance *in, const void *snapshot) {
   if (in == NULL || snapshot == NULL) return;
   const size_t nu = (size_t)in->system->size.nu, np = (size_t)in->system->size.np;
   const ali3_snapshot_head *head = snapshot;
-  const double *vector = (const double *)(head + 1), *parameter = vector + in->n_vector + nu;
+  const double *vector = (const double *)(head + 1), *parameter = vector + in->kept.n + nu;
   in->report = head->report;
-  in->t_base = head->t_base;
-  in->h_last = head->h_last;
-  in->count = head->count;
-  in->mode_known = false; /* the angles are those of a later position */
-  copy(in->now.q, vector, in->n_vector);
-  copy(in->input, vector + in->n_vector, nu);
-  if (np == 0 || memcmp(in->parameter, parameter, np * sizeof(double)) == 0) return;
-  copy(in->parameter, parameter, np);
+  in->clock.base = head->t_base;
+  in->clock.h = head->h_last;
+  in->clock.count = head->count;
+  in->branch.known = false; /* the angles are those of a later position */
+  copy(in->now.q, vector, in->kept.n);
+  copy(in->inputs.set, vector + in->kept.n, nu);
+  if (np == 0 || memcmp(in->parameters.value, parameter, np * sizeof(double)) == 0) return;
+  copy(in->parameters.value, parameter, np);
   ali3_parameters_apply(in); /* they were accepted before */
 }

@@ -7,10 +7,10 @@
 void ali3_start_of_file(ali3_instance *in) {
   const ali3_system *S = in->system;
   const size_t n = S->size.has_pose ? (size_t)S->size.nq * sizeof(double) : 0;
-  memcpy(in->start_q, S->q0, (size_t)S->size.nq * sizeof(double));
+  memcpy(in->start.q, S->q0, (size_t)S->size.nq * sizeof(double));
   if (n > 0) {
-    memcpy(in->pose_0, S->pose_0, n);
-    memcpy(in->pose_cos, S->pose_cos, n);
-    memcpy(in->pose_sin, S->pose_sin, n);
+    memcpy(in->start.pose_0, S->pose_0, n);
+    memcpy(in->start.pose_cos, S->pose_cos, n);
+    memcpy(in->start.pose_sin, S->pose_sin, n);
   }
 }

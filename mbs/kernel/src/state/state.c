@@ -41,18 +41,18 @@ ali3_status ali3_state_save(const ali3_instance *in, void *bytes, size_t size) {
   ali3_state_header header = {.version = ALI3_STATE_VERSION,
                               .model_crc = ali3_model_crc(in),
                               .size = size,
-                              .initialised = (uint32_t)in->initialised,
-                              .count = in->count};
+                              .initialised = (uint32_t)in->start.initialised,
+                              .count = in->clock.count};
   memcpy(header.magic, MAGIC, sizeof MAGIC);
   unsigned char *p = bytes;
   put(&p, &header, sizeof header);
   put(&p, &in->settings, sizeof in->settings);
   put(&p, &in->report, sizeof in->report);
-  put(&p, &in->t_base, sizeof(double));
-  put(&p, &in->h_last, sizeof(double));
-  put(&p, in->now.q, in->n_vector * sizeof(double));
-  put(&p, in->input, (size_t)z->nu * sizeof(double));
-  put(&p, in->parameter, (size_t)z->np * sizeof(double));
+  put(&p, &in->clock.base, sizeof(double));
+  put(&p, &in->clock.h, sizeof(double));
+  put(&p, in->now.q, in->kept.n * sizeof(double));
+  put(&p, in->inputs.set, (size_t)z->nu * sizeof(double));
+  put(&p, in->parameters.value, (size_t)z->np * sizeof(double));
   header.crc = ali3_crc32((unsigned char *)bytes + CHECKED_FROM, size - CHECKED_FROM);
   memcpy(bytes, &header, sizeof header);
   return ALI3_OK;
@@ -115,19 +115,19 @@ static bool report_valid(const ali3_system *s, const ali3_report *r) {
 /* Vectors, inputs and parameters, one after the other. */
 static bool vectors_valid(const ali3_instance *in, const unsigned char *vectors) {
   const ali3_system *S = in->system;
-  const unsigned char *inputs = vectors + in->n_vector * sizeof(double),
+  const unsigned char *inputs = vectors + in->kept.n * sizeof(double),
                       *parameters = inputs + (size_t)S->size.nu * sizeof(double);
-  return numbers_valid(vectors, in->n_vector) && within(inputs, S->size.nu, S->input_min, S->input_max) &&
+  return numbers_valid(vectors, in->kept.n) && within(inputs, S->size.nu, S->input_min, S->input_max) &&
          within(parameters, S->size.np, S->par_min, S->par_max);
 }
 
 /* Whether elements, guides and roads take these parameters; if not, the instance keeps its own. */
 static bool take_parameters(ali3_instance *in, const unsigned char *parameters) {
   const size_t size = (size_t)in->system->size.np * sizeof(double);
-  memcpy(in->parameter_work, in->parameter, size);
-  memcpy(in->parameter, parameters, size);
+  memcpy(in->parameters.work, in->parameters.value, size);
+  memcpy(in->parameters.value, parameters, size);
   if (ali3_parameters_apply(in) == ALI3_OK) return true;
-  memcpy(in->parameter, in->parameter_work, size);
+  memcpy(in->parameters.value, in->parameters.work, size);
   ali3_parameters_apply(in);
   return false;
 }
@@ -141,10 +141,10 @@ ali3_status ali3_snapshot_check(ali3_instance *in, const void *snapshot) {
   if (!report_valid(in->system, &head.report) || !counted(head.count) || !(fabs(head.t_base) <= MOST) ||
       !(head.h_last >= 0.0 && head.h_last <= MOST) || !vectors_valid(in, vectors))
     return ALI3_BAD_STATE;
-  const unsigned char *parameters = vectors + (in->n_vector + (size_t)in->system->size.nu) * sizeof(double);
-  if (memcmp(parameters, in->parameter, size) == 0) return ALI3_OK;
+  const unsigned char *parameters = vectors + (in->kept.n + (size_t)in->system->size.nu) * sizeof(double);
+  if (memcmp(parameters, in->parameters.value, size) == 0) return ALI3_OK;
   if (!take_parameters(in, parameters)) return ALI3_BAD_STATE;
-  memcpy(in->parameter, in->parameter_work, size);
+  memcpy(in->parameters.value, in->parameters.work, size);
   return ali3_parameters_apply(in);
 }
 
@@ -172,18 +172,18 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   get(&report, &p, sizeof report);
   const unsigned char *times = (const unsigned char *)bytes + fixed, *vectors = times + 2 * sizeof(double);
   if (!ali3_settings_valid(&settings) || !report_valid(S, &report) || !numbers_valid(times, 2) ||
-      !vectors_valid(in, vectors) || !take_parameters(in, vectors + (in->n_vector + (size_t)z->nu) * sizeof(double)))
+      !vectors_valid(in, vectors) || !take_parameters(in, vectors + (in->kept.n + (size_t)z->nu) * sizeof(double)))
     return ALI3_BAD_STATE;
   in->settings = settings;
   in->report = report;
-  in->initialised = (int32_t)header.initialised;
-  in->count = header.count;
-  in->mode_known = false;
-  in->placed = ALI3_PLACED_BY_Q; /* a start from here is from these coordinates */
-  in->to_lift = false;
-  get(&in->t_base, &p, sizeof(double));
-  get(&in->h_last, &p, sizeof(double));
-  get(in->now.q, &p, in->n_vector * sizeof(double));
-  get(in->input, &p, (size_t)z->nu * sizeof(double));
+  in->start.initialised = (int32_t)header.initialised;
+  in->clock.count = header.count;
+  in->branch.known = false;
+  in->start.placed = ALI3_PLACED_BY_Q; /* a start from here is from these coordinates */
+  in->start.to_lift = false;
+  get(&in->clock.base, &p, sizeof(double));
+  get(&in->clock.h, &p, sizeof(double));
+  get(in->now.q, &p, in->kept.n * sizeof(double));
+  get(in->inputs.set, &p, (size_t)z->nu * sizeof(double));
   return ALI3_OK;
 }

@@ -47,13 +47,13 @@ size_t ali3_vector_count(const ali3_system *s) {
 }
 
 void ali3_vectors_copy(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
-  memcpy(to->q, from->q, in->n_vector * sizeof(double));
+  memcpy(to->q, from->q, in->kept.n * sizeof(double));
 }
 
 /* What a method that fills the state does not write: all but positions, velocities, accelerations and multipliers and
  * the past of both, where there is one that steps do not write. */
 void ali3_vectors_copy_unwritten(const ali3_instance *in, ali3_vectors *to, const ali3_vectors *from) {
-  const double *end = from->q + in->n_vector, *past_end = from->past_lam + (int64_t)ALI3_PAST * in->system->size.nc;
+  const double *end = from->q + in->kept.n, *past_end = from->past_lam + (int64_t)ALI3_PAST * in->system->size.nc;
   const bool past = in->system->n_flexible > 0 && from->history[ALI3_HISTORY_COUNT] > 0.0;
   memcpy(to->y, from->y, (size_t)((past ? end : from->past_a) - from->y) * sizeof(double));
   if (!past) memcpy(to->q + (past_end - from->q), past_end, (size_t)(end - past_end) * sizeof(double));
@@ -61,9 +61,9 @@ void ali3_vectors_copy_unwritten(const ali3_instance *in, ali3_vectors *to, cons
 
 /* Once a step, before anything changes in->now: what it goes back to when the step fails. */
 void ali3_back_up(ali3_instance *in) {
-  if (in->backed_up) return;
-  ali3_vectors_copy(in, &in->start, &in->now);
-  in->backed_up = true;
+  if (in->kept.backed_up) return;
+  ali3_vectors_copy(in, &in->kept.start, &in->now);
+  in->kept.backed_up = true;
 }
 
 /* Of the past, what a step added: the rest of it was in a state before. */
@@ -71,7 +71,7 @@ ALI3_INLINED bool vectors_finite(const ali3_instance *in, const ali3_vectors *v)
   const int64_t nq = in->system->size.nq, nc = in->system->size.nc;
   const double *behind = v->past_lam + ALI3_PAST * nc;
   const double *const begin[] = {v->q, v->past_lam, behind};
-  const double *const end[] = {v->past_a + nq, v->past_lam + nc, v->q + in->n_vector};
+  const double *const end[] = {v->past_a + nq, v->past_lam + nc, v->q + in->kept.n};
   for (int k = 0; k < 3; k++)
     if (!ali3_finite_inlined(begin[k], end[k] - begin[k])) return false;
   return true;

@@ -22,14 +22,14 @@ static void copy(double *to, const double *from, int32_t n) {
 
 /* v has the forces of the last ali3_forces. */
 void ali3_work_store(const ali3_instance *in, ali3_vectors *v) {
-  copy(v->watched, in->watched, in->system->n_work + in->system->n_work_force);
+  copy(v->watched, in->watch.now, in->system->n_work + in->system->n_work_force);
 }
 
 /* Power of the guides at a state. */
 double ali3_guides_power(ali3_instance *in, const ali3_vectors *v) {
   double power = 0.0;
-  ali3_constraint_rate(in, v->q, v, in->mu);
-  for (int32_t k = 0; k < in->system->size.nc; k++) power += v->lam[k] * in->mu[k];
+  ali3_constraint_rate(in, v->q, v, in->step.mu);
+  for (int32_t k = 0; k < in->system->size.nc; k++) power += v->lam[k] * in->step.mu[k];
   return power;
 }
 
@@ -53,9 +53,9 @@ static void forces_at(ali3_instance *in, const ali3_vectors *v, double *potentia
   const ali3_force_call call = {.q = v->q,
                                 .qd = v->qd,
                                 .y_old = v->y,
-                                .Q = in->Q,
-                                .y_new = in->y_work,
-                                .out = in->out_work,
+                                .Q = in->step.Q,
+                                .y_new = in->element.y,
+                                .out = in->element.out,
                                 .potential = potential};
   ali3_forces(in, &call);
 }
@@ -64,9 +64,9 @@ static void forces_at(ali3_instance *in, const ali3_vectors *v, double *potentia
 void ali3_work_reopen(ali3_instance *in) {
   ali3_vectors *v = &in->now;
   if (in->system->n_work == 0) return;
-  in->force_input = v->used;
-  forces_at(in, v, in->potential_work);
-  in->force_input = in->input;
+  in->inputs.forces = v->used;
+  forces_at(in, v, in->element.potential);
+  in->inputs.forces = in->inputs.set;
   ali3_work_store(in, v);
 }
 
@@ -84,7 +84,7 @@ ALI3_INLINED void work_along(ali3_instance *in, double share) {
   const double *before = in->now.watched + S->n_work, *way = in->next.step_way;
   double *mean = in->next.step_force, *after = in->next.watched + S->n_work;
   for (int32_t k = 0; k < S->n_work; k++) {
-    const double *force = in->element_force + S->el_sig_ptr[S->work_element[k]];
+    const double *force = in->element.force + S->el_sig_ptr[S->work_element[k]];
     const int32_t n = S->work_ptr[k + 1] - S->work_ptr[k];
     ALI3_EACH(0, n, ALI3_AT(after) = ALI3_AT(force);
               ALI3_AT(mean) = share * ALI3_AT(force) + (1.0 - share) * ALI3_AT(before))
@@ -101,11 +101,11 @@ void ali3_work_stage(const ali3_instance *in, double weight, const double *power
 }
 
 /* The powers at the start of a step that goes on from the last one. */
-void ali3_work_recall(ali3_instance *in) { copy(in->watched, in->now.watched, in->system->n_work); }
+void ali3_work_recall(ali3_instance *in) { copy(in->watch.now, in->now.watched, in->system->n_work); }
 
-/* The first stage, with the powers of the last ali3_forces: in->work_sum begins. */
+/* The first stage, with the powers of the last ali3_forces: in->watch.sum begins. */
 void ali3_work_first(ali3_instance *in, double weight) {
-  for (int32_t k = 0; k < in->system->n_work; k++) in->work_sum[k] = weight * in->watched[k];
+  for (int32_t k = 0; k < in->system->n_work; k++) in->watch.sum[k] = weight * in->watch.now[k];
 }
 
 /* in->next, a little, dt, behind a state whose work it has: the work until there. */
@@ -114,7 +114,7 @@ void ali3_work_beside(ali3_instance *in, double dt) {
   if (in->system->n_guide_work > 0) ali3_guides_work(in, v, dt * ali3_guides_power(in, v));
   if (in->system->n_work == 0) return;
   forces_at(in, v, v->potential);
-  ali3_work_stage(in, dt, in->watched, v->work);
+  ali3_work_stage(in, dt, in->watch.now, v->work);
 }
 
 /* A jump of the inputs at in->now, of which in->next is a copy, from where the elements stored `before` (ne) to where

@@ -6,10 +6,10 @@
 
 ALI3_INLINED void work_ways(const ali3_instance *in, real *ways) {
   const ali3_system *S = in->system;
-  const real *D = in->D;
+  const real *D = in->step.D;
   if (S->n_tabled > 0) {
     ali3_tabled_way(in, D);
-    D = in->extended[0];
+    D = in->tabled.extended[0];
   }
   for (int32_t k = 0; k < S->n_work; k++) {
     const int32_t *signal = S->el_sig + S->el_sig_ptr[S->work_element[k]];

@@ -9,7 +9,7 @@ enum { MAX_TABLED = 4096, FEWEST = 4, MOST = 4096 }; /* control points along a p
 ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
   const int64_t n = s->n_tabled_size / 3;
   int64_t coefficients = 0;
-  if (n > MAX_TABLED) return ali3_bad(m, "%lld tabled bodies and numbers", (long long)n);
+  if (n > MAX_TABLED) return ali3_bad(m, "%lld lookup-table bodies and numbers", (long long)n);
   for (int64_t i = 0; i < n; i++) {
     const int32_t *size = s->tabled_size + 3 * i;
     const bool one = size[2] == 1;
@@ -34,7 +34,7 @@ ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
   }
   s->n_tabled = (int32_t)n;
   if (n > 0 && (s->n_tree_parent > 0 || s->n_flex_front > 0))
-    return ali3_bad(m, "tabled bodies stand beside a tree or flexible bodies");
+    return ali3_bad(m, "lookup-table bodies are combined with a tree or flexible bodies");
   return ALI3_OK;
 }
 

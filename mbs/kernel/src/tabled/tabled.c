@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-static ali3_tabled_work *work_of(const ali3_instance *in, int32_t i) { return in->tabled + i; }
+static ali3_tabled_work *work_of(const ali3_instance *in, int32_t i) { return in->tabled.item + i; }
 
 static real parameter(const ali3_tabled *c, int which, const real *x) {
   return c->param[which] < 0 ? ali3_same(0.0) : x[c->param[which]];
@@ -20,12 +20,12 @@ void ali3_tabled_prepare(const ali3_instance *in, const real *q) {
   const ali3_system *S = in->system;
   for (int32_t b = 0; b < S->n_tabled_base; b++) {
     real frame[12];
-    ali3_tabled_base_work *w = in->tabled_base + b;
+    ali3_tabled_base_work *w = in->tabled.base + b;
     base_of(S->tabled_base + b, q, EARTH, frame);
     memcpy(w->axes, frame + 3, sizeof w->axes);
     memset(w->mass, 0, sizeof w->mass);
   }
-  memset(in->tabled_parameter, 0, (size_t)S->n_tabled_parameter * sizeof *in->tabled_parameter);
+  memset(in->tabled.parameter, 0, (size_t)S->n_tabled_parameter * sizeof *in->tabled.parameter);
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     ali3_tabled_work *w = work_of(in, i);
@@ -36,15 +36,15 @@ void ali3_tabled_prepare(const ali3_instance *in, const real *q) {
     }
     for (int32_t k = 0; k < c->n_seen; k++)
       for (int p = 0; p < (c->count[1] > 1 ? 2 : 1); p++)
-        ali3_tabled_turn(in->tabled_base[c->base].axes, w->value[ALI3_BY_A + p] + 3 * c->seen[k],
+        ali3_tabled_turn(in->tabled.base[c->base].axes, w->value[ALI3_BY_A + p] + 3 * c->seen[k],
                          w->by[p] + 3 * c->seen[k]);
     if (ali3_tabled_heavy(c)) ali3_tabled_add_inertia(in, c, w);
   }
   for (int32_t b = 0; b < S->n_tabled_base; b++)
     for (int32_t p = S->tabled_base[b].first; p < S->tabled_base[b].end; p++)
       for (int v = 0; v < 4; v++)
-        ali3_tabled_turn(in->tabled_base[b].axes, in->tabled_parameter[p].own + 3 * v,
-                         in->tabled_parameter[p].turned + 3 * v);
+        ali3_tabled_turn(in->tabled.base[b].axes, in->tabled.parameter[p].own + 3 * v,
+                         in->tabled.parameter[p].turned + 3 * v);
 }
 
 /* What rates a, b of the parameters move in functions i to i + n: first (by B qd) and, of rates themselves, second. */
@@ -64,7 +64,7 @@ static void along(const ali3_instance *in, const ali3_tabled *c, const ali3_tabl
                   const real frame[12], int32_t v, real out[3]) {
   real first[3], second[3], moved[3];
   rates(c, w, parameter(c, 0, x), parameter(c, 1, x), 3 * v, 3, first, second);
-  ali3_tabled_turn(in->tabled_base[c->base].axes, first, moved);
+  ali3_tabled_turn(in->tabled.base[c->base].axes, first, moved);
   ali3_tabled_turn(frame + 3, w->value[0] + 3 * v, out);
   for (int k = 0; k < 3; k++) out[k] += moved[k];
 }
@@ -74,7 +74,7 @@ static void bend(const ali3_instance *in, const ali3_tabled *c, const ali3_table
                  const real frame[12], int32_t v, real out[3]) {
   real first[3], second[3], moved[3];
   rates(c, w, parameter(c, 0, qd), parameter(c, 1, qd), 3 * v, 3, first, second);
-  ali3_tabled_turn(in->tabled_base[c->base].axes, second, out);
+  ali3_tabled_turn(in->tabled.base[c->base].axes, second, out);
   ali3_tabled_turn(frame + 3, first, moved);
   for (int k = 0; k < 3; k++) out[k] += 2.0 * moved[k];
 }
@@ -82,12 +82,12 @@ static void bend(const ali3_instance *in, const ali3_tabled *c, const ali3_table
 static void extend_number(const ali3_instance *in, const ali3_tabled *c, const ali3_tabled_work *w, const real *qd,
                           const real *qdd, int32_t to) {
   real first, second, unused;
-  in->extended[0][to] = w->value[0][0];
+  in->tabled.extended[0][to] = w->value[0][0];
   rates(c, w, parameter(c, 0, qd), parameter(c, 1, qd), 0, 1, &first, &second);
-  in->extended[1][to] = first;
+  in->tabled.extended[1][to] = first;
   if (qdd == NULL) return;
   rates(c, w, parameter(c, 0, qdd), parameter(c, 1, qdd), 0, 1, &first, &unused);
-  in->extended[2][to] = first + second;
+  in->tabled.extended[2][to] = first + second;
 }
 
 void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, const real *qdd, bool all) {
@@ -96,7 +96,7 @@ void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, 
   const int32_t nq = S->size.nq;
   const real *from[3] = {q, qd, qdd};
   for (int k = 0; k < 3; k++)
-    if (from[k] != NULL) memcpy(in->extended[k], from[k], (size_t)nq * sizeof(real));
+    if (from[k] != NULL) memcpy(in->tabled.extended[k], from[k], (size_t)nq * sizeof(real));
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     const ali3_tabled_work *w = work_of(in, i);
@@ -114,23 +114,23 @@ void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, 
     for (int32_t k = 0; k < n; k++) {
       const int32_t v = vector[k], to = nq + c->first + 3 * v;
       real bent[3];
-      ali3_tabled_turn(place + 3, w->value[0] + 3 * v, in->extended[0] + to);
-      along(in, c, w, qd, rate, v, in->extended[1] + to);
+      ali3_tabled_turn(place + 3, w->value[0] + 3 * v, in->tabled.extended[0] + to);
+      along(in, c, w, qd, rate, v, in->tabled.extended[1] + to);
       if (qdd == NULL) continue;
-      along(in, c, w, qdd, second, v, in->extended[2] + to);
+      along(in, c, w, qdd, second, v, in->tabled.extended[2] + to);
       bend(in, c, w, qd, rate, v, bent);
-      for (int x = 0; x < 3; x++) in->extended[2][to + x] += bent[x];
+      for (int x = 0; x < 3; x++) in->tabled.extended[2][to + x] += bent[x];
     }
   }
 }
 
 void ali3_tabled_way(const ali3_instance *in, const real *D) {
   const ali3_system *S = in->system;
-  memcpy(in->extended[0], D, (size_t)S->size.nq * sizeof(real));
+  memcpy(in->tabled.extended[0], D, (size_t)S->size.nq * sizeof(real));
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     const ali3_tabled_work *w = work_of(in, i);
-    real *way = in->extended[0] + S->size.nq + c->first, frame[12];
+    real *way = in->tabled.extended[0] + S->size.nq + c->first, frame[12];
     if (c->n != ALI3_TABLED_BODY) {
       real second;
       rates(c, w, parameter(c, 0, D), parameter(c, 1, D), 0, 1, way, &second);
@@ -167,13 +167,13 @@ static void back(const ali3_tabled *c, const ali3_tabled_work *w, const real *f,
 
 void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q) {
   const ali3_system *S = in->system;
-  memcpy(Q, in->extended_force, (size_t)S->size.nq * sizeof *Q);
+  memcpy(Q, in->tabled.force, (size_t)S->size.nq * sizeof *Q);
   ali3_tabled_inertia_forces(in, qd, Q);
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
     ali3_tabled_work *w = work_of(in, i);
     if (c->n_seen == 0) continue;
-    memcpy(w->force, in->extended_force + S->size.nq + c->first, (size_t)c->n * sizeof *w->force);
+    memcpy(w->force, in->tabled.force + S->size.nq + c->first, (size_t)c->n * sizeof *w->force);
     back(c, w, w->force, Q);
   }
 }

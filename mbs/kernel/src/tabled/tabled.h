@@ -98,14 +98,14 @@ struct ali3_tabled_parameter_work {
 ALI3_PER_WIDTH void ali3_tabled_table(const ali3_system *S, const ali3_tabled *c, real a, real b,
                                       real value[ALI3_TABLED_VALUES][ALI3_TABLED_BODY]);
 ALI3_PER_WIDTH void ali3_tabled_prepare(const ali3_instance *in, const real *q);
-/* in->extended[0 .. 2]: q, qd, qdd (NULL: left) with the dependents behind them, all or those that elements see;
+/* in->tabled.extended[0 .. 2]: q, qd, qdd (NULL: left) with the dependents behind them, all or those that elements see;
  * prepared at q. */
 ALI3_PER_WIDTH void ali3_tabled_extend(const ali3_instance *in, const real *q, const real *qd, const real *qdd,
                                        bool all);
-/* X of a change D of coordinates that ends where was prepared, behind D in in->extended[0]: to second order, of vectors
- * that elements see. */
+/* X of a change D of coordinates that ends where was prepared, behind D in in->tabled.extended[0]: to second order, of
+ * vectors that elements see. */
 ALI3_PER_WIDTH void ali3_tabled_way(const ali3_instance *in, const real *D);
-/* Q of the forces on coordinates and dependents in in->extended_force, with weight and inertia. */
+/* Q of the forces on coordinates and dependents in in->tabled.force, with weight and inertia. */
 ALI3_PER_WIDTH void ali3_tabled_forces(ali3_instance *in, const real *qd, real *Q);
 
 static inline bool ali3_tabled_heavy(const ali3_tabled *c) { return c->n == ALI3_TABLED_BODY && c->mass[0] > 0.0; }

@@ -35,7 +35,7 @@ ALI3_INLINED void gather(const real *T, const real *P, real *out) {
 }
 
 ALI3_INLINED void tabled_add_inertia(const ali3_instance *in, const ali3_tabled *c, ali3_tabled_work *w) {
-  ali3_tabled_base_work *b = in->tabled_base + c->base;
+  ali3_tabled_base_work *b = in->tabled.base + c->base;
   real P[12], own[12], by[2][12];
   memset(own, 0, sizeof own);
   moments(c->mass, w->value[0], P);
@@ -49,7 +49,7 @@ ALI3_INLINED void tabled_add_inertia(const ali3_instance *in, const ali3_tabled 
   const int n_par = c->count[1] > 1 ? 2 : 1;
   for (int p = 0; p < n_par; p++) {
     moments(c->mass, w->value[ALI3_BY_A + p], by[p]);
-    gather(w->value[0], by[p], in->tabled_parameter[c->along[p]].own);
+    gather(w->value[0], by[p], in->tabled.parameter[c->along[p]].own);
     for (int o = 0; o <= p; o++) w->inertia[p + o] = inner(w->value[ALI3_BY_A + o], by[p]);
   }
   for (int k = 0; n_par == 2 && k < 3; k++) {
@@ -71,13 +71,13 @@ void ali3_tabled_mass_times(const ali3_instance *in, const real *x, real *out) {
     if (base->frame[0] < 0) continue;
     for (int i = 0; i < 12; i++) y[i] = x[base->frame[i]];
     for (int K = 0; K < 4; K++) {
-      const real *m = in->tabled_base[b].mass[K];
+      const real *m = in->tabled.base[b].mass[K];
       for (int k = 0; k < 3; k++)
         sum[3 * K + k] = (m[0] * y[k] + m[1] * y[3 + k]) + (m[2] * y[6 + k] + m[3] * y[9 + k]);
     }
     for (int32_t p = base->first; p < base->end; p++) {
       const int32_t column = S->tabled_parameter[p].column;
-      const real *turned = in->tabled_parameter[p].turned, rate = x[column];
+      const real *turned = in->tabled.parameter[p].turned, rate = x[column];
       for (int i = 0; i < 12; i++) sum[i] += rate * turned[i];
       out[column] += inner(turned, y);
     }
@@ -85,7 +85,7 @@ void ali3_tabled_mass_times(const ali3_instance *in, const real *x, real *out) {
   }
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
-    const real *m = in->tabled[i].inertia;
+    const real *m = in->tabled.item[i].inertia;
     if (!ali3_tabled_heavy(c)) continue;
     out[c->param[0]] += m[0] * x[c->param[0]];
     if (c->count[1] == 1) continue;
@@ -114,25 +114,25 @@ ALI3_INLINED void add_rates(const ali3_tabled *c, const ali3_tabled_work *w, con
 
 ALI3_INLINED void tabled_inertia_forces(const ali3_instance *in, const real *qd, real *Q) {
   const ali3_system *S = in->system;
-  for (int32_t b = 0; b < S->n_tabled_base; b++) memset(in->tabled_base[b].force, 0, sizeof in->tabled_base[b].force);
+  for (int32_t b = 0; b < S->n_tabled_base; b++) memset(in->tabled.base[b].force, 0, sizeof in->tabled.base[b].force);
   for (int32_t i = 0; i < S->n_tabled; i++) {
     const ali3_tabled *c = S->tabled + i;
-    ali3_tabled_base_work *w = in->tabled_base + c->base;
+    ali3_tabled_base_work *w = in->tabled.base + c->base;
     real turning[3]; /* Y_k . Yd_(k + 1) */
     if (!ali3_tabled_heavy(c)) continue;
     memset(turning, 0, sizeof turning);
     for (int k = 0; c->count[1] > 1 && c->frame[0] >= 0 && k < 3; k++)
       for (int x = 0; x < 3; x++) turning[k] += w->axes[3 * k + x] * qd[c->frame[3 + 3 * ((k + 1) % 3) + x]];
-    add_rates(c, in->tabled + i, qd, turning, w, Q);
+    add_rates(c, in->tabled.item + i, qd, turning, w, Q);
   }
   for (int32_t b = 0; b < S->n_tabled_base; b++) {
     const ali3_tabled_base *base = S->tabled_base + b;
-    const ali3_tabled_base_work *w = in->tabled_base + b;
+    const ali3_tabled_base_work *w = in->tabled.base + b;
     const double *g = base->gravity;
     real mixed[12], axes[9], turned[3];
     memset(mixed, 0, sizeof mixed);
     for (int32_t p = base->first; p < base->end; p++) {
-      const ali3_tabled_parameter_work *of = in->tabled_parameter + p;
+      const ali3_tabled_parameter_work *of = in->tabled.parameter + p;
       const int32_t column = S->tabled_parameter[p].column;
       Q[column] += g[0] * of->turned[0] + g[1] * of->turned[1] + g[2] * of->turned[2];
       for (int i = 0; i < 12; i++) mixed[i] += 2.0 * qd[column] * of->own[i];
@@ -158,7 +158,7 @@ double ali3_tabled_gravity(const ali3_instance *in, const double *q) {
   double energy = 0.0;
   for (int32_t b = 0; b < in->system->n_tabled_base; b++) {
     const ali3_tabled_base *base = in->system->tabled_base + b;
-    const double *m = in->tabled_base[b].mass[0], *axes = in->tabled_base[b].axes;
+    const double *m = in->tabled.base[b].mass[0], *axes = in->tabled.base[b].axes;
     for (int k = 0; k < 3; k++) {
       const double place = base->frame[0] < 0 ? 0.0 : q[base->frame[k]];
       energy -= base->gravity[k] * ((m[0] * place + m[1] * axes[k]) + (m[2] * axes[3 + k] + m[3] * axes[6 + k]));

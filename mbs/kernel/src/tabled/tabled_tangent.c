@@ -12,7 +12,7 @@ enum { FIRST_PARAMETER = 12 };
 ALI3_INLINED void add_base(const ali3_instance *in, int32_t b, double wM, double wK, real *F) {
   const ali3_system *S = in->system;
   const ali3_tabled_base *base = S->tabled_base + b;
-  ali3_tabled_base_work *w = in->tabled_base + b;
+  ali3_tabled_base_work *w = in->tabled.base + b;
   for (int k = 0; k < 3; k++)
     w->weight[k] = base->gravity[0] * w->axes[3 * k] + base->gravity[1] * w->axes[3 * k + 1] +
                    base->gravity[2] * w->axes[3 * k + 2];
@@ -21,7 +21,7 @@ ALI3_INLINED void add_base(const ali3_instance *in, int32_t b, double wM, double
     for (int L = 0; L <= K; L++)
       for (int x = 0; x < 3; x++) F[base->at[3 * K + x][3 * L + x]] += wM * w->mass[K][L];
   for (int32_t p = base->first; p < base->end; p++) {
-    const ali3_tabled_parameter_work *of = in->tabled_parameter + p;
+    const ali3_tabled_parameter_work *of = in->tabled.parameter + p;
     const int32_t *at = S->tabled_parameter[p].at;
     for (int i = 0; i < 12; i++) {
       real value = wM * of->turned[i];
@@ -35,13 +35,13 @@ ALI3_INLINED void add_base(const ali3_instance *in, int32_t b, double wM, double
 static void add_item(const ali3_instance *in, int32_t i, double wM, double wK, real *F) {
   const ali3_system *S = in->system;
   const ali3_tabled *c = S->tabled + i;
-  const ali3_tabled_work *w = in->tabled + i;
+  const ali3_tabled_work *w = in->tabled.item + i;
   const int32_t size = S->front_ptr[c->front + 1] - S->front_ptr[c->front];
   const int n_par = c->count[1] > 1 ? 2 : 1;
   const bool body = c->n == ALI3_TABLED_BODY, heavy = ali3_tabled_heavy(c);
-  const real *weight = body ? in->tabled_base[c->base].weight : NULL;
+  const real *weight = body ? in->tabled.base[c->base].weight : NULL;
   real *block = F + S->front_off[c->front], f[12]; /* along Y */
-  const real *axes = body ? in->tabled_base[c->base].axes : NULL;
+  const real *axes = body ? in->tabled.base[c->base].axes : NULL;
   for (int i = 0; i < 12; i++) f[i] = heavy ? c->mass[i / 3] * weight[i % 3] : ali3_same(0.0);
   for (int32_t n = 0; body && n < c->n_seen; n++)
     for (int k = 0; k < 3; k++) f[3 * c->seen[n] + k] += ali3_dot(axes + 3 * k, w->force + 3 * c->seen[n]);
@@ -93,7 +93,7 @@ ALI3_INLINED void rows_of(const ali3_instance *in, const ali3_tabled_group *of, 
       if (d < 0)
         row[local] += S->el_entry_value[k];
       else
-        spread(S->tabled + of->item[local], in->tabled + of->item[local], of->slot[local], d, S->el_entry_value[k],
+        spread(S->tabled + of->item[local], in->tabled.item + of->item[local], of->slot[local], d, S->el_entry_value[k],
                row);
     }
 }
@@ -106,8 +106,8 @@ ALI3_INLINED truth sum_of(const ali3_instance *in, const ali3_tabled_group *of, 
   for (int32_t o = of->first; o < of->end; o++) {
     const int32_t e = S->tabled_order[o], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
     const int32_t *place = S->tabled_signal + S->el_sig_ptr[e];
-    const real *from = in->S + S->el_S_off[e];
-    const truth still = in->idle[e];
+    const real *from = in->element.S + S->el_S_off[e];
+    const truth still = in->element.idle[e];
     if (!ali3_any(ali3_not(still))) continue;
     idle &= still;
     for (int32_t i = 0; i < n; i++) {
@@ -123,7 +123,7 @@ ALI3_INLINED void add_whole(ali3_instance *in, const ali3_tabled_group *of, real
   const ali3_system *S = in->system;
   const int32_t size = S->front_ptr[of->front + 1] - S->front_ptr[of->front];
   const int32_t n = of->n_signal, m = of->m;
-  real *block = F + S->front_off[of->front], *sum = in->tabled_square, *B = sum + n * n, *SB = B + n * m;
+  real *block = F + S->front_off[of->front], *sum = in->tabled.square, *B = sum + n * n, *SB = B + n * m;
   const truth idle = sum_of(in, of, sum);
   if (!ali3_any(ali3_not(idle))) return;
   rows_of(in, of, m, B);
@@ -153,7 +153,7 @@ ALI3_INLINED void parts_of(const ali3_instance *in, const ali3_tabled_group *of,
         p->share[i][of->axis[local]] += value;
         continue;
       }
-      const ali3_tabled_work *w = in->tabled + of->item[local];
+      const ali3_tabled_work *w = in->tabled.item + of->item[local];
       for (int K = 0; K < 3; K++) p->share[i][1 + K] += value * w->value[0][d + K];
       for (int q = 0; q < 2 && of->along[local][q] >= 0; q++)
         for (int x = 0; x < 3; x++) p->along[i][of->along[local][q]][x] += value * w->by[q][d + x];
@@ -166,7 +166,7 @@ ALI3_INLINED void parts_of(const ali3_instance *in, const ali3_tabled_group *of,
         p->slope[i][of->axis[local]] += value;
         continue;
       }
-      const ali3_tabled_work *w = in->tabled + of->item[local];
+      const ali3_tabled_work *w = in->tabled.item + of->item[local];
       for (int q = 0; q < 2 && of->along[local][q] >= 0; q++) p->slope[i][of->along[local][q]] += value * w->by[q][0];
     }
 }
@@ -190,8 +190,8 @@ ALI3_INLINED truth sum_of_parts(const ali3_instance *in, const ali3_tabled_group
   for (int32_t o = of->first; o < of->end; o++) {
     const int32_t e = S->tabled_order[o], n = S->el_sig_ptr[e + 1] - S->el_sig_ptr[e];
     const int32_t *place = S->tabled_signal + S->el_sig_ptr[e];
-    const real *from = in->S + S->el_S_off[e];
-    const truth still = in->idle[e];
+    const real *from = in->element.S + S->el_S_off[e];
+    const truth still = in->element.idle[e];
     const bool some = ali3_any(still);
     if (!ali3_any(ali3_not(still))) continue;
     idle &= still;
@@ -287,7 +287,7 @@ ALI3_INLINED void add_axes(const ali3_tabled_base *base, const ali3_tabled_parts
 
 ALI3_INLINED void tabled_elements_tangent(ali3_instance *in, real *F) {
   const ali3_system *S = in->system;
-  ali3_tabled_parts *p = (ali3_tabled_parts *)in->tabled_square;
+  ali3_tabled_parts *p = (ali3_tabled_parts *)in->tabled.square;
   int32_t base = -1; /* of p->base */
   for (int32_t g = 0; g < S->n_tabled_group; g++) {
     const ali3_tabled_group *of = S->tabled_group + g;

@@ -30,6 +30,6 @@ static void add(ali3_tree_work *w, int32_t b, double mass, const double *place) 
 void ali3_tree_payloads(const ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int64_t k = 0; k < S->n_tree_payload_body; k++)
-    if (in->payload_mass[k] > 0.0)
-      add(in->tree, S->tree_payload_body[k], in->payload_mass[k], S->tree_payload_place + 3 * k);
+    if (in->parameters.payload_mass[k] > 0.0)
+      add(in->tree, S->tree_payload_body[k], in->parameters.payload_mass[k], S->tree_payload_place + 3 * k);
 }

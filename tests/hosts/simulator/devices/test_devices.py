@@ -257,7 +257,7 @@ def test_a_damaged_file_is_said_and_kept_and_the_kind_drives(attach, start, tmp_
     file.write_text("inputs = 3\nnot toml", encoding="utf-8")
     again = start()
     until(again.devices.state)
-    assert again.said(f"{file} is no TOML file")
+    assert again.said(f"{file} is not a TOML file")
     assert again.only()["mapping"]["throttle"]["source"] == "axis 2"
     again.devices.assign(again.only()["id"], "brake", None)
     assert file.with_name(file.name + ".damaged").read_text(encoding="utf-8") == "inputs = 3\nnot toml"
@@ -295,7 +295,7 @@ def test_a_folder_that_cannot_be_written_is_said_and_the_mapping_holds(attach, s
         ({"type": "assign", "input": "brake"}, "the device None"),
         ({"type": "assign", "device": "ID"}, "the input None"),
         ({"type": "assign", "device": "ID", "input": "wipers", "mapping": None}, "no input for 'wipers'"),
-        ({"type": "assign", "device": "ID", "input": "brake", "mapping": {"source": "axle"}}, "'axle' is no source"),
+        ({"type": "assign", "device": "ID", "input": "brake", "mapping": {"source": "axle"}}, "'axle' is not a source"),
         (
             {"type": "assign", "device": "ID", "input": "brake", "mapping": {"source": "axis 4"}},
             "Wheel has no axis 4; it has axes: 4, buttons: 12, hats: 1",

@@ -111,8 +111,8 @@ def test_a_source_is_read_as_it_is_written(text):
 @pytest.mark.parametrize(
     ("name", "table", "words"),
     [
-        ("throttle", {"source": "axis -1"}, "'axis -1' is no source"),
-        ("throttle", {"source": 3}, "3 is no source"),
+        ("throttle", {"source": "axis -1"}, "'axis -1' is not a source"),
+        ("throttle", {"source": 3}, "3 is not a source"),
         ("throttle", {}, "has no source"),
         ("throttle", ["axis 0"], "must be a table"),
         ("throttle", {"source": "axis 0", "low": 0.3, "high": 0.3}, "high must be larger"),

@@ -6,6 +6,9 @@ import style from "./notices.css";
 /** Events and notes on the screen, and how long events stay, s. */
 const [EVENTS, NOTES, LASTS] = [4, 4, 7];
 
+/** A sentence without its numbers. @param {string} text */
+const wordsOf = (text) => text.replace(/[\d.]+/g, "");
+
 /** Sentences over a picture; programs that read pages aloud say them as they come. */
 export class Notices {
   /** All notes. @type {string[]} */
@@ -16,8 +19,8 @@ export class Notices {
     this._flags = new Map();
     this._ends = new WeakMap(); // timers by line
     this._list = el("div.a3-flags", { data: "flags" });
-    this._notes = el("div.a3-noted", { data: "notes", role: "status" });
-    this._events = el("div.a3-events", { data: "events", role: "status" });
+    this._notes = el("div.a3-noted", { data: "notes", role: "log" });
+    this._events = el("div.a3-events", { data: "events", role: "log" });
     this.element = el("div.a3-notices", {}, this._list, this._notes, this._events);
   }
 
@@ -30,16 +33,18 @@ export class Notices {
     let line = this._flags.get(name);
     if ((line?.text ?? "") === text) return;
     if (line === undefined) {
-      // Its numbers may change all the time, which nobody wants to hear.
+      // Its numbers may change all the time, which nobody wants to hear: they are no addition.
       const box = el("div", { data: `flag ${name}`, role: bad ? "alert" : "status", "aria-relevant": "additions" });
       line = { box, text: "" };
       this._flags.set(name, line);
       this._list.append(box);
     }
+    const same = wordsOf(line.text) === wordsOf(text);
     line.text = text;
     line.box.hidden = !text;
     line.box.classList.toggle("a3-bad", bad);
-    line.box.replaceChildren(text, ...choices);
+    if (same && !choices.length) line.box.firstChild.data = text;
+    else line.box.replaceChildren(text, ...choices);
   }
 
   /** States are over. @param {Iterable<string>} [names] by default all */

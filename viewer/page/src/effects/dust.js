@@ -39,7 +39,7 @@ void main() {
 export class Dust {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
-   * @param {{most?: number, limits?: Data, surface?: (x: number, y: number) => string, columns?: string[]}} [options] most: particles in the air
+   * @param {{most?: number, surface?: (x: number, y: number) => string, columns?: string[]}} [options] most: particles in the air
    *   at once; the others are those of Wheels
    */
   constructor(view, options = {}) {

@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { discard } from "../looks/discard.js";
 import { laid, LIFT, MARKS, widen } from "../looks/lifted.js";
 import { cross, scale, subtract, unit } from "../scene/math.js";
+import { place } from "../sources/sampler.js";
 
 /**
  * Both edges of a ribbon, relative to its first point, and the ways to them from its middle.
@@ -65,13 +66,7 @@ export class Path {
 
   /** Show it up to a time. @param {number} time s @param {number[]} origin of the picture, earth */
   update(time, origin) {
-    let [low, high] = [0, this.times.length];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (this.times[middle] <= time) low = middle + 1;
-      else high = middle;
-    }
-    this.geometry.setDrawRange(0, 6 * Math.max(0, low - 1));
+    this.geometry.setDrawRange(0, 6 * place(this.times, time)[0]);
     this.mesh.position.fromArray(subtract(this.start, origin));
   }
 

@@ -26,8 +26,7 @@ export class TyreMarks {
 
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
-   * @param {{most?: number, limits?: {slip?: number, lateral?: number}, columns?: string[]}} [options] most: sections of a wheel
-   *   that are kept; limits: slip and tangent of the slip angle beyond which a tyre leaves a mark; columns: see Wheels
+   * @param {{most?: number, columns?: string[]}} [options] most: sections of a wheel that are kept; columns: see Wheels
    */
   constructor(view, options = {}) {
     this.view = view;

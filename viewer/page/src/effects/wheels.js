@@ -13,9 +13,8 @@ const CREEP = 0.3;
 /**
  * Combined slip over the slip of the largest force: above 1 a tyre is beyond its limit.
  * @param {number} slip longitudinal, positive when driven @param {number} angle slip angle, rad
- * @param {{slip: number, lateral: number}} [limits]
  */
-export const use = (slip, angle, limits = LIMITS) => Math.hypot(slip / limits.slip, Math.tan(Math.min(Math.abs(angle), 1.5)) / limits.lateral);
+export const use = (slip, angle) => Math.hypot(slip / LIMITS.slip, Math.tan(Math.min(Math.abs(angle), 1.5)) / LIMITS.lateral);
 
 /**
  * What a wheel does now; `touching` is false in the air and where a number is missing.
@@ -28,11 +27,10 @@ export const use = (slip, angle, limits = LIMITS) => Math.hypot(slip / limits.sl
 export class Wheels {
   /**
    * @param {Data} scene
-   * @param {{limits?: Data, surface?: (x: number, y: number) => string, columns?: string[]}} [options] columns: names of the
+   * @param {{surface?: (x: number, y: number) => string, columns?: string[]}} [options] columns: names of the
    *   numbers that there will be, where they are known
    */
   constructor(scene, options = {}) {
-    this.limits = { ...LIMITS, ...options.limits };
     this.surface = options.surface ?? surfaceOf(scene);
     this.list = tyresOf(scene).map(({ tyre, slips, shape }) => {
       return { tyre, slips, frame: shape?.frame, width: shape?.width ?? 0.18, radius: shape?.radius ?? 0.3 };
@@ -68,7 +66,7 @@ export class Wheels {
     const sliding = Math.hypot(slip * fastest, Math.sin(angle) * speed);
     return {
       touching: true, at, normal, side, load, slip, sliding, width, radius, speed: fastest,
-      use: fastest > CREEP ? use(slip, angle, this.limits) : 0,
+      use: fastest > CREEP ? use(slip, angle) : 0,
       surface: this.surface(at[0], at[1]),
     }; // prettier-ignore
   }

@@ -9,7 +9,7 @@ export const HANDS_MS = 16;
 export class Hands {
   /**
    * @param {object} options
-   * @param {string[]} options.inputs - Of the FMU; what is no input is not asked for.
+   * @param {string[]} options.inputs - Of the FMU; what is not an input is not asked for.
    * @param {Object<string, number> | null} options.constants - Of a car; null: keys do nothing.
    * @param {() => (Data | null)[]} [options.pads] - `navigator.getGamepads`.
    * @param {(source: string, wants: [string, number, number?][]) => void} options.want - Input, value, largest change

@@ -5,7 +5,7 @@ import { DRIVING } from "../common/key_table.js";
 export const RATES = { steering: [1.6, 3.0], throttle: [2.5, 5.0], brake: [4.0, 8.0], hand_brake: [8.0, 8.0] };
 /** Lateral acceleration that full steering by a key may ask for, m/s2. */
 const LATERAL = 9.0;
-/** m and rad, where the FMU does not tell them. */
+/** m and rad, where the FMU does not provide them. */
 const WHEELBASE = 2.5;
 const WHEEL_ANGLE = 0.55;
 

@@ -1,10 +1,12 @@
 // Plays recordings: the picture of one, others as ghosts, what they leave on the ground.
 import looks from "../../../looks.json" with { type: "json" };
 import { el } from "../common/dom.js";
+import { instead } from "../common/notices.js";
 import { Instruments } from "../instruments/index.js";
 import { SceneView } from "../scene/scene_view.js";
 import { digitsOf } from "../shell/bar.js";
 import { Shell } from "../shell/shell.js";
+import { decoded } from "../sources/decode.js";
 import { extremesOf } from "../sources/extremes.js";
 import { Recordings } from "../sources/recordings.js";
 import { fromHash, toHash } from "./link.js";
@@ -14,21 +16,35 @@ const JUMP = 0.5; // s of the run at real time: longer from one picture to the n
 const SCANNED = 200; // times that ranges are looked for at
 
 /**
- * Show runs in an element.
+ * Unpack the data of a page and play them.
  * @param {HTMLElement} container an element with a size
- * @param {{runs: import("../sources/decode.js").Run[], options?: Data}} given the first run is drawn solid, others as ghosts
+ * @param {Data} page JSON as viewer/page_file.py writes it; the first run is drawn solid, others as ghosts
  * @returns {Player}
  */
-export const play = (container, given) => new Player(container, given);
+export const playPage = (container, page) => new Player(container, page);
 
-/** A page of recordings; `seek`, `camera`, `view` and `ready` are for programs. */
-export class Player extends Shell {
+/** A page of recordings; what programs use is in docs/animation.md. */
+class Player extends Shell {
   /** Pictures. @type {SceneView[]} */
   _drawn = [];
+  _wrong = "";
+  /** @type {{traces: Traces, sampler: import("../sources/sampler.js").Sampler}[]} */
+  drawnRuns = [];
 
-  /** @param {HTMLElement} container @param {{runs: import("../sources/decode.js").Run[], options?: Data}} given */
-  constructor(container, { runs, options = {} }) {
-    super(container, options);
+  /** @param {HTMLElement} container @param {Data} page */
+  constructor(container, page) {
+    super(container, page.options);
+    /** Resolved when the first picture stands, or a sentence in its place. */
+    this.ready = decoded(page)
+      .then((given) => this._open(given))
+      .catch((error) => {
+        this._wrong = error.message;
+        instead(container, "problem", `This page cannot be shown: ${error.message}`);
+      });
+  }
+
+  /** @param {{runs: import("../sources/decode.js").Run[], options?: Data}} given */
+  _open({ runs, options = {} }) {
     this.runs = runs;
     /** @type {Data} */
     this.options = { ...options, ...(options.controls === false ? {} : fromHash(location.hash)) };
@@ -36,7 +52,6 @@ export class Player extends Shell {
     this.source = new Recordings(runs, this.options);
     this.plotted = this.options.plots ?? [];
     this.source.changed = (moved) => this._moved(moved);
-    this.clock = this.source.clock;
     const { arrows, arrow_scale: arrowScale, stress, deformation, path, closed } = this.options;
     const asked = { arrows, arrowScale, stress, deformation, path, closed };
     for (const [name, value] of Object.entries(asked)) if (value !== undefined) this.look[name] = value;
@@ -47,8 +62,7 @@ export class Player extends Shell {
     this._show();
     if (this.options.play) this.play();
     this.loopId = requestAnimationFrame((now) => this._frame(now));
-    /** Resolved when the first picture stands. */
-    this.ready = this._painted();
+    return this._painted();
   }
 
   get views() {
@@ -57,11 +71,11 @@ export class Player extends Shell {
 
   /** One sentence where nothing can be drawn, else empty. */
   get problem() {
-    return this.view?.problem ?? "";
+    return this._wrong || (this.view?.problem ?? "");
   }
 
   get time() {
-    return this.clock.time;
+    return this.source.time;
   }
 
   /** Sentences on the runs: thinning, gaps. */
@@ -71,11 +85,11 @@ export class Player extends Shell {
   }
 
   play() {
-    if (!this.clock.playing) this.toggle();
+    if (!this.source.running) this.toggle();
   }
 
   pause() {
-    if (this.clock.playing) this.toggle();
+    if (this.source.running) this.toggle();
   }
 
   toggle() {
@@ -96,9 +110,14 @@ export class Player extends Shell {
   _moved(moved) {
     if (moved) this._show();
     this.bar?.show(this.source);
-    this.settings?.refresh({ loop: this.clock.loop });
+    this.settings?.refresh({ loop: this.source.loop });
     this.changed();
     return this._painted();
+  }
+
+  /** @param {Data} look as `setLook` has it; for programs */
+  set(look) {
+    this.setLook(look);
   }
 
   /** @param {Data} look as that of the shell */
@@ -124,14 +143,14 @@ export class Player extends Shell {
 
   /** Something that the address of the page tells has changed. */
   changed() {
-    if (!this.clock.playing) this.remember();
+    if (!this.source.running) this.remember();
   }
 
   /** Write into the address what is shown, so that it can be sent to somebody. */
   remember() {
     if (this.options.controls === false || !/^(https?|file):$/.test(location.protocol)) return;
     clearTimeout(this.later);
-    const state = { time: this.clock.time, camera: this.cameraName === this.cameras[0] ? "" : this.cameraName, plots: this.plots?.chosen ?? [], speed: this.clock.speed };
+    const state = { time: this.time, camera: this.cameraName === this.cameras[0] ? "" : this.cameraName, plots: this.plots?.chosen ?? [], speed: this.source.speed };
     this.later = setTimeout(() => history.replaceState(null, "", toHash(state)), 150); // browsers allow few a second
   }
 
@@ -146,8 +165,6 @@ export class Player extends Shell {
   /** The picture: of the first run that has a scene; the other runs are ghosts. */
   _draw() {
     this.solid = this.runs.findIndex(({ scene }) => scene !== null && scene !== undefined);
-    /** @type {{traces: Traces, sampler: import("../sources/sampler.js").Sampler}[]} */
-    this.drawnRuns = [];
     if (this.solid < 0) return;
     const { scene } = this.runs[this.solid];
     const picture = el("div.a3-view");
@@ -230,19 +247,19 @@ export class Player extends Shell {
 
   /** Which runs do not last the whole time. */
   _spans() {
-    const { begin, end } = this.clock;
+    const [begin, end] = this.source.range;
     return this.runs
       .filter(({ t }) => t[0] > begin || t[t.length - 1] < end)
       .map(({ name, t }) => `${name} lasts from ${t[0]} s to ${t[t.length - 1]} s and stands still outside.`);
   }
 
-  /** Everything to the time of the clock. */
+  /** Everything to the time that is shown. */
   _show() {
     const numbers = this.source.sample();
     if (this.solid >= 0) {
       this.view.update(numbers[this.solid]);
       for (const { drawn, sampler } of this.ghosts) drawn?.update(sampler.lookup);
-      for (const { traces, sampler } of this.drawnRuns) traces.update(this.clock.time, sampler.place[0]);
+      for (const { traces, sampler } of this.drawnRuns) traces.update(this.time, sampler.place[0]);
       const { samplers, speed } = this.source;
       this.instruments?.plan.trail.at(this.time, this.runs[this.solid].epoch[samplers[this.solid].place[0]], JUMP * Math.max(1, speed));
       this.instruments?.show(numbers[this.solid]);
@@ -256,10 +273,10 @@ export class Player extends Shell {
   _frame(now) {
     const passed = this.last === undefined ? 0 : (now - this.last) / 1000;
     this.last = now;
-    if (this.clock.playing) {
-      this.clock.tick(passed);
+    if (this.source.running) {
+      this.source.tick(passed);
       this._show();
-      if (!this.clock.playing) this.remember();
+      if (!this.source.running) this.remember();
     } else if (this.dirty) {
       this.view?.render();
       this.dirty = false;

@@ -59,7 +59,7 @@ export class Marks {
   constructor(layer, view, canvas) {
     this.view = view;
     this.layer = el("div", { style: "position:absolute;inset:0", "aria-live": "off" });
-    layer.append(this.layer);
+    layer.prepend(this.layer); // below legends
     let from = null;
     canvas.addEventListener("pointerdown", ({ clientX, clientY }) => (from = [clientX, clientY]));
     canvas.addEventListener("pointerup", ({ clientX, clientY }) => {

@@ -1,4 +1,4 @@
-// Names and units of a scene; viewer/scene_values.py has the same patterns.
+// Names and units of a scene; ali3/scene/scene_values.py has the same patterns.
 
 /** A name: no control characters, no < and >. */
 export const NAME = /^[^\u0000-\u001f<>\u007f-\u009f\u2028\u2029]*$/;

@@ -16,7 +16,7 @@ export function resampled(t, data, times) {
   });
 }
 
-/** Values as a diagram takes them: null for what is no number. @param {ArrayLike<number>} data */
+/** Values as a diagram takes them: null for what is not a number. @param {ArrayLike<number>} data */
 export const values = (data) => Array.from(data, (value) => (Number.isFinite(value) ? value : null));
 
 /**

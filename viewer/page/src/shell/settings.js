@@ -71,7 +71,7 @@ export class Settings {
       rows.push(el("span"), el("button", { onclick: fit }, "make it visible"), el("span"));
     }
     for (const ghost of player.ghosts) check(`ghost: ${ghost.name}`, true, (on) => player.showGhost(ghost, on));
-    if (this.source.acts.loop) this.shown.loop = check(hint("loop"), this.source.clock.loop, () => this.source.acts.loop());
+    if (this.source.acts.loop) this.shown.loop = check(hint("loop"), this.source.loop, () => this.source.acts.loop());
     if (player.view) this.shown.quality = choice("quality", "quality of the picture", QUALITIES, (quality) => player.setLook({ quality }), player.quality);
     choice("theme", "colours of the page", ["auto", "light", "dark"], (name) => player.theme(name), player.themeName);
     const copied = el("span");

@@ -152,10 +152,9 @@ export class Cockpit extends Shell {
 
   /** Left, top, right and bottom of the picture between the instruments and figures beside them. */
   _freeOfFigures() {
-    const { left, top, width, height } = this.viewBox.getBoundingClientRect();
+    const { left, top, width } = this.viewBox.getBoundingClientRect();
     const [side, cluster] = [this._side, this.instruments.cluster.element].map((part) => part.getBoundingClientRect());
-    const beside = side.top - top < height / 2 ? side.right - left : 0; // in a small window it stands at the top
-    return [beside, 0, width, cluster.top - top];
+    return [side.right - left, 0, width, cluster.top - top];
   }
 
   _open(scene) {

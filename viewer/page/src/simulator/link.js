@@ -17,7 +17,7 @@ const LONGEST_WAIT = 4000;
  */
 export function readFrame(buffer) {
   const view = new DataView(buffer);
-  if (buffer.byteLength < HEADER || view.getUint32(0, true) !== MAGIC) throw new Error("This is no frame of a simulator.");
+  if (buffer.byteLength < HEADER || view.getUint32(0, true) !== MAGIC) throw new Error("This is not a frame of a simulator.");
   const flags = view.getUint32(8, true);
   const size = view.getUint32(12, true);
   if (buffer.byteLength !== HEADER + 8 * size) {

@@ -1,8 +1,9 @@
 // Runs that were recorded, as a source of a page; see `Source` in shell/shell.js.
 import { paceActs, unitsOf } from "./acts.js";
-import { Clock, SPEEDS } from "./clock.js";
 import { Sampler } from "./sampler.js";
 
+/** Speeds that can be chosen. */
+const SPEEDS = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
 /** Recorded times of a step, without and with Shift. */
 const STEPS = [1, 10];
 
@@ -22,25 +23,30 @@ export function signalNames(runs) {
   return [...all.filter((name) => !poses.has(name)), ...all.filter((name) => poses.has(name))];
 }
 
-/** Recordings that are shown at one time. */
+/** Recordings that are shown at one time, which runs and stands; where pictures take long there are fewer of them. */
 export class Recordings {
   speeds = SPEEDS;
+  running = false;
   /** Told when another instant (true) or pace is to be shown. @type {(moved: boolean) => Promise<void>} */
   changed = () => Promise.resolve();
 
   /** @param {import("./decode.js").Run[]} runs @param {{speed?: number, loop?: boolean, time?: number}} options */
   constructor(runs, { speed = 1, loop = true, time }) {
     this.runs = runs;
+    this.speed = speed;
+    /** Whether it begins again at the end. */
+    this.loop = loop;
     this.samplers = runs.map((run) => new Sampler(run));
     const [begin, end] = [Math.min(...runs.map(({ t }) => t[0])), Math.max(...runs.map(({ t }) => t[t.length - 1]))];
-    this.clock = new Clock(begin, end, { speed, loop });
-    this.clock.seek(time ?? begin);
+    /** @type {[number, number]} */
+    this.range = [begin, end];
+    this.time = this._within(time ?? begin);
     this.columns = unitsOf(signalNames(runs), (name) => runs.find(({ columns }) => name in columns).columns[name].unit);
     const far = (/** @type {Data} */ event) => STEPS[event?.shiftKey ? 1 : 0];
-    const toggle = () => this._pace(() => (this.running ? this.clock.pause() : this.clock.play()));
+    const toggle = () => this._pace(() => (this.running ? (this.running = false) : this._run()));
     const seek = (t) => this._seek(t);
     const pace = paceActs(this, {
-      speed: (wish) => this._pace(() => (this.clock.speed = Math.min(10, Math.max(0.05, wish)))),
+      speed: (wish) => this._pace(() => (this.speed = Math.min(10, Math.max(0.05, wish)))),
       back: (seconds) => seek(this.time - seconds),
     });
     this.acts = {
@@ -55,25 +61,18 @@ export class Recordings {
       slower: () => pace.speed(this._next(-1)),
       reset: () => seek(begin),
       end: () => seek(end),
-      loop: () => this._pace(() => (this.clock.loop = !this.clock.loop)),
+      loop: () => this._pace(() => (this.loop = !this.loop)),
     };
   }
 
-  get time() {
-    return this.clock.time;
-  }
-
-  /** @returns {[number, number]} */
-  get range() {
-    return [this.clock.begin, this.clock.end];
-  }
-
-  get running() {
-    return this.clock.playing;
-  }
-
-  get speed() {
-    return this.clock.speed;
+  /** Let time pass. @param {number} passed s of the wall clock since the last picture */
+  tick(passed) {
+    if (!this.running) return;
+    const [begin, end] = this.range;
+    this.time += this.speed * passed;
+    if (this.time < end) return;
+    if (this.loop) this.time = begin + ((this.time - begin) % (end - begin));
+    else [this.time, this.running] = [end, false];
   }
 
   /** Runs as diagrams show them. */
@@ -88,7 +87,7 @@ export class Recordings {
 
   /** A recorded time of the first run, so many from the one that is shown; the run then stands. @param {number} steps */
   _beside(steps) {
-    this.clock.pause();
+    this.running = false;
     const { t } = this.runs[0];
     const [k, share] = this.samplers[0].place;
     const from = steps < 0 && share > 0 ? k + 1 : k;
@@ -96,8 +95,20 @@ export class Recordings {
   }
 
   _seek(t) {
-    this.clock.seek(t);
+    this.time = this._within(t);
     return this.changed(true);
+  }
+
+  _run() {
+    const [begin, end] = this.range;
+    if (this.time >= end) this.time = begin;
+    this.running = end > begin;
+  }
+
+  /** @param {number} t held within the runs; their begin where it is no number */
+  _within(t) {
+    const [begin, end] = this.range;
+    return Math.min(end, Math.max(begin, Number.isFinite(t) ? t : begin));
   }
 
   _pace(change) {

@@ -17,12 +17,11 @@ export class CarSound {
    * @param {object} car
    * @param {string[]} car.columns names of its numbers
    * @param {Object<string, number>} [car.constants] of the FMU
-   * @param {{slip: number, lateral: number}} [car.limits] slips of the largest force of its tyres
    * @param {AudioContext | OfflineAudioContext} [car.context] where it sounds: by default the loudspeakers
    */
-  constructor({ columns, constants = {}, limits = undefined, context = undefined }) {
+  constructor({ columns, constants = {}, context = undefined }) {
     this.context = context;
-    this.mix = new CarMix(columns, constants, limits);
+    this.mix = new CarMix(columns, constants);
     /** One sentence why nothing is heard, else empty. */
     this.problem = this.mix.problem;
     this.mixer = null;

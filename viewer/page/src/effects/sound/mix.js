@@ -7,10 +7,9 @@ const [RADIUS, LONGEST] = [0.3, 0.2];
 
 /** Knows which numbers a car has; remembers the loads of the last time. */
 export class CarMix {
-  /** @param {string[]} columns @param {Object<string, number>} [constants] @param {{slip: number, lateral: number}} [limits] slips of the largest force */
-  constructor(columns, constants = {}, limits = undefined) {
+  /** @param {string[]} columns @param {Object<string, number>} [constants] */
+  constructor(columns, constants = {}) {
     const has = new Set(columns);
-    this.limits = limits;
     this.wheels = columns.flatMap((name) => {
       const prefix = PREFIX.exec(name)?.[1];
       return prefix !== undefined && has.has(`${prefix}.slip`) && has.has(`${prefix}.Fz`) ? [prefix] : [];
@@ -53,9 +52,7 @@ export class CarMix {
     if (step <= 0) return null;
     const speed = Math.abs(number("speed"));
     const throttle = this.throttle === undefined ? 0 : number(this.throttle);
-    const squeals = wheels.map(({ slip, angle, load, tread }) =>
-      signals.squealLevel(slip, angle, load, Math.max(speed, tread), this.limits),
-    );
+    const squeals = wheels.map(({ slip, angle, load, tread }) => signals.squealLevel(slip, angle, load, Math.max(speed, tread)));
     const loudest = squeals.indexOf(Math.max(...squeals, 0));
     const touching = wheels.length > 0 ? wheels.filter(({ load }) => load > 0).length / wheels.length : 1;
     const thumps = before === null || step > LONGEST ? [] : wheels.map(({ load }, k) => signals.thumpLevel(before[k], load, step));

@@ -1,5 +1,5 @@
 // What a car sounds like, by its numbers: pitches in Hz and levels from 0 to 1; pure numbers.
-import { LIGHT, LIMITS, use } from "../wheels.js";
+import { LIGHT, use } from "../wheels.js";
 
 /** Firings of a four-stroke engine of four cylinders a revolution. */
 export const FIRINGS = 2;
@@ -35,9 +35,9 @@ export const motorLevel = (speed, effort) => clamp(Math.abs(speed) / 120) * (0.0
  * @param {number} slip longitudinal @param {number} angle slip angle, rad @param {number} load N
  * @param {number} speed of the car or of the tread, m/s
  */
-export function squealLevel(slip, angle, load, speed, limits = LIMITS) {
+export function squealLevel(slip, angle, load, speed) {
   if (!(load > LIGHT)) return 0;
-  return clamp((use(slip, angle, limits) - 0.9) / 1.6) * clamp(load / LOAD) ** 0.7 * clamp((speed - 1) / 3);
+  return clamp((use(slip, angle) - 0.9) / 1.6) * clamp(load / LOAD) ** 0.7 * clamp((speed - 1) / 3);
 }
 
 /** Pitch of squeal: lower the more it is loaded. @param {number} load N */

@@ -1,0 +1,47 @@
+/* States of motion, and the time. */
+#ifndef ALI3_INSTANCE_STATES_H
+#define ALI3_INSTANCE_STATES_H
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { ALI3_PAST = 4, ALI3_HISTORY_OWNER = 0, ALI3_HISTORY_COUNT, ALI3_HISTORY_TIME, ALI3_HISTORY = 2 + ALI3_PAST };
+
+/* One state; the vectors lie in one block of doubles so that a copy is one memcpy. */
+typedef struct {
+  double *q, *qd, *qdd;       /* nq: coordinates and their rates */
+  double *lam;                /* nc: multipliers of rows */
+  double *y;                  /* ny: states of elements */
+  double *mean, *mean_before; /* nq: mean rates of the last two steps, of Systems with flexible bodies */
+  double *s, *sd, *sdd;       /* ng: guides and their rates */
+  double *out, *potential;    /* nout; ne, J: of the last evaluation of the elements */
+  double *used;               /* nu: inputs as used in the last step */
+  double *y_last, *h_last;    /* ny; 1, s: element states at the start of the last step, its length; 0 at a start */
+  double *on, *anchor;        /* n_switch: 0 or 1; nc where there are any: what a switched row holds */
+  double *history; /* of a method: whose it is (ALI3_METHOD_*), count of past steps, their middles relative to now, s */
+  double *own; /* nq: velocity (energy-momentum) or algorithmic acceleration (generalised-alpha) */
+  double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
+  double *work, *stored; /* J: since the start, at the start; see ../state/work.c */
+  double *watched; /* power, then forces, at the end of the last step */
+  double *step_force, *step_way; /* n_work_force: mean forces of the last step, ways of their signals */
+  double *by_inputs; /* n_input_work, J: what jumps of inputs since the start added to the stored energy */
+} ali3_vectors;
+
+/* States beside the present one and the next. */
+typedef struct {
+  ali3_vectors start; /* before a step that may be halved */
+  ali3_vectors whole; /* before a composed step */
+  ali3_vectors origin, centre, coarse; /* of a controlled step: its start, its middle, its end by one whole step */
+  ali3_vectors near_branch; /* before a step where branches may be near */
+  ali3_vectors direction; /* a direction in the space of states */
+  size_t n; /* doubles of a state */
+  bool backed_up; /* `start` holds the state before the step */
+} ali3_kept_states;
+
+/* time = base + count h */
+typedef struct {
+  double base, h; /* s; h: length of the last step */
+  int64_t count; /* of steps of that length */
+  double now; /* s: the time of in->now within a step */
+} ali3_clock;
+#endif
