@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from benchmarks.car import against_checkout, lanes, real_time, scene_instructions
+from benchmarks.car import against_checkout, generated_code, lanes, real_time, scene_instructions
 from benchmarks.methods import growth
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
@@ -35,6 +35,11 @@ def _turns(options: Namespace) -> list[dict[str, Any]]:
         raise RuntimeError("--other is missing: the folder of the checkout with which steps are timed in turn.")
     scenes = [scene for scene in scene_instructions.SCENES if scene.name in options.only]
     return [*against_checkout.measure(options.other, scenes, options.rounds, options.repeats, options.instructions)]
+
+
+def _generated(options: Namespace) -> list[dict[str, Any]]:
+    scenes = [scene for scene in scene_instructions.SCENES if scene.name in options.only]
+    return [*generated_code.measure(scenes, options.rounds, options.repeats)]
 
 
 def _growth(options: Namespace) -> list[dict[str, Any]]:
@@ -69,6 +74,17 @@ PARTS = {
             "repeats": (5, "runs of which a round takes the least"),
             "instructions": (False, "instructions beside the times"),
         },
+    ),
+    "generated": Part(
+        "steps of scenes by the loops of the kernel and by code generated for their Systems, in turn",
+        _generated,
+        names=tuple(dict.fromkeys(scene.name for scene in scene_instructions.SCENES)),
+        options={
+            "rounds": (7, "each times both; the ratio is the median of theirs"),
+            "repeats": (5, "runs of which a round takes the least"),
+        },
+        pages=("speed.md",),
+        blocks=generated_code.blocks,
     ),
     "growth": Part(
         "time, memory and non-zeros of the N-four-bar by N and of the car's frame by its modes, with exponents",

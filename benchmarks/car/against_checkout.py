@@ -10,7 +10,7 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from statistics import median
-from typing import Any
+from typing import Any, NamedTuple
 
 from benchmarks.car import scene_instructions
 from benchmarks.car.scene_instructions import SOURCE, Scene, instructions
@@ -102,33 +102,42 @@ def measure(
             sides.append(commands_of(checkout.resolve(), scenes, Path(place, name), steps))
         for scene in watched([s for s in scenes if f"{s.name} {s.step}" in sides[1]]):
             key = f"{scene.name} {scene.step}"
-            yield _row(scene, [side[key] for side in sides], steps or scene.steps, rounds, repeats, counted)
+            both = [Side(name, side[key]) for name, side in zip(("here", "there"), sides, strict=True)]
+            yield row_of(scene, both, steps or scene.steps, rounds, repeats, counted)
 
 
-def _row(
-    scene: Scene, both: Sequence[list[str]], steps: int, rounds: int, repeats: int, counted: bool
-) -> dict[str, Any]:
+class Side(NamedTuple):
+    """A way to make the same steps: its name, the program that repeats them with its arguments, generated code."""
+
+    name: str
+    command: list[str]
+    code: tuple[str, ...] = ()
+
+
+def row_of(scene: Scene, both: Sequence[Side], steps: int, rounds: int, repeats: int, counted: bool) -> dict[str, Any]:
+    """A row of two ways that make steps in turn; the arguments are those of `measure`."""
     times: list[list[float]] = [[], []]
     counts: list[list[int]] = [[], []]
     for k in range(2 * rounds):
         side = (k + k // 2) % 2  # here, there, there, here: a drift of the machine's pace is on both sides
-        done = subprocess.run([*both[side], str(repeats)], capture_output=True, text=True, check=True).stdout.split()
+        command = [*both[side].command, str(repeats), *both[side].code]
+        done = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
         if done[0] != "0":
             raise RuntimeError(f"A step of the scene {scene.name!r} was refused (status {done[0]}).")
         counts[side] = [int(count) for count in done[1:4]]
         times[side].append(1e6 * float(done[4]) / steps)
     row: dict[str, Any] = {"scene": scene.name, "step, ms": 1e3 * scene.step}
-    for side, name in enumerate(("here", "there")):
+    names = [side.name for side in both]
+    for side, name in enumerate(names):
         row[f"us {name}"] = round(min(times[side]), 3)
     row["ratio"] = round(median(a / b for a, b in zip(*times, strict=True)), 3)
-    for side, name in enumerate(("here", "there")):
+    for side, name in enumerate(names):
         row |= {
             f"{what} {name}": round(n / steps, 3)
             for what, n in zip(("iterations", "solves"), counts[side][::2], strict=True)
         }
     if counted and scene_instructions.counter() is not None:
-        for command, name in zip(both, ("here", "there"), strict=True):
-            still = [*command[:5], "0"]
-            taken = [instructions(of) for of in (command, still)]
+        for name, command, code in both:
+            taken = [instructions([*command[:5], n, "1", *code]) for n in (str(steps), "0")]
             row[f"instructions {name}"] = round((taken[0] - taken[1]) / steps)  # type: ignore[operator]
     return row

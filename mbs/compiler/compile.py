@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 
+from mbs.common.checks import flag
 from mbs.common.later import Later
 from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.drawing import drawing
+from mbs.compiler.generated.library import library_of
 from mbs.compiler.model_to_system import checked, compiled
 from mbs.compiler.overconstrained import TOLERANCE, closed_loops
 from mbs.compiler.ports import with_ports_of
@@ -21,7 +23,7 @@ Correction = Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]
 """Makes a context in which joints are drawn as their loops close, of the corrections by joint: m and rad."""
 
 
-def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
+def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False) -> System:
     """Compile a model.
 
     Linear joint equations are eliminated, dependent rows removed, the elimination order and fronts of the tangent
@@ -34,6 +36,10 @@ def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
     tolerance : float
         Largest correction of an overconstrained loop, parts of the size of its drawing (m/m) and rad; 0 takes every
         drawing as it is.
+    native : bool
+        Compile the sums of a step for this System alone into C and for this processor: some seconds the first time,
+        then from a cache. Runs have the same bits and take less time ([cost of a step](speed.md)); an FMU does not
+        have this code.
 
     Returns
     -------
@@ -45,7 +51,8 @@ def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
     ArgumentTypeError
         `model` is no Model.
     ModelError
-        If the assembly cannot be closed or the model is not possible; the message names the joints.
+        If the assembly cannot be closed or the model is not possible; the message names the joints. `native`: there
+        is no compiler.
     """
     closing = closed_loops(tolerance)
     corrected, made = _closed(model, closing)
@@ -61,7 +68,10 @@ def compile(model: Model, *, tolerance: float = TOLERANCE) -> System:
 
     late = Later(draw)
     model.draw_before_change(late)
-    return System.of(made, late, None if make is None else ported)
+    system = System.of(made, late, None if make is None else ported)
+    if flag(native, "The native of compile"):
+        system.native = library_of(system)
+    return system
 
 
 def _closed(model: Model, closing: Callable[[Model], Correction]) -> tuple[Correction, CompiledModel]:

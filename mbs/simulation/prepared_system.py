@@ -17,7 +17,10 @@ _PREPARED: WeakKeyDictionary[System, tuple[LoadedSystem, dict[str, Any]]] = Weak
 def prepared(system: System) -> tuple[LoadedSystem, dict[str, Any]]:
     """What all Simulations of a System share: it in the kernel's memory, and its names, which must not be changed."""
     if system not in _PREPARED:
-        _PREPARED[system] = LoadedSystem(system.kernel_bytes()), system.meta
+        loaded = LoadedSystem(system.kernel_bytes())
+        if system.native is not None:
+            loaded.attach(system.native)
+        _PREPARED[system] = loaded, system.meta
     return _PREPARED[system]
 
 

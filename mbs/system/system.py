@@ -55,7 +55,11 @@ class System(CompiledModel):
     ported : callable or None
         Makes of this System the one with ports that follows it and computes the sensors that it leaves out
         (`mbs.compiler.ports`), or None; None where there is none, as in a System from a file.
+    native : Path or None
+        The library of code that was generated for this System (`compile(..., native=True)`).
     """
+
+    native: Path | None = None
 
     def __init__(
         self,
@@ -137,12 +141,12 @@ class System(CompiledModel):
         """
         made = copy.copy(self)
         made.arrays = self.arrays.changed(arrays)
-        made.ported = None  # it would not have them
+        made.ported = made.native = None  # they would not have them
         return made
 
-    def __reduce__(self) -> tuple[Callable[..., System], tuple[bytes, Frames | None]]:
-        """Pickled as its file with `frames`; `ported`, a function, is left behind."""
-        return _unpickled, (self.to_bytes(), self.frames)
+    def __reduce__(self) -> tuple[Callable[..., System], tuple[bytes, Frames | None, Path | None]]:
+        """Pickled as its file with `frames` and the place of its code; `ported`, a function, is left behind."""
+        return _unpickled, (self.to_bytes(), self.frames, self.native)
 
     def __copy__(self) -> System:
         made = object.__new__(type(self))
@@ -225,9 +229,10 @@ class System(CompiledModel):
         return cls.from_bytes(read_bytes(path, _LARGEST))
 
 
-def _unpickled(data: bytes, frames: Frames | None) -> System:
+def _unpickled(data: bytes, frames: Frames | None, native: Path | None) -> System:
     made = System.from_bytes(data)
     made.frames = frames
+    made.native = native if native is not None and native.is_file() else None  # another machine: the same bits without
     return made
 
 

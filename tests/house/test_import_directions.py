@@ -36,7 +36,7 @@ ROOMS = (
     "files",
 )
 """Rooms of the kernel; each may include headers of those behind it."""
-SHARED = ("method.h", "request.h", "instance.h", "instance", "system.h", "system_arrays.h")
+SHARED = ("method.h", "request.h", "instance.h", "instance", "system.h", "generated.h", "system_arrays.h")
 """Contract of methods and data that all rooms share: each header may include those behind it, and none of a room; the
 parts of `instance.h` are a folder."""
 PUBLIC = "../include/ali3.h"

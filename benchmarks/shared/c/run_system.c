@@ -1,8 +1,11 @@
 /* Continues a saved state of a System, with rows of inputs or none, and says what it took.
- *   run_system SYSTEM STATE INPUTS STEP STEPS [REPEATS]
+ *   run_system SYSTEM STATE INPUTS STEP STEPS [REPEATS [CODE]]
  * INPUTS holds the values at the end of each step as doubles, a row a step; an empty file leaves the inputs as they are.
  * Prints the status and the iterations, factorizations and solves of these steps; with REPEATS also the least processor
- * time, s, of so many runs from the same state. */
+ * time, s, of so many runs from the same state. CODE is a library of code that was generated for the System. */
+#if !defined(_WIN32)
+#include <dlfcn.h>
+#endif
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,8 +24,17 @@ static void *contents(const char *name, size_t *size) {
   return bytes;
 }
 
+#if defined(_WIN32)
+static const void *table_of(const char *name) { return (void)name, NULL; }
+#else
+static const void *table_of(const char *name) {
+  void *library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+  return library != NULL ? dlsym(library, "ali3_generated_code") : NULL;
+}
+#endif
+
 int main(int count, char **words) {
-  if (count != 6 && count != 7) return 2;
+  if (count < 6 || count > 8) return 2;
   size_t system_size, state_size, input_size;
   void *bytes = contents(words[1], &system_size), *state = contents(words[2], &state_size);
   double *inputs = contents(words[3], &input_size);
@@ -35,6 +47,7 @@ int main(int count, char **words) {
   int64_t done;
   clock_t least = 0;
   if (ali3_system_load(bytes, system_size, &system, message, sizeof message) != ALI3_OK) return 4;
+  if (count > 7 && ali3_system_attach(system, table_of(words[7]), message, sizeof message) != ALI3_OK) return 7;
   if (ali3_instance_new(system, &in) != ALI3_OK) return 5;
   const long repeats = count > 6 ? atol(words[6]) : 1;
   for (long k = 0; k < repeats && status == ALI3_OK; k++) {

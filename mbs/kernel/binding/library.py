@@ -31,6 +31,8 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_system_load": (c_int32, [c_char_p, c_size_t, POINTER(c_void_p), c_char_p, c_size_t]),
     "ali3_system_free": (None, [c_void_p]),
     "ali3_system_sizes": (Sizes, [c_void_p]),
+    "ali3_system_structure": (c_uint32, [c_void_p]),
+    "ali3_system_attach": (c_int32, [c_void_p, c_void_p, c_char_p, c_size_t]),
     "ali3_instance_size": (c_size_t, [c_void_p]),
     "ali3_instance_new": (c_int32, [c_void_p, POINTER(c_void_p)]),
     "ali3_instance_free": (None, [c_void_p]),

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from ctypes import byref, c_void_p
 
 from ..header.structures import Sizes
-from .errors import refused_new
+from .errors import KernelError, refused_new
 from .kernel_memory import KernelMemory
 from .library import load_library
 
@@ -20,6 +21,7 @@ class LoadedSystem(KernelMemory):
 
     def __init__(self, data: bytes) -> None:
         self._handle: c_void_p | None = None
+        self._code: ctypes.CDLL | None = None
         self._library = load_library()
         handle = c_void_p()
         message = ctypes.create_string_buffer(256)
@@ -32,6 +34,35 @@ class LoadedSystem(KernelMemory):
         self.state_size: int = self._library.ali3_state_size(handle)
         self.snapshot_size: int = self._library.ali3_snapshot_size(handle)
         self.instance_size: int = self._library.ali3_instance_size(handle)
+
+    @property
+    def structure(self) -> int:
+        """A hash of all that code generated for this System depends on."""
+        return int(self._library.ali3_system_structure(self._handle))
+
+    @property
+    def has_avx2(self) -> bool:
+        """Whether the processor has AVX2."""
+        return int(self._library.ali3_widest_lanes()) > 2
+
+    @property
+    def has_code(self) -> bool:
+        """Whether generated code does the work of the kernel."""
+        return self._code is not None
+
+    def attach(self, library: str | os.PathLike[str]) -> None:
+        """Code of a library, generated for this System, does the work of the kernel from now on.
+
+        It comes before the first instance, and stays in memory. Raises `KernelError`: the code is of another System,
+        kernel or processor; `OSError`: the library cannot be loaded.
+        """
+        message = ctypes.create_string_buffer(256)
+        code = ctypes.CDLL(os.fspath(library))
+        address = ctypes.addressof(ctypes.c_char.in_dll(code, "ali3_generated_code"))
+        status = self._library.ali3_system_attach(self._handle, address, message, len(message))
+        if status:
+            raise KernelError(status, f"the generated code was refused: {message.value.decode(errors='replace')}.")
+        self._code = code  # what is called stays
 
     def __del__(self) -> None:
         if self._handle is not None:

@@ -114,6 +114,7 @@ static inline int ali3_float_control_is_usual(void) {
 
 typedef struct ali3_system ali3_system;
 typedef struct ali3_instance ali3_instance;
+typedef struct ali3_generated ali3_generated; /* src/generated.h */
 
 enum { ALI3_UPDATE_LINEARISED = 0, ALI3_UPDATE_PAPER = 1 };
 
@@ -226,6 +227,12 @@ typedef struct {
 ALI3_API ali3_status ali3_system_load_with(const void *bytes, size_t size, const ali3_memory *memory, ali3_system **out,
                                            char *message, size_t message_size);
 ALI3_API void ali3_system_free(ali3_system *s);
+/* A hash of all of a System that generated code depends on. */
+ALI3_API uint32_t ali3_system_structure(const ali3_system *s);
+/* Code that was generated for the structure of this System does its work from now on, with the same bits; before its
+ * first instance. Code of another is refused with a sentence without its full stop. It stays the caller's. */
+ALI3_API ali3_status ali3_system_attach(ali3_system *s, const ali3_generated *generated, char *message,
+                                        size_t message_size);
 ALI3_API ali3_sizes ali3_system_sizes(const ali3_system *s);
 ALI3_API int32_t ali3_road_count(const ali3_system *s);
 

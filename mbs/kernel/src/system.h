@@ -4,6 +4,7 @@
 #include <stdbool.h>
 
 #include "../include/ali3.h"
+#include "generated.h"
 #include "system_arrays.h"
 
 enum { ALI3_INERTIA_REALS = 10, ALI3_INERTIA_SIGNALS = 12 }; /* of a body whose inertia parameters write */
@@ -157,6 +158,7 @@ struct ali3_system {
   int32_t *el_tabled; /* ne: its group, -1: none */
   int32_t *el_entry_dependent; /* per entry: the dependent within its item, -1: a coordinate */
   ali3_tree *tree; /* NULL: the System has none */
+  ali3_generated generated; /* by default nothing is */
   int32_t n_input_work; /* n_work where inputs may change what elements store, else 0 */
   int32_t n_guide_work; /* 1 where the work of guides is sensed, else 0 */
   int32_t n_work, n_work_force; /* elements whose work is sensed, signals of all of them */

@@ -194,10 +194,21 @@ ALI3_INLINED void assemble(const real *block, const int32_t *map, int32_t n_pivo
     ali3_add(parent + (int64_t)map[j] * parent_n + map[j], block + (int64_t)j * n + j, n - j);
 }
 
+#ifndef ALI3_WIDTH
+static ali3_status factorise_generated(ali3_instance *in, double *F) {
+  double pivot;
+  const int32_t bad = in->system->generated.factorise(F, in->mass.floor, &in->report.negative_pivots, &pivot);
+  return bad < 0 ? ALI3_OK : ali3_check_pivot(in, bad, pivot);
+}
+#endif
+
 ALI3_INLINED ali3_status factorise(ali3_instance *in, real *F) {
   const ali3_system *S = in->system;
   ALI3_COUNT(in, factorizations);
   ALI3_COUNT_ANEW(in, negative_pivots);
+#ifndef ALI3_WIDTH
+  if (S->generated.factorise != NULL) return factorise_generated(in, F);
+#endif
   for (int32_t f = 0; f < S->size.nf; f++) {
     const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first,
                   n = S->front_ptr[f + 1] - S->front_ptr[f], parent = S->front_parent[f];
@@ -245,6 +256,7 @@ ALI3_INLINED void few_pivots_back(const real *block, real *restrict x, int64_t n
 ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
   const ali3_system *S = in->system;
   ALI3_COUNT(in, solves);
+  if (ALI3_GENERATED(S, solve, (F, b))) return;
   for (int32_t f = 0; f < S->size.nf; f++) {
     real *x = ali3_front_unknowns(in, f, 1, b);
     ali3_front_forward(F + S->front_off[f], x, S->front_col[f + 1] - S->front_col[f],

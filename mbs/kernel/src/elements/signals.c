@@ -29,6 +29,7 @@ ALI3_INLINED void active_signals(ali3_instance *in, const real *q, const real *q
   const ali3_system *S = in->system;
   const int32_t *ptr = S->sig_ptr, *col = S->sig_col;
   const double *val = S->sig_val;
+  if (ALI3_GENERATED(S, signals, (val, S->sig_const, q, qd, in->element.u, in->element.ud))) return;
   for (int32_t a = 0; a < S->n_active; a++) {
     const int32_t i = S->active_signal[a];
     if (S->active_triple[a]) {
@@ -60,6 +61,7 @@ ALI3_INLINED void add_three(const ali3_system *S, int32_t i, const real *f, real
 /* Q += the forces f of all elements on their signals, but for idle ones. */
 ALI3_INLINED void add_forces(const ali3_instance *in, const real *f, real *Q) {
   const ali3_system *S = in->system;
+  if (ALI3_GENERATED(S, forces, (S->sig_val, in->element.idle, f, Q))) return;
   for (int32_t e = 0; e < S->size.ne; e++) {
     const truth idle = in->element.idle[e];
     const bool some = ali3_any(idle);

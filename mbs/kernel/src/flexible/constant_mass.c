@@ -80,6 +80,7 @@ ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, const real 
 }
 
 ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, real *out) {
+  if (in->mass.isotropic && ALI3_GENERATED(in->system, mass_times, (in->mass.val, x, out))) return;
   if (in->system->n_flexible > 0)
     times_mass(in, x, x, out, out, true, false);
   else
@@ -91,6 +92,9 @@ ALI3_BY_PROCESSOR(in->system, void, constant_mass_times, (const ali3_instance *i
 
 ALI3_INLINED void constant_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x,
                                            real *out_y) {
+  if (in->mass.isotropic && ALI3_GENERATED(in->system, mass_times, (in->mass.val, x, out_x)) &&
+      ALI3_GENERATED(in->system, mass_times, (in->mass.val, y, out_y)))
+    return;
   if (in->system->n_flexible > 0)
     times_mass(in, x, y, out_x, out_y, true, true);
   else

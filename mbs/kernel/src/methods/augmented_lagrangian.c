@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../algebra/elementary.h"
 #include "../algebra/finite.h"
 #include "../algebra/fronts.h"
 #include "../algebra/processor.h"
@@ -76,13 +77,44 @@ ALI3_INLINED bool judge(ali3_instance *in) {
   return ali3_judge(in, x);
 }
 
-/* The tangent (23) of the present iterate, factorised. */
-static ali3_status tangent(ali3_instance *in, double alpha) {
+/* The tangent (23) of the present iterate, by generated code. */
+static void assemble_generated(ali3_instance *in, double alpha) {
   const ali3_system *S = in->system;
+  const ali3_tangent_parts parts = {.front_mass = in->mass.front,
+                                    .J = in->tangent.J,
+                                    .lam = in->next.lam,
+                                    .s = in->next.s,
+                                    .hess_val = S->hess_val,
+                                    .gterm_h = S->gterm_h,
+                                    .angle_hc = S->angle_hc,
+                                    .angle_hs = S->angle_hs,
+                                    .q = ali3_near_origin(in, in->next.q),
+                                    .cosine = ali3_cos,
+                                    .sine = ali3_sin,
+                                    .sig_val = S->sig_val,
+                                    .S = in->element.S,
+                                    .idle = in->element.idle,
+                                    .square = in->rule.c * alpha,
+                                    .geometric = in->rule.c};
+  S->generated.tangent(&parts, in->tangent.F);
+}
+
+/* The tangent goes to the fronts. */
+static void assemble(ali3_instance *in, double alpha) {
+  if (in->system->generated.tangent != NULL && in->settings.geometric) {
+    assemble_generated(in, alpha);
+    return;
+  }
   ali3_mass_to_fronts(in, in->tangent.F);
   ali3_rows_square(in, in->tangent.J, in->rule.c * alpha, in->tangent.F);
   if (in->settings.geometric) ali3_geometric(in, in->next.q, in->next.s, in->next.lam, in->rule.c, in->tangent.F);
   ali3_forces_tangent(in, in->tangent.F);
+}
+
+/* That tangent, factorised. */
+static ali3_status tangent(ali3_instance *in, double alpha) {
+  const ali3_system *S = in->system;
+  assemble(in, alpha);
   double *J = in->tangent.J;
   in->tangent.J = in->tangent.J_made;
   in->tangent.J_made = J;

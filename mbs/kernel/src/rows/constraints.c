@@ -84,7 +84,8 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
   const double *row_lin = S->row_lin;
   if (S->size.has_pose) q = near_origin(in, q);
-  for (int32_t k = 0; k < S->size.nc; k++) {
+  const bool generated = ALI3_GENERATED(S, rows, (row_lin, S->row_const, S->hess_val, q, Phi, J));
+  for (int32_t k = generated ? S->size.nc : 0; k < S->size.nc; k++) {
     real value = {0};
     int32_t i = ptr[k];
     if (S->row_triples[k] == ALI3_POINTS)
@@ -132,6 +133,11 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
 ALI3_BY_PROCESSOR(in->system, void, constraints, (ali3_instance * in, const real *q, const real *s, real *Phi, real *J),
                   (in, q, s, Phi, J))
 
+/* The coordinates at which rows are evaluated. */
+const real *ali3_near_origin(ali3_instance *in, const real *q) {
+  return in->system->size.has_pose ? near_origin(in, q) : q;
+}
+
 /* Phit = d Phi / dt */
 void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *guides, real *Phit) {
   const ali3_system *S = in->system;
@@ -148,7 +154,8 @@ ALI3_INLINED void constraint_gamma(ali3_instance *in, const real *q, const real 
   const ali3_system *S = in->system;
   const int32_t *ptr = S->row_ptr, *col = S->row_col;
   if (S->size.has_pose) q = near_origin(in, q);
-  for (int32_t k = 0; k < S->size.nc; k++) {
+  const bool generated = ALI3_GENERATED(S, gamma, (S->hess_val, qd, gamma));
+  for (int32_t k = generated ? S->size.nc : 0; k < S->size.nc; k++) {
     real value = {0};
     int32_t i = ptr[k];
     if (S->row_triples[k] == ALI3_POINTS)

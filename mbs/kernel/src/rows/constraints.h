@@ -4,6 +4,7 @@
 #include "../algebra/real.h"
 #include "../instance.h"
 
+ALI3_PER_WIDTH const real *ali3_near_origin(ali3_instance *in, const real *q);
 ALI3_PER_WIDTH void ali3_constraints(ali3_instance *in, const real *q, const real *s, real *Phi, real *J);
 ALI3_PER_WIDTH void ali3_constraint_rate(ali3_instance *in, const real *q, const ali3_vectors *guides, real *Phit);
 ALI3_PER_WIDTH void ali3_constraint_gamma(ali3_instance *in, const real *q, const real *qd, const ali3_vectors *guides,

@@ -124,6 +124,7 @@ ALI3_INLINED void times(const ali3_system *S, const real *J, const real *x, real
 }
 
 ALI3_INLINED void rows_times(const ali3_system *S, const real *J, const real *x, real *out) {
+  if (ALI3_GENERATED(S, rows_times, (J, x, out))) return;
   if (S->n_flexible > 0)
     times(S, J, x, out, true);
   else
@@ -134,6 +135,7 @@ ALI3_BY_PROCESSOR(S, void, rows_times, (const ali3_system *S, const real *J, con
 
 ALI3_INLINED void rows_times_both(const ali3_system *S, const real *J, const real *x, const real *y, real *out_x,
                                   real *out_y) {
+  if (ALI3_GENERATED(S, rows_times, (J, x, out_x)) && ALI3_GENERATED(S, rows_times, (J, y, out_y))) return;
   const int32_t *ptr = S->row_ptr, *col = S->row_col, *stretch = S->n_flexible > 0 ? S->row_stretch : ptr + 1;
   for (int32_t k = 0; k < S->size.nc; k++) {
     real sum_x = {0}, sum_y = {0};
@@ -201,6 +203,7 @@ ALI3_INLINED void transposed_by_columns(const ali3_system *S, const real *J, con
 }
 
 ALI3_INLINED void rows_transposed(const ali3_system *S, const real *J, const real *w, real *out) {
+  if (ALI3_GENERATED(S, rows_transposed, (J, w, out))) return;
   if (S->by_columns)
     transposed_by_columns(S, J, w, out);
   else if (S->n_flexible > 0)

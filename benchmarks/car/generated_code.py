@@ -1,0 +1,71 @@
+"""Steps of scenes by the kernel's loops and by code that was generated for their Systems, in turn."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from benchmarks.car import scene_instructions
+from benchmarks.car.against_checkout import Side, row_of
+from benchmarks.car.scene_instructions import Scene
+from benchmarks.shared.command import watched
+from benchmarks.shared.pages import Row, table
+from mbs.compiler.generated.library import library_of
+
+
+def measure(scenes: Sequence[Scene], rounds: int, repeats: int) -> Iterator[dict[str, Any]]:
+    """A row for each scene, as those of `against_checkout`, and the size of the code.
+
+    Parameters
+    ----------
+    scenes : sequence of Scene
+        Of `scene_instructions.SCENES`.
+    rounds : int
+        Each times both, one after the other; the ratio is the median of theirs.
+    repeats : int
+        Runs of which a round takes the least.
+
+    Raises
+    ------
+    RuntimeError
+        A step is refused, or both do not make the same iterations.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        program = scene_instructions.compiled(Path(folder))
+        for scene in watched(scenes):
+            yield _row(scene, program, Path(folder), rounds, repeats)
+
+
+def _row(scene: Scene, program: Path, folder: Path, rounds: int, repeats: int) -> dict[str, Any]:
+    system = scene.system()
+    command = scene_instructions.command_of(scene._replace(system=lambda: system), program, folder)
+    code = library_of(system)
+    both = [Side("generated", command, (str(code),)), Side("loops", command)]
+    row = row_of(scene, both, scene.steps, rounds, repeats, counted=True)
+    if row["iterations generated"] != row["iterations loops"]:
+        raise RuntimeError(f"Generated code does not make the iterations of the loops in the scene {scene.name!r}.")
+    return row | {"kB": round(code.stat().st_size / 1000)}
+
+
+def blocks(rows: Sequence[Row]) -> dict[str, str]:
+    """Instructions and time of a step, the code in kB."""
+    named = {
+        "instructions, loops": "instructions loops",
+        "generated": "instructions generated",
+        "us, loops": "us loops",
+        "us, generated": "us generated",
+    }
+    lines = [
+        {"scene": r["scene"], "step, ms": f"{r['step, ms']:g}"}
+        | {name: r.get(key) for name, key in named.items()}
+        | {"times as fast": 1.0 / r["ratio"], "code, kB": r["kB"]}
+        for r in rows
+    ]
+    columns = {"scene": "", "step, ms": "", "instructions, loops": ",d", "generated": ",d"}
+    return {
+        "generated": table(
+            lines, columns | {"us, loops": ".1f", "us, generated": ".1f", "times as fast": ".2f", "code, kB": "d"}
+        )
+    }

@@ -1,0 +1,57 @@
+"""Second derivatives of the rows that measure angles, which the tangent adds in turn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mbs.compiler.generated.pattern import Pattern
+
+
+def _terms(pattern: Pattern, i: int) -> Iterator[tuple[int, int | None, int | None]]:
+    """Terms of the i-th row of an angle: number, entries of Phi_q of its coordinates."""
+    row, ptr = pattern.array["angle_row"][i], pattern.array["angle_ptr"]
+    first = pattern.row_ptr[row]
+    for t in range(ptr[i], ptr[i + 1]):
+        a, b = pattern.array["angle_a"][t], pattern.array["angle_b"][t]
+        yield t, first + a if a >= 0 else None, first + b if b >= 0 else None
+
+
+def _theta(pattern: Pattern, i: int) -> int:
+    return int(pattern.row_ptr[pattern.array["angle_row"][i]] + pattern.array["angle_theta"][i])
+
+
+def places(pattern: Pattern) -> Iterator[tuple[int, int]]:
+    """Per number of `lines` its row and its place in front storage."""
+    for i, row in enumerate(pattern.array["angle_row"]):
+        theta = _theta(pattern, i)
+        for _, a, b in _terms(pattern, i):
+            if a is not None and b is not None:
+                yield row, pattern.row_place(row, a, b)
+            yield from ((row, pattern.row_place(row, theta, x)) for x in (a, b) if x is not None)
+        yield row, pattern.row_place(row, theta, theta)
+
+
+def lines(pattern: Pattern) -> list[str]:
+    """C that writes these numbers to `angle`, as the kernel finds them (rows/constraints.c)."""
+    count = sum(1 for _ in places(pattern))
+    found = [f"  double angle[{max(count, 1)}];"]
+    at = 0
+    for i, row in enumerate(pattern.array["angle_row"]):
+        theta = f"parts->q[{pattern.row_col[_theta(pattern, i)]}]"
+        found += ["  {", "  double value = 0.0;"]
+        found.append(f"  const double cosine = factor[{row}] * parts->cosine({theta});")
+        found.append(f"  const double sine = factor[{row}] * parts->sine({theta});")
+        for t, a, b in _terms(pattern, i):
+            qa, qb = ("1.0" if x is None else f"parts->q[{pattern.row_col[x]}]" for x in (a, b))
+            hc, hs = f"parts->angle_hc[{t}]", f"parts->angle_hs[{t}]"
+            found.append(f"  {{ const double h = cosine * {hs} - sine * {hc};")
+            found.append(f"    const double mixed = -(sine * {hs} + cosine * {hc});")
+            found.append(f"    value += h * {qa} * {qb};")
+            numbers = ["2.0 * h" if a == b else "h"] if a is not None and b is not None else []
+            numbers += [f"mixed * {other}" for x, other in ((a, qb), (b, qa)) if x is not None]
+            found += [f"    angle[{at + k}] = {number};" for k, number in enumerate(numbers)]
+            found += ["    (void)mixed; }"]
+            at += len(numbers)
+        found += [f"  angle[{at}] = -value;", "  }"]
+        at += 1
+    return found

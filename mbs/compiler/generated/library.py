@@ -1,0 +1,52 @@
+"""Generated code as a library, compiled once for the same content."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+from ali3.temporary import temporary_folder
+from mbs.common.errors import ModelError
+from mbs.compiler.generated.source import source
+from mbs.kernel import build
+from mbs.kernel.binding import LoadedSystem
+from mbs.system.system import System
+
+HEADERS = build.HERE / "src"
+
+
+def code_of(system: System) -> str:
+    """C of the algebra of a System, for the processor this runs on."""
+    loaded = LoadedSystem(system.kernel_bytes(modes=False))
+    return source(system.arrays, loaded.structure, avx2=loaded.has_avx2)
+
+
+def library_of(system: System) -> Path:
+    """The library of the code of a System: compiled, or from the compiler's cache.
+
+    Raises
+    ------
+    ModelError
+        There is no compiler.
+    RuntimeError
+        The compiler refuses the code, with its words.
+    """
+    text, target = code_of(system), build.host_target()
+    name = build.library_name(target)
+    try:
+        command = build.compiler_command([], target, Path(name))
+    except ModuleNotFoundError:
+        raise ModelError(
+            "compile(..., native=True) needs a C compiler, and the package ziglang is not installed; "
+            "the extra 'fmu' brings it: python -m pip install 'ali3[fmu]'."
+        ) from None
+    digest = hashlib.sha256(build.digest_of(command).encode())
+    for content in (text.encode(), (HEADERS / "generated.h").read_bytes()):
+        digest.update(f"\n{len(content)}\n".encode() + content)
+    kept = build.cache_directory() / "generated" / digest.hexdigest() / name
+    if not kept.is_file():
+        with temporary_folder() as folder:
+            file = Path(folder, "algebra.c")
+            file.write_text(text, encoding="utf-8")
+            build.compile_c([file], target, kept, include=(HEADERS,), what="the generated code")
+    return kept

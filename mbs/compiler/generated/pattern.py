@@ -1,0 +1,214 @@
+"""The structure of a System as generated code sees it: where each number is read and written, and in which order."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+Integers = list[int]
+
+
+@dataclass(frozen=True)
+class Front:
+    """A front of the tangent, column by column in front storage."""
+
+    number: int
+    offset: int
+    coordinates: Integers
+    """Of its pivots, then of the rest."""
+    pivots: int
+    parent: int
+    place: Integers
+    """Of each coordinate in the parent; -1: a pivot."""
+
+    @property
+    def size(self) -> int:
+        """Number of its coordinates."""
+        return len(self.coordinates)
+
+
+@dataclass(frozen=True)
+class Element:
+    """An element with a front: its signals, its numbers among those of all elements."""
+
+    number: int
+    front: int
+    signals: Integers
+    triple: list[bool]
+    """Of each signal whether it is the first of a triple."""
+    tangent: int
+    """Where its square of tangents begins."""
+
+
+class Pattern:
+    """What is derived of the arrays of a System, as the kernel does when it loads it.
+
+    `turned`: of the System with room for all directions of axes that parameters write; its functions have other names.
+    """
+
+    def __init__(self, arrays: Mapping[str, Any], *, turned: bool = False) -> None:
+        self.suffix = "_turned" if turned else ""
+        self.array = {name: _plain(values) for name, values in arrays.items() if name not in ("meta", "drawing")}
+        self.nq, self.nc = len(self.array["q0"]), len(self.array["row_const"])
+        self.row_ptr, self.row_col = self.array["row_ptr"], self.array["row_col"]
+        self._written = set() if turned else set(self.array["axis_signal"])
+        self._lean_signals()
+        self.terms, self.quads = self._terms()
+        self.fronts = self._fronts()
+        self.place = {f.offset + j * f.size + i: (f.number, i, j) for f in self.fronts for j in range(f.size)
+                      for i in range(f.size)}  # fmt: skip
+        self.mass_triples = self._mass_triples()
+        self.active = sorted(set(self.array["el_sig"]))
+        self.active_triple = self._triples(self.active)
+        self.elements = self._elements()
+        self.groups = self._groups()
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether no body is flexible and none has its place by a table."""
+        return len(self.array["flex_front"]) + len(self.array["tabled_size"]) == 0
+
+    def _lean_signals(self) -> None:
+        """Entries of signals that parameters write, and which are zero as drawn, are dropped, as the kernel does."""
+        ptr, col, val = (self.array[name] for name in ("sig_ptr", "sig_col", "sig_val"))
+        kept = [[k for k in range(ptr[i], ptr[i + 1]) if i not in self._written or val[k] != 0.0]
+                for i in range(len(ptr) - 1)]  # fmt: skip
+        self.sig_ptr = [0, *np.cumsum([len(k) for k in kept]).tolist()]
+        flat = [k for row in kept for k in row]
+        self.sig_col, self.sig_val = [col[k] for k in flat], [val[k] for k in flat]
+
+    def entries(self, signal: int) -> range:
+        """Entries of a signal."""
+        return range(self.sig_ptr[signal], self.sig_ptr[signal + 1])
+
+    def _is_triple(self, ptr: Integers, col: Integers, val: Sequence[float], i: int) -> bool:
+        rows = [range(ptr[i + d], ptr[i + d + 1]) for d in range(3)]
+        if len(rows[0]) == 0 or any(len(r) != len(rows[0]) for r in rows):
+            return False
+        for at, (x, y, z) in enumerate(zip(*rows, strict=True)):
+            if col[y] != col[x] + 1 or col[z] != col[x] + 2 or (at and col[x] < col[x - 1] + 3):
+                return False
+            if val[y] != val[x] or val[z] != val[x]:
+                return False
+        return True
+
+    def _triples(self, signals: Integers) -> list[bool]:
+        """Of signals in the order in which they are gone through, which are the first of a point."""
+        found = [False] * len(signals)
+        a = 0
+        while a < len(signals):
+            first = signals[a]
+            if signals[a + 1 : a + 3] == [first + 1, first + 2]:
+                found[a] = self._is_triple(self.sig_ptr, self.sig_col, self.sig_val, first)
+            a += 3 if found[a] else 1
+        return found
+
+    def _mass_triples(self) -> set[int]:
+        ptr, col, val = (self.array[name] for name in ("mass_ptr", "mass_col", "mass_val"))
+        return {i for i in range(self.nq - 2) if self._is_triple(ptr, col, val, i)}
+
+    def _terms(self) -> tuple[list[list[tuple[int, int]]], list[list[tuple[int, int]]]]:
+        """Per entry of Phi_q its terms (place in hess_val, coordinate); per row its products (place in front storage,
+        place in hess_val), in order."""
+        a, b, ptr = (self.array[name] for name in ("quad_a", "quad_b", "quad_ptr"))
+        of: list[list[tuple[int, int, bool]]] = [[] for _ in self.row_col]  # product, coordinate, whether it is first
+        for k in range(self.nc):
+            for t in range(ptr[k], ptr[k + 1]):
+                one, other = self.row_ptr[k] + a[t], self.row_ptr[k] + b[t]
+                of[one].append((t, self.row_col[other], True))
+                if one != other:
+                    of[other].append((t, self.row_col[one], False))
+        self.in_triples = [self._row_in_triples(k, of) for k in range(self.nc)]
+        points = [self.in_triples[k] and self._of_points(k, of) for k in range(self.nc)]
+        starts = [0, *np.cumsum([len(x) for x in of]).tolist()]
+        terms: list[list[tuple[int, int]]] = []
+        first: dict[int, int] = {}
+        for k in range(self.nc):
+            for i in range(self.row_ptr[k], self.row_ptr[k + 1]):
+                d = (i - self.row_ptr[k]) % 3
+                begin, apart = (starts[i - d] + d, 3) if points[k] else (starts[i], 1)
+                places = [begin + apart * m for m in range(len(of[i]))]
+                terms.append([(at, c) for at, (_, c, _) in zip(places, of[i], strict=True)])
+                first |= {t: at for at, (t, _, mine) in zip(places, of[i], strict=True) if mine}
+        self.quad_place = first
+        return terms, [[] for _ in range(self.nc)]
+
+    def _row_in_triples(self, k: int, of: list[list[tuple[int, int, bool]]]) -> bool:
+        begin, end = self.row_ptr[k], self.row_ptr[k + 1]
+        if (end - begin) % 3:
+            return False
+        col = self.row_col
+        return all(
+            len(of[i]) <= 32
+            and len(of[i]) == len(of[i + 1]) == len(of[i + 2])
+            and col[i + 1] == col[i] + 1
+            and col[i + 2] == col[i] + 2
+            for i in range(begin, end, 3)
+        )
+
+    def _of_points(self, k: int, of: list[list[tuple[int, int, bool]]]) -> bool:
+        """Whether the second factors of a row of triples are three neighbours each too."""
+        return all(
+            y == x + 1 and z == x + 2
+            for i in range(self.row_ptr[k], self.row_ptr[k + 1], 3)
+            for (_, x, _), (_, y, _), (_, z, _) in zip(of[i], of[i + 1], of[i + 2], strict=True)
+        )
+
+    def row_place(self, row: int, one: int, other: int) -> int:
+        """Place in front storage of the product of two entries of Phi_q of a row."""
+        front = self.fronts[self.array["row_front"][row]]
+        i, j = self.array["row_loc"][one], self.array["row_loc"][other]
+        return int(front.offset + min(i, j) * front.size + max(i, j))
+
+    def _fronts(self) -> list[Front]:
+        col, ptr, off = (self.array[f"front_{name}"] for name in ("col", "ptr", "off"))
+        return [
+            Front(
+                number=f,
+                offset=off[f],
+                coordinates=self.array["front_idx"][ptr[f] : ptr[f + 1]],
+                pivots=col[f + 1] - col[f],
+                parent=parent,
+                place=self.array["front_map"][ptr[f] : ptr[f + 1]],
+            )
+            for f, parent in enumerate(self.array["front_parent"])
+        ]
+
+    def _elements(self) -> list[Element]:
+        ptr, sig = self.array["el_sig_ptr"], self.array["el_sig"]
+        found, tangent = [], 0
+        for e, front in enumerate(self.array["el_front"]):
+            signals = sig[ptr[e] : ptr[e + 1]]
+            found.append(Element(e, front, signals, self._triples(signals), tangent))
+            tangent += len(signals) ** 2 if front >= 0 else 0
+        return found
+
+    def _groups(self) -> list[range]:
+        """Coordinates in turn: three of a point, or one."""
+        begins: dict[int, int] = defaultdict(int)
+        for k in range(self.nc):
+            if self.in_triples[k]:
+                for i in range(self.row_ptr[k], self.row_ptr[k + 1], 3):
+                    begins[self.row_col[i]] += 1
+        for i in self.mass_triples:
+            begins[i] += 1
+        for signal, triple in zip(self.active, self.active_triple, strict=True):
+            if triple:
+                for k in self.entries(signal):
+                    begins[self.sig_col[k]] += 1
+        groups, c = [], 0
+        while c < self.nq:
+            most = max(begins.get(c + d, 0) for d in range(3))
+            length = 3 if begins.get(c, 0) >= max(most, 1) and c + 2 < self.nq else 1
+            groups.append(range(c, c + length))
+            c += length
+        return groups
+
+
+def _plain(values: Any) -> list[Any]:
+    found: list[Any] = np.asarray(values).tolist()
+    return found

@@ -1,0 +1,145 @@
+"""Products by coordinates: J' w, M x, and forces of elements on their signals; and the signals."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mbs.compiler.generated.pattern import Pattern
+from mbs.compiler.generated.text import follow, function, vector
+
+TRANSPOSED = "APART void rows_transposed(const double *restrict J, const double *restrict w, double *restrict out)"
+MASS = "APART void mass_times(const double *restrict val, const double *restrict x, double *restrict out)"
+SIGNALS = (
+    "APART void signals{0}(const double *restrict val, const double *restrict constant, const double *restrict q, "
+    "const double *restrict qd, double *restrict u, double *restrict ud)"
+)
+FORCES = (
+    "APART void forces{0}(const double *restrict val, const unsigned char *restrict idle, const double *restrict f, "
+    "double *restrict Q)"
+)
+
+
+def put(array: str, first: int, length: int, value: str, end: int) -> list[str]:
+    """Up to four numbers of a vector go to an array, whose later ones are written afterwards."""
+    if length == 1:
+        return [f"  {array}[{first}] = {value};"]
+    if length == 2:
+        return [f"  {{ const four a = {value}; {array}[{first}] = a[0]; {array}[{first + 1}] = a[1]; }}"]
+    return [f"  {'PUT' if first + 4 <= end else 'put3'}({array} + {first}, {value});"]
+
+
+def transposed(pattern: Pattern) -> list[str]:
+    """J' w, each sum in the order of the rows."""
+    of: list[list[tuple[int, int]]] = [[] for _ in range(pattern.nq)]
+    for k in range(pattern.nc):
+        for i in range(pattern.row_ptr[k], pattern.row_ptr[k + 1]):
+            of[pattern.row_col[i]].append((i, k))
+    lines: list[str] = []
+    c = 0
+    while c < pattern.nq:
+        length = 1
+        while length < 4 and c + length < pattern.nq and of[c + length] == [(i + length, k) for i, k in of[c]]:
+            length += 1
+        if not of[c]:
+            lines.append(f"  out[{c}] = 0.0;")
+            c += 1
+            continue
+        if length == 2:
+            length = 1
+        text = "NONE" if length > 1 else "0.0"
+        for i, k in of[c]:
+            text = f"({text} + {vector('J', range(i, i + length))} * w[{k}])"
+        lines += put("out", c, length, text, pattern.nq)
+        c += length
+    return function(TRANSPOSED, lines)
+
+
+def mass(pattern: Pattern) -> list[str]:
+    """M x of the constant mass matrix."""
+    ptr, col = pattern.array["mass_ptr"], pattern.array["mass_col"]
+    lines: list[str] = []
+    i = 0
+    while i < pattern.nq:
+        length = 3 if i in pattern.mass_triples else 1
+        text = "NONE" if length > 1 else "0.0"
+        for k in range(ptr[i], ptr[i + 1]):
+            text = f"({text} + {vector('x', range(col[k], col[k] + length))} * val[{k}])"
+        lines += put("out", i, length, text, pattern.nq)
+        i += length
+    return function(MASS, lines)
+
+
+def signals(pattern: Pattern) -> list[str]:
+    """Signals that elements use, and their rates."""
+    lines: list[str] = []
+    at = 0
+    while at < len(pattern.active):
+        i, triple = pattern.active[at], pattern.active_triple[at]
+        length = 3 if triple else 1
+        follows = at + 3 < len(pattern.active) and pattern.active[at + 3] == i + 3
+        place = f"(four){{constant[{i}], constant[{i + 1}], constant[{i + 2}], 0.0}}" if triple else f"constant[{i}]"
+        rate = "NONE" if triple else "0.0"
+        for k in pattern.entries(i):
+            columns = range(pattern.sig_col[k], pattern.sig_col[k] + length)
+            place = f"({place} + val[{k}] * {vector('q', columns)})"
+            rate = f"({rate} + val[{k}] * {vector('qd', columns)})"
+        for name, text in (("u", place), ("ud", rate)):
+            if triple:
+                lines.append(f"  {'PUT' if follows else 'put3'}({name} + {i}, {text});")
+            else:
+                lines.append(f"  {name}[{i}] = {text};")
+        at += length
+    return function(SIGNALS.format(pattern.suffix), lines)
+
+
+def forces(pattern: Pattern) -> list[str]:
+    """Q and the forces on signals, element by element; those of idle elements are zero."""
+    ptr = pattern.array["el_sig_ptr"]
+    of: list[list[tuple[int, int, int]]] = [[] for _ in range(1 + max([pattern.nq - 1, *pattern.sig_col]))]
+    for element in pattern.elements:
+        for i, signal in enumerate(element.signals):
+            for k in pattern.entries(signal):
+                of[pattern.sig_col[k]].append((element.number, i, k))
+    lines = [
+        f"  const double *f{e.number} = idle[{e.number}] ? nothing : f + {ptr[e.number]};"
+        for e in pattern.elements
+        if any(len(pattern.entries(s)) for s in e.signals)
+    ]
+    groups = [*pattern.groups, *(range(c, c + 1) for c in range(pattern.nq, len(of)))]
+    for group in groups:
+        lists = [of[c] for c in group]
+        if not any(lists):
+            continue
+        begin = f"(four){{Q[{group[0]}], Q[{group[0] + 1}], Q[{group[0] + 2}], 0.0}}" if len(group) == 3 else ""
+        text = begin or f"Q[{group[0]}]"
+        for m in range(max(map(len, lists))):
+            text = f"({text} + {_force(pattern, [x[m] if m < len(x) else None for x in lists])})"
+        lines.append(f"  put3(Q + {group[0]}, {text});" if len(group) == 3 else f"  Q[{group[0]}] = {text};")
+    return function(FORCES.format(pattern.suffix), lines)
+
+
+def _force(pattern: Pattern, terms: Sequence[tuple[int, int, int] | None]) -> str:
+    """Values times forces at one coordinate or three."""
+    there = [t for t in terms if t is not None]
+    if len(terms) == 1:
+        e, i, k = there[0]
+        return f"val[{k}] * f{e}[{i}]"
+    if len(there) == 3:
+        e, i, k = there[0]
+        same = all(t[0] == e for t in there)
+        inside = pattern.array["el_sig_ptr"][e] + i + 4 <= len(pattern.array["el_sig"])
+        if same and inside and follow([t[1] for t in there]) and _alike(pattern, e, i, there):
+            return f"val[{k}] * V(f{e} + {i})"
+        if same and all(t[1] == i for t in there) and follow([t[2] for t in there]) and k + 4 <= len(pattern.sig_val):
+            return f"V(val + {k}) * f{e}[{i}]"
+    words = ["0.0" if t is None else f"val[{t[2]}] * f{t[0]}[{t[1]}]" for t in terms]
+    return "(four){" + ", ".join([*words, "0.0"]) + "}"
+
+
+def _alike(pattern: Pattern, e: int, i: int, terms: Sequence[tuple[int, int, int]]) -> bool:
+    """Whether the three terms are those of a triple of signals at one of its points."""
+    first = pattern.elements[e]
+    if not first.triple[i]:
+        return False
+    offsets = [k - pattern.entries(first.signals[t])[0] for _, t, k in terms]
+    return len(set(offsets)) == 1

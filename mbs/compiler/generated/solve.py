@@ -1,0 +1,168 @@
+"""Forward and back substitution in the fronts, each sum in the order of the kernel."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mbs.compiler.generated.fronts import Piece, pieces
+from mbs.compiler.generated.pattern import Front, Pattern
+from mbs.compiler.generated.text import follow, function
+
+LARGE, FOUR_SUMS = 12, 16  # coordinates from which on columns are counted in fours, and sums are made of four
+
+FORWARD = "APART void forward_{0}(const double *restrict A, double *restrict b)"
+BACK = "APART void back_{0}(const double *restrict A, double *restrict b)"
+SOLVE = "APART void solve(const double *restrict F, double *restrict b)"
+
+
+def solve(pattern: Pattern) -> list[str]:
+    """A function a front for each way, and the one that calls them."""
+    lines: list[str] = []
+    body = []
+    for front in pattern.fronts:
+        lines += function(FORWARD.format(front.number), _forward(front))
+        lines += function(BACK.format(front.number), _back(front))
+        body.append(f"  forward_{front.number}(F + {front.offset}, b);")
+    body += [f"  back_{front.number}(F + {front.offset}, b);" for front in reversed(pattern.fronts)]
+    return lines + function(SOLVE, body)
+
+
+def _gather(front: Front, piece: Piece) -> str:
+    """Unknowns of a piece."""
+    if not piece.wide:
+        return f"b[{front.coordinates[piece.first]}]"
+    at = front.coordinates[piece.first : piece.first + 4]
+    if follow(at):
+        return f"V(b + {at[0]})"
+    return "(four){" + ", ".join(f"b[{c}]" for c in at) + "}"
+
+
+def _scatter(front: Front, piece: Piece, value: str, first: int) -> list[str]:
+    """What of a piece is no pivot goes back."""
+    at = front.coordinates
+    if not piece.wide:
+        return [f"  b[{at[piece.first]}] = {value};"] if piece.first >= first else []
+    rows = [i for i in range(piece.first, piece.first + 4) if i >= first]
+    if len(rows) == 4 and follow([at[i] for i in rows]):
+        return [f"  PUT(b + {at[rows[0]]}, {value});"]
+    return [f"  b[{at[i]}] = {value}[{i - piece.first}];" for i in rows]
+
+
+def _forward(front: Front) -> list[str]:
+    n, pivots = front.size, front.pivots
+    parts = pieces(0, n)
+    lines = [f"  {p.kind} x{p.first} = {_gather(front, p)};" for p in parts]
+    p = 0
+    while p < pivots:
+        left = pivots - p
+        count = 4 if n >= LARGE and left >= 4 else 2 if left >= 2 else 1
+        lines += _scalars(front, parts, p, count)
+        for piece in parts:
+            if piece.first + (3 if piece.wide else 0) >= p + count:
+                lines.append(f"  x{piece.first} = {_taken(piece, p, count, n)};")
+        p += count
+    for piece in parts:
+        if piece.first + (3 if piece.wide else 0) >= pivots:
+            lines += _scatter(front, piece, f"x{piece.first}", pivots)
+    return lines
+
+
+def _scalars(front: Front, parts: Sequence[Piece], p: int, count: int) -> list[str]:
+    """Unknowns of pivots, each less what those before it in the group take."""
+
+    def at(i: int) -> str:
+        piece = next(x for x in parts if x.first <= i < x.first + (4 if x.wide else 1))
+        return f"x{piece.first}[{i - piece.first}]" if piece.wide else f"x{piece.first}"
+
+    def a(k: int, i: int) -> str:
+        return f"A[{(p + k) * front.size + p + i}]"
+
+    y = [f"y{p + k}" for k in range(count)]
+    words = [at(p)]
+    if count > 1:
+        words.append(f"{at(p + 1)} - {a(0, 1)} * {y[0]}")
+    if count > 2:
+        words.append(f"{at(p + 2)} - ({a(0, 2)} * {y[0]} + {a(1, 2)} * {y[1]})")
+        words.append(f"({at(p + 3)} - ({a(0, 3)} * {y[0]} + {a(1, 3)} * {y[1]})) - {a(2, 3)} * {y[2]}")
+    first = front.coordinates[p]
+    return [line for k, (name, word) in enumerate(zip(y, words, strict=True))
+            for line in (f"  const double {name} = {word};", f"  b[{first + k}] = {name};")]  # fmt: skip
+
+
+def _taken(piece: Piece, p: int, count: int, n: int) -> str:
+    x = f"x{piece.first}"
+    term = [f"{piece.load(f'(A + {(p + k) * n})')} * y{p + k}" for k in range(count)]
+    if count == 1:
+        return f"{x} - {term[0]}"
+    if count == 2:
+        return f"{x} - ({term[0]} + {term[1]})"
+    return f"({x} - ({term[0]} + {term[1]})) - ({term[2]} + {term[3]})"
+
+
+def _back(front: Front) -> list[str]:
+    return _many_back(front) if front.size >= FOUR_SUMS else _few_back(front)
+
+
+def _few_back(front: Front) -> list[str]:
+    """Two sums, by turns."""
+    n, at = front.size, front.coordinates
+    lines = [f"  const double y{i} = b[{at[i]}];" for i in range(front.pivots, n)]
+    for p in range(front.pivots - 1, -1, -1):
+        sums = ["0.0", "0.0"]
+        for i in range(p + 1, n):
+            turn = (i - p - 1) % 2
+            sums[turn] = f"({sums[turn]} + A[{p * n + i}] * y{i})"
+        lines.append(f"  const double y{p} = b[{at[p]}] * A[{p * n + p}] - ({sums[0]} + {sums[1]});")
+        lines.append(f"  b[{at[p]}] = y{p};")
+    return lines
+
+
+def _many_back(front: Front) -> list[str]:
+    """Four sums from the far end; pivots whose fours begin at one entry together."""
+    n, pivots, at = front.size, front.pivots, front.coordinates
+    lines = []
+    whole = 0  # blocks of four from the end that are known
+    for p in range(pivots - 1, -1, -1):
+        blocks = (n - p - 1) // 4
+        for m in range(whole, blocks):
+            lines += _block(front, n - 4 * (m + 1))
+        whole = max(whole, blocks)
+        begin = n - 4 * blocks
+        if p == pivots - 1 or (n - p - 1) % 4 == 0:
+            lines += _sums(front, p, blocks)
+        text = f"s{p}"
+        for i in range(begin - 1, p, -1):
+            value = f"y{i}" if i < pivots else f"b[{at[i]}]"
+            text = f"({text} + A[{p * n + i}] * {value})"
+        lines.append(f"  const double y{p} = b[{at[p]}] * A[{p * n + p}] - {text};")
+        lines.append(f"  b[{at[p]}] = y{p};")
+    return lines
+
+
+def _block(front: Front, first: int) -> list[str]:
+    """Four unknowns that are known, as a vector."""
+    at, rows = front.coordinates, range(first, first + 4)
+    if all(i >= front.pivots for i in rows):
+        return [f"  const four x{first} = {_gather(front, Piece(first, True))};"]
+    words = [f"y{i}" if i < front.pivots else f"b[{at[i]}]" for i in rows]
+    return [f"  const four x{first} = {{{', '.join(words)}}};"]
+
+
+def _sums(front: Front, p: int, blocks: int) -> list[str]:
+    """Sums of the columns of pivot p and of those before it with as many whole fours."""
+    n = front.size
+    columns = [c for c in range(p, -1, -1) if (n - c - 1) // 4 == blocks]
+    if blocks == 0:
+        return [f"  const double s{c} = 0.0;" for c in columns]
+    lines = []
+    for c in columns:
+        text = "NONE"
+        for m in range(blocks):
+            first = n - 4 * (m + 1)
+            text = f"({text} + V(A + {c * n + first}) * x{first})"
+        lines.append(f"  const four t{c} = {text};")
+    if len(columns) == 1:
+        return [*lines, f"  const double s{columns[0]} = sum(t{columns[0]});"]
+    names = [f"t{c}" for c in columns] + [f"t{columns[-1]}"] * (4 - len(columns))
+    lines.append(f"  const four s{p}s = sums({', '.join(names)});")
+    return lines + [f"  const double s{c} = s{p}s[{k}];" for k, c in enumerate(columns)]

@@ -1,0 +1,80 @@
+"""The whole file: functions, and the tables by which the kernel finds them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from mbs.compiler.generated import fronts, products, rows, solve, tangent
+from mbs.compiler.generated.pattern import Pattern
+from mbs.compiler.generated.text import HEAD, VECTORS
+
+TABLE = "ali3_generated_code"
+"""The name of the table in the library."""
+LONGEST = 10_000
+"""Lines of a function above which loops are better."""
+
+_Function = Callable[[Pattern], list[str]]
+_FRONTS: dict[str, _Function] = {"factorise": fronts.factorise, "solve": solve.solve}
+_ROWS: dict[str, _Function] = {
+    "rows_times": rows.times,
+    "rows_transposed": products.transposed,
+    "mass_times": products.mass,
+    "rows": rows.rows,
+    "gamma": rows.gamma,
+}
+_SIGNALS: dict[str, _Function] = {"signals": products.signals, "forces": products.forces}
+_TANGENT: dict[str, _Function] = {"tangent": tangent.tangent}
+_NAMES = {"gamma": "gamma_of"}
+
+
+def source(arrays: Mapping[str, Any], structure: int, *, avx2: bool) -> str:
+    """C of the algebra of a System.
+
+    Parameters
+    ----------
+    arrays : mapping of str to array_like
+        Of the System.
+    structure : int
+        Its hash by the kernel, `LoadedSystem.structure`.
+    avx2 : bool
+        Whether the code is compiled for processors with AVX2.
+    """
+    pattern = Pattern(arrays)
+    common = _written(pattern, _FRONTS | ({} if len(pattern.array["flex_front"]) else _ROWS))
+    own = _written(pattern, _of_signals(pattern))
+    lines = [line for body in (common | own).values() for line in body]
+    head = [f"  .version = ALI3_GENERATED_VERSION, .structure = 0x{structure:08x}u, .avx2 = {int(avx2)},"]
+    tail = []
+    if len(pattern.array["axis_signal"]):
+        other = Pattern(arrays, turned=True)
+        turned = _written(other, _of_signals(other))
+        lines += [line for body in turned.values() for line in body]
+        tail = _table("static const ali3_generated turned", [*head, *_members(common), *_members(turned, other.suffix)])
+        head.append("  .turned = &turned,")
+    shown = f'__attribute__((visibility("default"))) extern const ali3_generated {TABLE};'
+    tail += [shown, *_table(f"const ali3_generated {TABLE}", [*head, *_members(common), *_members(own)])]
+    most = max([0, *(len(e.signals) for e in pattern.elements)])
+    nothing = f"__attribute__((unused)) static const double nothing[{most * most + 4}];\n"
+    begin, end = (VECTORS, "#pragma clang attribute pop") if avx2 else ("", "")
+    return "\n".join([HEAD.replace("INSTRUCTIONS", begin), nothing, *lines, *tail, end, ""])
+
+
+def _of_signals(pattern: Pattern) -> dict[str, _Function]:
+    """Sums over many modes, and what hangs on tables, stay loops."""
+    if len(pattern.array["flex_front"]):
+        return {}
+    return (_SIGNALS if pattern.elements else {}) | (_TANGENT if pattern.is_rigid else {})
+
+
+def _written(pattern: Pattern, functions: Mapping[str, _Function]) -> dict[str, list[str]]:
+    made = {name: make(pattern) for name, make in functions.items()}
+    return {name: lines for name, lines in made.items() if len(lines) <= LONGEST}
+
+
+def _members(functions: Mapping[str, Sequence[str]], suffix: str = "") -> list[str]:
+    return [f"  .{name} = {_NAMES.get(name, name)}{suffix}," for name in functions]
+
+
+def _table(name: str, members: Sequence[str]) -> list[str]:
+    return [f"{name} = {{", *members, "};"]

@@ -1,0 +1,75 @@
+"""Words of generated C: numbers that lie side by side are read and written as vectors of four."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+
+VECTORS = '#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)'
+"""Vectors of four are one instruction from here on."""
+HEAD = """\
+#include <math.h>
+
+#include "generated.h"
+
+INSTRUCTIONS
+typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double two __attribute__((vector_size(16), aligned(8), may_alias));
+#define V(p) (*(const four *)(p))
+#define P(p) (*(const two *)(p))
+#define PUT(p, a) (*(four *)(p) = (a))
+#define NONE ((four){0})
+#define LOW(a, b) __builtin_shufflevector(a, b, 0, 4, 2, 6)
+#define HIGH(a, b) __builtin_shufflevector(a, b, 1, 5, 3, 7)
+#define NEAR(a, b) __builtin_shufflevector(a, b, 0, 1, 4, 5)
+#define FAR(a, b) __builtin_shufflevector(a, b, 2, 3, 6, 7)
+#define FIRST(a) __builtin_shufflevector(a, NONE, 0, 4, 5, 6)
+#define FIRST2(a) __builtin_shufflevector(a, NONE, 0, 1, 4, 5)
+#define FIRST3(a) __builtin_shufflevector(a, NONE, 0, 1, 2, 4)
+#define WIDE(a) __builtin_shufflevector(a, (two){0}, 0, 1, 2, 3)
+#define DIAGONAL(a, b, c) ((four){(a)[0], (b)[1], (c)[2], 0.0})
+#define APART __attribute__((noinline)) static
+#define HELPER static inline __attribute__((unused))
+
+HELPER void put3(double *to, four a) {
+  *(two *)to = __builtin_shufflevector(a, a, 0, 1);
+  to[2] = a[2];
+}
+
+/* A pivot must neither vanish beside the mass of its coordinate nor be infinite. */
+HELPER int good(double d, double floor) { return fabs(d) > 1e-14 * floor && fabs(d) < 1e300; }
+
+/* (a0 + a1) + (a2 + a3) of each. */
+HELPER four sums(four a, four b, four c, four d) {
+  const four x = LOW(a, b) + HIGH(a, b), y = LOW(c, d) + HIGH(c, d);
+  return NEAR(x, y) + FAR(x, y);
+}
+
+HELPER double sum(four a) { return (a[0] + a[1]) + (a[2] + a[3]); }
+"""
+
+
+def follow(places: Sequence[int | None]) -> bool:
+    """Whether places lie side by side."""
+    return None not in places and all(b == a + 1 for a, b in pairwise(places))  # type: ignore[operator]
+
+
+def vector(array: str, places: Sequence[int | None], most: int | None = None) -> str:
+    """Numbers of an array at three or four places as one vector, or the one; None is 0.
+
+    `most`: number from which on nothing may be read.
+    """
+    if len(places) == 1:
+        return "0.0" if places[0] is None else f"{array}[{places[0]}]"
+    first = places[0]
+    if follow(places) and first is not None and (most is None or first + 4 <= most):
+        return f"V({array} + {first})"
+    if all(p == first for p in places) and first is not None:
+        return f"{array}[{first}]"
+    words = ["0.0" if p is None else f"{array}[{p}]" for p in places]
+    return "(four){" + ", ".join(words + ["0.0"] * (4 - len(words))) + "}"
+
+
+def function(head: str, lines: Iterable[str]) -> list[str]:
+    """A function of the file."""
+    return [f"{head} {{", *lines, "}", ""]

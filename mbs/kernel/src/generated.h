@@ -1,0 +1,50 @@
+/* Code that `mbs.compiler.generated` writes for the algebra of one System. It knows the structure of the System and reads
+ * every number where it is called, so that all instances of all Systems with that structure share it; it has no memory of
+ * its own, and keeps the order of sums of the kernel, so that it has the kernel's bits. A function that is NULL is not
+ * generated: the kernel does its work. Arrays may be read and, where the kernel does so, written one number behind their
+ * end, as `ali3_three` is. */
+#ifndef ALI3_GENERATED_H
+#define ALI3_GENERATED_H
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { ALI3_GENERATED_VERSION = 1 };
+
+/* What the tangent is the sum of; names as in the System and its instance. */
+typedef struct {
+  const double *front_mass, *J, *lam, *s, *hess_val, *gterm_h, *angle_hc, *angle_hs, *sig_val, *S;
+  const double *q; /* near the origin, as the rows were evaluated */
+  double (*cosine)(double), (*sine)(double);
+  const unsigned char *idle;
+  double square, geometric; /* weights of J' J and of the second derivatives */
+} ali3_tangent_parts;
+
+typedef struct ali3_generated {
+  uint32_t version, structure; /* of this table; of the System, by `ali3_system_structure` */
+  int32_t avx2; /* 1: it has instructions of AVX2 */
+  const struct ali3_generated
+      *turned; /* of the same System with room for all directions of axes; NULL: not generated */
+  /* Without terms of guides and angles. */
+  void (*rows)(const double *row_lin, const double *row_const, const double *hess_val, const double *q, double *Phi,
+               double *J);
+  void (*gamma)(const double *hess_val, const double *qd, double *gamma);
+  void (*rows_times)(const double *J, const double *x, double *out);
+  void (*rows_transposed)(const double *J, const double *w, double *out);
+  void (*mass_times)(const double *mass_val, const double *x, double *out); /* triples have the same values */
+  void (*signals)(const double *sig_val, const double *sig_const, const double *q, const double *qd, double *u,
+                  double *ud);
+  void (*forces)(const double *sig_val, const unsigned char *idle, const double *f, double *Q); /* adds to Q */
+  void (*tangent)(const ali3_tangent_parts *parts, double *F);
+  /* -1, or the coordinate of the first bad pivot, which goes to *pivot; counts those below zero. */
+  int32_t (*factorise)(double *F, const double *mass_floor, int32_t *negative, double *pivot);
+  void (*solve)(const double *F, double *b);
+} ali3_generated;
+
+/* Whether a function of that name is generated, which is called then; never for lanes. */
+#ifdef ALI3_WIDTH
+#define ALI3_GENERATED(system, name, given) false
+#else
+#define ALI3_GENERATED(system, name, given) ((system)->generated.name != NULL && ((system)->generated.name given, true))
+#endif
+#endif

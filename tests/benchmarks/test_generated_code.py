@@ -1,0 +1,39 @@
+"""`python -m benchmarks.cost generated`: both ways make the same iterations, and generated code executes less."""
+
+from __future__ import annotations
+
+import pytest
+
+from benchmarks.car.generated_code import blocks, measure
+from benchmarks.car.scene_instructions import SCENES, counter
+from benchmarks.shared.figures import rows_of
+from tests.unoptimised import unoptimised
+
+
+@pytest.mark.slow
+@unoptimised()
+def test_generated_code_makes_the_same_steps() -> None:
+    scenes = [scene._replace(steps=20) for scene in SCENES if scene.name == "Bricard's mechanism"]
+    (row,) = measure(scenes, rounds=1, repeats=1)
+    assert row["iterations generated"] == row["iterations loops"] > 1.0
+    assert row["solves generated"] == row["solves loops"] > 1.0
+    assert row["ratio"] > 0.0
+    assert row["kB"] > 1
+    if counter() is not None:
+        assert row["instructions generated"] < 0.9 * row["instructions loops"]
+
+
+def test_the_table_has_a_row_for_each_scene() -> None:
+    row = {"scene": "slalom", "step, ms": 5.0, "instructions loops": 300000, "instructions generated": 150000}
+    row |= {"us loops": 20.0, "us generated": 12.5, "ratio": 0.625, "kB": 300}
+    (found,) = rows_of(blocks([row])["generated"])
+    assert found == {
+        "scene": "slalom",
+        "step, ms": "5",
+        "instructions, loops": "300,000",
+        "generated": "150,000",
+        "us, loops": "20.0",
+        "us, generated": "12.5",
+        "times as fast": "1.60",
+        "code, kB": "300",
+    }
