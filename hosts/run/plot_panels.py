@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import wrap
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,16 +11,19 @@ from matplotlib.axes import Axes
 from ali3.chart_style import BLACK
 from ali3.units import typeset
 
+_CHARACTERS = 44
+
 
 def table_of(axes: Axes, rows: Sequence[tuple[str, str]]) -> None:
     """The summary, in axes of its own."""
     axes.axis("off")
     axes.set_title("Summary")
-    n = max(len(rows), 10)
-    for k, (what, value) in enumerate(rows):
-        y = 1.0 - (k + 0.5) / n
-        axes.text(0.0, y, what, transform=axes.transAxes, va="center", fontsize=9, color="#555555")
-        axes.text(0.45, y, value, transform=axes.transAxes, va="center", fontsize=9, color=BLACK)
+    lines = [(what if k == 0 else "", part) for what, value in rows for k, part in enumerate(wrap(value, _CHARACTERS))]
+    n = max(len(lines), 10)
+    for k, line in enumerate(lines):
+        for x, words, colour in zip((0.0, 0.42), line, ("#555555", BLACK), strict=True):
+            text = axes.text(x, 1.0 - (k + 0.5) / n, words, transform=axes.transAxes, va="center", fontsize=8)
+            text.set(color=colour, in_layout=False)  # or the layout leaves its width free beside all panels
 
 
 def draw_lines(
