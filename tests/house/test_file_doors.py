@@ -47,6 +47,7 @@ OWN = {
     "hosts/check/process_settings.py",
     "hosts/check/process_state.py",
     "hosts/common/program.py",
+    "mbs/compiler/generated/library.py",
     "mbs/kernel/build.py",
     "mbs/kernel/read_headers.py",
     "mbs/vehicle/copy_car.py",
