@@ -77,12 +77,17 @@ def place_words(path: Iterable[int | str]) -> str:
     return text
 
 
+def unit_text(unit: str) -> str:
+    """A unit behind a number: nothing for pure numbers."""
+    return "" if unit in ("", "1") else f" {unit}"
+
+
 def range_words(low: float, high: float, unit: str) -> str:
     """A range for a person, empty where both ends are open.
 
     `low`, `high`: infinite where open; `unit`: "1" where there is none.
     """
-    end = "" if unit == "1" else f" {unit}"
+    end = unit_text(unit)
     if math.isinf(low):
         return "" if math.isinf(high) else f"up to {high:.10g}{end}"
     return f"from {low:.10g}{end}" if math.isinf(high) else f"{low:.10g} to {high:.10g}{end}"

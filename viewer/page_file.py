@@ -78,7 +78,7 @@ def page_html(
 
 
 def thinned(recordings: Recording | Sequence[Recording], most: int = MOST_TIMES) -> list[Recording]:
-    """Recordings as a page carries them.
+    """Recordings with as many times as a page of one file carries.
 
     Raises `ViewerError`: there is none, or something else stands in their place.
     """

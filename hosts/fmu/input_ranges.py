@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.units import misread, typeset
+from ali3.words import unit_text
 from hosts.fmu.variables import Variable
 
 ROUNDING = 1e-6  # of the range
@@ -27,7 +28,7 @@ def beyond_range(variable: Variable, values: NDArray[np.float64], where: str = "
     if not off[worst] > ROUNDING * span:
         return ""
     count, first = int((off > ROUNDING * span).sum()), int(np.argmax(off > ROUNDING * span))
-    unit = "" if variable.unit in ("", "1") else f" {typeset(variable.unit)}"
+    unit = unit_text(typeset(variable.unit))
     times = f"from {where} {first + 1} on {count} of {len(values)} are beyond"
     reached = f"reaches {values[worst]:.6g}{unit} in {where} {worst + 1} ({times})"
     return f"{reached}; the range of the FMU's input is {variable.range}{_hint(variable, values)}"

@@ -345,7 +345,7 @@ class _Arrays:
         self._from_fmu = False
 
     def forget(self) -> None:
-        """The FMU has another state, and knows its values."""
+        """Drop the values of arrays that are kept here: the FMU has another state, so they are read from it again."""
         self._rows.clear()
         self._from_fmu = True
 

@@ -10,16 +10,12 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ali3.words import unit_text
 from mbs.common.checks import is_number, numbers, shown
 from mbs.kernel.binding.instance import Instance
 from mbs.settings.input_breaks import AT_END, Table, distinct, function_breaks, input_breaks
 
 Signal: TypeAlias = "float | Callable[[float], float] | tuple[ArrayLike, ArrayLike]"
-
-
-def unit_text(unit: str) -> str:
-    """A unit behind a number: nothing for pure numbers."""
-    return "" if unit in ("", "1") else f" {unit}"
 
 
 class InputSignals:

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Mapping
 from typing import Any
 
-from mbs.settings.input_signals import unit_text
+from ali3.words import unit_text
 
 
 class ParameterWarning(UserWarning):

@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
+from ali3.words import unit_text
 from mbs.kernel.binding import KernelError, Status, open_row
 from mbs.kernel.binding.errors import status_cause, status_remedy
 from mbs.kernel.header.enumerations import Cause
 from mbs.results.simulation_error import SimulationError
 from mbs.results.trajectory import Trajectory
-from mbs.settings.input_signals import unit_text
 from mbs.simulation.evaluator import RANK_TOLERANCE, Evaluator
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.stepped_system import SteppedSystem

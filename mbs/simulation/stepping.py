@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import astuple
 from typing import Any
 
+from ali3.words import unit_text
 from mbs.common.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError, Status
@@ -21,7 +22,7 @@ from mbs.results.trajectory import Trajectory
 from mbs.roads.shipped import road_path
 from mbs.roads.steep_faces import RoadWarning
 from mbs.settings.control import Tolerance
-from mbs.settings.input_signals import InputSignals, Signal, unit_text
+from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.settings import Settings
 from mbs.simulation.arguments import (
     asked_tolerance,

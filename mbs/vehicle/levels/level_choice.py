@@ -38,7 +38,7 @@ class Choice:
 
     @property
     def left_out(self) -> str:
-        """What this fidelity does without."""
+        """What a car of this fidelity does without."""
         return LEFT_OUT[self.fidelity]
 
 
