@@ -63,7 +63,11 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
         )
     what = f"the program that repeats steps, with the kernel of {checkout},"
     include = (kernel / "include",)
-    build.compile_c([SOURCE, *sources], build.host_target(), program, include=include, what=what, shared=False)
+    header = (kernel / "include" / "ali3.h").read_text(encoding="utf-8")
+    defines = () if "ali3_system_attach" in header else ("LOOPS_ALONE",)
+    build.compile_c(
+        [SOURCE, *sources], build.host_target(), program, include=include, defines=defines, what=what, shared=False
+    )
     wanted = json.dumps([[scene.name, scene.step] for scene in scenes])
     command = [sys.executable, "-c", _COMMANDS, scene_instructions.__file__, str(program), wanted, str(steps)]
     environment = os.environ | {"PYTHONPATH": str(checkout)}
@@ -79,6 +83,8 @@ def measure(
     other: Path, scenes: Sequence[Scene], rounds: int, repeats: int, counted: bool, steps: int = 0
 ) -> Iterator[dict[str, Any]]:
     """A row for each scene that both have: microseconds a step, their ratio, and what a step takes, here and there.
+
+    `least` and `most` are the ratios of single rounds. Both use the loops of their kernels.
 
     Parameters
     ----------
@@ -130,7 +136,8 @@ def row_of(scene: Scene, both: Sequence[Side], steps: int, rounds: int, repeats:
     names = [side.name for side in both]
     for side, name in enumerate(names):
         row[f"us {name}"] = round(min(times[side]), 3)
-    row["ratio"] = round(median(a / b for a, b in zip(*times, strict=True)), 3)
+    ratios = [a / b for a, b in zip(*times, strict=True)]
+    row |= {"ratio": round(median(ratios), 3), "least": round(min(ratios), 3), "most": round(max(ratios), 3)}
     for side, name in enumerate(names):
         row |= {
             f"{what} {name}": round(n / steps, 3)

@@ -2,8 +2,12 @@
  *   run_system SYSTEM STATE INPUTS STEP STEPS [REPEATS [CODE]]
  * INPUTS holds the values at the end of each step as doubles, a row a step; an empty file leaves the inputs as they are.
  * Prints the status and the iterations, factorizations and solves of these steps; with REPEATS also the least processor
- * time, s, of so many runs from the same state. CODE is a library of code that was generated for the System. */
-#if !defined(_WIN32)
+ * time, s, of so many runs from the same state. CODE is a library of code that was generated for the System, which
+ * LOOPS_ALONE does without: for kernels that cannot call it. */
+#if defined(_WIN32) && !defined(LOOPS_ALONE)
+#define LOOPS_ALONE
+#endif
+#ifndef LOOPS_ALONE
 #include <dlfcn.h>
 #endif
 #include <inttypes.h>
@@ -24,9 +28,7 @@ static void *contents(const char *name, size_t *size) {
   return bytes;
 }
 
-#if defined(_WIN32)
-static const void *table_of(const char *name) { return (void)name, NULL; }
-#else
+#ifndef LOOPS_ALONE
 static const void *table_of(const char *name) {
   void *library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
   return library != NULL ? dlsym(library, "ali3_generated_code") : NULL;
@@ -47,7 +49,11 @@ int main(int count, char **words) {
   int64_t done;
   clock_t least = 0;
   if (ali3_system_load(bytes, system_size, &system, message, sizeof message) != ALI3_OK) return 4;
+#ifdef LOOPS_ALONE
+  if (count > 7) return 7;
+#else
   if (count > 7 && ali3_system_attach(system, table_of(words[7]), message, sizeof message) != ALI3_OK) return 7;
+#endif
   if (ali3_instance_new(system, &in) != ALI3_OK) return 5;
   const long repeats = count > 6 ? atol(words[6]) : 1;
   for (long k = 0; k < repeats && status == ALI3_OK; k++) {
