@@ -105,22 +105,6 @@ def test_forces_and_moments_of_joints_that_turn(build: Callable[..., Path], host
     assert np.min(np.abs(expected)) > 1e-3
 
 
-def test_a_tunable_parameter_takes_effect_at_the_next_step(
-    cars: tuple[mbs.System, dict[str, Path]], host: HostMaker
-) -> None:
-    ice, dry = (host(cars[1]["native"]).start({"initial.speed": SPEED}) for _ in range(2))
-    for driven in (ice, dry):
-        driven.set("brake", 1.0)
-        driven.run(20, STEP)
-    before = ice.get("wheel_FL.Fx")
-    assert before == dry.get("wheel_FL.Fx") < -100.0
-    assert ice.set("road.friction", 0.1) == 0
-    assert ice.get("wheel_FL.Fx") == before
-    ice.run(1, STEP, 0.2)
-    dry.run(1, STEP, 0.2)
-    assert abs(ice.get("wheel_FL.Fx")) < 0.5 * abs(dry.get("wheel_FL.Fx"))
-
-
 @pytest.mark.parametrize("friction", [0.9, 0.3])
 def test_the_car_brakes_as_the_description_of_friction_says(
     cars: tuple[mbs.System, dict[str, Path]], host: HostMaker, friction: float
