@@ -10,8 +10,9 @@ import pytest
 
 from benchmarks.methods.honesty_scenes import printed_model
 from benchmarks.references.cases import system_of
-from mbs import Model, Settings, Simulation, compile, simulate
+from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.kernel.header.structures import ReportFields
+from mbs.scenes import cart_pole
 from mbs.settings.settings import METHODS
 from tests.simulation.scenes import pendulum
 
@@ -83,3 +84,16 @@ def test_what_the_tolerance_leaves_open_is_no_violation_of_the_balance():
         assert balance == pytest.approx(report.energy_balance, rel=1e-15)
         kernel = simulation.instance._library.ali3_balance_wrong(byref(ReportFields(**numbers)))
         assert kernel == wrong
+
+
+def test_a_refused_step_leaves_the_energy_balance_as_it_was():
+    simulation = Simulation(system_of("cart_pole"), settings=Settings(max_halvings=3))
+    simulation.step(1e-3, 440)
+    with pytest.raises(SimulationError):
+        simulation.step(1e-3, 100)
+    report = simulation.report
+    assert report.energy == pytest.approx(0.0, abs=0.02 * cart_pole.BOB * cart_pole.GRAVITY)
+    again = Simulation(system_of("cart_pole"), settings=Settings(max_halvings=3))
+    again.step(1e-3, report.steps)
+    for name in ("energy", "energy_error", "work", "kinetic_peak", "speed_peak", "velocity_path", "predictor_path"):
+        assert getattr(report, name) == getattr(again.report, name), name
