@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -303,28 +302,3 @@ def test_a_selector_in_a_model_drives_forwards_then_backwards() -> None:
     simulation = Simulation(compile(m))
     model = linearise(simulation)
     assert model.slots == ()
-
-
-@pytest.mark.parametrize(
-    ("change", "sentence"),
-    [
-        ({"max_torque": -1.0}, "max torque of the drive 'D' is -1"),
-        ({"ratio": 0.0}, "ratio of the drive 'D' is 0; it must be greater than zero"),
-        ({"limit_speed": 0.0}, "limit speed of the drive 'D' is 0"),
-        ({"efficiency": 1.1}, "efficiency of the drive 'D' is 1.1; it must be above 0 and at most 1"),
-        ({"gear_efficiency": 0.0}, "gear efficiency of the drive 'D' is 0"),
-        ({"regeneration_speed": 0.0}, "regeneration speed of the drive 'D' is 0"),
-        ({"engage_time": 0.0}, "engage time of the drive 'D' is 0"),
-    ],
-)
-def test_bad_drives_are_refused_with_a_sentence(change: dict[str, float], sentence: str) -> None:
-    left, right, f, g = vectors(1, 1, 3, 3)
-    with pytest.raises(ValueError, match=re.escape(sentence)):
-        replace(DRIVE, **change).record("D", left[0], right[0], f, g, 0)
-
-
-def test_kernel_checks_the_drive() -> None:
-    element = drive_element(selector=True)
-    assert "input that does not exist" in (element.check(n_inputs=1) or "")
-    for place, value, words in ((0, -1.0, "negative"), (3, 0.0, "speed"), (4, 1.5, "efficiency"), (2, 0.0, "ratio")):
-        assert words in (drive_element().with_reals({place: value}).check() or "")

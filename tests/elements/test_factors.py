@@ -48,17 +48,6 @@ def test_a_damper_that_is_switched_off_takes_no_energy() -> None:
         assert Element(replace(given, damping_factor=0.0).record("s", signal)).conservative  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("factor", ["stiffness_factor", "damping_factor"])
-def test_a_factor_below_nought_is_refused(factor: str) -> None:
-    words = factor.replace("_", " ")
-    for given, signal in ((SpringDamper(1.0), vectors(3)[0]), (ScalarSpringDamper(1.0), signals(1)[0])):
-        with pytest.raises(ValueError, match=f"{words} of the spring-damper 's' is -1; it must not be negative"):
-            replace(given, **{factor: -1.0}).record("s", signal)  # type: ignore[arg-type]
-        element = Element(given.record("s", signal))  # type: ignore[arg-type]
-        element.with_reals({list(element.element.real_names).index(factor): -1.0})
-        assert "must not be negative" in (element.check() or "")
-
-
 def test_a_parameter_writes_a_factor_beside_one_of_the_number() -> None:
     def hung(stiffness: float, factor: float) -> Model:
         m = Model("hung", dimension=2, gravity=(0.0, -9.81))

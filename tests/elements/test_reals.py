@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Annotated
 
 import pytest
@@ -12,15 +13,21 @@ from mbs import ModelError
 from mbs.common.checks import not_negative, positive
 from mbs.elements import EndStops, KerbRoad, PlaneRoad, SpringDamper, fields_in_c
 from mbs.elements.element import Element
+from mbs.elements.integers import Of
 from mbs.elements.reals import NotNegative, Pair, Real, declared, each_real, reals_of
 from mbs.elements.record import ElementRecord, columns
 from mbs.kernel.header.enumerations import ElementType
+from mbs.tyre_files import read_tyre
 from tests.arguments.elements import TYRE, USES
 from tests.elements import harness
 from tests.elements.harness import vectors
 
 UNUSED = defaultdict[str, set[str]](set, SpringDamperTable={"stiffness"})  # its spring is a table
-NUMBERS = USES | {"Tyre that leans": (replace(TYRE, camber_slip=0.05), USES["Tyre"][1])}
+MAGIC = read_tyre(Path(__file__).parents[1] / "tyre_files" / "data" / "assumed_61.tir").tyre()
+NUMBERS = USES | {
+    "Tyre that leans": (replace(TYRE, camber_slip=0.05), USES["Tyre"][1]),
+    "MagicTyre": (MAGIC, USES["Tyre"][1]),
+}
 
 
 @dataclass(frozen=True)
@@ -97,9 +104,12 @@ def test_the_headers_in_c_are_what_the_classes_say():
     assert len(there) == len(ElementType)
 
 
-@pytest.mark.parametrize("name", [name for name, (thing, _) in USES.items() if isinstance(thing, Element)])
-def test_the_kernel_refuses_what_the_class_refuses(name: str):
-    thing, use = USES[name]
+ELEMENTS = {name: use for name, use in NUMBERS.items() if isinstance(use[0], Element)}
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_class_and_kernel_refuse_the_same_numbers(name: str):
+    thing, use = ELEMENTS[name]
     record = use(thing)
     assert harness.Element(record, n_inputs=6).check() is None
     said_of = {key: (real, called) for key, real, called in each_real(type(thing))}
@@ -115,6 +125,18 @@ def test_the_kernel_refuses_what_the_class_refuses(name: str):
             said = harness.Element(record, n_inputs=6).with_reals({k: value}).check()
             ours = f"the {called} of {type(thing)._words} {fields_in_c.RANGES[real.check][1]}"
             assert (said == ours) is refused, f"{key} = {value:g}: {said}"
+            if refused and isinstance(getattr(thing, key, None), float):
+                with pytest.raises(ModelError, match=rf"(?i){called} of .* is {value:g}\b"):
+                    use(replace(thing, **{key: value}))
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_the_kernel_refuses_inputs_and_roads_that_do_not_exist(name: str):
+    thing, use = ELEMENTS[name]
+    element = harness.Element(use(thing), n_inputs=6)
+    kinds = {of.of for of, _ in zip(type(thing)._integers, element.element.integer, strict=False)}
+    assert ("input that does not exist" in (element.check(n_inputs=0) or "")) is (Of.INPUTS in kinds)
+    assert ("road that does not exist" in (element.check(n_roads=0) or "")) is (Of.ROADS in kinds)
 
 
 def test_every_number_and_every_output_has_a_unit_and_a_sentence():

@@ -178,7 +178,6 @@ def test_grid_gradient_is_that_of_its_height() -> None:
     ("make", "sentence"),
     [
         (lambda: PlaneRoad(friction=-0.1).real, "friction of a plane road is -0.1"),
-        (lambda: PlaneRoad(height=float("inf")).real, "finite"),
         (lambda: KerbRoad(0.0, 0.0).real, "step of a kerb is 0"),
         (lambda: KerbRoad(0.0, 0.1, upper="left").real, "'before' or 'after'"),  # type: ignore[arg-type]
         (lambda: GridRoad((0, 0), (1, 1), [[0.0]]).real, "at least 2 x 2"),

@@ -167,8 +167,6 @@ def test_slopes_of_a_damper_that_is_flat_at_an_end_are_not_below_nought(power: i
         ({"spring": [(0.0, 0.0, 1.0), (1.0, 1.0, 1.0)]}, "the table of the spring of the spring-damper 'strut'"),
         ({"damper": [(-1.0, 5.0), (0.0, 0.0)]}, "falls from 5 N at -1 m/s to 0 N at 0 m/s; it must not fall"),
         ({"damper": [(-1.0, -5.0), (1.0, 5.0)]}, "has no row (0, 0); a damper has no force at rest"),
-        ({"damping_factor": -1.0}, "damping factor of the spring-damper 'strut' is -1"),
-        ({"free_length": -1.0}, "free length of the spring-damper 'strut' is -1"),
         ({"stops": EndStops(0.9, 1.0, 0.8, 1.0)}, "must be less than the rebound length"),
     ],
 )
@@ -188,7 +186,6 @@ HEAD = 5 + 12  # reals before the tables
         (HEAD + 4 * len(SPRING) + len(DAMPER), 9e9, "must not fall"),
         (HEAD + 4 * len(SPRING) + len(DAMPER) + 3, 1.0, "origin"),
         (HEAD + 4 * len(SPRING) + 2 * len(DAMPER), -1.0, "must not fall"),
-        (3, -1.0, "must not be negative"),
     ],
 )
 def test_the_kernel_checks_tables(place: int, value: float, words: str) -> None:

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 import mbs
 from tests.changed_parameters import SAME, changes
 from tests.fmu.calls import ERROR, OK
@@ -49,7 +51,7 @@ def test_of_several_that_are_changed_the_wrong_one_is_named() -> None:
     assert [c.name for c in found if c.difference > SAME] == ["gain"]
 
 
-def test_a_start_without_an_equilibrium_names_the_parameter(
+def test_a_start_is_the_equilibrium_of_its_parameters_or_names_the_one_that_has_none(
     build: Callable[..., Path], kind: str, host: Callable[..., Any]
 ) -> None:
     driven = host(build("hanging", kind))
@@ -61,4 +63,12 @@ def test_a_start_without_an_equilibrium_names_the_parameter(
     assert "'stiffness' is 0 N/m, farthest from its start value 100. Set parameters nearer to" in driven.messages[-1]
     assert driven.set("stiffness", 50.0) == OK
     assert driven.call("exitInitializationMode") == OK
-    assert abs(driven.get("y") + 0.9 + 9.81 / 50.0) < 1e-9
+    for k in range(5):  # it rests there, and moves once the spring is another
+        assert driven.get("y") == pytest.approx(-0.9 - 9.81 / 50.0, abs=1e-8)
+        assert driven.step(0.01 * k, 0.01) == OK
+    rest = driven.get("y")
+    assert driven.set("stiffness", 100.0) == OK
+    assert driven.get("y") == rest
+    for k in range(5, 10):
+        assert driven.step(0.01 * k, 0.01) == OK
+    assert driven.get("y") > rest + 1e-3

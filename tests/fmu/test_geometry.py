@@ -29,6 +29,7 @@ from mbs.shapes.pose_outputs import pose_outputs
 from mbs.system.drawing import POSE
 from mbs.vehicle import load
 from tests import kinds
+from tests.vehicle.column_car import column_car
 from viewer.poses import FramePoses
 
 CARS = ("prototype", "hatchback")
@@ -49,23 +50,8 @@ def scene_of(system: mbs.System) -> dict[str, Any]:
 
 
 @cache
-def car(name: str, column: bool = False) -> mbs.System:
-    made = load(name)
-    if column:
-        made = made.changed(
-            {
-                "steering": dict(made.steering.model_dump(exclude={"friction"}, exclude_none=True))
-                | {
-                    "kind": "column",
-                    "rack_mass": 2.5,
-                    "wheel_inertia": 0.035,
-                    "stiffness": 115.0,
-                    "assistance": 1.5,
-                    "assistance_limit": 60.0,
-                }
-            }
-        )
-    return mbs.compile(made.model())
+def car(name: str) -> mbs.System:
+    return mbs.compile(load(name).model())
 
 
 def places(scene: dict[str, Any], columns: dict[str, np.ndarray], count: int) -> dict[str, np.ndarray]:
@@ -135,7 +121,8 @@ def test_a_rim_turns_as_the_engine_turns_it() -> None:
 @pytest.mark.slow
 def test_a_steering_column_is_drawn_by_its_outputs_too() -> None:
     """Its rack is a body: the tie rods drawn on it end where its own joints are."""
-    system = car("hatchback", True)
+    steering = {"rack_friction": 0.0, "friction": 0.0, "assistance": 1.5, "assistance_limit": 60.0}
+    system = mbs.compile(column_car("hatchback", **steering).model())
     run = mbs.simulate(system, 1.0, 0.002, VIOLENT, progress=False)
     scene = compare(system, run, 1e-6)
     assert scene["missing"] == []

@@ -67,13 +67,6 @@ def test_two_builds_of_a_scene_in_one_process(build: Callable[..., Path], host: 
     assert heavy.description.guid != light.description.guid
 
 
-def test_two_scenes_in_one_process(crane: Path, reach: Path, host: HostMaker) -> None:
-    a, b = host(crane).start(), host(reach).start()
-    for k in range(10):
-        assert a.step(0.01 * k, 0.01) == b.step(0.01 * k, 0.01) == OK
-    assert len(a.outputs()) != len(b.outputs())
-
-
 def test_reset_starts_anew(crane: Path, host: HostMaker) -> None:
     driven = host(crane)
     expected = driven.start().run(10, 0.01)

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import fmpy
 import pytest
 
 import mbs
@@ -149,20 +148,3 @@ def test_the_limit_is_no_unknown_of_derivatives(slider: Path, host: HostMaker) -
     known, unknown = [driven.references[LIMIT]], [driven.references["crank.angle"]]
     assert driven.call("getDirectionalDerivative", unknown, known, [1.0]) == ERROR
     assert driven.call("getDirectionalDerivative", known, [driven.references["torque"]], [1.0]) == ERROR
-
-
-def test_fmi_3_has_the_same(build: Callable[..., Path], host: HostMaker) -> None:
-    two = start(host(build("crank_slider")), 2)
-    for k in range(STEPS):
-        status_of(two, k)
-    names = ("crank.angle", "solver.capped_residual", "solver.capped_steps")
-    result = fmpy.simulate_fmu(
-        str(build("crank_slider", "fmi3")),
-        stop_time=STEPS * H,
-        output_interval=H,
-        step_size=H,
-        start_values={LIMIT: 2, "torque": TORQUE, "step_size": H},
-        output=names,
-    )
-    assert [result[name][-1] for name in names] == [two.get(name) for name in names]
-    assert result["solver.capped_steps"][-1] > 10

@@ -8,7 +8,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import fmpy
 import numpy as np
 import pytest
 
@@ -103,57 +102,6 @@ def test_forces_and_moments_of_joints_that_turn(build: Callable[..., Path], host
     found = driven.slave.getDirectionalDerivative(references, [driven.references["torque"]], [1.0])
     assert np.allclose(found, expected, rtol=1e-3, atol=1e-4 * np.max(np.abs(expected)))
     assert np.min(np.abs(expected)) > 1e-3
-
-
-def test_a_tunable_parameter_takes_effect_at_the_next_step(
-    cars: tuple[mbs.System, dict[str, Path]], host: HostMaker
-) -> None:
-    ice, dry = (host(cars[1]["native"]).start({"initial.speed": SPEED}) for _ in range(2))
-    for driven in (ice, dry):
-        driven.set("brake", 1.0)
-        driven.run(20, STEP)
-    before = ice.get("wheel_FL.Fx")
-    assert before == dry.get("wheel_FL.Fx") < -100.0
-    assert ice.set("road.friction", 0.1) == 0
-    assert ice.get("wheel_FL.Fx") == before
-    ice.run(1, STEP, 0.2)
-    dry.run(1, STEP, 0.2)
-    assert abs(ice.get("wheel_FL.Fx")) < 0.5 * abs(dry.get("wheel_FL.Fx"))
-
-
-@pytest.mark.parametrize("friction", [0.9, 0.3])
-def test_the_car_brakes_as_the_description_of_friction_says(
-    cars: tuple[mbs.System, dict[str, Path]], host: HostMaker, friction: float
-) -> None:
-    driven = host(cars[1]["native"]).start({"initial.speed": SPEED, "road.friction": friction})
-    driven.set("brake", 1.0)
-    speeds, used = [SPEED], []
-    for k in range(100):
-        driven.step(k * STEP, STEP)
-        speeds.append(driven.get("speed"))
-        force, load = (sum(driven.get(f"wheel_{w}.{n}") for w in ("FL", "FR", "RL", "RR")) for n in ("Fx", "Fz"))
-        used.append(-force / load if speeds[-1] > 1.0 else 0.0)
-    assert 0.7 * friction < max(used) < 1.035 * friction
-    assert (SPEED - min(speeds)) / 1.0 < 1.1 * friction * 9.81  # drag on top
-
-
-def test_old_names_say_what_to_use_instead(cars: tuple[mbs.System, dict[str, Path]], host: HostMaker) -> None:
-    for kind in kinds.ALL:
-        known = {v.name: v for v in fmpy.read_model_description(str(cars[1][kind])).modelVariables}
-        for wheel in ("FL", "FR", "RL", "RR"):
-            assert known[f"wheel_{wheel}.camber"].description.startswith("deprecated")
-            assert "use inclination" in known[f"wheel_{wheel}.camber"].description
-            assert "ISO 8855" in known[f"wheel_{wheel}.inclination"].description
-        assert float(known["road.friction"].start) == 1.2705
-        assert "the curves of the tyres hold at 1.129 (front), 1.129 (rear)" in known["road.friction"].description
-    driven = host(cars[1]["native"]).start({"initial.speed": SPEED})
-    driven.set("steering", 0.2)
-    driven.run(100, STEP)
-    roll = driven.get("chassis.roll")
-    assert abs(roll) > 0.01
-    for wheel in ("FL", "FR", "RL", "RR"):
-        turned = driven.get(f"wheel_{wheel}.inclination") - driven.get(f"wheel_{wheel}.camber")
-        assert turned == pytest.approx(roll, rel=0.1)
 
 
 def test_outputs_by_inputs_of_the_moving_car(cars: tuple[mbs.System, dict[str, Path]], host: HostMaker) -> None:

@@ -214,20 +214,6 @@ def test_a_percent_sign_reaches_the_host_doubled(build: Callable[..., Path], hos
     assert "100%% ##r1##" in driven.messages[-1]
 
 
-def test_stop_time_is_the_end(build: Callable[..., Path], host: HostMaker) -> None:
-    driven = host(build("crane", "native"))
-    driven.slave.setupExperiment(startTime=0.0, stopTime=0.05)
-    driven.slave.enterInitializationMode()
-    driven.slave.exitInitializationMode()
-    driven.run(5, 0.01)
-    assert driven.step(0.05, 0.01) == ERROR
-    assert "stop time" in driven.messages[-1]
-    assert driven.call("setupExperiment") == ERROR
-    driven.slave.reset()
-    assert driven.call("setupExperiment", None, 1.0, 0.5) == ERROR
-    assert driven.call("setupExperiment", None, 1.0, 1.0) == OK
-
-
 def test_a_damaged_system_file_is_refused_with_a_reason(
     build: Callable[..., Path], host: HostMaker, tmp_path: Path
 ) -> None:

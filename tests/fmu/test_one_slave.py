@@ -100,20 +100,6 @@ def test_random_calls_are_answered_alike(pair: list[Any]) -> None:
     assert sum(s == OK for s in statuses) > CALLS // 4
 
 
-def test_an_instance_is_refused_alike(build: Callable[..., Path], host: HostMaker) -> None:
-    said = []
-    for kind in kinds.FMI_2:
-        driven = host(build("sprung_reach", kind))
-        with pytest.raises(Exception, match="instantiate"):
-            driven.instance(name="")
-        with pytest.raises(Exception, match="instantiate"):
-            driven.instance("{0}")
-        said.append([m.replace(str(driven.description.guid), "GUID") for m in driven.messages])
-    assert said[0] == said[1]
-    assert "needs a name" in said[0][0]
-    assert "GUID {0} does not belong" in said[0][1]
-
-
 @pytest.mark.parametrize("method", ["do_step", "get_real", "set_real", "terminate"])
 def test_an_exception_of_python_ends_the_instance_and_says_so(
     build: Callable[..., Path], host: HostMaker, method: str

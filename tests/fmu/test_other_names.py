@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib.util
 import math
-import subprocess
 import zipfile
 from pathlib import Path
 
@@ -18,8 +17,7 @@ from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_scene
 from fmu_src.variables.renamed_variables import renamed
 from fmu_src.variables.variables import variable_table
-from tests.fmu.libcosim import by_libcosim
-from tests.fmu.native import compile_host, unpack
+from tests.fmu.other_hosts import by_c_host, by_libcosim
 
 SCENES = Path(__file__).parent / "scenes.py"
 NAMES = """
@@ -105,21 +103,15 @@ def test_fmpy_the_c_host_and_libcosim_get_the_same_bits(host, renamed_crane, tmp
     driven = host(renamed_crane).start({"Motor.Trq": -4e-3})
     driven.run(50, 0.01)
     names = ("X", "Rod[1].Angle")
-    places = [driven.references[n] for n in names]
-    found = list(driven.slave.getReal(places))
-    unpack(renamed_crane, tmp_path / "fmu")
-    library = next((tmp_path / "fmu" / "binaries" / fmpy.platform).iterdir())
-    start = [compile_host(tmp_path), library, (tmp_path / "fmu" / "resources").as_uri(), driven.description.guid]
-    for place, value in zip(places, found, strict=True):
-        command = [*start, 50, 0.01, place, place, "--set", "Motor.Trq=-4e-3"]
-        text = subprocess.run([*map(str, command)], capture_output=True, text=True, check=True).stdout
-        assert float.fromhex(text.split()[-1]) == value
+    found = [driven.get(n) for n in names]
+    assert list(by_c_host(renamed_crane, tmp_path, {"Motor.Trq": -4e-3}, names, 50, 0.01)[-1]) == found
     if importlib.util.find_spec("libcosimpy") is None:
         return
     late = host(renamed_crane).start()
     late.set("Motor.Trq", -4e-3)  # libcosim sets it after initialisation
     late.run(50, 0.01)
-    assert by_libcosim(renamed_crane, {"Motor.Trq": -4e-3}, names, 50, 0.01) == list(late.slave.getReal(places))
+    found = by_libcosim(renamed_crane, {"Motor.Trq": -4e-3}, names, 50, 0.01)[-1]
+    assert list(found) == [late.get(n) for n in names]
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import subprocess
 import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -27,7 +26,7 @@ from hosts.fmu.scalars import ELEMENTS, element_names
 from mbs import Pose, Simulation
 from mbs.vehicle.environment import GRAVITY
 from tests import kinds
-from tests.fmu.native import compile_host, guid_of, unpack
+from tests.fmu.other_hosts import by_c_host, by_libcosim
 
 Columns: TypeAlias = Mapping[str, NDArray[np.float64]]
 
@@ -313,28 +312,20 @@ def test_moments_and_stresses_of_the_kerb_in_every_kind(kerb_fmus: Path) -> None
 @pytest.mark.slow
 @of_kinds("native")
 def test_a_host_in_c_and_libcosim_run_the_references_of_constant_inputs(car: Road, tmp_path: Path) -> None:
-    fmu, folder = car("drop"), unpack(car("drop"), tmp_path / "fmu")
-    library = next((folder / "binaries" / fmpy.platform).iterdir())
-    host = [str(compile_host(tmp_path)), str(library), (folder / "resources").as_uri(), guid_of(folder)]
-    references = {v.name: v.valueReference for v in fmpy.read_model_description(str(fmu)).modelVariables}
-    span = [references[n] for n in trajectories.SENSORS]
     wrong = []
     for name in CONSTANT:
         _, reference, length = trajectories.read(name)
         manoeuvre = manoeuvres.load(name)
         start = {**accuracy.start_of_fmu(name), **manoeuvre.at(0.0), "step_size": H}
         steps = round(manoeuvre.stop_time / H)
-        given = [part for n, x in start.items() for part in ("--set", f"{n}={x}")]
-        limits = [steps, H, min(span), max(span), *given]
-        done = subprocess.run([*host, *map(str, limits)], capture_output=True, text=True, check=True)
-        printed = np.array([[float.fromhex(x) for x in line.split()] for line in done.stdout.splitlines()])
-        ran = {n: printed[:, 1 + references[n] - min(span)] for n in trajectories.SENSORS}
-        through = {"C": ran, "libcosim": in_libcosim(fmu, start, steps)}
+        through = {"C": by_c_host(car("drop"), tmp_path, start, trajectories.SENSORS, steps, H)}
+        if importlib.util.find_spec("libcosimpy") is not None:
+            through["libcosim"] = by_libcosim(car("drop"), {}, trajectories.SENSORS, steps, H, start)
         every = round(manoeuvres.sampling(name) / H)
-        for which, columns in through.items():
-            sampled_columns = {n: x[every - 1 :: every] for n, x in columns.items()}
-            behind = {n: x[1:] for n, x in reference.items()}
-            wrong += beyond(f"{which}, {name}", errors(sampled_columns, behind, length), BOUNDS[name])
+        behind = {n: x[1:] for n, x in reference.items()}
+        for which, rows in through.items():
+            found = dict(zip(trajectories.SENSORS, rows[every - 1 :: every].T, strict=True))
+            wrong += beyond(f"{which}, {name}", errors(found, behind, length), BOUNDS[name])
     assert not wrong, "\n".join(wrong)
 
 
@@ -354,30 +345,3 @@ def test_inputs_that_are_given_within_steps_of_fmi_3_are_as_right_as_derivatives
             found[kind, follow] = trajectories.path_error(columns, reference) / length
         assert found["fmi3_scalar", True] < 2.0 * found["native", True], name
         assert found["fmi3_scalar", True] < 0.1 * found["fmi3_scalar", False], name
-
-
-def in_libcosim(fmu: Path, start: Mapping[str, object], steps: int) -> Columns:
-    """Signals behind each step; nothing where libcosim is not installed."""
-    if importlib.util.find_spec("libcosimpy") is None:
-        return {}
-    from libcosimpy.CosimExecution import CosimExecution
-    from libcosimpy.CosimObserver import CosimObserver
-    from libcosimpy.CosimSlave import CosimLocalSlave
-
-    variables = {v.name: v for v in fmpy.read_model_description(str(fmu)).modelVariables}
-    execution = CosimExecution.from_step_size(round(1e9 * H))
-    index = execution.add_local_slave(CosimLocalSlave(str(fmu), "car"))
-    for name, value in start.items():
-        variable = variables[name]
-        if variable.type == "Real":
-            execution.real_initial_value(index, variable.valueReference, float(str(value)))
-        else:
-            execution.integer_initial_value(index, variable.valueReference, int(float(str(value))))
-    observer = CosimObserver.create_last_value()
-    execution.add_observer(observer)
-    numbers = [variables[n].valueReference for n in trajectories.SENSORS]
-    found = []
-    for _ in range(steps):
-        assert execution.step(1)
-        found.append(list(observer.last_real_values(index, numbers)))
-    return dict(zip(trajectories.SENSORS, np.array(found).T, strict=True))

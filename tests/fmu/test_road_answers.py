@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 import re
-import subprocess
 from pathlib import Path
 
 import fmpy
@@ -13,7 +12,7 @@ import numpy as np
 import pytest
 
 from tests.fmu.calls import DISCARD, FMI_2, OK
-from tests.fmu.native import compile_host, unpack
+from tests.fmu.other_hosts import by_c_host
 from tests.fmu.test_native_derivatives import slope
 
 ANSWER = [f"road_{name}" for name in ("x", "y", "height", "normal_x", "normal_y", "normal_z", "friction")]
@@ -297,14 +296,8 @@ def test_the_scene_stands_in_the_description(sledge) -> None:
 
 def test_the_host_in_c_gets_the_same_bits(host, build, tmp_path) -> None:
     sledge = build("answered", "native")
-    unpack(sledge, tmp_path / "fmu")
-    library = next((tmp_path / "fmu" / "binaries" / fmpy.platform).iterdir())
     answers = LEVEL | {"road_height": 0.25, "road_normal_x": -0.06, "road_normal_z": math.sqrt(1.0 - 0.06**2)}
     h = host(sledge).start(answers)
     h.run(20, 0.01)
-    words = [str(compile_host(tmp_path)), str(library), (tmp_path / "fmu" / "resources").as_uri()]
-    words += [h.description.guid, "20", "0.01", *2 * [str(h.references["x"])]]
-    words += [word for name, value in answers.items() for word in ("--set", f"{name}={value!r}")]
-    done = subprocess.run(words, capture_output=True, text=True, check=True)
     assert h.get("x") < -1e-3
-    assert float.fromhex(done.stdout.split()[-1]) == h.get("x")
+    assert by_c_host(sledge, tmp_path, answers, ["x"], 20, 0.01)[-1] == [h.get("x")]

@@ -26,7 +26,7 @@ HERE = {
 ELSEWHERE = {
     Status.TOO_FAR: "test_native_agreement",
     Status.NO_EQUILIBRIUM: "test_changed_parameters",
-    Status.BRANCH_CHANGED: "test_start_and_modes",
+    Status.BRANCH_CHANGED: "test_watch",
     Status.BAD_ROAD: "test_road_files",
     Status.ROAD_LOST: "test_road_files",
     Status.TOO_DEAR: "test_bounded_calls",

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import fmpy
-import numpy as np
 import pytest
 
 import mbs
@@ -16,7 +15,6 @@ from fmu_src.build.scene_registry import load_scene
 from mbs.kernel.binding import Status
 from mbs.scenes import assembly_defect_four_bar
 from mbs.vehicle import load
-from tests import kinds
 from tests.fmu.calls import ERROR, FMI_2, OK, WARNING, HostMaker
 from tests.fmu.scenes import contradicting_arm
 
@@ -69,17 +67,6 @@ def test_the_warning_is_part_of_the_state(slider: Path, host: HostMaker) -> None
     assert other.restore(data) == OK
     assert other.step(1.0, 1e-3) == OK
     assert other.messages == []
-
-
-def test_all_kinds_say_the_same(build: Callable[..., Path], host: HostMaker, need: Callable[[str], None]) -> None:
-    need("python")
-    ends = []
-    for kind in kinds.FMI_2:
-        driven = host(build("crank_slider", kind))
-        run(driven, 1e-3, 1.0)
-        ends.append((driven.messages, [driven.get(n) for n in (*NAMES, "solver.status", "solver.halvings")]))
-    assert ends[0] == ends[1]
-    assert np.isfinite(ends[0][1]).all()
 
 
 def test_a_start_tells_of_contradicting_velocities_and_of_what_cannot_move(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,9 +12,8 @@ import mbs
 from fmu_src.build.build import build_fmu
 from fmu_src.variables.variables import variable_table
 from tests import kinds
+from tests.fmu import scenes
 from tests.fmu.calls import ERROR, OK, HostMaker
-
-SCENES = Path(__file__).parent / "scenes.py"
 
 
 def test_types_and_values(crane: Path, host: HostMaker) -> None:
@@ -35,30 +33,14 @@ def test_types_and_values(crane: Path, host: HostMaker) -> None:
     assert driven.slave.getReal(reference) == [float(iterations)]
 
 
-def test_a_real_variable_is_no_integer(crane: Path, host: HostMaker) -> None:
-    driven = host(crane).start()
-    references = [driven.references["solver.status"], driven.references["rod.x"]]
-    assert driven.call("getInteger", references) == ERROR
-    assert "'rod.x' is a real number" in driven.messages[-1]
-    assert driven.call("setInteger", [driven.references["torque"]], [1]) == ERROR
-    assert driven.call("setInteger", [driven.references["solver.status"]], [1]) == ERROR
-    assert "is an output" in driven.messages[-1]
-    assert driven.call("getInteger", [99]) == ERROR
-
-
 @pytest.mark.parametrize("kind", kinds.BUILT)
 def test_the_fidelity_is_an_integer_with_a_range(
     tmp_path: Path, need: Callable[[str], None], kind: str, host: HostMaker
 ) -> None:
     need(kind)
 
-    def system(fidelity: int) -> mbs.System:
-        from scenes import crane
-
-        return mbs.compile(crane(2.0 + fidelity))
-
-    sys.path.insert(0, str(Path(__file__).parent))
-    fmu = build_fmu([system(0), system(1)], "two", tmp_path, [fmpy.platform], kind=kind, fidelity=1)
+    systems = [mbs.compile(scenes.crane(2.0 + fidelity)) for fidelity in (0, 1)]
+    fmu = build_fmu(systems, "two", tmp_path, [fmpy.platform], kind=kind, fidelity=1)
     (v,) = (v for v in fmpy.read_model_description(str(fmu)).modelVariables if v.name == "fidelity")
     assert v.type == ("Int32" if kind == "fmi3" else "Integer")
     assert (v.min, v.max, v.start) == ("0", "1", "1")

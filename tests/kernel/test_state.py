@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 import zlib
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -48,35 +45,6 @@ def test_a_restored_state_continues_bit_for_bit_in_another_instance() -> None:
         other.step(0.01)
     assert bits(other) == bits(instance)
     assert other.report() == instance.report()
-
-
-def test_going_back_gives_the_same_future() -> None:
-    instance = moving()
-    saved = instance.save()
-    instance.set_input(0, -0.8)
-    instance.step(0.02)
-    instance.restore(saved)
-    first = [instance.step(0.01) or bits(instance) for _ in range(5)]
-    instance.restore(saved)
-    assert [instance.step(0.01) or bits(instance) for _ in range(5)] == first
-
-
-def test_the_future_is_the_same_in_another_process(tmp_path: Path) -> None:
-    instance = moving()
-    (tmp_path / "state").write_bytes(instance.save())
-    (tmp_path / "system").write_bytes(everything().to_bytes())
-    program = (
-        "import sys; from pathlib import Path; from mbs.kernel.binding import LoadedSystem\n"
-        "from mbs.kernel.binding.instance import Instance\n"
-        "here = Path(sys.argv[1]); i = Instance(LoadedSystem((here / 'system').read_bytes()))\n"
-        "i.restore((here / 'state').read_bytes())\n"
-        "[i.step(0.01) for _ in range(20)]\n"
-        "(here / 'end').write_bytes(i.save())"
-    )
-    subprocess.run([sys.executable, "-c", program, str(tmp_path)], check=True, cwd=Path(__file__).parents[2])
-    for _ in range(20):
-        instance.step(0.01)
-    assert (tmp_path / "end").read_bytes() == instance.save()
 
 
 def test_altered_bytes_are_refused_and_change_nothing() -> None:

@@ -75,18 +75,24 @@ def test_a_located_event_is_counted_and_loses_no_energy() -> None:
 
 
 def test_lanes_and_a_saved_state_have_the_bits_of_a_single_run() -> None:
+    """Before, between and behind steps that are divided."""
     system, h = between_stops(0.02), 0.004
     run = mbs.simulate(system, SPAN, h, estimate_error=False, progress=False)
     many = mbs.simulate_many(system, [mbs.Variant(), mbs.Variant()], SPAN, h, estimate_error=False, progress=False)
-    assert all((part["x"] == run["x"]).all() for part in many.trajectories if part is not None)
+    for part, alone in zip(many.trajectories, many.alone, strict=True):
+        assert part is not None
+        assert (part["x"] == run["x"]).all()
+        assert part.report.divisions == run.report.divisions
+        assert alone > 0
     by_hand = mbs.Simulation(system)
     for _ in range(50):
         state = by_hand.save()
         by_hand.step(h)
-        ended = by_hand.sensors["x"]
+        ended = by_hand.save()
         by_hand.restore(state)
         by_hand.step(h)
-        assert by_hand.sensors["x"] == ended
+        assert by_hand.save() == ended
+    assert by_hand.report.divisions > 3
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "energy_momentum_4"])

@@ -9,7 +9,6 @@ import pytest
 
 import mbs
 from benchmarks.car import accuracy, manoeuvres, trajectories
-from mbs.simulation.many_runs import Variant
 from mbs.vehicle import load as load_car
 from mbs.vehicle.levels import errors
 
@@ -43,35 +42,6 @@ def test_a_drive_without_edges_keeps_its_bits() -> None:
     assert found.report is not None
     assert found.report.divisions == 0
     assert all((found[name] == whole[name]).all() for name in trajectories.SENSORS)
-
-
-def test_lanes_divide_the_steps_that_a_single_run_does() -> None:
-    system = mbs.compile(load_car(CAR).model())
-    falls = [mbs.Pose(z=z, speed=8.0) for z in (0.0, 0.0, 0.1, 0.25)]
-    many = mbs.simulate_many(system, [Variant(pose=pose) for pose in falls], 0.5, STEP, progress=False)
-    for pose, found, alone in zip(falls, many.trajectories, many.alone, strict=True):
-        single = mbs.simulate(system, 0.5, STEP, pose=pose, progress=False, estimate_error=False)
-        assert found is not None
-        assert found.report is not None
-        assert single.report is not None
-        assert found.report.divisions == single.report.divisions
-        assert (found.report.divisions > 0) == (pose.z > 0.0) == (alone > 0)
-        assert all((found[name] == single[name]).all() for name in trajectories.SENSORS)
-
-
-def test_a_saved_state_of_such_a_run_goes_on_bit_for_bit() -> None:
-    """Before, between and behind divided steps."""
-    run = mbs.Simulation(mbs.compile(load_car(CAR).model()), pose=mbs.Pose(z=0.1, speed=8.0))
-    for _ in range(60):
-        state = run.save()
-        run.step(STEP)
-        ended, divisions = run.state.q.copy(), run.report.divisions
-        run.restore(state)
-        run.step(STEP)
-        assert (run.state.q == ended).all()
-        assert run.report.divisions == divisions
-    assert run.report.divisions > 3
-    assert np.isfinite(run.state.q).all()
 
 
 def test_the_largest_force_is_that_of_tyres_and_springs() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from benchmarks.methods.honesty_scenes import printed_model
-from benchmarks.references.cases import CASES, system_of
+from benchmarks.references.cases import system_of
 from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
 from mbs.kernel.header.structures import ReportFields
 from mbs.scenes import cart_pole
@@ -97,17 +97,3 @@ def test_a_refused_step_leaves_the_energy_balance_as_it_was():
     again.step(1e-3, report.steps)
     for name in ("energy", "energy_error", "work", "kinetic_peak", "speed_peak", "velocity_path", "predictor_path"):
         assert getattr(report, name) == getattr(again.report, name), name
-
-
-@pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "semi_recursive"])
-def test_a_restored_run_goes_on_with_its_energy_balance(method):
-    system, settings = system_of("spatial_chain"), Settings(method=method)
-    straight = Simulation(system, settings=settings)
-    straight.step(0.005, 60)
-    first = Simulation(system, settings=settings)
-    first.step(0.005, 30)
-    second = Simulation(system, settings=settings)
-    second.restore(first.save())
-    second.step(0.005, 30)
-    assert second.report == straight.report
-    assert CASES["spatial_chain"].conservative

@@ -87,12 +87,3 @@ def test_a_step_ten_times_as_long_leaves_the_past_aside():
         simulation.step(0.1)
     assert simulation.report.max_iterations <= 6
     assert simulation.report.halvings == 0
-
-
-def test_a_saved_state_takes_its_past_along(loop):
-    one, other = Simulation(loop), Simulation(loop)
-    one.step(0.01, n=20)
-    other.restore(one.save())
-    one.step(0.01, n=20)
-    other.step(0.01, n=20)
-    assert one.save() == other.save()

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
-from mbs.scenes import bricard, double_four_bar, flyball, prototype_car
-from tests.methods.models import assert_saved_state_continues, driven, end, hinge, sliding_mass, swing
+from mbs import Model, Settings, Simulation, compile, simulate
+from mbs.scenes import bricard, double_four_bar, flyball
+from tests.methods.models import end, hinge, sliding_mass, swing
 
 NAME = "radau_5"
 TIGHT = Settings(method=NAME, tolerance_r=1e-13, tolerance_phi=1e-13)
@@ -42,23 +42,6 @@ def test_a_step_of_a_damped_oscillator_is_that_of_its_stability_function():
         simulation.step(h)
         value = R @ value
         assert [simulation.sensors[name] for name in ("x", "v")] == pytest.approx(value, abs=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("model", "names", "t_end", "steps"),
-    [
-        (swing(6.0), ["tip.y"], 1.0, (0.05, 0.04, 0.025, 0.02)),
-        (hinge(0.3), ["angle"], 1.0, (0.05, 0.04, 0.025, 0.02)),
-        (driven(), ["bob.x", "bob.y"], 1.0, (0.05, 0.04, 0.025, 0.02)),
-        (bricard.build(), [f"P3.position.{c}" for c in "xyz"], 10.0, (0.1, 0.0625, 0.05, 0.04)),
-        (flyball.build(), ["shaft.rate"], 2.0, (0.04, 0.025, 0.02, 0.0125)),
-    ],
-    ids=["damped swing", "angle", "driven", "redundant row", "stiff dampers"],
-)
-def test_order_five(model, names, t_end, steps):
-    found, least = order(compile(model), names, t_end, steps)
-    assert found > 4.5
-    assert least < 1e-6
 
 
 def test_velocities_without_projection_are_of_order_three():
@@ -148,23 +131,3 @@ def test_accelerations_and_joint_forces_are_those_of_the_state():
         fine.step(0.01)
     np.testing.assert_allclose(simulation.state.qdd, fine.state.qdd, atol=2e-3)
     np.testing.assert_allclose(simulation.state.lam, fine.state.lam, atol=2e-2)
-
-
-@pytest.mark.parametrize("model", [swing(2.0), bricard.build()], ids=["swing", "redundant row"])
-def test_a_saved_state_continues_bit_for_bit(model):
-    assert_saved_state_continues(compile(model), Settings(method=NAME))
-
-
-def test_a_step_that_fails_leaves_the_state():
-    settings = Settings(method=NAME, max_iterations=1, max_halvings=0)
-    simulation = Simulation(compile(double_four_bar.build()), settings=settings)
-    before = simulation.state
-    with pytest.raises(SimulationError, match="did not converge"):
-        simulation.step(0.1)
-    np.testing.assert_array_equal(simulation.state.q, before.q)
-    np.testing.assert_array_equal(simulation.state.lam, before.lam)
-
-
-def test_element_states_are_refused():
-    with pytest.raises(SimulationError, match="takes no element states"):
-        simulate(compile(prototype_car.build()), 0.1, 0.01, method=NAME)

@@ -7,12 +7,11 @@ import pytest
 import scipy.linalg
 from scipy.special import ellipk
 
-from mbs import Model, Settings, Simulation, SimulationError, compile, simulate
+from mbs import Model, Settings, compile, simulate
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.binding.instance import Instance
-from mbs.scenes import bricard, double_four_bar, flyball, prototype_car, spatial_chain
+from mbs.scenes import bricard, double_four_bar, flyball, spatial_chain
 from mbs.settings.settings import METHODS
-from tests.methods.models import driven
 from tests.methods.trees import GRAVITY, branching, carriage, double_pendulum, measured, pendulum, random_tree
 
 SEED = 11
@@ -246,27 +245,3 @@ def test_a_step_that_fails_leaves_the_last_state_and_a_run_shows_it():
     again.run(0.05, done)
     for a, b in zip(instance.get_state()[:3], again.get_state()[:3], strict=True):
         assert a[:] == b[:]
-
-
-@pytest.mark.parametrize(
-    ("model", "reason"),
-    [
-        (driven(), "guides or switches"),
-        (prototype_car.build(), "guides or switches"),
-    ],
-    ids=["driven", "car"],
-)
-def test_what_has_no_tree_is_refused_with_the_reason(model, reason):
-    system = compile(model)
-    assert reason in system.report["no_tree"]
-    with pytest.raises(SimulationError, match="rigid bodies that revolute and prismatic joints") as refusal:
-        simulate(system, 0.1, 0.01, method="semi_recursive")
-    assert reason in str(refusal.value)
-
-
-def test_a_refused_method_leaves_the_state():
-    simulation = Simulation(compile(driven()), settings=Settings(method="semi_recursive"))
-    before = simulation.save()
-    with pytest.raises(SimulationError):
-        simulation.step(0.01)
-    assert simulation.save() == before

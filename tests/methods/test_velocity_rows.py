@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mbs import Settings, Simulation, SimulationError, compile, simulate
+from mbs import Settings, Simulation, compile, simulate
 from tests.methods.rolling_models import (
     ARM,
     AXIAL,
@@ -175,9 +175,3 @@ def test_a_static_equilibrium_lies_where_the_body_rolls_to():
     simulation = Simulation(compile(roly_poly(0.0, 2.0)))
     simulation.static_equilibrium()
     assert simulation.sensors["height"] == pytest.approx(ROLY_RADIUS - ROLY_DEPTH, abs=1e-9)
-
-
-@pytest.mark.parametrize(("method", "reason"), [("radau_5", "no rolling"), ("semi_recursive", "joint")])
-def test_a_method_that_has_no_place_for_velocity_rows_says_so(method, reason):
-    with pytest.raises(SimulationError, match=reason):
-        Simulation(compile(sleigh(0.0)), settings=Settings(method=method)).step(0.01)

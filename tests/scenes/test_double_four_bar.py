@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.references.motions import four_bar as exact
-from mbs import Settings, Simulation, SimulationError, compile, simulate
+from mbs import Settings, SimulationError, compile, simulate
 from mbs.scenes import double_four_bar
 
 END = 10.0  # s
@@ -152,22 +152,3 @@ def test_many_windows_take_the_iterations_of_two(windows):
     assert long.report.iterations <= short.report.iterations + 5
     assert np.linalg.norm(tip(long) - exact(windows, long.t), axis=1).max() < 1e-3
     assert np.ptp(tip(long)[:, 0]) > 0.2  # it moves
-
-
-def test_a_step_that_is_refused_keeps_the_state_and_the_run_can_go_on():
-    """Two iterations are not enough for a long step."""
-    simulation = Simulation(compile(double_four_bar.build()))
-    simulation.step(0.01, n=50)
-    accepted, time = simulation.save(), simulation.time
-    simulation.instance.set_settings(max_iterations=2, max_halvings=0)
-    with pytest.raises(SimulationError, match="did not converge") as refusal:
-        simulation.step(0.5)
-    assert refusal.value.time == time == simulation.time
-    simulation.instance.set_settings(max_iterations=20)
-    simulation.step(0.01, n=10)
-    other = Simulation(simulation.system)
-    other.restore(accepted)
-    other.step(0.01, n=10)
-    for part, expected in zip(vars(simulation.state).values(), vars(other.state).values(), strict=True):
-        assert np.array_equal(part, expected)
-    assert simulation.time == pytest.approx(time + 0.1)

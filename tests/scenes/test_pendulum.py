@@ -48,14 +48,3 @@ def test_the_period_is_that_of_the_elliptic_integral(length):
     end = simulate(compile(pendulum.build(length, mass=3.0)), period, period / steps)
     assert end["bob.position.x"][steps] == pytest.approx(-length, abs=1e-4 * length)
     assert end["bob.position.x"][steps // 2] == pytest.approx(length, abs=1e-4 * length)
-
-
-def test_order_two(system):
-    steps = np.array([0.02, 0.01, 0.005, 0.0025])
-    angle = []
-    for h in steps:
-        t = simulate(system, 1.0, h)
-        angle.append(np.arctan2(t["bob.position.y"][-1], t["bob.position.x"][-1]))
-    expected = np.arctan2(PUBLISHED[1.0][1], PUBLISHED[1.0][0])
-    order = np.polyfit(np.log(steps), np.log(np.abs(np.array(angle) - expected)), 1)[0]
-    assert 1.9 < order < 2.1

@@ -118,55 +118,6 @@ def test_inclination_counts_from_the_road_and_camber_from_the_vehicle():
         assert "inclination" in sensor["description"]
 
 
-def powers(t):
-    """Power of drive, drag, rolling resistance, brakes and tyre slip, W; all but the first take energy."""
-    omega = {w: t[f"wheel_{w}.omega"] for w in WHEELS}
-    drive_power = t["drive_torque"] * (omega["RL"] + omega["RR"] - 2.0 * t["chassis.wy"])
-    drag = 0.5 * AIR.air_density * AIR.drag_area * t["speed"] ** 3
-    rolling = brakes = slip = 0.0
-    for w in WHEELS:
-        radius = TYRES["front" if w[0] == "F" else "rear"].radius
-        rolling = rolling + 0.015 * t[f"wheel_{w}.Fz"] * radius * omega[w] * np.tanh(omega[w])
-        brakes = brakes - t[f"wheel_{w}.brake_torque"] * omega[w]
-        faster = np.maximum(np.abs(omega[w]) * radius, np.abs(t["chassis.vx"]))
-        slip = slip + np.abs(t[f"wheel_{w}.Fx"] * t[f"wheel_{w}.slip"]) * faster
-    return drive_power, drag, rolling, brakes, slip
-
-
-@pytest.mark.parametrize(
-    ("case", "bound"), [("coast", 2e-4), ("launch", 2e-3), ("brake", 5e-4)]
-)  # of the largest of the works; left out are dampers and carcasses, and the slip power comes from sensors
-def test_energy_balance(case, bound):
-    h = 0.001
-    inputs = {
-        "coast": {},
-        "launch": {"throttle": ([0.0, 0.5, 8.0], [0.0, 0.6, 0.6])},
-        "brake": {"brake": ([0.0, 0.5, 0.8, 8.0], [0.0, 0.0, 0.4, 0.4])},
-    }[case]
-    start = None if case == "launch" else Pose(speed=20.0)
-    t = drive(car(), {"coast": 10.0, "launch": 6.0, "brake": 4.0}[case], h, inputs, neutral=case == "coast", pose=start)
-    drive_power, *losses = powers(t)
-    work, *lost = (float(np.sum(0.5 * (p[1:] + p[:-1])) * h) for p in (drive_power, *losses))
-    change = t["energy.total"][-1] - t["energy.total"][0]
-    scale = max(abs(work), *lost)
-    assert scale > 5e3
-    assert change == pytest.approx(work - sum(lost), abs=bound * scale)
-
-
-def test_left_and_right_are_mirror_images():
-    steer = np.array([0.0, 0.0, 0.3, -0.2, 0.1, 0.1])
-    times = np.array([0.0, 0.5, 1.0, 2.0, 3.0, 4.0])
-    pedals = {"throttle": 0.3}
-    left = drive(car(), 4.0, H, {"steering": (times, steer), **pedals}, pose=Pose(speed=12.0))
-    right = drive(car(), 4.0, H, {"steering": (times, -steer), **pedals}, pose=Pose(speed=12.0))
-    assert np.abs(left["chassis.y"]).max() > 1.0
-    for name, sign in (("x", 1), ("y", -1), ("z", 1), ("yaw", -1), ("roll", -1), ("pitch", 1), ("wz", -1)):
-        a, b = left[f"chassis.{name}"], right[f"chassis.{name}"]
-        np.testing.assert_allclose(a, sign * b, rtol=0, atol=1e-6 * np.abs(a).max())
-    for one, other in (("FL", "FR"), ("RL", "RR")):
-        np.testing.assert_allclose(left[f"wheel_{one}.Fz"], right[f"wheel_{other}.Fz"], rtol=0, atol=1e-2)
-
-
 def test_start_turned_and_shifted_gives_the_turned_and_shifted_path():
     inputs = {"steering": ([0.0, 0.5, 1.0, 4.0], [0.0, 0.0, 0.2, 0.2]), "throttle": 0.2}
     yaw, shift = 2.1, np.array([120.0, -45.0])

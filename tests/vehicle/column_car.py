@@ -1,4 +1,4 @@
-"""The prototype on a rigid chassis with a steering column."""
+"""Cars on a rigid chassis, and with a steering column, which does not stand on a flexible frame."""
 
 from __future__ import annotations
 
@@ -18,10 +18,15 @@ COLUMN = {
 }
 
 
-def column_car(**changes: object) -> Car:
-    """Without the flexible frame, on which no column stands."""
-    prototype = load("prototype")
-    data = copy.deepcopy(prototype._data)
+def rigid_chassis(name: str = "prototype", **steering: object) -> Car:
+    """A car of the package without its flexible frame, with other numbers of the steering."""
+    car = load(name)
+    data = copy.deepcopy(car._data)
     del data["chassis"]["frame"]
-    data["steering"] |= COLUMN | changes
-    return car_from(data, prototype.folder, "car 'prototype'")
+    data["steering"] |= steering
+    return car_from(data, car.folder, f"car '{name}'")
+
+
+def column_car(name: str = "prototype", **changes: object) -> Car:
+    """One with a steering column."""
+    return rigid_chassis(name, **(COLUMN | changes))

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import re
+import warnings
 
-from mbs.vehicle import load
+from mbs.vehicle import CarFileError, load
+from mbs.vehicle.car import car_from
+from mbs.vehicle.changed_content import changed_content
 
 FORBIDDEN = re.compile(r"Input should|validation error|Traceback|pydantic|Field required|Extra inputs|NoneType|\{|\}")
 
@@ -62,3 +65,15 @@ def sentences(message, what):
         assert not FORBIDDEN.search(line), line
         assert len(line) < 500, line
     return lines
+
+
+def told(changes, name):
+    """Sentences of the error or of the warnings for a car's file with other values; none: it is accepted in silence."""
+    car = load(name)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        try:
+            car_from(changed_content(car._data, changes, "x"), car.folder, "x", warn=True)
+        except CarFileError as error:
+            return sentences(error, "x: ")
+    return [line for warning in caught for line in sentences(warning.message, "x: ")]

@@ -22,16 +22,9 @@ from mbs.vehicle.checks.equilibrium import Rest, settled
 from mbs.vehicle.command import main
 from mbs.vehicle.errors import CarWarning
 from mbs.vehicle.summary import summary
+from tests.vehicle.content import told
 
 DEG = 57.29577951308232
-
-
-def told(name: str, changes: dict[str, Any]) -> list[str]:
-    car = load(name)
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", CarWarning)
-        car_from(changed_content(car._data, changes, "x"), car.folder, "x", warn=True)
-    return [str(w.message) for w in caught]
 
 
 def at(name: str, key: str) -> Any:
@@ -81,7 +74,7 @@ PLANTED: dict[str, tuple[str, Callable[[], dict[str, Any]], str]] = {
 @pytest.mark.parametrize("case", PLANTED)
 def test_a_mistake_of_a_car_is_told(case: str) -> None:
     name, changes, words = PLANTED[case]
-    lines = told(name, changes())
+    lines = told(changes(), name)
     assert any(words in line for line in lines), lines
 
 
@@ -94,7 +87,7 @@ def test_cars_of_the_package_lie_inside(name: str) -> None:
 
 def test_the_kind_of_a_car_narrows_its_ranges() -> None:
     changes = {"front.wheel.centre.1": 0.97, "rear.wheel.centre.1": 0.97, "vehicle.width": 2.1}
-    lines = {kind: told("hatchback", changes | {"vehicle.category": kind}) for kind in ("passenger_car", "truck")}
+    lines = {kind: told(changes | {"vehicle.category": kind}, "hatchback") for kind in ("passenger_car", "truck")}
     assert any("front track is 1.94 m; usual is 1 to 1.85 m" in line for line in lines["passenger_car"])
     assert not any("track is" in line for line in lines["truck"])
 

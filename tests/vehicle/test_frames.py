@@ -227,12 +227,6 @@ def test_a_frame_comes_from_calculix(small: Car, tmp_path: Path) -> None:
         np.testing.assert_allclose(runs[1][name], runs[0][name], rtol=0, atol=2e-3)  # masses that ride are at nodes
 
 
-def test_the_smallest_table_of_a_frame(small: Car) -> None:
-    """A user names files, material, tubes and damping; everything else is found."""
-    wanted = {"kind", "joints", "tubes", "masses", "material", "sections", "damping", "gauges"}
-    assert set(small._data["chassis"]["frame"]) == wanted
-
-
 @pytest.mark.parametrize(
     ("file", "old", "new", "sentence"),
     [

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable
 from functools import cache
 
@@ -11,10 +10,10 @@ import pytest
 
 import mbs
 from mbs.vehicle import CarFileError, load
-from mbs.vehicle.car import Car, car_from
+from mbs.vehicle.car import Car
 from mbs.vehicle.chosen_ports import chosen_ports
 from tests.elements.harness import Element
-from tests.vehicle.column_car import column_car
+from tests.vehicle.column_car import column_car, rigid_chassis
 
 WHEELS = ("FL", "FR", "RL", "RR")
 STEP = 0.002
@@ -23,10 +22,7 @@ STEP = 0.002
 @cache
 def rigid() -> Car:
     """The prototype without the flexible frame."""
-    prototype = load("prototype")
-    data = copy.deepcopy(prototype._data)
-    del data["chassis"]["frame"]
-    return car_from(data, prototype.folder, "car 'prototype'")
+    return rigid_chassis()
 
 
 @cache
