@@ -138,7 +138,7 @@ def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> 
             if (out / "measures.json").exists() and len(rows(out)) > 2:
                 break
             time.sleep(0.2)
-        assert process.poll() is None
+        assert process.poll() is None, process.communicate()[1]
         os.killpg(process.pid, signal.SIGINT)
         told, error = process.communicate(timeout=60.0)
     finally:
