@@ -1,7 +1,5 @@
 """Builds the FMUs of a scene in a clone: ``python build_fmu.py`` is ``ali3 build``."""
 
-from __future__ import annotations
-
 import sys
 
 from fmu_src.build.command import main

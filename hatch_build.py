@@ -4,8 +4,6 @@ The kernel is compiled by the package `ziglang`. The page needs Node of the pack
 asks for: an editable installation builds the page on its first use.
 """
 
-from __future__ import annotations
-
 import importlib.util
 from pathlib import Path
 from types import ModuleType

@@ -4,8 +4,6 @@ The version stands in pyproject.toml; the tag, the section of CHANGELOG.md, CITA
 must agree with it. Without a tag, only the places that must agree at any time are compared.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path

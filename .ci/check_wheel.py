@@ -1,7 +1,5 @@
 """Whether the wheel works by itself: run where it is installed, away from the clone and without Node on the path."""
 
-from __future__ import annotations
-
 import importlib.util
 import shutil
 import sys

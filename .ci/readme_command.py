@@ -1,7 +1,5 @@
 """One of the two commands of README.md as it stands there: ``python .ci/readme_command.py 1`` or ``2``."""
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path

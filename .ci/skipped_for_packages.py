@@ -4,8 +4,6 @@ LOG is the output of pytest with ``-ra``. The environment of the test command ha
 once more where all are installed.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The console command as a module: ``python -m ali3``."""
 
-from __future__ import annotations
-
 import sys
 
 from ali3.search_path import forget_current_folder

@@ -1,7 +1,5 @@
 """What stands in an alias file, names that another program has for our variables, and in those that it extends."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Arrays of NumPy (``.npy``, ``.npz``), whose headers are held against what is there before they take memory."""
 
-from __future__ import annotations
-
 import io
 import math
 import os

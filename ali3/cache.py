@@ -1,7 +1,5 @@
 """Where commands keep what they have made and can make again."""
 
-from __future__ import annotations
-
 import atexit
 import functools
 import os

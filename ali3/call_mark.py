@@ -1,7 +1,5 @@
 """What a process was asked last, kept in a file of its folder so that its end does not take it away."""
 
-from __future__ import annotations
-
 import mmap
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """How charts look: colours, fonts and lines; needs no matplotlib."""
 
-from __future__ import annotations
-
 from typing import Any
 
 # Okabe and Ito's palette: distinguishable with any colour vision.

@@ -1,7 +1,5 @@
 """How charts are written."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import warnings

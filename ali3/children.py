@@ -1,7 +1,5 @@
 """Processes that this program has started: who ends them, and how they have ended."""
 
-from __future__ import annotations
-
 import signal
 import sys
 from collections.abc import Iterator

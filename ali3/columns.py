@@ -1,7 +1,5 @@
 """Many texts for a person: rows in columns, the first names of a list."""
 
-from __future__ import annotations
-
 from collections.abc import Container, Iterable, Sequence
 
 

@@ -1,7 +1,5 @@
 """The console command ``ali3``: one table of subcommands, each a module with a function ``main``."""
 
-from __future__ import annotations
-
 import argparse
 import importlib
 import sys

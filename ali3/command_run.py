@@ -1,7 +1,5 @@
 """Runs the work of a command: errors become one sentence, Ctrl-C one line, and the exit code says how it ended."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Callable, Sequence

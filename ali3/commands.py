@@ -1,7 +1,5 @@
 """The subcommands of ali3: name, module, and the extra that it needs."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 

@@ -1,7 +1,5 @@
 """Where cones stand beside the lanes of a track."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from ali3.iso_3888 import Gate

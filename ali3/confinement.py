@@ -1,7 +1,5 @@
 """Processes that see no more of the machine than they need: by bubblewrap, on Linux (option ``--confined``)."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """How many processes are worth running at a time."""
 
-from __future__ import annotations
-
 import os
 
 

@@ -1,7 +1,5 @@
 """Decimal numbers as text."""
 
-from __future__ import annotations
-
 import argparse
 import math
 import re

@@ -1,7 +1,5 @@
 """Errors that a command shows to its user as one sentence."""
 
-from __future__ import annotations
-
 
 class UserError(Exception):
     """Something the user can put right; the message says what."""

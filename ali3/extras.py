@@ -1,7 +1,5 @@
 """Which extra of the installation brings a package: read from the metadata that pyproject.toml becomes."""
 
-from __future__ import annotations
-
 import re
 import sys
 from importlib.metadata import PackageNotFoundError, packages_distributions, requires

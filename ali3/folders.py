@@ -1,7 +1,5 @@
 """Folders that are written whole or not at all, and those of a cache that are used no more."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import time

@@ -4,8 +4,6 @@ A frame is a head (kind, bytes of the text, bytes behind it), the text, and the 
 of which type the value is to be, and gets that type or an error.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import json
 import struct

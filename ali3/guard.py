@@ -3,8 +3,6 @@
 On Linux the process is forked from its guard, to which all that it starts is given when what has started it ends.
 """
 
-from __future__ import annotations
-
 import ctypes
 import os
 import select

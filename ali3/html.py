@@ -3,8 +3,6 @@
 Reports have one style sheet, ``report.css``.
 """
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import html

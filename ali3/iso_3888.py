@@ -1,7 +1,5 @@
 """The tracks of ISO 3888: lanes that hosts drive through and judge, and beside which worlds draw cones."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import accumulate
 from typing import Literal

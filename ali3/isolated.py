@@ -4,8 +4,6 @@ Each has a folder, a session and descriptors of its own, and limits for time, me
 to do by pickles, and answers by frames (`ali3.frames`): a library in it may write what it likes.
 """
 
-from __future__ import annotations
-
 import os
 import pickle
 import signal

@@ -1,7 +1,5 @@
 """Reads JSON files that others wrote, as `ali3.reading` does others."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections import Counter

@@ -1,7 +1,5 @@
 """Limits of what is read, which one environment variable raises: all of them by one factor."""
 
-from __future__ import annotations
-
 import math
 import os
 from contextlib import suppress

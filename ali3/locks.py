@@ -1,7 +1,5 @@
 """Folders that one program has for itself."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """Low-pass filters for recorded signals that shift nothing in time."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.signal import butter, sosfiltfilt

@@ -1,7 +1,5 @@
 """Files that a file names are read only where they lie below one folder, and only so many."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Options that several commands have: each has one name, one form and one meaning in all of them."""
 
-from __future__ import annotations
-
 import argparse
 import re
 import sys

@@ -1,7 +1,5 @@
 """Parameter sets: what SSV files of the SSP standard hold."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from hashlib import sha256

@@ -1,7 +1,5 @@
 """Processes: how others are named and begun, and what memory this one may take."""
 
-from __future__ import annotations
-
 import mmap
 import sys
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Reads parameter sets, checked by the XML schema of the standard."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterable

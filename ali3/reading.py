@@ -4,8 +4,6 @@ A pipe or a device would be waited for or read without end, and lists that are n
 of very many parts stop the parsers or the programs behind them.
 """
 
-from __future__ import annotations
-
 import codecs
 import math
 import os

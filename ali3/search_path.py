@@ -1,7 +1,5 @@
 """Keeps files of the user out of the search path of modules."""
 
-from __future__ import annotations
-
 import os
 import sys
 

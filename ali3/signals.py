@@ -1,7 +1,5 @@
 """What ends a program from outside: Ctrl-C, `timeout`, a container, a terminal that is closed."""
 
-from __future__ import annotations
-
 import os
 import signal
 import threading

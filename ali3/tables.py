@@ -1,7 +1,5 @@
 """Reads tables of text (CSV) that others wrote: what a line, a cell and a number is, is said here once."""
 
-from __future__ import annotations
-
 import csv
 import math
 import os

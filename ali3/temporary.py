@@ -1,7 +1,5 @@
 """Temporary folders that are removed with the program that made them, however it ends."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import sys

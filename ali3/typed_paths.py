@@ -1,7 +1,5 @@
 """Key paths of a typed file, seen in its types: which table stands where, and what a key must be."""
 
-from __future__ import annotations
-
 import types
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, Literal, Union, get_args, get_origin

@@ -1,7 +1,5 @@
 """From what the types of a file refuse to sentences: key path, value, and what would be right."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 

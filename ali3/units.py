@@ -4,8 +4,6 @@ Files of ours and of FMI have them as in `UNITS`, such as ``m/s2`` and ``N.m``; 
 `typeset`.
 """
 
-from __future__ import annotations
-
 import argparse
 import math
 import re

@@ -1,7 +1,5 @@
 """What comes out of a packed file is measured before, or while, it is taken into memory."""
 
-from __future__ import annotations
-
 import gzip
 import io
 import os

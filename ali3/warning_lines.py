@@ -1,7 +1,5 @@
 """Warnings for a user as lines."""
 
-from __future__ import annotations
-
 import sys
 import warnings
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Values and sentences as a message shows them: in one line, and cut where they are long."""
 
-from __future__ import annotations
-
 import datetime
 import math
 import re

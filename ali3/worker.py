@@ -3,8 +3,6 @@
 When its input is closed, because who asked has ended, it ends in the middle of a task too.
 """
 
-from __future__ import annotations
-
 import os
 import pickle
 import queue

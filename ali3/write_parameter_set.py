@@ -1,7 +1,5 @@
 """Writes parameter sets, by `pyssp_standard`."""
 
-from __future__ import annotations
-
 import os
 from importlib.metadata import version
 

@@ -1,7 +1,5 @@
 """How lxml tells that memory was not enough."""
 
-from __future__ import annotations
-
 
 def is_lack_of_memory(error: Exception) -> bool:
     """Whether a failed reading of XML is a failed allocation: lxml knows neither the fault nor the line then."""

@@ -1,7 +1,5 @@
 """List the commands: ``python -m benchmarks``."""
 
-from __future__ import annotations
-
 import ast
 import sys
 from pathlib import Path

@@ -8,8 +8,6 @@ their mean. All make the same steps of the same manoeuvres in turn; of three rou
 which threads had a core. What is not installed is left out with a word.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import os
 import sys

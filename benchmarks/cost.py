@@ -1,7 +1,5 @@
 """What a step costs: ``python -m benchmarks.cost PART``: instructions, growth, worst steps, many cars a core."""
 
-from __future__ import annotations
-
 import json
 import sys
 import tempfile

@@ -6,8 +6,6 @@ are drawn again, and their words compared: titles, axes, curves, summaries. What
 into the pages themselves; tables that no other command makes, and these charts, are written here.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys

@@ -1,7 +1,5 @@
 """What FMUs cost: ``python -m benchmarks.fmu PART``: calls, WebAssembly, cars in Python, studies of many runs."""
 
-from __future__ import annotations
-
 import sys
 import tempfile
 from argparse import Namespace

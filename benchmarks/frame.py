@@ -1,7 +1,5 @@
 """Frames of cars, of tubes and beams: ``python -m benchmarks.frame PART``: stiffness, loads, CalculiX, pictures."""
 
-from __future__ import annotations
-
 import sys
 from argparse import Namespace
 from functools import partial

@@ -6,8 +6,6 @@ then is right, and is a false alarm elsewhere; runs between 4.5 and 5.5 % count 
 for random cases Newton and Euler's equations under DOP853, for cars and flexible bodies two methods in short steps.
 """
 
-from __future__ import annotations
-
 import sys
 from argparse import Namespace
 from functools import partial

@@ -3,8 +3,6 @@
 A map over step and penalty (or its counterpart) for each method and scene: fine, wrong, refused or diverged.
 """
 
-from __future__ import annotations
-
 import sys
 from argparse import Namespace
 from collections.abc import Sequence

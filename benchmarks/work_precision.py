@@ -1,7 +1,5 @@
 """Error against time: ``python -m benchmarks.work_precision PART``: methods, tolerances, other engines."""
 
-from __future__ import annotations
-
 import sys
 from argparse import Namespace
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The documentation site: ``python -m sphinx -W --keep-going -b html docs out/site``."""
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """ALi3: real-time multibody dynamics. Describe a `Model`, `compile` it to a `System`, step it."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from mbs.common.lazy_modules import lazy_modules

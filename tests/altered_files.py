@@ -1,7 +1,5 @@
 """Files that are cut, of which bytes or lines are changed, or in which values have another type; by a seed."""
 
-from __future__ import annotations
-
 import random
 import re
 

@@ -1,7 +1,5 @@
 """Systems with one array changed, for what a loader must refuse."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

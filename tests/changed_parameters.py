@@ -9,8 +9,6 @@ Runs are compared output by output: the largest difference over the larger of 1 
 says about itself is left out.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

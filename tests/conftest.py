@@ -2,8 +2,6 @@
 processes; the order of the tests, and one line for those that need a browser.
 """
 
-from __future__ import annotations
-
 import functools
 import gc
 import os

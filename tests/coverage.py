@@ -6,8 +6,6 @@ The C part is that of the kernel and needs gcc with gcov; the elements that the 
 themselves are not counted there.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -8,8 +8,6 @@ format. It works, or says in one sentence which extra is missing or what is wron
 is there. The files are made here, which needs the extra `test`.
 """
 
-from __future__ import annotations
-
 import argparse
 import shlex
 import shutil

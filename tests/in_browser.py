@@ -1,7 +1,5 @@
 """What playwright does by means that the policy of our pages forbids: waits, and pictures without instruments."""
 
-from __future__ import annotations
-
 import gc
 import io
 import os

@@ -1,7 +1,5 @@
 """Commands run in the process of the tests: what their programs print, without a start of Python for each."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable, Sequence
 from contextlib import redirect_stderr, redirect_stdout

@@ -1,7 +1,5 @@
 """The kinds of FMU by what they share: the one list for all tests."""
 
-from __future__ import annotations
-
 from fmu_src.build.build import KINDS
 
 ALL = tuple(KINDS)

@@ -1,7 +1,5 @@
 """Files of Python outside of packages, as modules."""
 
-from __future__ import annotations
-
 import importlib.util
 from pathlib import Path
 from types import ModuleType

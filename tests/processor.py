@@ -1,7 +1,5 @@
 """The register that says how this thread computes with floating point: MXCSR, through the C library of x86-64 Linux."""
 
-from __future__ import annotations
-
 import ctypes
 import functools
 import struct

@@ -1,7 +1,5 @@
 """Cases of a sweep, of which few are in more runs of the tests than the others."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable
 from typing import Any
 

@@ -7,8 +7,6 @@ outside an array, a null pointer). Where there is neither: undefined behaviour a
 An error ends the process that ran the test, with the line of the kernel, and the test has failed.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import shutil

@@ -1,7 +1,5 @@
 """What a drawing program computes from the part `flexible` of a scene: NumPy and the JSON alone."""
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """C that is compiled without optimisation, in a fifth of the time: for what does not depend on it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 

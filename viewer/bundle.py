@@ -1,7 +1,5 @@
 """Finds the scripts that draw: in a wheel they are files, in a clone they are built on first use and kept."""
 
-from __future__ import annotations
-
 import hashlib
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What draws recordings for the engine, which finds it by the entry point ``page`` of ``ali3.drawers``."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path

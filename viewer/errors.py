@@ -1,7 +1,5 @@
 """The public names of errors of what is drawn, and what helps where the page that draws is missing."""
 
-from __future__ import annotations
-
 from ali3.scene.errors import SceneError, ViewerError
 
 __all__ = ["REMEDY", "SceneError", "ViewerError"]

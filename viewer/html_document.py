@@ -1,7 +1,5 @@
 """One HTML file with the script of the viewer and data."""
 
-from __future__ import annotations
-
 import json
 from html import escape
 

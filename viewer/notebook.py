@@ -1,7 +1,5 @@
 """Recordings in a notebook: the page in a frame of the cell."""
 
-from __future__ import annotations
-
 import html
 from collections.abc import Mapping, Sequence
 from typing import Any

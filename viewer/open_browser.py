@@ -1,7 +1,5 @@
 """The browser of the user, which shows a page."""
 
-from __future__ import annotations
-
 import os
 import sys
 import webbrowser

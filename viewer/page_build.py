@@ -1,7 +1,5 @@
 """Builds the script of the page from its sources, with Node and the packages of npm: what a clone does."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import os

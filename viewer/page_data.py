@@ -1,7 +1,5 @@
 """Recordings as the JSON of a page: scenes once each, columns as compressed blocks of numbers."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """Writes recordings as one HTML file that opens from disk and needs nothing else."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Pictures of recordings: PNG files at single times."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What the player of a page starts with."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple

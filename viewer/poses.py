@@ -1,7 +1,5 @@
 """Poses of the frames of a scene over time, from the columns of a recording."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """The JSON Schema of a scene, from its types: ``python -m viewer.scene_schema`` writes it."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The page of the driving simulator: one HTML file that connects to the program that serves it."""
 
-from __future__ import annotations
-
 from viewer.html_document import html_document
 
 _CONNECT = "'self'"

@@ -5,8 +5,6 @@ it follows from, and the common mistakes of its kind of file with what the value
 compares, `Echo.text` prints. What a reader returns is `Understood`: its `summary()` is the table.
 """
 
-from __future__ import annotations
-
 from ali3.echo.quantity import WIDEST, Quantity, Range, quantities_of
 from ali3.echo.range_check import Echo, Mistake, Value, far_values
 from ali3.echo.understood import Understood, echo_of, summary_of, tables_of

@@ -1,7 +1,5 @@
 """A quantity by which an engineer knows a thing: its name, unit, and the ranges in which things of its kind lie."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Mapping
 from dataclasses import dataclass

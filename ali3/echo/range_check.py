@@ -1,7 +1,5 @@
 """Values of quantities of a file, compared with their ranges, and what is told of those outside."""
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections import Counter

@@ -1,7 +1,5 @@
 """What readers return says what was understood of it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import singledispatch

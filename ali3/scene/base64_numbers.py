@@ -1,7 +1,5 @@
 """Arrays of a scene as text: base64 of little-endian numbers of 4 bytes, or of single bytes, row by row."""
 
-from __future__ import annotations
-
 import base64
 import binascii
 from typing import Any

@@ -1,7 +1,5 @@
 """What draws recordings: pages, notebooks, glTF files, films."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping, Sequence
 from importlib.metadata import entry_points

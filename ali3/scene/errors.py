@@ -1,7 +1,5 @@
 """Errors of what is drawn, each one sentence for the user."""
 
-from __future__ import annotations
-
 from ali3.errors import UserError
 
 

@@ -1,7 +1,5 @@
 """Roads of a scene: what the ground looks like."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

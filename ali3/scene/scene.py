@@ -1,7 +1,5 @@
 """Reads and checks scenes: JSON tables of frames that columns move, shapes, arrows and roads."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from os import PathLike
 from typing import Any

@@ -1,7 +1,5 @@
 """Which columns the parts of a scene read, and a scene without the parts whose columns are not there."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

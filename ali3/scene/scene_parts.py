@@ -1,7 +1,5 @@
 """Which frames the parts of a scene lie on."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What holds between several places of a scene: names that are used exist, arrays have their sizes, axes are axes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any

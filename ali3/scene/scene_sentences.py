@@ -1,7 +1,5 @@
 """From what the types of a scene refuse to sentences: place, value, and what would be right."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

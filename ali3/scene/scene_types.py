@@ -1,7 +1,5 @@
 """The format of a scene as types: what stands in which place, and of what kind it is."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag

@@ -1,7 +1,5 @@
 """Values that stand in scenes: numbers, texts, vectors, arrays as text."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field

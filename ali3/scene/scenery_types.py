@@ -1,7 +1,5 @@
 """Scenery: what stands and is painted along a road and is only seen; no wheel feels it."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Fewer times of a recording: which are kept, and how well the motion between them is the recorded one."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What was written of recordings: where it is, how large, and what there is to say of it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Index-1 Lagrange equations, stabilised after Baumgarte; by LU, or as a minimum-norm problem."""
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

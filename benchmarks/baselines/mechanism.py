@@ -1,7 +1,5 @@
 """A System as dense arrays, q'' = f with constraints, for the classical methods."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -5,8 +5,6 @@ mechanical systems, 1988; projections: E. Bayo, R. Ledesma, Augmented Lagrangian
 for constrained multibody dynamics, 1996.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import scipy.linalg
 

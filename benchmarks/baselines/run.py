@@ -1,7 +1,5 @@
 """Run a classical method over a System at a fixed step, or under one of scipy's integrators."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Velocity transformation with independent coordinates chosen once, at the start."""
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

@@ -5,8 +5,6 @@ car's reference point and its place in the reference at the same time, m, or ove
 largest error over the largest load of the manoeuvre. Times are the least processor time of the kernel.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 from argparse import Namespace

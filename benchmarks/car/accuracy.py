@@ -1,7 +1,5 @@
 """Accuracy and speed of a car over its manoeuvres: rows, verdict, tables of the pages."""
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Steps of scenes by the kernel of this checkout and by that of another one, in turn on the same machine."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

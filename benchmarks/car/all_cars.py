@@ -7,8 +7,6 @@ times real time of the slowest manoeuvre, by processor time; instructions of a s
 installed.
 """
 
-from __future__ import annotations
-
 import json
 import tempfile
 from collections.abc import Sequence

@@ -5,8 +5,6 @@ stiffens half an element at each of them, an error of first order in the length 
 on three meshes, each twice as fine as the one before, and extrapolated (2 f(h/2) - f(h) of the two finest).
 """
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

@@ -1,7 +1,5 @@
 """Wheel loads of a car that climbs an edge in neutral: a kerb, and what partners at its road port may answer."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 

@@ -1,7 +1,5 @@
 """How much model a car needs: errors and cost of the car's levels of fidelity, the cheapest for a tolerance, chart."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

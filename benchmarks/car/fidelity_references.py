@@ -1,7 +1,5 @@
 """The references of the comparison of fidelities, from the finest model with a small step."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ali3.files import write_text

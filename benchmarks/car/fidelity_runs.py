@@ -1,7 +1,5 @@
 """The manoeuvres on which fidelities are compared, their references and the errors against them."""
 
-from __future__ import annotations
-
 import time
 from functools import cache
 from pathlib import Path

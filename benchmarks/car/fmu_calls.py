@@ -1,7 +1,5 @@
 """Cost of the calls of an FMU, from a C program and through FMPy."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import time

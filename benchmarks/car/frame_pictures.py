@@ -1,7 +1,5 @@
 """Pictures of frames: with their gauges; in the kerb test, deformed and coloured by stress."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Torsional stiffness and natural frequencies of the frame of a car."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Tables of the page of finite elements, all of the prototype's frame: mass models, modes, and CalculiX beside them."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Steps of scenes by the kernel's loops and by code that was generated for their Systems, in turn."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path

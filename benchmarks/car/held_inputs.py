@@ -1,7 +1,5 @@
 """Errors of a car's FMU over the communication step: inputs held, on their derivatives, and asked for within steps."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

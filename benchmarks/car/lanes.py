@@ -1,7 +1,5 @@
 """Variants of a System one after the other, in lanes and in threads: the same steps in turn, and what they take."""
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Callable, Sequence

@@ -5,8 +5,6 @@ interfaces are snapshots. Their principal combinations in the energy norm of the
 fidelity load_paths has their deformations as modes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

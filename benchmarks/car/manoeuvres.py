@@ -3,8 +3,6 @@
 They are the prototype's; where another car wants other pedals or steering there is a file in its folder.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path

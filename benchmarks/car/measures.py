@@ -3,8 +3,6 @@
 Definitions after ISO 8855 and, for the steady turn, ISO 4138 (constant speed, slowly rising steering-wheel angle).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

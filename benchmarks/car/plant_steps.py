@@ -6,8 +6,6 @@ The ways make the same steps from the same starts in turn, again and again. Step
 time of each step, which a busy machine hardly changes; processor time is the mean, of this process.
 """
 
-from __future__ import annotations
-
 import shutil
 import tempfile
 import time

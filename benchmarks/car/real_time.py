@@ -4,8 +4,6 @@ At each fidelity and step it is driven once without a limit of the iterations of
 is processor time of the thread, which leaves out what others do in between.
 """
 
-from __future__ import annotations
-
 import tempfile
 import warnings
 from argparse import Namespace

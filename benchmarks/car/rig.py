@@ -5,8 +5,6 @@ so that inertia counts for nothing. All numbers are slopes at the place of the d
 what the dampers add there is the same on both sides of the drawing.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Wheel loads at a kerb and at faces of grids, which a car climbs in neutral."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

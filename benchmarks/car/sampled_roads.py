@@ -1,7 +1,5 @@
 """How far grids of OpenCRG files are from the files, by their spacing."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

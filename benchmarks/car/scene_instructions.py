@@ -1,7 +1,5 @@
 """Instructions of a step of a scene, by the kernel alone in a small program."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """Forces of the suspension on the frame of the prototype car at rest, from the equilibrium of each corner alone."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What every step of a wild drive of an FMU costs: processor time of its thread, iterations, what a limit left."""
 
-from __future__ import annotations
-
 import gc
 import time
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Cars whose suspensions are tables against those with links: errors, cost, and the table of `docs/cars.md`."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from functools import cache

@@ -1,7 +1,5 @@
 """Reference trajectories of cars: made, read, and the errors against them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import TypeAlias
 

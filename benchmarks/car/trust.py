@@ -1,7 +1,5 @@
 """Errors by steps in a period, by speed over a kerb and by acceleration: what limits a run can be trusted in."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any

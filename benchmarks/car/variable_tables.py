@@ -1,7 +1,5 @@
 """Tables of the variables of the cars that come with the package, made from the cars."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence

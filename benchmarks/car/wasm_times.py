@@ -1,7 +1,5 @@
 """What a step of the car's FMU costs as WebAssembly: native, wasmtime, Node, Chromium, by turns."""
 
-from __future__ import annotations
-
 import gzip
 import importlib.metadata
 import struct

@@ -1,7 +1,5 @@
 """Scenes without an exact motion: each with what is right and from where a run counts as wrong."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Runs to a tolerance: what each method and the choice of the method took and reached."""
 
-from __future__ import annotations
-
 import time
 import warnings
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Families of random cases: a drawing by chance and its true motion, a function each."""
 
-from __future__ import annotations
-
 import atexit
 import shutil
 import tempfile

@@ -1,7 +1,5 @@
 """Cost of the N-four-bar and of the car's frame over their size, with fitted exponents."""
 
-from __future__ import annotations
-
 import statistics
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The true error of a run beside its estimate, and a summary of right, wrong and warned runs."""
 
-from __future__ import annotations
-
 import time
 import warnings
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """What `benchmarks.honesty` runs: each scene with its judged sensors and their true values."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The methods of the kernel by the names of the charts, with the settings that let each show its order."""
 
-from __future__ import annotations
-
 import mbs
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import METHODS as KERNEL

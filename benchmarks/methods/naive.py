@@ -1,7 +1,5 @@
 """Models without savings: every body with the coordinates of its frame, every joint equation a row."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """Random drives of the cars over kerbs and drops, with references by another method."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """Random cases of the families with their true errors: whether runs tell when they are wrong, and only then."""
 
-from __future__ import annotations
-
 import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence

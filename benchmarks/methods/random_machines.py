@@ -1,7 +1,5 @@
 """Random machines with events: belts that stick and slip, brakes, plays, cams that lift off, impacts, stops."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Random planar and spatial mechanisms: driven, sprung, through dead centres."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Callable
 

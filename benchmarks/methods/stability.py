@@ -1,7 +1,5 @@
 """What becomes of a run at a step and a penalty (or its counterpart): fine, wrong, refused or diverged."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The maps of `benchmarks.stability`: a panel per method, step across, penalty or its counterpart up."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """How far the default settings lie inside the fine region of the maps of `benchmarks.stability`."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

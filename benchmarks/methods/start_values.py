@@ -1,7 +1,5 @@
 """Newton iterations of ALi3-P with the paper's start value of a step, and with that from past steps."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from benchmarks.car import manoeuvres

@@ -1,7 +1,5 @@
 """Runs of a study on Dask, measured: overhead of a run, memory, disk, tasks, rows, starts."""
 
-from __future__ import annotations
-
 import gc
 import multiprocessing
 import subprocess

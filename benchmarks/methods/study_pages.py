@@ -1,7 +1,5 @@
 """Tables of `docs/scale.md`: what was measured of studies."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Error against time: every method over a range of steps and tolerances, beside other engines."""
 
-from __future__ import annotations
-
 import statistics
 from collections.abc import Callable, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """The chart of `benchmarks.work_precision`: error against wall time and against factorizations."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

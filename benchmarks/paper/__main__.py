@@ -5,8 +5,6 @@ kerb with the paper's size and time beside it (293 variables, 239 constraints, 6
 at most; 48 s for the 15 s), by its smooth guide or by one that is made of measured accelerations.
 """
 
-from __future__ import annotations
-
 import sys
 from argparse import Namespace
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """The four-bar with assembly defect against geometrically exact beams: differences, largest moments, chart."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

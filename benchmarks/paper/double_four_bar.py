@@ -1,7 +1,5 @@
 """The N-four-bar through its singular positions: rows over methods and steps, the paper's Table 1, chart."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Sequence
 from pathlib import Path

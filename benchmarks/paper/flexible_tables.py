@@ -1,7 +1,5 @@
 """Tables of cars with flexible frames: sizes by fidelity, counts and peaks of the kerb test."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The paper's test on the kerb: peaks of the bending moments, what is left of them at the end, cost."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The PUMA 560 whose hand is pinned and released: errors, energy at the jumps, the share of each stage."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from typing import Any

@@ -4,8 +4,6 @@ All are drawn by a Chromium without a window. Needs a Chromium, Chrome or Edge, 
 ``pip install "ali3[pictures,viewer]"``, the simulator also the extra ``simulator``.
 """
 
-from __future__ import annotations
-
 import sys
 from argparse import Namespace
 from functools import partial

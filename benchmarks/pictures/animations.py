@@ -1,7 +1,5 @@
 """Animations of the scenes for the documentation: what is run, and how it is filmed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path

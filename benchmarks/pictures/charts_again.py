@@ -1,7 +1,5 @@
 """Charts of the pages, each drawn again by what draws it there."""
 
-from __future__ import annotations
-
 import contextlib
 import re
 import shlex

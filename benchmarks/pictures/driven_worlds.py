@@ -1,7 +1,5 @@
 """Cars driven in worlds of the simulator, for films."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from contextlib import redirect_stdout

@@ -1,7 +1,5 @@
 """Pages as people see them, at one instant: the same pictures with the script of another checkout, pixel by pixel."""
 
-from __future__ import annotations
-
 import io
 import json
 import re

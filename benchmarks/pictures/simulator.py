@@ -1,7 +1,5 @@
 """The simulator as it is driven through its pages: pictures with the instruments of this machine."""
 
-from __future__ import annotations
-
 import io
 import re
 import subprocess

@@ -1,7 +1,5 @@
 """Section forces in the middle of the coupler of the four-bar with assembly defect, by `exudyn_beams.py`."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

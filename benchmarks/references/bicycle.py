@@ -4,8 +4,6 @@ Published: J. P. Meijaard, J. M. Papadopoulos, A. Ruina, A. L. Schwab, "Lineariz
 and steer of a bicycle: a benchmark and review", Proceedings of the Royal Society A 463, 2007, 1955-1982.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import NDArray

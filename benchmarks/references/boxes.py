@@ -1,7 +1,5 @@
 """A box that falls on the ground with its corners: Newton and Euler's equations under DOP853, without the engine."""
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The scenes of the charts: how each is built, what is compared, against what, and over which steps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache

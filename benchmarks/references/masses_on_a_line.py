@@ -1,7 +1,5 @@
 """Masses on a line between springs, stops, frictions and drives: their motion under DOP853, without the engine."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 

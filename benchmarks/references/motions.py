@@ -2,8 +2,6 @@
 minimum-norm accelerations give at tolerance 1e-12 (no augmented Lagrangian is involved).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -3,8 +3,6 @@ share no coordinates, no equations and no integrator with the engine (Haug, "Com
 6.3 and 11.3).
 """
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ from the rolling joints of the engine. Dense NumPy on the arrays of a System,
 points of knife-edge wheels.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The frame of the commands: arguments, table, machine line, JSON, chart and page; the same for every measurement."""
 
-from __future__ import annotations
-
 import json
 import sys
 import threading

@@ -1,7 +1,5 @@
 """Figures and charts of the pages held against what is made again: counts and errors, panels and words, never times."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """An FMU's WebAssembly module in wasmtime, with the calls of FMPy's slave and nothing of the page's JavaScript."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """Where, when and with what something was measured."""
 
-from __future__ import annotations
-
 import os
 import platform
 import time

@@ -1,7 +1,5 @@
 """Tables in the text of a page: between ``<!-- begin NAME -->`` and ``<!-- end NAME -->``."""
 
-from __future__ import annotations
-
 import re
 import textwrap
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Rows as aligned columns on the terminal and as JSON files; columns of numbers as CSV files with comments."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Repeated timing of an action; that of the steps of a run is `mbs.simulation.step_time`."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Runs that are too coarse on purpose."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager

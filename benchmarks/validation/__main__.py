@@ -5,8 +5,6 @@ log with its alias file and car. Simple models are fitted on the same seconds as
 others.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 from argparse import Namespace

@@ -9,8 +9,6 @@
   the saloon, which has masses, rates and tyres of a measured 320i; engine, gears and drag are assumed.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -6,8 +6,6 @@ hatchback is of that class and no Zoe: mass, tyres and springs are between those
 control, and the best of four drivers of the catalogue steers it.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from benchmarks.validation.published import Published

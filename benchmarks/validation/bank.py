@@ -4,8 +4,6 @@ A sensor of the lateral acceleration feels the tyres and not the weight: on a ro
 it shows the acceleration less g sin b, and, as the body rolls, a share of the acceleration more.
 """
 
-from __future__ import annotations
-
 import gzip
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Bicycle models of growing detail, many windows at once."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Measured and predicted yaw rate over seconds that were not fitted."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

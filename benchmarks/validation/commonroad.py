@@ -4,8 +4,6 @@ The references are made by `commonroad_reference`. Both are asked for the same a
 torque of the brakes; engine and air are left out here, as that model has none.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any

@@ -6,8 +6,6 @@
 Classical Runge-Kutta method of order four with steps of 0.5 ms; every 20 ms is stored.
 """
 
-from __future__ import annotations
-
 import csv
 import math
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Lateral acceleration, understeer angle and sideslip, of models and of the measurement over the same seconds."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A measured drive as equally spaced samples, and the seconds that models are fitted and judged on."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 

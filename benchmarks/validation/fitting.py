@@ -1,7 +1,5 @@
 """Fits a bicycle to windows of a drive, from several starts, and tells how far it is off elsewhere."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

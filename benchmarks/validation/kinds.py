@@ -4,8 +4,6 @@ From the numbers of the fitted seconds a model is taken to where all seconds wit
 judged on that kind: one step of Gauss and Newton (`hosts.compare.cross_validation`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """How near the multibody car is to a spin: starts beside the measured state, a small disturbance, more speed."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The multibody car in the same drive, by ``ali3 compare`` as a user calls it."""
 
-from __future__ import annotations
-
 import csv
 import json
 import math

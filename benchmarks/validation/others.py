@@ -1,7 +1,5 @@
 """Tests of others beside the drive: every figure that was published, with what the cars here do."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Figures that others have published of the same car on a straight road."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The fit of the multibody car to the drive, by ``ali3 compare --fit`` between bounds that stand in a file."""
 
-from __future__ import annotations
-
 import json
 import tempfile
 from collections.abc import Mapping, Sequence

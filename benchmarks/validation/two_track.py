@@ -1,7 +1,5 @@
 """A two-track model: loads of four wheels, brakes that differ from left to right, drive forces by load."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -8,8 +8,6 @@ in percent:
     D = b1 Fz^2 + b2 Fz, BCD = (b3 Fz^2 + b4 Fz) exp(-b5 Fz), E = b6 Fz^2 + b7 Fz + b8, C = b0 (longitudinal)
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import atan, cos, degrees, exp, pi, sin
 

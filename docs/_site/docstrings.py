@@ -1,7 +1,5 @@
 """Docstrings as they are written, in plain text with names in backticks, read as reStructuredText."""
 
-from __future__ import annotations
-
 import re
 
 from sphinx.application import Sphinx

@@ -1,7 +1,5 @@
 """The pages of `docs/driving.md` that run FMUs, made when the site is built, and the list of them."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """Tables of the pages that are made from the sources when the site is built, in place of a mark."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from functools import cache, partial

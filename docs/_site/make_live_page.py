@@ -1,7 +1,5 @@
 """Makes pages of `docs/driving.md`: ``python docs/_site/make_live_page.py NAME... OUT``."""
 
-from __future__ import annotations
-
 import csv
 import sys
 import tempfile

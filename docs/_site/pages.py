@@ -1,7 +1,5 @@
 """Pages of the site that are files elsewhere in the repository, such as the README."""
 
-from __future__ import annotations
-
 import re
 from functools import cache
 from pathlib import Path

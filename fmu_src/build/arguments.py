@@ -1,7 +1,5 @@
 """Checks of what callers of `build_fmu` give; each error is one sentence, before anything is written."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path

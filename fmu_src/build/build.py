@@ -1,7 +1,5 @@
 """From a System to an FMU file."""
 
-from __future__ import annotations
-
 import functools
 import importlib.metadata
 import re

@@ -1,7 +1,5 @@
 """Finds a car by its name or its file and compiles it in all its fidelities, with what an FMU keeps of the file."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial

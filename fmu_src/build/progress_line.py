@@ -1,7 +1,5 @@
 """One line on the terminal that says what a long build is doing."""
 
-from __future__ import annotations
-
 import sys
 import threading
 import time

@@ -1,7 +1,5 @@
 """modelDescription.xml (FMI 2.0, co-simulation) from the table of variables."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Sequence

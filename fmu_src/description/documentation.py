@@ -1,7 +1,5 @@
 """documentation/index.html: what the FMU is, its axes and all its variables."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from html import escape
 from typing import Any

@@ -1,7 +1,5 @@
 """The XML documents of an FMI 3.0 co-simulation FMU: model description, build description, terminals."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from xml.etree import ElementTree
 

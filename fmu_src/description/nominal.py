@@ -1,7 +1,5 @@
 """Typical sizes of outputs: a drive at build time, in which all inputs move moderately."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping, Sequence

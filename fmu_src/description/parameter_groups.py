@@ -5,8 +5,6 @@ it, all of them in the same way as far as declared dependencies go. Those of roa
 the road. The others move nothing: what they reach at a start are forces.
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable
 

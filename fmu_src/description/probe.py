@@ -7,8 +7,6 @@ what a force reaches is declared to depend on all parameters and the place of th
 input changes an output before the next step: the slave gives values to the kernel as that begins (`step.c`).
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Frames of a drawing moved by the sensors of its System: by pose outputs, by angles, or by points of other frames."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations

@@ -1,7 +1,5 @@
 """From the drawing of a System to the scene of its FMU."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """The scene of an FMU whose variables have the names and units of another program."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

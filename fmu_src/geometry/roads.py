@@ -1,7 +1,5 @@
 """Roads of a scene with the parameters of the FMU that move or exchange them."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """What sensors of a System read, as rows over its coordinates, so that poses are found by their meaning."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Places of shapes in frames whose origin is elsewhere."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

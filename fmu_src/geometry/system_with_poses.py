@@ -1,7 +1,5 @@
 """Systems of an FMU with what draws them as outputs: what bends, and the poses of all bodies where they are needed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

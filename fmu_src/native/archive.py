@@ -1,7 +1,5 @@
 """What every kind of FMU is packed with: identity, licence, zip. The same content gives the same bytes."""
 
-from __future__ import annotations
-
 import hashlib
 import importlib.metadata
 import json

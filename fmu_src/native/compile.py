@@ -4,8 +4,6 @@ The compiler knows an object by the place of its source. Sources are compiled in
 that other clones and environments find what one of them has compiled.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from pathlib import Path

@@ -7,8 +7,6 @@ the FMU finds them there or waits for them. Nothing that is made here becomes pa
 A successful build leaves a file beside that cache, so that the same sources are not compiled in advance again.
 """
 
-from __future__ import annotations
-
 import subprocess
 import threading
 from collections.abc import Iterator, Sequence

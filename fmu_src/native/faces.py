@@ -1,7 +1,5 @@
 """FMI 2.0 and FMI 3.0: what each packs in its own way."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 from fmu_src.description.description import Description, model_description

@@ -1,7 +1,5 @@
 """Compiles an FMU for more platforms from the sources that lie in it: no model is needed."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree

@@ -1,7 +1,5 @@
 """Packs a System, its table, the shell's libraries and sources into a native FMU of any version of FMI."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field

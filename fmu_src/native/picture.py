@@ -1,7 +1,5 @@
 """model.png: curves of a run drawn into a small picture, without a plotting library, so that its bytes repeat."""
 
-from __future__ import annotations
-
 import struct
 import zlib
 

@@ -1,7 +1,5 @@
 """The platforms an FMU is built for, by the names of FMI 2.0; where it has none, by the tuple of FMI 3.0."""
 
-from __future__ import annotations
-
 import platform
 import sys
 

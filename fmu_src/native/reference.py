@@ -3,8 +3,6 @@
 Manifest: modelica/fmi-ls-ref, 1.0.0-alpha.1; experiments: the draft of modelica/ma-hs-experiments.
 """
 
-from __future__ import annotations
-
 import contextlib
 import warnings
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """The C files of the shell: which face needs which, and where they lie in an FMU."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from mbs.kernel import build

@@ -1,7 +1,5 @@
 """The C table of an FMU, made from the table of variables."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import accumulate
 

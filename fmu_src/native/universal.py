@@ -1,7 +1,5 @@
 """Two thin Mach-O files become one universal file."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """Arrays of FMI 3.0 from the one table of variables: components of a vector become one variable."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass

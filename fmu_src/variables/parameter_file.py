@@ -1,7 +1,5 @@
 """The parameter set that lies beside an FMU: all its parameters with their defaults, for a person to edit."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Variables under the names, and in the units, of another program."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Variables of type String: the files of roads."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Texts of a model that go into the XML documents of an FMU."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """Unit names to SI base exponents and display units, as modelDescription.xml needs them."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The table of variables of an FMU: the only place where they are written. Everything else is made from it."""
 
-from __future__ import annotations
-
 import math
 import re
 import sys

@@ -1,7 +1,5 @@
 """A car that is tested: an FMU, our names for its variables, and what is set in it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property

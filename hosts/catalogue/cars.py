@@ -1,7 +1,5 @@
 """The cars of a command: FMUs and parameter sets, side by side."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """One run of the steady circle to one side: by constant radius, steering-wheel angle or speed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

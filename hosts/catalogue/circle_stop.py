@@ -1,7 +1,5 @@
 """A stop from a circle."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Reads what a standard test is from the file of its name in the folder ``standard``."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path

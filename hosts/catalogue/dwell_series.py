@@ -1,7 +1,5 @@
 """A series of runs with sine with dwell steering of growing amplitude, to one side."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Tests that are done stay in the folder of the results, so that the same command goes on with the others."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

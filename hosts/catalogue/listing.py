@@ -1,7 +1,5 @@
 """What tests there are, for a person."""
 
-from __future__ import annotations
-
 import math
 
 from ali3.units import typeset

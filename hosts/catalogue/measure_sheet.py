@@ -1,7 +1,5 @@
 """What a test yields, put together while it drives: measures, notes and plots that its file describes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """The measures of tests as files, and as a table on the terminal."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

@@ -1,7 +1,5 @@
 """Passages of a course of cones."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

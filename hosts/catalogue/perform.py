@@ -1,7 +1,5 @@
 """Does a test with a car, after all is checked that can be checked before."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Set
 from dataclasses import replace
 from typing import TypeAlias

@@ -1,7 +1,5 @@
 """What tests set up alike: a step that is fine enough, inputs that are held, words on a run that ended early."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

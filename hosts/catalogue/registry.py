@@ -1,7 +1,5 @@
 """The tests of the catalogue by name."""
 
-from __future__ import annotations
-
 import importlib
 import importlib.util
 from functools import cache

@@ -1,7 +1,5 @@
 """Steering wheel angle over steady lateral acceleration, from a slow ramp of the steering at a held speed."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

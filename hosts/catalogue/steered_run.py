@@ -1,7 +1,5 @@
 """A run in which the car is brought to its speed, and then steered by a table."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

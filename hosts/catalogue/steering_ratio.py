@@ -1,7 +1,5 @@
 """The steering ratio of a car about straight ahead, measured in a slow drive."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """When a run of a test is over before its time: the car stands, has spun, or lies on its side."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

@@ -1,7 +1,5 @@
 """One test of one car as work for a process: plain data in, a record out."""
 
-from __future__ import annotations
-
 import json
 import re
 import time

@@ -1,7 +1,5 @@
 """A measure of both sides as one."""
 
-from __future__ import annotations
-
 import math
 
 from hosts.common.display_units import shown_in

@@ -1,7 +1,5 @@
 """All checks of an FMU, each a task for a process, which a broken FMU may take down."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

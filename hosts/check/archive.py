@@ -1,7 +1,5 @@
 """Whether the archive of an FMU can be unpacked."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ali3.archives import faults_of

@@ -1,7 +1,5 @@
 """Checks of an FMU that run it: repetition, instances, states, refusals, steps of other sizes."""
 
-from __future__ import annotations
-
 import math
 import time
 from threading import Thread

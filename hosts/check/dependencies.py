@@ -1,7 +1,5 @@
 """Checks of what an FMU says that its outputs depend on, and by how much: by setting inputs a little otherwise."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Set
 from typing import Any
 from xml.etree import ElementTree

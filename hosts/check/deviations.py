@@ -1,7 +1,5 @@
 """How far the outputs of a run are from a table of reference results, and what they would agree with."""
 
-from __future__ import annotations
-
 import fnmatch
 import math
 from collections.abc import Mapping, Sequence

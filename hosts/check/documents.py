@@ -1,7 +1,5 @@
 """Checks of an FMU that need no run: documents, binaries, units, what a tool could want."""
 
-from __future__ import annotations
-
 import ctypes
 from xml.etree import ElementTree
 

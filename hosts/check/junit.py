@@ -3,8 +3,6 @@
 The elements and attributes are those that pytest writes (its schema ``xunit2``) and servers agree on.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass

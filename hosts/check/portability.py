@@ -1,7 +1,5 @@
 """Checks of what breaks one host and not another: types, units, time, careless calls, long steps."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from collections import Counter

@@ -1,7 +1,5 @@
 """Check of the settings of the process that runs an FMU: they are as they were after each kind of call."""
 
-from __future__ import annotations
-
 import ctypes
 import locale
 import os

@@ -1,7 +1,5 @@
 """Checks of what an FMU does to the process that runs it: memory, threads, files, settings, messages, time."""
 
-from __future__ import annotations
-
 import ctypes
 import gc
 import os

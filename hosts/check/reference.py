@@ -1,7 +1,5 @@
 """``ali3 check FMU --reference CSV|DIR``: an FMU against tables of reference results."""
 
-from __future__ import annotations
-
 import fnmatch
 import math
 from collections.abc import Generator, Iterable, Iterator, Sequence

@@ -1,7 +1,5 @@
 """SARIF files of a check, which code hosts and editors show: version 2.1.0 of OASIS."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from importlib.metadata import version

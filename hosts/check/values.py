@@ -1,7 +1,5 @@
 """Checks of single values: start values, what was set, ranges, what is read twice, and the end."""
 
-from __future__ import annotations
-
 import math
 from typing import Literal
 

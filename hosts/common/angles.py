@@ -1,7 +1,5 @@
 """What the difference of two angles is: angles that are whole turns apart are the same."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Arguments of functions that people call from Python, held against what they must be."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

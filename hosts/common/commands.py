@@ -1,7 +1,5 @@
 """Other commands of ali3, which hosts run in a process of their own: they know what hosts do not."""
 
-from __future__ import annotations
-
 import subprocess
 from collections.abc import Callable
 

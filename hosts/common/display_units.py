@@ -1,7 +1,5 @@
 """The units in which reports show what is computed in those of the SI: degrees, deg/g, km/h; tables of data keep SI."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from ali3.units import known_unit, typeset

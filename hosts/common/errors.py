@@ -1,7 +1,5 @@
 """The error a host shows to its user as one sentence."""
 
-from __future__ import annotations
-
 from ali3.command_run import NOT_GOOD
 from ali3.errors import UserError
 

@@ -1,7 +1,5 @@
 """Values that a user writes, on the command line or in a file."""
 
-from __future__ import annotations
-
 import math
 from numbers import Real
 from typing import Any, TypeAlias

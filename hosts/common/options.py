@@ -1,7 +1,5 @@
 """Options of the command line that every host has: the FMU, and what is set in it before it starts."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import dataclass
 from pathlib import Path

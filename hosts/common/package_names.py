@@ -1,7 +1,5 @@
 """Names of what comes with the package, so that a misspelt one is told before anything is built for it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import ali3

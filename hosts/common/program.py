@@ -1,7 +1,5 @@
 """Which program makes the runs: the same everywhere, so that the bits are the same."""
 
-from __future__ import annotations
-
 import hashlib
 import platform
 from functools import cache

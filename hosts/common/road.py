@@ -1,7 +1,5 @@
 """The option ``--road``: a road for the parameter ``road.file`` of an FMU."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import math

@@ -1,7 +1,5 @@
 """Values as words of a command line, for commands that repeat what was done."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from hosts.common.numbers import Value, text_of

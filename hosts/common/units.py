@@ -1,7 +1,5 @@
 """Units as data loggers, engineers and programs write them, in SI base units, and those of our names of variables."""
 
-from __future__ import annotations
-
 import math
 import re
 

@@ -1,7 +1,5 @@
 """Worlds: road and drawing, made by ``ali3 road --world`` and kept in the cache of the user."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

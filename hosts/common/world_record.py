@@ -1,7 +1,5 @@
 """The JSON file that ``ali3 road --world`` writes beside the road of a world: what is drawn of it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

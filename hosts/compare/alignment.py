@@ -4,8 +4,6 @@ A measured signal is a + b * simulated((t - delay) / (1 + drift)). The delay tha
 first; then delay, drift, a and b are found by least squares on the spline of the simulated signal.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace

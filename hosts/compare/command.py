@@ -4,8 +4,6 @@ The measured inputs are replayed, the outputs compared: errors, a rating like IS
 parameters are sought with which the FMU comes nearest to the log, and how well the log determines them.
 """
 
-from __future__ import annotations
-
 import argparse
 import re
 from collections.abc import Sequence

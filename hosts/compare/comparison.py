@@ -1,7 +1,5 @@
 """The signals of a log beside those of a simulation: deviations, rating and delay of each, and their common delay."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

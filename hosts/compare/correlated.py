@@ -5,8 +5,6 @@ is used, where Ω is the covariance of an autoregressive process fitted to the r
 order by Akaike's criterion); see Ljung, System Identification, 2nd ed., 9.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

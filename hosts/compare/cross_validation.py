@@ -4,8 +4,6 @@ With the Jacobian at the solution the parameters without a part follow from line
 again. What is left out of the parameters' equations with a window are also the windows that overlap it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """How a data logger has written a CSV file: delimiter, decimal sign, lines of names and units."""
 
-from __future__ import annotations
-
 import io
 import re
 from collections.abc import Sequence

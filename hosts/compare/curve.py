@@ -1,7 +1,5 @@
 """Simulated signals at the times of measured samples."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import pairwise
 

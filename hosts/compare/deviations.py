@@ -1,7 +1,5 @@
 """How far a simulated signal is from a measured one."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

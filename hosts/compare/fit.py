@@ -1,7 +1,5 @@
 """Seeks parameters with which an FMU comes nearest to a log, and tells how well the log determines them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace

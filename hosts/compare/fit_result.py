@@ -1,7 +1,5 @@
 """What a fit has found, and how good it is."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """What a fit seeks: parameters of the FMU, and delays, drift, bias and gain of sensors and clocks."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

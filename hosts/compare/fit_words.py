@@ -1,7 +1,5 @@
 """A fit in lines for the terminal, and what is not good about it in sentences."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """The parameters that are to be fitted, as the command line names them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 

@@ -1,7 +1,5 @@
 """The fit of ``ali3 compare --fit``: what is sought is checked, sought, and the FMU with it held against the log."""
 
-from __future__ import annotations
-
 import argparse
 import math
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """What must be demanded so that a follower does what was measured."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -3,8 +3,6 @@
 An input with the other sign turns signals; a speed in another unit lets the car start slower or faster than it was.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 

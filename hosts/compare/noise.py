@@ -1,7 +1,5 @@
 """Noise of measured signals, and of what an FMU computes."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Pictures of a comparison: signals over each other, what remains, and the inputs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """Does a comparison: what was checked is driven, held against the log, fitted if asked, and written."""
 
-from __future__ import annotations
-
 import argparse
 import math
 from pathlib import Path

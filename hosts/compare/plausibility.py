@@ -1,7 +1,5 @@
 """What is wrong with a log can mostly be seen before anything long is done with it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

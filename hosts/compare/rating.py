@@ -6,8 +6,6 @@ time histories, SAE 2011-01-0245); its text was not read. Like: the standard is 
 signal is taken at no more than 1000 equally spaced points, whatever its length.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Signals that a logger writes more often than they are measured: each value stands in many rows."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

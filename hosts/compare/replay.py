@@ -1,7 +1,5 @@
 """Replays a log as inputs of an FMU, as often as parameters are tried."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import replace

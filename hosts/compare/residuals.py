@@ -4,8 +4,6 @@ Parameters of the FMU need a run each; delays, drift, bias and gain of the senso
 signal is bias + gain * simulated((t - delay) / (1 + drift)), whose derivatives are exact.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise

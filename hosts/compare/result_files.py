@@ -1,7 +1,5 @@
 """The files of a comparison: signals side by side as CSV, measures for JSON."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

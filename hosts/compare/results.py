@@ -1,7 +1,5 @@
 """What a comparison yields, and its files."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass

@@ -1,7 +1,5 @@
 """The steering that gives the measured angles of the front wheels on the road, were the linkage rigid."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace

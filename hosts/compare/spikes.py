@@ -1,7 +1,5 @@
 """Finds single wrong samples of a log: values that no neighbour supports."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

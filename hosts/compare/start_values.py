@@ -1,7 +1,5 @@
 """How a car starts that a log shows in motion."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Collection, Mapping
 

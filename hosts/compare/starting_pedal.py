@@ -1,7 +1,5 @@
 """The pedal with which a driver starts who holds a measured speed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """An FMU that drives stretches of a log."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias

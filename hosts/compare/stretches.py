@@ -1,7 +1,5 @@
 """The stretches of a log that are driven, each from its measured start, and put one after the other."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace

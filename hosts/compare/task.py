@@ -1,7 +1,5 @@
 """What is compared: log, FMU and start, checked as far as can be before anything is driven."""
 
-from __future__ import annotations
-
 import argparse
 import math
 from collections.abc import Mapping, Set

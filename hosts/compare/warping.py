@@ -1,7 +1,5 @@
 """Dynamic time warping of two equally long signals within a band."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What windows of a log tell: deviations of each, which have departed, and deviations by speed and acceleration."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """A comparison in lines for the terminal."""
 
-from __future__ import annotations
-
 import math
 
 from ali3.columns import in_columns

@@ -1,7 +1,5 @@
 """The co-simulation loop: inputs in, a communication step, outputs out."""
 
-from __future__ import annotations
-
 import math
 import time as clock
 from collections.abc import Callable, Mapping, Sequence

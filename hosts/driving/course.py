@@ -1,7 +1,5 @@
 """A course of gates on the ground, and the path a driver follows through it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise

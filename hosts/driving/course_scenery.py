@@ -1,7 +1,5 @@
 """What a manoeuvre has on the ground, as a scene draws it: on the heights of its roads."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple

@@ -1,7 +1,5 @@
 """The courses that manoeuvres name."""
 
-from __future__ import annotations
-
 from ali3.iso_3888 import Track, lanes
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError

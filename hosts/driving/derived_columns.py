@@ -1,7 +1,5 @@
 """Columns of a run that are computed from others: once more at its end, when the next row of each is known."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hosts.driving.result import Result

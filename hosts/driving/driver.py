@@ -1,7 +1,5 @@
 """The driver of a manoeuvre, from the settings of its file and the constants of the FMU."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import fields, replace

@@ -1,7 +1,5 @@
 """What a manoeuvre has on the ground, without heights: lanes, circles, the line where braking begins."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """A manoeuvre: inputs over time, start values and, for closed loops, a driver."""
 
-from __future__ import annotations
-
 import hashlib
 import math
 from collections.abc import Collection

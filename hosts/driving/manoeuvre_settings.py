@@ -1,7 +1,5 @@
 """What a user sets in an FMU that drives a manoeuvre."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Manoeuvres as plain CSV files."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterable
 from pathlib import Path

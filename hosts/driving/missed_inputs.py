@@ -1,7 +1,5 @@
 """What steps miss of a table of inputs: corners and jumps inside a communication step, and an end inside one."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterable
 

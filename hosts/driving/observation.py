@@ -1,7 +1,5 @@
 """The outputs of an FMU for a pilot: between rows only those that it uses are read, or all where some are derived."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np

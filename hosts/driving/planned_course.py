@@ -1,7 +1,5 @@
 """The line a practised driver takes through a course: the least curvature that the cones allow."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """Rows of a run while it goes on: what inputs do at them and between them."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from contextlib import suppress

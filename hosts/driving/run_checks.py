@@ -1,7 +1,5 @@
 """What is refused before a run: a wrong step, or a column that the FMU cannot take."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

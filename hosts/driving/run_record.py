@@ -1,7 +1,5 @@
 """The record beside a table that is the result of a run."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Runs that a person waits for and looks at, as an experiment."""
 
-from __future__ import annotations
-
 import time as clock
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing

@@ -1,7 +1,5 @@
 """What the co-simulation loop needs of an FMU: by its own names, or through aliases."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol

@@ -1,7 +1,5 @@
 """Saved states of an FMU as files beside manoeuvres."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ali3.files import whole_file

@@ -1,7 +1,5 @@
 """The throttle that holds a car's speed straight on, found before a run that keeps it."""
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from collections.abc import Callable, Mapping

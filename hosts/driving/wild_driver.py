@@ -4,8 +4,6 @@ The same seed gives the same drive: the numbers come from Python's `random.Rando
 platforms, and from what the car senses.
 """
 
-from __future__ import annotations
-
 import math
 import random
 from collections.abc import Callable, Collection, Mapping, Sequence

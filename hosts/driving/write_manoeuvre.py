@@ -1,7 +1,5 @@
 """Writes manoeuvres: as TOML files with all that belongs to them, or as tables."""
 
-from __future__ import annotations
-
 import json
 import re
 import textwrap

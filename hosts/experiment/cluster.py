@@ -1,7 +1,5 @@
 """Workers of Dask on a cluster that is there: its scheduler, and whether the traffic is encrypted."""
 
-from __future__ import annotations
-
 import logging
 import sys
 from collections.abc import Iterator

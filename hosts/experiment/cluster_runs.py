@@ -1,7 +1,5 @@
 """Runs on workers of Dask, in chunks that grow to seconds of work."""
 
-from __future__ import annotations
-
 import queue
 import time as clock
 from collections import deque

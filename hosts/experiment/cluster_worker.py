@@ -1,7 +1,5 @@
 """What happens on a worker of Dask: the FMU is unpacked once, runs are made in chunks."""
 
-from __future__ import annotations
-
 import hashlib
 import tempfile
 import threading

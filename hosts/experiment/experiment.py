@@ -1,7 +1,5 @@
 """Runs of an experiment, made by processes under one bar."""
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Callable, Generator, Iterable

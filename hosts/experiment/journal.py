@@ -1,7 +1,5 @@
 """Results of runs in a file from the moment they are there, so that a kill loses only the runs in hand."""
 
-from __future__ import annotations
-
 from contextlib import suppress
 from io import BytesIO
 from pathlib import Path

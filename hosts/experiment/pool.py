@@ -1,7 +1,5 @@
 """Worker pools of this machine: processes that make runs and stay for the next ones."""
 
-from __future__ import annotations
-
 import queue
 from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor

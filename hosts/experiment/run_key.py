@@ -1,7 +1,5 @@
 """The key under which the outcome of a run is stored: a hash of everything that it depends on."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Iterable
 from functools import cache

@@ -1,7 +1,5 @@
 """The store of an experiment: each result in a journal from the moment it is there, many of them later in a table."""
 
-from __future__ import annotations
-
 import math
 import time as clock
 from contextlib import ExitStack

@@ -1,7 +1,5 @@
 """Fewer points of a line, such that it looks the same."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

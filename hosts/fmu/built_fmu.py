@@ -1,7 +1,5 @@
 """FMUs that are built when they are needed and kept: by the command of the builder, in a process of its own."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 from collections.abc import Callable, Iterator

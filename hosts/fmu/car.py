@@ -1,7 +1,5 @@
 """Whether a word of the command line names a car."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ali3.reading import is_file, is_folder

@@ -1,7 +1,5 @@
 """The model description of an FMU: its size, depth and number of variables are held to bounds before it is read."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import NoReturn

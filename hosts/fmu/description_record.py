@@ -1,7 +1,5 @@
 """What `modelDescription.xml` says, as pages read it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from fmpy.model_description import ModelDescription

@@ -1,7 +1,5 @@
 """An FMU opened through FMPy: names in place of value references, statuses and messages collected."""
 
-from __future__ import annotations
-
 import math
 import sys
 import weakref

@@ -1,7 +1,5 @@
 """Which FMU a command takes: a file, or that of a car, which is built for this machine when it is needed and kept."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from dataclasses import dataclass

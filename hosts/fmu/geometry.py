@@ -1,7 +1,5 @@
 """What an FMU draws: the scene in its resources, with roads read from their files."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from shlex import quote

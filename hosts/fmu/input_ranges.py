@@ -1,7 +1,5 @@
 """Values over time of an input, against the range that the FMU declares for it."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One instance of a co-simulation FMU behind the same calls for FMI 2.0 and 3.0."""
 
-from __future__ import annotations
-
 import ctypes
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """An FMU whose variables have our names and our units."""
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Rows of values that an FMU in another process gives, under our names and in our units."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Work with an FMU in a process of its own, which its library may take down."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import closing
 from pathlib import Path

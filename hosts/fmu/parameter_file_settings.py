@@ -1,7 +1,5 @@
 """What a parameter set sets in an FMU: its values, converted into the units of the FMU."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ali3.parameter_set import Entry, ParameterSet

@@ -1,7 +1,5 @@
 """The parameters of an FMU as a parameter set, to be written."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from ali3.parameter_set import Entry, ParameterSet, parameter_text

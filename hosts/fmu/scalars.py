@@ -1,7 +1,5 @@
 """Scalar variables of an FMU of FMI 2.0 or 3.0: elements of arrays by names of their own, types as in FMI 2.0."""
 
-from __future__ import annotations
-
 import copy
 import itertools
 from collections.abc import Mapping, Sequence

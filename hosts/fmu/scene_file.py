@@ -1,7 +1,5 @@
 """A scene from a file: an FMU, or the scene itself."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """A value that a user sets in an FMU, and where it comes from."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What a user sets in an FMU before it starts: by a manoeuvre, parameter sets and the command line, in this order."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any

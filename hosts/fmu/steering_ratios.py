@@ -1,7 +1,5 @@
 """Parameters of a car's FMU that change how far its steering wheel turns to full lock, and constants beside them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

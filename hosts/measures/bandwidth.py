@@ -1,7 +1,5 @@
 """Numbers that are read off a frequency response: bandwidths, resonance, equivalent time."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Measures of braking: stopping distance, mean fully developed deceleration, build-up of the deceleration."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

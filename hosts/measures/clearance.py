@@ -1,7 +1,5 @@
 """How far the outline of a car stays from the cones of a course."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

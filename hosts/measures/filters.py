@@ -1,7 +1,5 @@
 """Recorded signals on an even grid of time, and the phaseless low-pass of vehicle tests."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

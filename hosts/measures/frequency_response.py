@@ -1,7 +1,5 @@
 """Frequency response of one signal to another, with its coherence, by spectra that are averaged over bands."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

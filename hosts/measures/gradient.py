@@ -1,7 +1,5 @@
 """The slope of a straight line through a range of points."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Measures of a car that falls onto its wheels: contact, peak, time to settle, weight from momentum."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

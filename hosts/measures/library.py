@@ -1,7 +1,5 @@
 """The functions that expressions of measures can use, by name."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """Limits that a user gives to measures, in the table ``[limits]`` of a TOML file."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from pathlib import Path

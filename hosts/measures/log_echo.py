@@ -3,8 +3,6 @@
 A mistake in one signal moves all relations that it is in, so that it is named only where undoing it mends them all.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from functools import partial

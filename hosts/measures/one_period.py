@@ -1,7 +1,5 @@
 """One period of sinusoidal steering: how late, how much and with which hysteresis a quantity follows."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

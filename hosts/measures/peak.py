@@ -1,7 +1,5 @@
 """The largest value of a sampled signal, between its samples."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

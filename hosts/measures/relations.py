@@ -4,8 +4,6 @@ A relation is the ratio of two ways to the same quantity, as speed times yaw rat
 correlation, the delay of one behind the other and the difference of their means.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from typing import TypeAlias

@@ -1,7 +1,5 @@
 """Whether the samples of a log are those of a drive: stretches that stand, values that mean none, drives joined."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 

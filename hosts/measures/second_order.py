@@ -1,7 +1,5 @@
 """System of second order that is fitted to frequency responses."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Numbers of one run with sine with dwell steering: begin and end of steering, yaw rates after it, displacement."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Steering wheel angle for a lateral acceleration, from a run in which it grows slowly."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

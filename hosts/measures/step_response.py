@@ -1,7 +1,5 @@
 """Response of a quantity to a step of the steering: times, overshoot, steady value, as ISO 7401 has them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

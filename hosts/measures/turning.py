@@ -1,7 +1,5 @@
 """Measures of a disturbed turn: its circle, the yaw rate that keeps the circle, the way off it."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Vertical vibration as people feel it: frequency weighting Wk of ISO 2631-1 and its measures."""
 
-from __future__ import annotations
-
 import math
 from functools import reduce
 from typing import Any

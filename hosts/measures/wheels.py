@@ -1,7 +1,5 @@
 """Loads and slips of the four wheels from a recorded run."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """A car in Python: its FMU, built once and kept, behind arrays."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Environments of Gymnasium: `gymnasium.make("ali3/LaneKeeping-v0")`, `gymnasium.make("ali3/AntiLockBraking-v0")`."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

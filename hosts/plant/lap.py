@@ -1,7 +1,5 @@
 """A lap of the ring of the proving ground: `gymnasium.make("ali3/ProvingGroundLap-v0")`, and the driver on it."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Several environments of Gymnasium beside each other, each step on threads: `gymnasium.make_vec(NAME, 8)`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from functools import partial

@@ -1,7 +1,5 @@
 """What an FMU is run through where a manoeuvre may be given, and where none is."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from hosts.driving.manoeuvre import Manoeuvre

@@ -1,7 +1,5 @@
 """Names in the folder of a recording, and whether there is one."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ali3.reading import is_file

@@ -1,7 +1,5 @@
 """The last drive of a recording: what led to its end, without what was rewound."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A manoeuvre by name, by file or by the folder of a recording."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """How often columns of a drive are recorded; what lies between their values is found by driving it again."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Reads a recording of a drive."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A recording of a drive as it is shown moving."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

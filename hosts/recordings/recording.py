@@ -5,8 +5,6 @@ step, `events.jsonl` a line for every event, `start.state` the state of the FMU 
 `states` those that later steps are found from.
 """
 
-from __future__ import annotations
-
 import json
 import platform
 import time as clock

@@ -1,7 +1,5 @@
 """Repeats a recording through the FMU and compares every bit that comes out."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace

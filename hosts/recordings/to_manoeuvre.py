@@ -1,7 +1,5 @@
 """Makes a manoeuvre, which `ali3 run` repeats, of a recording: its last drive without what was rewound."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path

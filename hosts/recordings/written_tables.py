@@ -4,8 +4,6 @@ Parquet has its directory at the end of a file, so an unfinished file cannot be 
 files, which are joined at the end. A CSV file grows by lines; a last one that is cut off is left out.
 """
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path

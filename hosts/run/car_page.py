@@ -1,7 +1,5 @@
 """The page of plots of a car: its path from above, and what is usually looked at."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """What a run says of the course that its driver followed."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What pages of plots are put together from."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from textwrap import wrap
 

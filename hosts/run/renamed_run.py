@@ -1,7 +1,5 @@
 """A run of an FMU whose variables have other names: its manoeuvre and its result have ours."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The files of a run: a table, a picture, and a record of what was run, in a folder."""
 
-from __future__ import annotations
-
 import csv
 import json
 from collections.abc import Iterable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """One page of plots of a run. A car gets its own page, any other FMU its outputs by unit."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The numbers of a run that a person asks for first."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A car whose variables have our names."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The car in a process of its own: what is wanted goes in, what it does comes out, and neither waits for the other."""
 
-from __future__ import annotations
-
 import math
 import threading
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """The process of the car: nothing else runs in it."""
 
-from __future__ import annotations
-
 import gc
 import json
 import traceback

@@ -4,8 +4,6 @@
 has steps of 16 ms before Python 3.13, and the absolute time of Mach on macOS.
 """
 
-from __future__ import annotations
-
 import ctypes
 import os
 import sys

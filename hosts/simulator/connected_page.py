@@ -1,7 +1,5 @@
 """A page that is connected: frames in flight, texts that wait, and how much it may say."""
 
-from __future__ import annotations
-
 import time
 from collections import deque
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Whether an FMU is a car that can be driven, in words where it is not."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """An FMU that is driven step by step, started again, set upright and rewound; it knows no clock."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Driving without a page: inputs are held, or come from a manoeuvre or from a driver at random."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Who has the word at each input: pages and devices want values, and one of them moves the input."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from threading import Lock

@@ -1,7 +1,5 @@
 """Inputs that move towards what is wanted by at most so much per second of simulated time."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -4,8 +4,6 @@ A virtual machine's host takes processors away from it ("steal"); no priority wi
 tells what a thread ran, with interrupts and what a host takes untold, and how long it was ready while others ran.
 """
 
-from __future__ import annotations
-
 from hosts.simulator.clock import Clock
 
 CAUSES = ("ran", "others", "stolen")

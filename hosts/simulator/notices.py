@@ -1,7 +1,5 @@
 """What is said of the steps: messages of the FMU and work that a limit cut short, at most once in a while."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Everything before the first step: the FMU, what is set in it, its world and its drawing."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Real-time priority of the process that calls, where the system allows it."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import sys

@@ -1,7 +1,5 @@
 """Starts the car's process, notes its end and ends it."""
 
-from __future__ import annotations
-
 import queue
 import threading
 from collections.abc import Mapping

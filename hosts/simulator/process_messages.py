@@ -1,7 +1,5 @@
 """What the car's process says and records, brought to the main process."""
 
-from __future__ import annotations
-
 import json
 import threading
 from collections import deque

@@ -1,7 +1,5 @@
 """Pacing by absolute deadlines: when the next step begins, what is late, and what is done about it."""
 
-from __future__ import annotations
-
 from collections import deque
 
 from hosts.simulator.clock import Clock

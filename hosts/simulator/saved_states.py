@@ -1,7 +1,5 @@
 """Saved states of the FMU and the inputs since, so that any step of the last seconds can be gone back to."""
 
-from __future__ import annotations
-
 from collections import deque
 from dataclasses import dataclass
 from typing import Protocol

@@ -3,8 +3,6 @@
 It shares memory with the car's process; neither waits for the other.
 """
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import json

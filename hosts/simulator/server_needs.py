@@ -1,7 +1,5 @@
 """What the server needs of devices, and what it hands out."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol

@@ -1,7 +1,5 @@
 """Memory that the car's process and the main process share; neither ever waits for the other."""
 
-from __future__ import annotations
-
 import threading
 from dataclasses import dataclass
 from multiprocessing.shared_memory import SharedMemory

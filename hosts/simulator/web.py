@@ -1,7 +1,5 @@
 """The side of the server that any program can reach: addresses, requests, and the number of connections."""
 
-from __future__ import annotations
-
 import asyncio
 import errno
 import gzip

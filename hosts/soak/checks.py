@@ -1,7 +1,5 @@
 """What a soak test looks at in every step of a drive."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """One drive of a soak test: runs of some seconds, one after the other in one instance of the FMU."""
 
-from __future__ import annotations
-
 import random
 import time as clock
 from collections.abc import Callable, Mapping, Sequence

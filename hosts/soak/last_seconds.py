@@ -1,7 +1,5 @@
 """The last seconds of a drive, kept so that a failure can be repeated from a saved state."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """Memory of this process over a drive."""
 
-from __future__ import annotations
-
 from statistics import median
 
 import psutil

@@ -4,8 +4,6 @@ A drive is a seed: runs of 15 to 60 s from random starts, up to 40 m/s and 100 k
 roll-overs, resets and rewinds, all in one process. The same seed gives the same drive. Every step is checked.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import math

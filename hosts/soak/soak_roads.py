@@ -1,7 +1,5 @@
 """Roads that a soak test drives on: one with ramps, kerbs and a hill, those in the FMU, and worlds."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The table of a soak test."""
 
-from __future__ import annotations
-
 import shlex
 from collections.abc import Callable, Sequence
 

@@ -4,8 +4,6 @@ The study file names an FMU or a car, manoeuvres, parameters and what is measure
 runs that are missing. A folder of results takes the place of the file to repeat a run or to write the report.
 """
 
-from __future__ import annotations
-
 import argparse
 import shlex
 from collections.abc import Sequence

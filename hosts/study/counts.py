@@ -1,7 +1,5 @@
 """What a study counts while it runs."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 from hosts.study.worker_data import FAILED, INCOMPLETE, Outcome

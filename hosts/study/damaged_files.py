@@ -1,7 +1,5 @@
 """Files of rows and signals that are not as they were written: found by their checksums, and their runs made again."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Random points of the unit cube, a block at a time, so that a million of them need no memory."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable
 from typing import TypeAlias

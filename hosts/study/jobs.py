@@ -1,7 +1,5 @@
 """What is done at each point of a study: manoeuvres and tests of the catalogue, checked."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace

@@ -1,7 +1,5 @@
 """Limits of measures, and the share of a study's runs that lies within them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass

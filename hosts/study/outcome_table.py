@@ -1,7 +1,5 @@
 """The outcomes of a study in its folder, as a table of a `Kept`: rows wait in memory, and are written as parts."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias

@@ -1,7 +1,5 @@
 """The table of a study in parts, which are there whole or not at all, and beside each the signals of its runs."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A study that has been checked against its FMU: what is run, and what its table looks like."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math

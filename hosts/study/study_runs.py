@@ -1,7 +1,5 @@
 """Runs of a study: from an instance of the FMU to a row, in processes of this machine."""
 
-from __future__ import annotations
-
 import time as clock
 import warnings
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Seeks the value of one parameter at which a measure has a wanted value, by few runs."""
 
-from __future__ import annotations
-
 import contextlib
 import itertools
 import math

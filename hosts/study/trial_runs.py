@@ -1,7 +1,5 @@
 """A few runs before a study: whether it works, whether an instance can be used again, what it will take."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace

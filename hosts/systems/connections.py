@@ -1,7 +1,5 @@
 """Which input of a part takes which output of another."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack

@@ -1,7 +1,5 @@
 """A system of FMUs as an SSP archive, with a parameter set for each part, for programs that run such systems."""
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack

@@ -4,8 +4,6 @@ Results are those of the command run and recordings of the simulator; an FMU is 
 other. With --live the page holds the FMUs themselves and runs them, side by side and with the same inputs.
 """
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The page that was written comes up."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from viewer.open_browser import open_in_browser

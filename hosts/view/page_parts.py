@@ -1,7 +1,5 @@
 """What a page needs of an FMU: its binary in WebAssembly, its drawing, its resources and its variables."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json

@@ -1,7 +1,5 @@
 """The text of a page that runs FMUs, beside recordings that go along."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

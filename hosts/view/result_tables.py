@@ -1,7 +1,5 @@
 """Reads tables of results: those of the hosts, of `mbs` runs, and others with a column of times."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

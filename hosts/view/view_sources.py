@@ -1,7 +1,5 @@
 """From what the user names to recordings: results of the hosts, tables of `mbs` runs, FMUs that are run first."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

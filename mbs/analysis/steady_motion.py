@@ -8,8 +8,6 @@ symmetry has its velocity and its acceleration: qd = X(q), qdd = G qd (J. E. Mar
 chapter 4). A variation seen in the moving frame then obeys an equation with constant coefficients.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ A number is a real number of Python or NumPy, or an array without dimensions; te
 model is described; what runs a System passes `ValueError`.
 """
 
-from __future__ import annotations
-
 import math
 import unicodedata
 from collections.abc import Collection, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Where the points and axes of the bodies are among the coordinates: what a shift or turn of the scene does to them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is made when it is first asked for."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from typing import Generic, TypeVar

@@ -1,7 +1,5 @@
 """The points that a polyline needs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Vectors in space."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

@@ -1,7 +1,5 @@
 """Armatures whose ratio a parameter writes, as the `armature_` arrays of the System."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -11,8 +11,6 @@ Circuits and branches: T. R. Chase, J. A. Mirth, Circuits and branches of single
 J. Mech. Des. 115 (1993).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

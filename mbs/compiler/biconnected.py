@@ -1,7 +1,5 @@
 """Blocks of a graph."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping
 from typing import TypeVar
 

@@ -1,7 +1,5 @@
 """The rows of one block of closed loops over the coordinates of its moving bodies, all else held."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 

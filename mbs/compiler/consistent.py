@@ -1,7 +1,5 @@
 """Position and velocity problem at the start, solved while the rows still have names."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np

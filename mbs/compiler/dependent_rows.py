@@ -4,8 +4,6 @@ Rows dependent as polynomials (a shared axis has unit length in both bodies) are
 Rows dependent only at some positions stay: the method handles them.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 

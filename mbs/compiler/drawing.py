@@ -1,7 +1,5 @@
 """What a System carries for those who draw it."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse

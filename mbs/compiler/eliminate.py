@@ -5,8 +5,6 @@ count includes the rows that are already solved. Counting those too is what keep
 by link looks free to the unsolved rows and makes T dense.
 """
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

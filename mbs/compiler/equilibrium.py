@@ -1,7 +1,5 @@
 """Static equilibrium near the reference position, for models that start in it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """The length of a model, the unit of errors, and the length that a unit of each coordinate corresponds to."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import prod
 

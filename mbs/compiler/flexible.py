@@ -1,7 +1,5 @@
 """Flexible bodies as the `flex_` arrays of the System."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

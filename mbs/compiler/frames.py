@@ -1,7 +1,5 @@
 """The frames of a model as Python keeps them beside the arrays of the System."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse

@@ -1,7 +1,5 @@
 """Fronts as the arrays of the System file, and the places of rows, elements and mass in them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

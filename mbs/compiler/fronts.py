@@ -1,7 +1,5 @@
 """Symbolic factorization: elimination tree and fronts (supernodes) of the tangent."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType

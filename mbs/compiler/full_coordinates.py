@@ -1,7 +1,5 @@
 """From full coordinates to z: the transformation q_full = T z + z0, mass and gravity."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

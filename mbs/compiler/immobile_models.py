@@ -1,7 +1,5 @@
 """Models whose joints leave no motion, or not the one a drive asks for."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

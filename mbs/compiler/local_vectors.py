@@ -1,7 +1,5 @@
 """Local points and vectors of a body, m."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import dist
 

@@ -1,7 +1,5 @@
 """Names and units of the System: its `meta`."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import asdict
 from typing import Any

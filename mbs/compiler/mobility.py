@@ -5,8 +5,6 @@ singular vectors of the conditions' derivatives that belong to singular values n
 at a position is U' r: the misfit. A loop whose misfit is nothing along its motion moves as drawn.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """From a Model to the arrays of a System, one chain of steps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -6,8 +6,6 @@ point, because distances then come from vectors alone: no row loses digits far f
 keeps its centre of mass and its axes.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

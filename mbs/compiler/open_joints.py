@@ -4,8 +4,6 @@ The linear equations of joints are eliminated, so they always hold, and what sta
 An engineer thinks the other way round: bodies are rigid and joints gape.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

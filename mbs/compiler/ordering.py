@@ -1,7 +1,5 @@
 """Elimination order of the coordinates: fill-reducing, on the pattern of the tangent (23)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 import numpy as np

@@ -13,8 +13,6 @@ are as many as one likes and of the rank of the loop's hidden conditions, so dg 
 no more directions than it takes to explain the misfit.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager

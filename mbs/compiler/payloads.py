@@ -1,7 +1,5 @@
 """Payloads as the `payload_` arrays of the System, and the room they need in its mass matrix."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Quadratic polynomials of the coordinates z as sparse tables of monomials."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import chain

@@ -1,7 +1,5 @@
 """A model with ports beside the same model without them: the coordinates of the one by those of the other."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse

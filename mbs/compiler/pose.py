@@ -1,7 +1,5 @@
 """Initial pose of a scene that is not tied to the ground."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rows as the flat arrays of the System, and their values at a position."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

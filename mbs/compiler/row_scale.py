@@ -1,7 +1,5 @@
 """Scaling of the rows by the mass, so that one penalty suits all."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

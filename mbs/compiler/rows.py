@@ -5,8 +5,6 @@ Which vectors is free: those whose expressions in z are short give the fewest te
 for a link between two points that are coordinates.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import hypot
 

@@ -1,7 +1,5 @@
 """Position and velocity of z that the drawing and the given velocities ask for."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse

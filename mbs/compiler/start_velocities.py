@@ -1,7 +1,5 @@
 """Start velocities that were asked for and contradict each other through the joints."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 

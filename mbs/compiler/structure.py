@@ -1,7 +1,5 @@
 """Counts, rank and degrees of freedom, non-zeros of a System."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

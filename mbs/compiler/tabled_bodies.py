@@ -1,7 +1,5 @@
 """Bodies and numbers by table as the `tabled_` arrays of the System: dependents behind its coordinates."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Tables of the System beside mass and rows: signals, elements, sensors, inputs, guides, roads, parameters."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -2,8 +2,6 @@
 the rows. At a singular position the predictor goes on along the smooth branch.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

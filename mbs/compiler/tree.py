@@ -3,8 +3,6 @@
 J. García de Jalón, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems, Springer 1994, chapters 5 and 8.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -6,8 +6,6 @@ assembly mode. The axis is that of J, else that of a hinge at P or Q (a wishbone
 body (a track rod on an upright).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector

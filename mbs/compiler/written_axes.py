@@ -1,7 +1,5 @@
 """Wheels whose axes parameters write as the `axis_` arrays of the System, and the room that their signals need."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Bodies whose inertia parameters write as the `inertia_` arrays of the System, and the room they need in its mass."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

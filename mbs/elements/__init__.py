@@ -6,8 +6,6 @@ along the axis to the left; a `coordinate` is an angle, rad, or a length, m; a `
 earth axes, two or three components, m.
 """
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from mbs.common.lazy_modules import lazy_modules

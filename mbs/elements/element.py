@@ -1,7 +1,5 @@
 """What a force element declares of itself: its record, its checks and the header of its law in C follow from it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import ClassVar, TypeAlias
 

@@ -5,8 +5,6 @@ The classes are the source. After a change of theirs:
     python -m mbs.elements.fields_in_c
 """
 
-from __future__ import annotations
-
 import importlib
 import textwrap
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Integers of elements: each says what it counts or names, and its check in Python and in the kernel follows."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum

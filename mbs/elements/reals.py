@@ -6,8 +6,6 @@
 `reals_of` then checks the values, and gives them with their names to the record, where a parameter finds them.
 """
 
-from __future__ import annotations
-
 import ast
 import inspect
 import textwrap

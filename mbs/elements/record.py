@@ -1,7 +1,5 @@
 """What a force element hands to `compile()`: signals, data and states, all plain numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

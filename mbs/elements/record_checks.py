@@ -1,7 +1,5 @@
 """Checks of the data of an element beside those of numbers: each returns a clean value or raises one sentence."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Tables of force elements for the pages: what their classes declare, and their laws, which their docstrings say."""
 
-from __future__ import annotations
-
 import dataclasses
 import inspect
 from collections.abc import Iterable, Iterator

@@ -1,7 +1,5 @@
 """Bore torque of a tyre: what turning a wheel about the normal of the road needs."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.elements.reals import Group, Positive

@@ -1,7 +1,5 @@
 """What elements read of a wheel, in the order of the kernel."""
 
-from __future__ import annotations
-
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.record_checks import size
 

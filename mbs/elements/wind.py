@@ -1,7 +1,5 @@
 """Air that moves over the ground."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

@@ -1,7 +1,5 @@
 """Flexible bodies: beam finite elements, Craig-Bampton reduction, shape integrals, stress recovery."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from mbs.common.lazy_modules import lazy_modules

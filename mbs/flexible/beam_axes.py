@@ -1,7 +1,5 @@
 """Local axes of a straight beam in space."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.common.vectors import cross

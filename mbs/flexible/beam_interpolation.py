@@ -1,7 +1,5 @@
 """Displacements inside a beam from those of its ends: cubic, with the interdependent Timoshenko shape functions."""
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -1,7 +1,5 @@
 """Mass of beams as point masses: lumped at the ends or consistent, with or without rotary inertia."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.common.checks import shown

@@ -1,7 +1,5 @@
 """Stiffness of the two-node spatial beam."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.flexible.material import Material

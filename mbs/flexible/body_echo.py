@@ -1,7 +1,5 @@
 """What was understood of a flexible body: mass, size, frequencies, and whether its matrices are those of a body."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """Grid points in bulk data of Nastran: fields of 8 or 16 columns or between commas, with tabs and replication."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What a finite-element model must satisfy before it is reduced, each with one sentence when it does not."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import permutations

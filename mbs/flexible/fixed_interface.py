@@ -1,7 +1,5 @@
 """A finite-element model with its reference and interfaces held: what Craig and Bampton reduce from."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Files of other programs, read by libraries."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

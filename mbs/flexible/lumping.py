@@ -1,7 +1,5 @@
 """Mass points from the mass matrix of another program."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.common.errors import ModelError

@@ -1,7 +1,5 @@
 """Isotropic linear elastic material."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.checks import is_finite, shown

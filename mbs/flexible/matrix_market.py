@@ -4,8 +4,6 @@ SciPy's own reader of the first ends the process at a number that is damaged, an
 says of them.
 """
 
-from __future__ import annotations
-
 import io
 from pathlib import Path
 

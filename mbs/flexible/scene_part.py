@@ -1,7 +1,5 @@
 """A flexible body as the part `flexible` of a scene: nodes, beams, mode shapes and rows of stress."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

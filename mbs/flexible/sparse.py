@@ -1,7 +1,5 @@
 """The kinds of sparse matrices that are taken."""
 
-from __future__ import annotations
-
 from typing import Any, TypeAlias
 
 import scipy.sparse as sp

@@ -1,7 +1,5 @@
 """Compiles the kernel with the C compiler that the `ziglang` package brings; no system compiler is needed."""
 
-from __future__ import annotations
-
 import functools
 import hashlib
 import importlib.util

@@ -6,8 +6,6 @@ The headers are the source. After a change of theirs:
     python mbs/kernel/read_headers.py
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterable, Iterator

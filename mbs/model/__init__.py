@@ -1,7 +1,5 @@
 """The modelling vocabulary."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from mbs.common.lazy_modules import lazy_modules

@@ -1,7 +1,5 @@
 """What bodies carry: point masses, wheels reduced to a spin, points that slide."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector

@@ -1,7 +1,5 @@
 """Full coordinates of a model."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine

@@ -1,7 +1,5 @@
 """Constraint equations over the full coordinates, as the joints write them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 

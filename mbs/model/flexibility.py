@@ -1,7 +1,5 @@
 """What the compiler asks of a body that bends."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Inertia of a body from what a user gives: principal values or a matrix, checked."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -3,8 +3,6 @@
 A row u . v of vectors of both bodies turns the first one with the moment -lam u x v.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.common.affine import AffineVector

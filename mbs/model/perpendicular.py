@@ -1,7 +1,5 @@
 """Two unit vectors perpendicular to an axis."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.common.checks import Vector

@@ -4,8 +4,6 @@ Joints and springs at a port share three coordinates without mass, its place fro
 rows tie to the body. Their multipliers are the whole force on the body at the port, whatever acts there.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from numpy.typing import ArrayLike

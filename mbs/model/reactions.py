@@ -3,8 +3,6 @@
 A row Phi with the multiplier lam puts the generalised force -Phi_q' lam on its coordinates (M qdd + Phi_q' lam = Q).
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from mbs.model.joints.joint import Joint

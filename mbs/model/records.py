@@ -1,7 +1,5 @@
 """What a model registers beside bodies, joints and elements: inputs, guides, parameters, switches, constants."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import IntEnum
 

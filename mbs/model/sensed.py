@@ -1,7 +1,5 @@
 """What sensors are given besides their names: components, joints."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from mbs.common.checks import shown

@@ -1,7 +1,5 @@
 """One output of a model."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Looks beyond those of bodies: what slides along a body, and meshes that are computed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What a table of a body or a number is made of, and whether it can be."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

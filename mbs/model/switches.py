@@ -1,7 +1,5 @@
 """Switches: what turns rows on and off while a System runs."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.common.checks import shown

@@ -6,8 +6,6 @@ uniform cubic B-splines through the points of the table, twice continuously diff
 fourth power of the spacing. Beyond the table they go on along their tangent; a step from there is refused.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a joint holds of the turning of its bodies."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """With which order errors fall, and what runs with shorter and shorter steps tend to."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

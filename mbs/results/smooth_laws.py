@@ -1,7 +1,5 @@
 """Which steps resolve a motion: methods of high order have their order only where nothing abrupt can happen."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

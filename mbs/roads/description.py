@@ -1,7 +1,5 @@
 """A road in words: the TOML file that says what it is made of."""
 
-from __future__ import annotations
-
 import math
 import os
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Grids of numbers from CSV tables, NumPy arrays and pictures; each as rows along x and columns along y."""
 
-from __future__ import annotations
-
 import io
 import math
 import os

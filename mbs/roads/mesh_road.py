@@ -1,7 +1,5 @@
 """Roads from meshes of triangles: the grid of their heights."""
 
-from __future__ import annotations
-
 import os
 import warnings
 from dataclasses import replace

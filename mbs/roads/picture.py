@@ -1,7 +1,5 @@
 """A picture of a road."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Roads from files of any kind, whole in memory."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Uneven surfaces with the spectrum of ISO 8608."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A road as an entry of the list `roads` of a scene: what draws it needs no road file."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """Tiles of a road file of version 2, equal ones stored once: `mbs/kernel/src/roads/shared_tile.h` has their layout."""
 
-from __future__ import annotations
-
 import struct
 import zlib
 from collections.abc import Iterable

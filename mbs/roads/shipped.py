@@ -1,7 +1,5 @@
 """Roads that come with the package."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

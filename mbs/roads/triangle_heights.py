@@ -1,7 +1,5 @@
 """Heights of triangles at the points of a grid."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -2,8 +2,6 @@
 everywhere.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.model.model import Model

@@ -1,7 +1,5 @@
 """Inputs over time: a constant, a function of time, or a table."""
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping

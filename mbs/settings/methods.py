@@ -1,7 +1,5 @@
 """The methods of the kernel by name: what Python knows of each."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from mbs.kernel.header.steps import METHOD_ORDERS, MethodNumber

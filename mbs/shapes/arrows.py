@@ -1,7 +1,5 @@
 """Arrows of a scene: forces that sensors of the model read."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Shapes of bodies that have none: tubes and plates through their joints, wheels, springs, rails and pins."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property

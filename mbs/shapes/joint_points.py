@@ -1,7 +1,5 @@
 """What the default shapes of a model are made from: where its joints, wheels and springs touch its bodies."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any

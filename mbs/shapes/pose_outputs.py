@@ -1,7 +1,5 @@
 """Poses of all bodies of a model as outputs, last of all, so that whatever moves can be drawn."""
 
-from __future__ import annotations
-
 import re
 
 from mbs.model.body import Body

@@ -1,7 +1,5 @@
 """Roads of a model as what draws reads them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from mbs.elements.road import PortRoad

@@ -1,7 +1,5 @@
 """The scene of a model: what draws needs to know beside the columns of a run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any

@@ -1,7 +1,5 @@
 """Points that two bodies share by their joints: from them the pose of a body follows from those of its neighbours."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.common.checks import Vector

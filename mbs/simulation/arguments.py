@@ -1,7 +1,5 @@
 """Checks of the arguments of runs: each returns a clean value or raises one sentence."""
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Callable, Mapping

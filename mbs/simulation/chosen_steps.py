@@ -1,7 +1,5 @@
 """A run in equal steps whose step, method or both are chosen."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Coarser runs by which a run is seen to be right: which ones, and what their differences from it say."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Two runs to a tolerance of one motion: what they say of the error of the finer one."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """Forces, accelerations, slot rates and constraint derivatives of the kernel near a state, as dense arrays."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

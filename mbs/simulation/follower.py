@@ -1,7 +1,5 @@
 """Sensors that a System does not compute, such as the stresses of a rigid car: by a second System, when read."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from weakref import WeakKeyDictionary
 

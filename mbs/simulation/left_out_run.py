@@ -1,7 +1,5 @@
 """Sensors that a run left out: it is made again when one of them is first read."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import partial
 

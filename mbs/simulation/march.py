@@ -1,7 +1,5 @@
 """The loop of a run: steps in chunks, with inputs, a record and a progress bar."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager

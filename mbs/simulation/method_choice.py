@@ -1,7 +1,5 @@
 """Which method to use: what the System is leaves a few, and coarse runs of these show the fastest."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 

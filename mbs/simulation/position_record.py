@@ -1,7 +1,5 @@
 """Coordinates that a run keeps for its poses: all recorded ones, or one of many, so that memory is bounded."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """A System in the kernel's memory, once for all Simulations of it."""
 
-from __future__ import annotations
-
 from typing import Any
 from weakref import WeakKeyDictionary
 

@@ -1,7 +1,5 @@
 """What was recorded of a run, as a Trajectory."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

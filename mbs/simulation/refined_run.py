@@ -1,7 +1,5 @@
 """Refined runs by which a run is checked: which ones it needs, and what they show."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace

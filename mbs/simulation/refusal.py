@@ -1,7 +1,5 @@
 """What the kernel refused, in a sentence for people."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

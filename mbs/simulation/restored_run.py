@@ -1,7 +1,5 @@
 """A run that goes on from a saved state."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from mbs.kernel.binding import KernelError

@@ -1,7 +1,5 @@
 """Roads of a run that are not those of its model: files, and what parameters moved."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A System at its start, for those who make no steps from there."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Tells of a start beside the road."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from mbs.kernel.header.enumerations import RoadType

@@ -2,8 +2,6 @@
 within the tolerance.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Times of the steps of a run in the kernel, without what comes before them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Stepping a System by hand."""
 
-from __future__ import annotations
-
 import math
 import os
 import warnings

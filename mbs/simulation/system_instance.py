@@ -1,7 +1,5 @@
 """A System in the kernel: its instance and its state."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A run to a tolerance: which runs it needs, and by which method."""
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Callable, Mapping

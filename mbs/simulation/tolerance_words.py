@@ -1,7 +1,5 @@
 """What is said of a run to a tolerance that was refused, or does not keep it."""
 
-from __future__ import annotations
-
 import warnings
 
 from mbs.kernel.binding import KernelError, Status

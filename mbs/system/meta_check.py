@@ -1,7 +1,5 @@
 """Whether the `meta` of a System file has what its readers require."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What `print(system)` says: counts, rank and degrees of freedom, non-zeros; and what is told of a model."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

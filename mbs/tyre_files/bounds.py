@@ -1,7 +1,5 @@
 """Bounds of the numbers of a tyre property file, in SI units."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import atan
 

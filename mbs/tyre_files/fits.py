@@ -1,7 +1,5 @@
 """TMeasy from the Magic Formula and the Magic Formula from TMeasy: fits of their steady curves, with their errors."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from math import atan, sin, sqrt
 

@@ -1,7 +1,5 @@
 """A Magic Formula tyre from its property file."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

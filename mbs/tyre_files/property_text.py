@@ -1,7 +1,5 @@
 """The text of a tyre property file: sections of keys and values, comments, tables."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Container

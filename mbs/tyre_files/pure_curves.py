@@ -1,7 +1,5 @@
 """Steady forces of both tyre formulas over one slip alone, and the trail, without camber and shifts, for fits."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

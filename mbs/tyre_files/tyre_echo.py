@@ -1,7 +1,5 @@
 """What was understood of a tyre: its steady forces in numbers that are known of tyres, and where they usually lie."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Units of tyre property files."""
 
-from __future__ import annotations
-
 from mbs.tyre_files.property_text import PropertyText
 
 _POUND = 4.4482216152605

@@ -1,7 +1,5 @@
 """A Magic Formula tyre as a tyre property file."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from math import sqrt

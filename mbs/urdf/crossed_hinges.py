@@ -1,7 +1,5 @@
 """Two or three hinges whose axes meet, with links without mass between them: a universal or a ball joint."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any

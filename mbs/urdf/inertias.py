@@ -1,7 +1,5 @@
 """Mass, centre and inertia of links that are fixed to each other, corrected where no mass distribution has them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Joints of a URDF file that follow others: ``mimic``."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any

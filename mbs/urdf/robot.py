@@ -1,7 +1,5 @@
 """URDF files as models (reader: yourdfpy, extra `urdf`): links as bodies, joints as joints with torques or guides."""
 
-from __future__ import annotations
-
 import warnings
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping

@@ -1,7 +1,5 @@
 """Cars as files: ``load("prototype")``, or the path of your own car.toml, gives a `Car`; its `model` the `Model`."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from mbs.common.lazy_modules import lazy_modules

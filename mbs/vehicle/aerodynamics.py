@@ -1,7 +1,5 @@
 """Aerodynamic drag and lift."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from mbs.elements.wind import Wind

@@ -1,7 +1,5 @@
 """Alignment of the wheels of an axle: toe and camber as set."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import cos, sin
 

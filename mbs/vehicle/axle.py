@@ -1,7 +1,5 @@
 """An axle: suspension, springs, wheels and tyres of its two sides."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Brakes of the four wheels: pedal with a balance between the axles, hand brake on the rear wheels."""
 
-from __future__ import annotations
-
 import math
 
 from mbs.elements.brake import Brake

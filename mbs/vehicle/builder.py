@@ -1,7 +1,5 @@
 """What the parts of a car share while a model is made of it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias

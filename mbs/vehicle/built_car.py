@@ -1,7 +1,5 @@
 """A car in a model: the content of a car file, checked, and its parts."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace

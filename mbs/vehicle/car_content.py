@@ -1,7 +1,5 @@
 """The typed content of a car file."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Cars by name, folder or file."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from mbs.vehicle.car import Car

@@ -1,7 +1,5 @@
 """The content of a car file with other values, by key path."""
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """Ports as a list of a command line."""
 
-from __future__ import annotations
-
 from typing import get_args
 
 from mbs.vehicle.ports import PORTS, Ports

@@ -4,8 +4,6 @@ With --kinematics: draws its wheel travel and steer curves in the terms of ISO 8
 drawn. With --cheapest: measures error and cost of each fidelity and step, and names the cheapest within tolerances.
 """
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from pathlib import Path

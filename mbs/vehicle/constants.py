@@ -1,7 +1,5 @@
 """Constants of the FMU that a driver or a course needs."""
 
-from __future__ import annotations
-
 from mbs.model.model import Model
 from mbs.vehicle.car_content import CarContent
 

@@ -1,7 +1,5 @@
 """Copies a car of the package, so that its file can be changed, with the schema that editors check it by."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 

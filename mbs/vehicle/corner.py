@@ -1,7 +1,5 @@
 """What a suspension gives the rest of the car at each wheel."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias

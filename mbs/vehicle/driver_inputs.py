@@ -1,7 +1,5 @@
 """What the driver of a car does."""
 
-from __future__ import annotations
-
 from mbs.model.model import Model
 from mbs.model.records import Input
 from mbs.vehicle.ports import Ports

@@ -1,7 +1,5 @@
 """What is said about a car file that is wrong, or odd."""
 
-from __future__ import annotations
-
 from mbs.common.errors import ModelError
 
 

@@ -1,7 +1,5 @@
 """The files that a car file names lie in its folder."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ali3.named_files import NamedFiles

@@ -1,7 +1,5 @@
 """Conditions on the hard points of a template; each gives a sentence where the points do not meet it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

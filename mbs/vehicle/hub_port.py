@@ -1,7 +1,5 @@
 """Forces and moments of other programs on the hub of a wheel, in place of its tyre."""
 
-from __future__ import annotations
-
 from mbs.elements.hub_wrench import HubWrench
 from mbs.model.carried import Spin
 from mbs.model.records import Role

@@ -1,7 +1,5 @@
 """Names and texts that a user chooses in a car file."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import Field

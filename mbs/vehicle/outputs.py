@@ -1,7 +1,5 @@
 """What the car reports: names, units and axes as users of vehicle models expect them (ISO 8855)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from mbs.common.affine import Affine

@@ -1,7 +1,5 @@
 """A rigid part of a suspension."""
 
-from __future__ import annotations
-
 from mbs.vehicle.quantities import PartInertia, PartMass, Point
 from mbs.vehicle.section import Section
 

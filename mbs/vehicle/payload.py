@@ -1,7 +1,5 @@
 """What a car carries: named masses, each at its point of the chassis."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.vehicle.builder import CarBuilder

@@ -1,7 +1,5 @@
 """A picture of a car as its file draws it: from the side and from above, with all points that were read."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ali3.chart_words import png_metadata

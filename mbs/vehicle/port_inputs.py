@@ -1,7 +1,5 @@
 """Inputs that other programs set in place of the driver or of parts of a car."""
 
-from __future__ import annotations
-
 from mbs.model.inputs import new_input
 from mbs.model.records import Input, Role
 from mbs.vehicle.builder import CarBuilder

@@ -1,7 +1,5 @@
 """What stands in the model in place of the parts of a car that ports replace, and the outputs that their loops need."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import partial
 from typing import Literal

@@ -1,7 +1,5 @@
 """Ports of a car: inputs at which other programs take the place of its drive, its brakes or its steering wheel."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Physical quantities of a car file: unit, range, and whether a finished FMU may change them."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, get_args

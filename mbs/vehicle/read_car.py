@@ -1,7 +1,5 @@
 """Reads a car file: every fault is one sentence with the file, the key path, the value and what would be right."""
 
-from __future__ import annotations
-
 import warnings
 from functools import cache
 from pathlib import Path

@@ -3,8 +3,6 @@
 ``python -m mbs.vehicle.reference`` prints the one and writes the other, in a clone.
 """
 
-from __future__ import annotations
-
 import inspect
 import textwrap
 from collections.abc import Iterator

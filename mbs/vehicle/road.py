@@ -1,7 +1,5 @@
 """The road under a car that is given no other: level with a kerb, far away unless set."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

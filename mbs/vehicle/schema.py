@@ -1,7 +1,5 @@
 """JSON Schema of the car file, for editors and validators, from the types that read it."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

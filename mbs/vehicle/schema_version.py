@@ -1,7 +1,5 @@
 """Version of the form of a car file, written as ``schema = 2`` in its first lines."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

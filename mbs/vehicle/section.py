@@ -1,7 +1,5 @@
 """A table of a car file as a typed object."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator
 from inspect import signature
@@ -36,7 +34,10 @@ class Section(BaseModel):
         for name in texts.keys() & cls.__annotations__.keys():
             given = cls.__dict__.get(name, ...)
             if not isinstance(given, FieldInfo):  # else it has a text of its own
-                text = _without_unit(" ".join(texts[name].split()), eval(cls.__annotations__[name], known))
+                annotation = cls.__annotations__[name]
+                if isinstance(annotation, str):  # of a module that defers its annotations
+                    annotation = eval(annotation, known)
+                text = _without_unit(" ".join(texts[name].split()), annotation)
                 setattr(cls, name, Field(given, description=text))
 
     def element(self, kind: type[Element], **more: Any) -> Element:

@@ -1,7 +1,5 @@
 """Left and right: a file gives the left side, the right one mirrors y."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

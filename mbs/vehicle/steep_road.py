@@ -1,7 +1,5 @@
 """Warns of roads with walls for the wheels of a car."""
 
-from __future__ import annotations
-
 import warnings
 from pathlib import Path
 

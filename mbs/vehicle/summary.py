@@ -1,7 +1,5 @@
 """What a car is, as tables of text."""
 
-from __future__ import annotations
-
 from ali3.columns import in_columns
 from mbs.vehicle.built_car import BuiltCar
 from mbs.vehicle.section import sections_of

@@ -1,7 +1,5 @@
 """Tables beside a car file: CSV with a line of titles."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ The templates of suspensions build it as they build an axle with links; a `Table
 makes a tabled body of each part and a tabled number of each angle, and needs no joints: the links are in the tables.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any

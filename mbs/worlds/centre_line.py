@@ -1,7 +1,5 @@
 """The line in the middle of a course: a curve through points, its stations and what lies beside it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 With --world: makes the road file and the drawing of a world to drive in.
 """
 
-from __future__ import annotations
-
 import argparse
 import math
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Courses of a description: from segments, points or a CSV file to layers, and what is wrong with them."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import re

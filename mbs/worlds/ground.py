@@ -1,7 +1,5 @@
 """The ground of a world before anything is laid on it."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What is laid on the ground of a world: courses and level areas. Each has a height and a weight at every place."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol

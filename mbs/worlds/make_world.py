@@ -1,7 +1,5 @@
 """From a file to a world: its road file and its record."""
 
-from __future__ import annotations
-
 import shutil
 import zlib
 from collections.abc import Callable

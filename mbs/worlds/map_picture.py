@@ -1,7 +1,5 @@
 """The map of a world as a picture."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Kerbs, ramps and washboards: what is added to the heights of the ground, in a frame of their own."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What is drawn of a terrain: patches of regular points, finer where straight lines between them would be off."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Smooth curves of one variable, of which worlds are made."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """The road file of a world: its heights and frictions at regular points, row of tiles by row of tiles."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Scenery of a world: what its description names, put onto the ground."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from typing import Any

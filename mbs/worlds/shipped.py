@@ -1,7 +1,5 @@
 """Worlds and roads of the package."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 WORLDS = Path(__file__).parent

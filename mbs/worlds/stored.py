@@ -1,7 +1,5 @@
 """Worlds that were made before are kept: the same description and files give the same world."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import shutil

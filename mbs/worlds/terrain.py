@@ -1,7 +1,5 @@
 """Heights and surfaces of a world at any place, for the road file and for what is drawn alike."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A world that a page can carry: fewer and rounder numbers of its ground, and how far they are off."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

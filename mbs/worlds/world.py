@@ -3,8 +3,6 @@
 The folder gets NAME.road, what wheels feel, and NAME.json, what is drawn and where a car may start.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 import time

@@ -1,7 +1,5 @@
 """What was understood of a world: whether each thing in it is there for a wheel or an eye."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any, TypeAlias

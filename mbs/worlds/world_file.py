@@ -1,7 +1,5 @@
 """The files that a world is made of."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any

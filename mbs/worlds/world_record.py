@@ -1,7 +1,5 @@
 """The JSON file of a world: what is drawn of it and where a car may start."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """The description of a world as types: what a TOML file of one may say."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field

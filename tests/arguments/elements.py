@@ -1,7 +1,5 @@
 """Every number of an element and of a road."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable
 from typing import Any

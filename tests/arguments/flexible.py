@@ -1,7 +1,5 @@
 """Every argument of what makes and reduces a flexible body."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from typing import Any

@@ -1,7 +1,5 @@
 """Every argument of every method of a model."""
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable
 from dataclasses import is_dataclass

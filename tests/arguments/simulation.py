@@ -1,7 +1,5 @@
 """Every argument of what compiles, steps and looks at a System."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Callable

@@ -2,8 +2,6 @@
 names what is wrong, and nothing has changed.
 """
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable
 from functools import partial

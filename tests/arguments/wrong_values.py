@@ -1,7 +1,5 @@
 """Values that no argument may take in silence, how a good refusal of them reads, and calls that are given them."""
 
-from __future__ import annotations
-
 import inspect
 import math
 import re

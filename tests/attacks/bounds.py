@@ -1,7 +1,5 @@
 """How much an attack may take: seeds by chance, which are printed, within bounds of time and memory."""
 
-from __future__ import annotations
-
 import os
 import random
 import time

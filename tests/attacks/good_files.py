@@ -1,7 +1,5 @@
 """A good file of each kind that is read, to be altered."""
 
-from __future__ import annotations
-
 import base64
 import io
 import json

@@ -1,7 +1,5 @@
 """Archives by chance: nothing is written outside of the folder, and what is refused is one sentence that names them."""
 
-from __future__ import annotations
-
 import random
 import shutil
 import stat

@@ -1,7 +1,5 @@
 """Files of every reader with bytes, words or lines altered: read, or refused in one sentence that names the file."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import sys

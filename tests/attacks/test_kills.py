@@ -1,7 +1,5 @@
 """Commands that are killed at any moment: what was whole stays; the same command goes on and clears what was left."""
 
-from __future__ import annotations
-
 import os
 import random
 import signal

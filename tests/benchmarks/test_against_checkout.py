@@ -1,7 +1,5 @@
 """`python -m benchmarks.cost turns`: this checkout against itself takes the same, and what is no checkout is told."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

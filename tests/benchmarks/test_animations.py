@@ -1,7 +1,5 @@
 """Films of the scenes: the command writes what it says, and the documentation has all of them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The command of cars: its rows, its verdict, its files; frames."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The commands that draw the charts run in their reduced form, and what they compute from rows is right."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The frame of the commands: options, tables, files, pages; timing of steps, the bar, charts."""
 
-from __future__ import annotations
-
 import itertools
 import json
 import os

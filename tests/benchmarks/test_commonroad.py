@@ -1,7 +1,5 @@
 """Cars by CommonRoad's parameters against that project's own multi-body model, whose runs are stored."""
 
-from __future__ import annotations
-
 import pytest
 
 from benchmarks.validation.commonroad import compared

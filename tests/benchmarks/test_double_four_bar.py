@@ -1,7 +1,5 @@
 """The command of the double four-bar writes the rows it promises, a table and a chart."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

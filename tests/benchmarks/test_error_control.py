@@ -1,7 +1,5 @@
 """The table of runs to a tolerance, in its reduced form, and what it calls a miss."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Fidelities of the car: choosing one from measured rows, one measured row, the chart; the naive models."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Figures of the pages are held against new ones, and one that is altered is told by a sentence."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

@@ -1,7 +1,5 @@
 """The command of FMUs: a figure for every call and host, positive; tables of the pages."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

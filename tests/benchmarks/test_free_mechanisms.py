@@ -1,7 +1,5 @@
 """Each joint and each force in a free mechanism: none is left out, and energy stays where a method keeps it."""
 
-from __future__ import annotations
-
 import inspect
 import warnings
 

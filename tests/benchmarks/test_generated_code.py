@@ -1,7 +1,5 @@
 """`python -m benchmarks.cost generated`: both ways make the same iterations, and generated code executes less."""
 
-from __future__ import annotations
-
 import pytest
 
 from benchmarks.car.generated_code import blocks, measure

@@ -1,7 +1,5 @@
 """`python -m benchmarks.cost instructions`: the counts are those of the kernel, and a dearer step is told."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

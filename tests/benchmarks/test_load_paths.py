@@ -1,7 +1,5 @@
 """The command that writes the loads of a car's frame."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Motions from accelerometers: of signals that are known, and as guides of the kerb test."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import cumulative_trapezoid

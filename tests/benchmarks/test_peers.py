@@ -1,7 +1,5 @@
 """Other engines on the shared scenes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

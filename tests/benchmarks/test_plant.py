@@ -1,7 +1,5 @@
 """`python -m benchmarks.fmu plant`: a positive figure for every way, and environments that are the same in all."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Random mechanisms: their reference against closed forms, and the verdicts on runs."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

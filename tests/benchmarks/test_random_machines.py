@@ -1,7 +1,5 @@
 """Random machines with events: their reference against closed forms, and the engine against the reference."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """`python -m benchmarks.cost real-time`: every step is measured, and limits hold."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

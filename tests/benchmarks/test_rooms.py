@@ -1,7 +1,5 @@
 """The rooms of `benchmarks/`: who may import whom, and the list of commands."""
 
-from __future__ import annotations
-
 import ast
 import importlib
 from collections.abc import Iterator

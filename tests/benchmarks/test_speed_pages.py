@@ -1,7 +1,5 @@
 """Tables of lanes, other cars and worst steps in `docs/speed.md`: cells are those of rows, each has its place."""
 
-from __future__ import annotations
-
 from benchmarks import car_peers
 from benchmarks.car import real_time
 from benchmarks.car.lanes import LANES, lane_blocks

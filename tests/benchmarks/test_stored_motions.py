@@ -1,7 +1,5 @@
 """The stored motions are those that their command computes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

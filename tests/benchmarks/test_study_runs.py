@@ -1,7 +1,5 @@
 """The benchmark of studies at a small size, and its page."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

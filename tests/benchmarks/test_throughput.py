@@ -1,7 +1,5 @@
 """`python -m benchmarks.cost throughput`: all ways make the same steps."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

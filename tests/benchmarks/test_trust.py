@@ -1,7 +1,5 @@
 """What the page of trust is made of: the closed form of a period, and rows in its tables."""
 
-from __future__ import annotations
-
 import pytest
 
 from benchmarks.car import trust

@@ -1,7 +1,5 @@
 """Fits of bicycles against a drive that another program has integrated, with numbers that are known."""
 
-from __future__ import annotations
-
 import gzip
 from dataclasses import replace
 from pathlib import Path

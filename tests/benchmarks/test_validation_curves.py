@@ -1,7 +1,5 @@
 """Understeer and sideslip over lateral acceleration, of motions that are known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

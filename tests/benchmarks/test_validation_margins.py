@@ -1,7 +1,5 @@
 """Starts beside a measured state, kinds of seconds that are left out, bounds of a fit: by closed forms."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

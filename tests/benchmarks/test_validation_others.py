@@ -1,7 +1,5 @@
 """Tests of others: tyres on the rig, times from rest, the table of the page."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

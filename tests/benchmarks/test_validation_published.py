@@ -1,7 +1,5 @@
 """Figures of others against drives that are known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

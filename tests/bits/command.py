@@ -5,8 +5,6 @@
 Each group runs in a process of its own, on the code as it is in the tree; the exit code is 1 where a number differs.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import platform

@@ -1,7 +1,5 @@
 """All that the baseline calls of the product, so that code that moves or is renamed is met here only."""
 
-from __future__ import annotations
-
 import importlib
 import subprocess
 import sys

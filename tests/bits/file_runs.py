@@ -1,7 +1,5 @@
 """What commands write: measures, rows of studies, comparisons, kinematics, roads, worlds, pages and glTF."""
 
-from __future__ import annotations
-
 import csv
 import hashlib
 import json

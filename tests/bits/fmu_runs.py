@@ -1,7 +1,5 @@
 """Both cars' FMUs of all kinds in every manoeuvre, through FMPy and through the command that drives."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """What is run: groups of entries, each made by one process."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial

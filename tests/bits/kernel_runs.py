@@ -1,7 +1,5 @@
 """Runs of the engine: scenes, methods, steps, settings and tolerances, with all that the state and the sensors hold."""
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Callable, Iterator, Mapping

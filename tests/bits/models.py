@@ -1,7 +1,5 @@
 """Models that hold what no scene of the package holds; together they have every joint, force and kind of sensor."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Numbers of files as signals: what is text, layout or compression is left out."""
 
-from __future__ import annotations
-
 import base64
 import binascii
 import csv

@@ -1,7 +1,5 @@
 """The baseline of numbers: that it is held, and that its comparison sees what it must."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

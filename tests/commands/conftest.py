@@ -1,7 +1,5 @@
 """An FMU of a small scene for the commands."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """An archive that would be unpacked elsewhere, or into too much, is refused by all that open archives."""
 
-from __future__ import annotations
-
 import stat
 import warnings
 import zipfile

@@ -1,7 +1,5 @@
 """Bars of what takes a while, where there is no terminal."""
 
-from __future__ import annotations
-
 import re
 import time
 

@@ -1,7 +1,5 @@
 """The cache of the user: where the system keeps caches, where the user says, or a folder that goes."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import sys

@@ -1,7 +1,5 @@
 """What `.ci/run` takes from README.md and from the tests' output."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

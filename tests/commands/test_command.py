@@ -1,7 +1,5 @@
 """The console command: one table, quick help, names as the user typed them, and no harm by files of the user."""
 
-from __future__ import annotations
-
 import argparse
 import importlib
 import os

@@ -1,7 +1,5 @@
 """The cores that are counted are those that this process may use."""
 
-from __future__ import annotations
-
 import os
 
 from ali3.cores import available_cores

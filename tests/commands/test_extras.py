@@ -1,7 +1,5 @@
 """A package that is missing is told with the extra that brings it."""
 
-from __future__ import annotations
-
 import ast
 import importlib
 import re

@@ -1,7 +1,5 @@
 """Files are written whole or not at all; two writers of one file do not meet; a full disk is reported."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import threading

@@ -1,7 +1,5 @@
 """Whatever a stranger puts in the place of a file, its reader ends soon and says what is wrong in one sentence."""
 
-from __future__ import annotations
-
 import importlib
 import io
 import os

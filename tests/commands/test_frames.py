@@ -1,7 +1,5 @@
 """Frames between processes: values come back as they were, and what is not a frame of the type is an error."""
 
-from __future__ import annotations
-
 import io
 import json
 import math

@@ -1,7 +1,5 @@
 """Reports have one frame and one style sheet, and texts in them stay texts."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

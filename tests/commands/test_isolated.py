@@ -1,7 +1,5 @@
 """Work in processes of their own: what one does to itself is told, and the others go on."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """Names that may be meant by one that is not known, and the end of the sentence that names them."""
 
-from __future__ import annotations
-
 import pytest
 
 from ali3.near_names import did_you_mean, near_names

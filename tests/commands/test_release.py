@@ -1,7 +1,5 @@
 """A release needs one version everywhere, a section of the changelog, and workflows that are valid."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """How a command ends: one sentence, one line, an exit code."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """What ends a program from outside is met as Ctrl-C is, and what is ignored stays ignored."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """What readers return sums itself up, by one mechanism."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A table of text: what a line, a cell and a number is."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

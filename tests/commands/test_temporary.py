@@ -1,7 +1,5 @@
 """Temporary folders: what a kill leaves is removed by the next program, and nothing of one that lives."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Numbers of the command line with a unit behind them, and options that are misspelt."""
 
-from __future__ import annotations
-
 import argparse
 import math
 from pathlib import Path

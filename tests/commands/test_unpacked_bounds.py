@@ -1,7 +1,5 @@
 """Small files that would fill the memory are refused before they do; what a file names lies below its folder."""
 
-from __future__ import annotations
-
 import gzip
 import io
 import json

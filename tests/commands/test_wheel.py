@@ -1,7 +1,5 @@
 """What an installation holds: four packages, data and types, and a command."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Models that between them use every kind of row."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs import Model

@@ -1,7 +1,5 @@
 """Overconstrained loops as they are drawn: every number of a drawing goes through a pen that rounds or shifts it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """compile() finds the coordinates and rows a textbook would choose, stays sparse, and grows linearly."""
 
-from __future__ import annotations
-
 import sys
 
 import numpy as np

@@ -1,7 +1,5 @@
 """q_full = T z + z0 satisfies every linear joint equation, whatever the numbers."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

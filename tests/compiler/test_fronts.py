@@ -1,7 +1,5 @@
 """Symbolic factorization: the fronts hold every entry of the factor, and the tree is a tree."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

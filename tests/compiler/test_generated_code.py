@@ -1,7 +1,5 @@
 """Code generated for a System: the bits of the kernel's loops, and which System it is for."""
 
-from __future__ import annotations
-
 import copy
 import ctypes
 import importlib.util

@@ -1,7 +1,5 @@
 """Initial velocities that contradict each other are told with what was given and what is."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

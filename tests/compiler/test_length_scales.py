@@ -1,7 +1,5 @@
 """A mechanism is the same at every size: no tolerance of the compiler is a length of its own."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.interpolate import PPoly

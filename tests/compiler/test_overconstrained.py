@@ -1,7 +1,5 @@
 """Overconstrained loops drawn with rounded or shifted numbers: compile corrects the drawing, and every method runs."""
 
-from __future__ import annotations
-
 import importlib
 from functools import partial
 

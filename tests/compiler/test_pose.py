@@ -1,7 +1,5 @@
 """A scene that is not tied to the ground starts wherever and with whatever heading and speed it is given."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Rows of the System: rigidity is kept distances, Phi_q is the derivative of Phi, scaling is as written."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation

@@ -1,7 +1,5 @@
 """Position and velocity problem: what does not close is closed, or refused with names and amounts."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

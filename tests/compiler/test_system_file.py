@@ -1,7 +1,5 @@
 """System files: equal content gives equal bytes; damaged or hostile content gives one clear error."""
 
-from __future__ import annotations
-
 import zlib
 
 import numpy as np

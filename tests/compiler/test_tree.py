@@ -1,7 +1,5 @@
 """The spanning tree of a model, and what the loader refuses of it."""
 
-from __future__ import annotations
-
 import zlib
 from itertools import pairwise
 

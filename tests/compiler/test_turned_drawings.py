@@ -1,7 +1,5 @@
 """Two joints between a body and the ground, drawn along the axes and anywhere: the same freedoms, the same motion."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Callable
 

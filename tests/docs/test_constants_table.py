@@ -1,7 +1,5 @@
 """The numbers of the check of a run: those of the code are those of the page, all of them."""
 
-from __future__ import annotations
-
 import ast
 import re
 from importlib import import_module

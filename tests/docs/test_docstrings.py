@@ -2,8 +2,6 @@
 reference pages are made of this.
 """
 
-from __future__ import annotations
-
 import ast
 import importlib
 import inspect

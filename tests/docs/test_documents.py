@@ -1,7 +1,5 @@
 """What the documents show runs and prints what they say; what they name exists."""
 
-from __future__ import annotations
-
 import ast
 import os
 import re

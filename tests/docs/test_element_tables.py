@@ -1,7 +1,5 @@
 """Tables of force elements: a row for each, of what its class declares."""
 
-from __future__ import annotations
-
 import importlib
 import re
 import sys

@@ -1,7 +1,5 @@
 """The list of the pages that run FMUs, on a site with and without them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType, SimpleNamespace

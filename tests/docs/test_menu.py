@@ -1,7 +1,5 @@
 """The menu beside each page of the site."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from typing import Any

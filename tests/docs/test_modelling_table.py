@@ -1,7 +1,5 @@
 """The table of joints in docs/modelling.md: equations and freedoms as the vocabulary writes them."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

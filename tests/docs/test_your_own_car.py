@@ -1,7 +1,5 @@
 """The commands and snippets of docs/your_own_car.md run and print what it says."""
 
-from __future__ import annotations
-
 import io
 import os
 import re

@@ -6,8 +6,6 @@ section 4.3.2, equations 4.E1 to 4.E78, without turn slip; I. J. M. Besselink, A
 System Dynamics 48(S1), 2010, 337-352, for QSX12 to QSX14. Slips and load are within the ranges of the file.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import atan, cos, exp, hypot, pi, sin, sqrt, tan

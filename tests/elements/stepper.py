@@ -1,7 +1,5 @@
 """A few coordinates with constant mass and elements: trapezoidal rule, Newton with the elements' tangents."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Engine, converter and gears."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The brake sticks, slips at its bound and lets go."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Contact points in isolation: gradients, tangents, loss, stick and slip, roads of every kind."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

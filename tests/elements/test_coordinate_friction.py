@@ -1,7 +1,5 @@
 """Friction on a coordinate holds below its largest force, slides at it, and only takes energy."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

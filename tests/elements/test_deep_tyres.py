@@ -1,7 +1,5 @@
 """Wheels as deep in the road as they can be: loads grow with depth, no force turns over, the deflection says it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 

@@ -1,7 +1,5 @@
 """The contact of a disc with a grid, against a dense search of the profile, and the slopes of a grid at steps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

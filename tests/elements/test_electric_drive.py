@@ -1,7 +1,5 @@
 """Electric motor: its curve, its powers, regeneration, the selector, and the reaction on its carrier."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Factors on springs, dampers and bars: at one nothing changes by a bit, and they scale what they say."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Any finite input gives finite output, and the same input the same bits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

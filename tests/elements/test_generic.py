@@ -1,7 +1,5 @@
 """Springs, input forces, gyroscopic moment and drag: closed forms, virtual work and tangents by differences."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The law of an element in lanes has in each lane the bits that it has alone, whatever its neighbours are asked."""
 
-from __future__ import annotations
-
 import ctypes
 from dataclasses import replace
 

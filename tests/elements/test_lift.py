@@ -1,7 +1,5 @@
 """Aerodynamic lift: a closed form, the axes of the body, and a wing that flies."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

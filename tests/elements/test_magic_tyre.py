@@ -1,7 +1,5 @@
 """The tyre by the Magic Formula: its forces against a second implementation, tangent, energy, standstill."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 from math import atan, cos, hypot, sin, sqrt, tan

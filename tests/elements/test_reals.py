@@ -1,7 +1,5 @@
 """A number of an element is declared once: its record, its names for parameters and their checks follow."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from dataclasses import dataclass, replace
 from pathlib import Path

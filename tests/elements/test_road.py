@@ -1,7 +1,5 @@
 """Where a disc touches plane, kerb and grid."""
 
-from __future__ import annotations
-
 import ctypes
 import re
 

@@ -1,7 +1,5 @@
 """The angle of a wheel on its carrier, step by step: against closed forms of carriers that turn about several axes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation

@@ -1,7 +1,5 @@
 """Springs and dampers by table, against scipy's monotone cubic and its integral."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The torsion bar of a steering: its spring, its assistance, its tangent."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

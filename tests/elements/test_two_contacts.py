@@ -1,7 +1,5 @@
 """A wheel or a point that touches two parts of a road of different friction: the frictions count by their loads."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

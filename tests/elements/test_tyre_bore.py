@@ -1,7 +1,5 @@
 """Bore torque and camber thrust: turning on the spot, energy, rest, tangent, and both formulas alike."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise

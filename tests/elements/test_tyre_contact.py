@@ -1,7 +1,5 @@
 """Contact point and normal that a tyre reports: closed forms on planes, kerbs and grids, on the road and in the air."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

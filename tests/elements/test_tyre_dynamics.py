@@ -1,7 +1,5 @@
 """The tyre in motion: relaxation, order of convergence, standstill, friction bound, flight."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The tyre in steady states: radial force, TMeasy curves, virtual work, tangent."""
 
-from __future__ import annotations
-
 import itertools
 import re
 from dataclasses import replace

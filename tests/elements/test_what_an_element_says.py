@@ -1,7 +1,5 @@
 """What elements say of themselves (element.h, ElementRecord) is what they do."""
 
-from __future__ import annotations
-
 import importlib
 
 import numpy as np

@@ -5,8 +5,6 @@ the transport speed, curves by parts, generalised slip, influence of load and fr
 equations are in G. Rill, "Road Vehicle Dynamics", CRC Press, 2012, chapter 3.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import cos, hypot, sin, sqrt
 

@@ -1,7 +1,5 @@
 """A light car's tyre for the tests: 155/80 R13 class, project data, in the form of the element."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.elements import PlaneRoad, Road, Tyre, TyreCurve

@@ -1,7 +1,5 @@
 """The examples: each runs without a warning, finds the number it promises, draws, and stands in the gallery."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The notebooks run from the first cell to the last, and their controllers do what they are for."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

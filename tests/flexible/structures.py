@@ -1,7 +1,5 @@
 """Small structures the tests share."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.flexible.frame import Beam, Frame

@@ -1,7 +1,5 @@
 """Models that cannot be are refused with one sentence that names the place."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

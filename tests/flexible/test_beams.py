@@ -1,7 +1,5 @@
 """Beam elements against closed forms of beam theory."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy.sparse as sp

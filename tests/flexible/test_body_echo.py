@@ -1,7 +1,5 @@
 """Flexible bodies that are right in form and wrong in meaning are told or refused, with the mistake behind it."""
 
-from __future__ import annotations
-
 import itertools
 import re
 import warnings

@@ -1,7 +1,5 @@
 """Our beams and CalculiX's: an independent program with solid-expanded beams of another kind."""
 
-from __future__ import annotations
-
 import json
 import shutil
 

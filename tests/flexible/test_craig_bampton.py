@@ -1,7 +1,5 @@
 """The reduction: unit interfaces, exact statics, frequencies from above, and bodies of other bases."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy.sparse as sp

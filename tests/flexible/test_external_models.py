@@ -1,7 +1,5 @@
 """Models that come as matrices: the same numbers as the frame they were written from."""
 
-from __future__ import annotations
-
 import struct
 import sys
 from pathlib import Path

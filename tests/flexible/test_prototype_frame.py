@@ -1,7 +1,5 @@
 """The frame of the prototype car against the figures its layout was published with in the project."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy.sparse as sp

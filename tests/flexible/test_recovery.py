@@ -1,7 +1,5 @@
 """Section forces, stresses, gauges and inertia relief against beam theory."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy.sparse as sp

@@ -1,7 +1,5 @@
 """The part `flexible` of a scene against finite elements, closed forms and what it refuses."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 

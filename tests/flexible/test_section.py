@@ -1,7 +1,5 @@
 """Cross-sections and materials against closed forms, and the sentences for impossible ones."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

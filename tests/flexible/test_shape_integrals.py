@@ -1,7 +1,5 @@
 """The sums over mass points against the same ones written out."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

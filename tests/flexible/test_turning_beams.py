@@ -1,7 +1,5 @@
 """Beams that turn: what the damped first steps leave of their energy, and pairs of them far from the origin."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Small flexible bodies for tests: reduced beams, and a cloud of mass points with random shapes."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

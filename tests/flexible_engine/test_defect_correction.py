@@ -4,8 +4,6 @@ Gyroscopic moments and tyres are not in the symmetric tangent, and the slope of 
 until its rate cannot come back to where it sticks.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

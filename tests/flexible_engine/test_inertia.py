@@ -1,7 +1,5 @@
 """M(q), Q_v, weight and energies of the kernel against the literal sums of the paper's equations (5) to (14)."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation

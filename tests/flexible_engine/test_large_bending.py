@@ -1,7 +1,5 @@
 """A flexible body that bends more than its linear modes hold for is warned of, once, with the number of parts."""
 
-from __future__ import annotations
-
 import warnings
 
 import pytest

@@ -4,8 +4,6 @@ References: geometrically exact beams of an independent program (`benchmarks/ref
 forms.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

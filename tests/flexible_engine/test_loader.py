@@ -1,7 +1,5 @@
 """What the loader refuses of the flexible bodies in a System file."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

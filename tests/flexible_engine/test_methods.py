@@ -1,7 +1,5 @@
 """Every method with flexible bodies, whose mass matrix moves: order of convergence, what is refused, states, rates."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Flexible bodies in motion: rigid limit, balances, order of the step, closed forms of statics and vibration."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Flexible bodies in a model: interfaces, counts of coordinates, and one sentence for what cannot be."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Words of tests that call an FMU."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A host in bare Python that ends in one of many ways: ends.py END FOLDER..., with the folders of unpacked FMUs."""
 
-from __future__ import annotations
-
 import atexit
 import ctypes
 import os

@@ -1,7 +1,5 @@
 """An instance of FMI 3.0 that is called as one of FMI 2.0."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from ctypes import byref, c_bool, c_double
 from typing import Any

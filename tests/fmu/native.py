@@ -1,7 +1,5 @@
 """Compiling C hosts for tests, and what binaries say about themselves."""
 
-from __future__ import annotations
-
 import shutil
 import struct
 import subprocess

@@ -1,7 +1,5 @@
 """An FMU in hosts that are no Python programs: that of the project in C, and libcosim."""
 
-from __future__ import annotations
-
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What a host may do wrong is answered with a status and one sentence, and leaves the instance as it was."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """No call takes more than two million inner steps and iterations: refused before, or ended there, with the number."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from ctypes import byref, c_int64
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The command that builds an FMU: what it makes and how it refuses."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import fmpy

@@ -1,7 +1,5 @@
 """`build_fmu` refuses wrong arguments in one sentence, before it writes anything."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A car file becomes an FMU: by its name or path, with the file in it, and every fault as sentences."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import zipfile

@@ -2,8 +2,6 @@
 setting an input changes at a communication point.
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The model description: valid for two checkers, complete, and the same from two builds."""
 
-from __future__ import annotations
-
 import math
 import subprocess
 import sys

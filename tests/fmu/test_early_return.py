@@ -3,8 +3,6 @@
 By FMPy and by the project's host in C.
 """
 
-from __future__ import annotations
-
 import subprocess
 from collections.abc import Callable, Mapping
 from ctypes import byref, c_bool, c_double

@@ -1,7 +1,5 @@
 """No end of a process aborts it: the Python kind, where its host or the FMU has the interpreter."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """The parameter `fidelity` of an FMU: one table of variables, one System per fidelity."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A fixed parameter can be set until the end of the initialisation, a tunable one at any time."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

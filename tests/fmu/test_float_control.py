@@ -1,8 +1,6 @@
 """A host may round in another way, take denormal numbers for 0 or trap: it gets the same bits, and keeps its register.
 No call raises a flag of invalid, division by zero or overflow."""
 
-from __future__ import annotations
-
 import math
 import platform
 import sys

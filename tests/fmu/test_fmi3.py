@@ -1,7 +1,5 @@
 """FMI 3.0: arrays, states, derivatives and order of calls through FMPy."""
 
-from __future__ import annotations
-
 import math
 import zipfile
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """What other programs give at ports reaches an FMU of FMI 3.0 as it reaches one of FMI 2.0: the same bits."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`resources/geometry.json`: the drawing of a model, moved by the variables of its FMU, where the engine has it."""
 
-from __future__ import annotations
-
 import json
 import zipfile
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """A contact or a stop that is too fast for the step: a second motion with a part of it warns, and changes no bit."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Sequence
 from pathlib import Path

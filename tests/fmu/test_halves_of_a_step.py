@@ -1,7 +1,5 @@
 """A communication step of two and a half inner steps has three of them, whatever round-off the host's times have."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

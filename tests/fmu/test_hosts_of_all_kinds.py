@@ -1,7 +1,5 @@
 """What one host does and another does not: where resources lie, how time is read, how far a step goes."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess

@@ -1,7 +1,5 @@
 """Instances do not see each other; neither do FMUs in one process."""
 
-from __future__ import annotations
-
 import shutil
 import sys
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Directional derivatives of steps in which a force law passes a kink: there are none, and the element is named."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`solver.step_iterations` limits the work of a step: steps that end at it are counted, and what they left is told."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

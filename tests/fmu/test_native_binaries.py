@@ -1,7 +1,5 @@
 """The binaries: what they need, what they show, the same numbers without Python and on Windows, and from sources."""
 
-from __future__ import annotations
-
 import importlib.util
 import os
 import shutil

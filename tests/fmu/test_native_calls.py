@@ -1,7 +1,5 @@
 """Random legal and illegal sequences of calls: the status the standard asks for, and never a crash or a NaN."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from ctypes import CFUNCTYPE, c_size_t, c_void_p

@@ -1,7 +1,5 @@
 """Derivatives: inputs followed inside a step, rates of outputs, outputs by inputs against differences of steps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from ctypes import c_double
 from pathlib import Path

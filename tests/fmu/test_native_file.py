@@ -1,7 +1,5 @@
 """What a native FMU carries: documents by the standard's schemas, reference results that repeat, documentation."""
 
-from __future__ import annotations
-
 import io
 import struct
 import xml.etree.ElementTree as ElementTree

@@ -1,7 +1,5 @@
 """The Python FMU answers every call as the native one: statuses, words, values and states."""
 
-from __future__ import annotations
-
 import math
 import random
 import sys

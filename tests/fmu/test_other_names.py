@@ -1,7 +1,5 @@
 """FMUs under the names and units of other programs: the numbers are those of our names, converted."""
 
-from __future__ import annotations
-
 import importlib.util
 import math
 import zipfile

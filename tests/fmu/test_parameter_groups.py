@@ -1,7 +1,5 @@
 """Dependencies on parameters: true for each of them, and no more trials for many than for few."""
 
-from __future__ import annotations
-
 import random
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Ports: a value that is not finite holds the last one with one warning, one that nobody sets is told."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from xml.etree import ElementTree

@@ -1,7 +1,5 @@
 """FMPy drives FMUs of the prototype car over its reference trajectories, and over motions known without them."""
 
-from __future__ import annotations
-
 import importlib.util
 import zipfile
 from collections.abc import Callable, Mapping

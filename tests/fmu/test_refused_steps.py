@@ -1,7 +1,5 @@
 """A refused step stops a host in place of looping it, and says what helps."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """A road that other programs answer for, at the slave: points ahead, normals, answers far away, states."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import re

@@ -1,7 +1,5 @@
 """The text parameter of a road's file: set, refused, reset, saved and restored; the same bits as in Python."""
 
-from __future__ import annotations
-
 import os
 import re
 import sys

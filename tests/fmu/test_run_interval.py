@@ -1,7 +1,5 @@
 """Rows of a table at an interval: the same bits as with a row after each step, and stresses are read there alone."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The parameter `initial.settling`: a start in motion is held until tyres, springs and steering have settled."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The FMU state is exact: roll back, another instance, another process."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

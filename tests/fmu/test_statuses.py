@@ -1,7 +1,5 @@
 """Statuses of the kernel in an FMU: the words and the remedy of each stand in what it says."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

@@ -3,8 +3,6 @@
 The mechanism is pulled beyond its reach. A second instance, which never tries the step, tells what is right.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Steps through FMI are the steps of the engine, whatever their size; a refused step changes nothing."""
 
-from __future__ import annotations
-
 import math
 import random
 from pathlib import Path

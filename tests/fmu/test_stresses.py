@@ -1,7 +1,5 @@
 """Stresses of the rigid car: found when they are read, from the motion and without a trace in it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """What users write: texts that XML cannot hold are refused, scenes import the files beside them."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What a person reads of an FMU's variables: typical sizes, names of types, texts of arrays, terminals."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from xml.etree import ElementTree

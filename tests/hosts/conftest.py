@@ -4,8 +4,6 @@ Laying out and drawing one takes half a second, a comparison four of them. All t
 every test; a picture of one point stands for what matplotlib makes of them, but in tests with the marker `drawn`.
 """
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Generator
 from pathlib import Path

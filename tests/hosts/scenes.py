@@ -1,7 +1,5 @@
 """A sledge under the names of a car, so that the host's car page is drawn without a car."""
 
-from __future__ import annotations
-
 import mbs
 from mbs.flexible import Beam, Frame, Interface, Material, craig_bampton
 from mbs.flexible.recovery import fibre_stresses

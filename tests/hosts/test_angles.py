@@ -1,7 +1,5 @@
 """Angles that are whole turns apart are the same: in a comparison, a fit, a reference and a measure."""
 
-from __future__ import annotations
-
 import csv
 import json
 import math

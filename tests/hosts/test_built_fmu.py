@@ -1,7 +1,5 @@
 """FMUs of cars are built once for each content."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import signal

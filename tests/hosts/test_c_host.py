@@ -1,7 +1,5 @@
 """The host in C: what it sets by name, and what it refuses."""
 
-from __future__ import annotations
-
 import subprocess
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The prototype car's FMU driven through the manoeuvres of the host, as a user does it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`ali3 check`: good FMUs pass, spoilt ones are named, other files are errors."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import zipfile

@@ -1,7 +1,5 @@
 """`ali3 check` of FMUs that loop for ever, crash, step for long, or lack functions: each check has its verdict."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import zipfile

@@ -1,7 +1,5 @@
 """`ali3 check` of FMUs with one fault each, in FMI 2.0 and 3.0: each has its verdict, clause, value and remedy."""
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

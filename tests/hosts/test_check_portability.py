@@ -1,7 +1,5 @@
 """What was found wrong with FMUs once is found again by `hosts.check.command` where it is put back in."""
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Callable
 from pathlib import Path

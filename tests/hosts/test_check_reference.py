@@ -1,7 +1,5 @@
 """`ali3 check FMU --reference FILE`: what agrees, what does not, and tables that are no reference."""
 
-from __future__ import annotations
-
 import csv
 import math
 import shutil

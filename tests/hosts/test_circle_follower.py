@@ -1,7 +1,5 @@
 """A circle is held by a car without slip whose steering is late and whose steering ratio is not as told."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

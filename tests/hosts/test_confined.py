@@ -1,7 +1,5 @@
 """Option ``--confined``: an FMU reaches nothing of the host, gives the same bits, and is told of as ever."""
 
-from __future__ import annotations
-
 import socket
 import tempfile
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """The job of docs/commands.md on a small repository, as it is written; JUnit files by a second reader."""
 
-from __future__ import annotations
-
 import csv
 import re
 import shlex

@@ -1,7 +1,5 @@
 """Cones of a driver's course in the scene: where ISO 3888 has its lanes, on the ground of the road."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

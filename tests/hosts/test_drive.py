@@ -1,7 +1,5 @@
 """The command from FMU to table and picture: once as a program, as a user runs it, then in this process."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess

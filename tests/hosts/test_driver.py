@@ -1,7 +1,5 @@
 """The driver steers a car without slip through the double lane change, and holds its speed."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Arrays of FMI 3.0 that are inputs or parameters are set by their elements, in runs and in studies."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import zipfile

@@ -1,7 +1,5 @@
 """Studies of an FMU of FMI 3.0 have the results of the same model in FMI 2.0, and so has a comparison with a log."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Commands with an FMU that ends its process or gives no numbers; none of them loads a library of an FMU itself."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`ali3 run` of FMUs that end, print, start and reach what they should not: it is told, and nothing stays."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """Slopes of regression lines."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

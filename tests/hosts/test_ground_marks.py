@@ -1,7 +1,5 @@
 """What a manoeuvre has on the ground: the circle, the line where braking begins, and cones of a course laid out."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import astuple, replace
 from pathlib import Path

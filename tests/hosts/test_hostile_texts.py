@@ -1,7 +1,5 @@
 """A foreign FMU whose every text is markup: each page shows it as it is, and nothing of it runs."""
 
-from __future__ import annotations
-
 import json
 import re
 import zipfile

@@ -1,7 +1,5 @@
 """Columns in another unit than the FMU's input are told, with the row and the unit that would explain them."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The host of the paper's test and its filter."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 

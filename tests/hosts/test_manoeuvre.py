@@ -1,7 +1,5 @@
 """Manoeuvre files: read as FMPy reads them, and refused with a sentence that names the place."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What `ali3 view --live` makes of an FMU, and the sentences for what it cannot use."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import html

@@ -1,7 +1,5 @@
 """Parameter sets: SSV files between an FMU, its hosts and other readers, with units, refusals and round trips."""
 
-from __future__ import annotations
-
 import json
 import re
 import struct

@@ -1,7 +1,5 @@
 """Pilots hold a speed and steer by a table."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

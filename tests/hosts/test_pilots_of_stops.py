@@ -1,7 +1,5 @@
 """Pilots that brake, fix the steering and follow lines, with cars of a few lines."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

@@ -1,7 +1,5 @@
 """The line of least curvature: inside the lanes, bent less than any simple one, and as bent as it has to be."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Rows of a run: which changes of inputs a table tells by its rows, which are jumps, and which are lost."""
 
-from __future__ import annotations
-
 from hosts.driving.recorded_rows import RecordedRows
 
 HELD, STRAIGHT, ALONE = range(3)

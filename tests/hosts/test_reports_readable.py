@@ -2,8 +2,6 @@
 they lead to.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

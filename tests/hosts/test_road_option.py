@@ -1,7 +1,5 @@
 """The option ``--road`` of hosts."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import fmpy

@@ -1,7 +1,5 @@
 """Rows of a run that are further apart than its steps: its end, what they do not tell, and no outputs."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The soak test drives, sees what is wrong, and saves what repeats it."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

@@ -1,7 +1,5 @@
 """A manoeuvre that finds its throttle holds the speed of its start straight on, and says what became of it."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """A slalom driven by the torque on the steering wheel, in two hosts, and the engine beside them."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Constants of the steering where a parameter changes its ratio."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

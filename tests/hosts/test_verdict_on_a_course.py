@@ -1,7 +1,5 @@
 """A double lane change is passed where all lanes were driven at the speed that was asked for, and only there."""
 
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

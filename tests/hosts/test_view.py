@@ -2,8 +2,6 @@
 that cannot be shown.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import json

@@ -1,7 +1,5 @@
 """Results of both cars as `ali3 view` shows them."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable
 from functools import cache

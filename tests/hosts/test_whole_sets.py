@@ -1,7 +1,5 @@
 """A parameter set that lists everything as the FMU has it, as a build writes one, changes nothing at any door."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from pathlib import Path

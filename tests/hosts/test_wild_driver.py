@@ -1,7 +1,5 @@
 """The wild driver: the same by its seed, within the ranges of the controls, and at what it aims at."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

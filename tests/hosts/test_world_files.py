@@ -1,7 +1,5 @@
 """Worlds that hosts have made for them by the command."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

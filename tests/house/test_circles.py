@@ -1,7 +1,5 @@
 """No circle of imports among files or rooms; imports for type checkers and inside functions count."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from graphlib import CycleError, TopologicalSorter
 

@@ -1,7 +1,5 @@
 """Who may know whom: rooms of the kernel and C files of the others here, Python packages in `import_directions.ini`."""
 
-from __future__ import annotations
-
 import posixpath
 import re
 import subprocess

@@ -1,7 +1,5 @@
 """Packages of the engine are attributes of `mbs`, and importing `mbs` loads none of them."""
 
-from __future__ import annotations
-
 import importlib
 import pkgutil
 import subprocess

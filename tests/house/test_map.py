@@ -1,7 +1,5 @@
 """The map in CONTRIBUTING.md names every room, and none that is not there."""
 
-from __future__ import annotations
-
 import re
 
 from tests.house.test_import_directions import ROOT

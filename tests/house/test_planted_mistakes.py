@@ -3,8 +3,6 @@
 A sweep of one of each kind; `told` of a kind gives the sentences of a file with the mistake.
 """
 
-from __future__ import annotations
-
 import math
 import re
 import tomllib

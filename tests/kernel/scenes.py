@@ -1,7 +1,5 @@
 """Systems made by hand that the kernel tests share."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.kernel.header.enumerations import ElementType, GuideType, SensorType

@@ -1,7 +1,5 @@
 """Rates of sensors as the kernel gives them, beside differences over a small step."""
 
-from __future__ import annotations
-
 import ctypes
 
 import numpy as np

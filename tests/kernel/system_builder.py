@@ -1,7 +1,5 @@
 """Writes System bytes for small systems made by hand, without the compiler of `mbs`: dense, slow, plain."""
 
-from __future__ import annotations
-
 import struct
 import zlib
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Rows, tangent and factorization against dense NumPy and finite differences."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

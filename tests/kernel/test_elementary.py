@@ -1,7 +1,5 @@
 """The kernel's own elementary functions against the platform's."""
 
-from __future__ import annotations
-
 import ctypes
 import math
 import random

@@ -1,7 +1,5 @@
 """Controlled runs of the kernel: what a call leaves behind, where steps end, and that parts of a run are the run."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,8 +1,6 @@
 """The kernel has the same bits whatever the processor of its caller does; the caller's register stays, and its function
 of inputs has it."""
 
-from __future__ import annotations
-
 import platform
 import sys
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """What stands in C headers and in Python: one source, and a library of other sources is refused."""
 
-from __future__ import annotations
-
 import ctypes
 import itertools
 import re

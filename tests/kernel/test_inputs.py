@@ -1,7 +1,5 @@
 """Inputs within a step: a mass under a force that is a function of time, a table or the last value set."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

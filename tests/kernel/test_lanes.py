@@ -1,7 +1,5 @@
 """Lanes have the bits of single runs: the whole saved state, with its counters, after every part of a run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

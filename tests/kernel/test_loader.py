@@ -1,7 +1,5 @@
 """The loader against damaged and hostile files: a clear refusal, never a crash or a silent acceptance of nonsense."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """One step of the states of elements alone, at held coordinates."""
 
-from __future__ import annotations
-
 import pytest
 
 from mbs import Model, compile

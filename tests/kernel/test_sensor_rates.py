@@ -1,7 +1,5 @@
 """Rates of sensors against differences; looking changes nothing."""
 
-from __future__ import annotations
-
 import numpy as np
 
 import mbs

@@ -1,7 +1,5 @@
 """Starts in motion that are held until the rest has settled."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Position problem and static equilibrium."""
 
-from __future__ import annotations
-
 import contextlib
 
 import numpy as np

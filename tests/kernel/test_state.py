@@ -1,7 +1,5 @@
 """States as bytes: a restored instance continues bit for bit; altered bytes are refused and change nothing."""
 
-from __future__ import annotations
-
 import zlib
 
 import numpy as np

@@ -1,7 +1,5 @@
 """ALi3-P steps of systems made by hand: energy, convergence, projections, halving, refusal, the clock."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """System files whose header or names were altered under a right checksum: one sentence, never a raw KeyError."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from pathlib import Path

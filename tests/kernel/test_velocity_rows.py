@@ -1,7 +1,5 @@
 """Conditions on velocities in the kernel: what they add to the rows, and a state that continues bit for bit."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

@@ -1,7 +1,5 @@
 """The kernel as on a processor without AVX2: the bits of states are those of one with it."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -6,8 +6,6 @@ positions depend on the method and the torque of the drive on everything. `chirp
 a function of time. Joint forces are those on the rod.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import cos, pi, sin

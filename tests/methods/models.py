@@ -2,8 +2,6 @@
 and what the tests of several methods ask of a run.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.interpolate import PPoly
 

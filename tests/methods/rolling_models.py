@@ -1,7 +1,5 @@
 """Skates and rolling discs with closed forms."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from benchmarks.methods.kernel_methods import POSITIONS_ONLY, TREE_ONLY

@@ -1,7 +1,5 @@
 """Relative angles in the semi-recursive methods: springs, motors, sensors and armatures on angles."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -2,8 +2,6 @@
 it comes from, and must not become a force in a shorter one.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

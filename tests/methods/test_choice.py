@@ -1,7 +1,5 @@
 """Methods by name, and where one is refused."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Steps end where a stop is met or left: errors fall with the square of the step through each impact."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

@@ -1,7 +1,5 @@
 """What `mbs/kernel/src/method.h` asks of every method, and what the states that it leaves must have for a reader."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The energy balance of a run: energy, work, kinetic energy, predictor differences, and what a refusal leaves."""
 
-from __future__ import annotations
-
 from ctypes import byref
 from dataclasses import asdict, replace
 

@@ -1,7 +1,5 @@
 """What the energy-momentum step keeps: energy, momenta, rows, and the energy balance of dampers and drives."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.sparse import csr_array

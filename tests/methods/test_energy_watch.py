@@ -1,7 +1,5 @@
 """Energy that steps make or lose without a force: the balance against the energy itself, and steps refused for it."""
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

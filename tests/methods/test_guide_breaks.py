@@ -1,7 +1,5 @@
 """Steps end where the rate or the acceleration of a prescribed motion jumps, and keep their order there."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A tangent serves several iterations of a step, and they converge as with a new one each."""
 
-from __future__ import annotations
-
 import pytest
 
 from mbs import compile, simulate

@@ -1,7 +1,5 @@
 """What methods carry from step to step: complete in a saved state, kept by a step that fails, never trusted."""
 
-from __future__ import annotations
-
 import struct
 import zlib
 from collections.abc import Callable

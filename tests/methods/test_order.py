@@ -1,7 +1,5 @@
 """Order of convergence of the methods, fitted on four steps; of relative coordinates in `test_semi_recursive.py`."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,8 +1,6 @@
 """High orders show down to round-off at the default tolerances: a tolerance in metres lets accelerations of 2 / h^2
 times itself through."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp

@@ -1,7 +1,5 @@
 """Start values of ALi3-P from past steps: fewer iterations where the motion is smooth, none more elsewhere."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Projections close the rates of the rows to what the positions know of them, and no further."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

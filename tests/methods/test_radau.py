@@ -1,7 +1,5 @@
 """Radau IIA on index three: orders, stiff decay, redundant rows, the work of dampers, what it does not take."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp

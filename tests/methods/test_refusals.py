@@ -1,7 +1,5 @@
 """Refusals name the true reason: a step too long for an explicit method, a start too far away; no closed rows."""
 
-from __future__ import annotations
-
 import itertools
 import re
 

@@ -1,7 +1,5 @@
 """Every reported quantity of every method has the order that docs/speed_and_accuracy.md says, from the first step."""
 
-from __future__ import annotations
-
 import re
 from functools import cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The explicit method of order eight: what it reaches, and what it does not take."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs import Settings, compile, simulate

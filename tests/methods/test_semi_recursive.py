@@ -1,7 +1,5 @@
 """Relative coordinates against natural ones, closed forms and conservation."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import scipy.linalg

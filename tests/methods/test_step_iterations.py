@@ -1,7 +1,5 @@
 """Steps whose Newton iterations are limited: bounded work, a state that stays good, and what was left is said."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rows that come and go at run time: a pin on the end of a double pendulum, and the PUMA of the paper."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Skates and rolling wheels against closed forms, by every method."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Work of force elements: closed forms, the balance of the energy by every method, states that go on, refusals."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Models with a spanning tree: branches with a slide, a weld and springs; a carriage; a closed spatial loop."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs import Model

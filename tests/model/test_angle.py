@@ -1,7 +1,5 @@
 """The relative angle is unwrapped and regular at every angle; drives and armature act on it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.interpolate import PPoly

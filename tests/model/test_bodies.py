@@ -1,7 +1,5 @@
 """Bodies in natural coordinates: the constant mass matrix is that of a rigid body."""
 
-from __future__ import annotations
-
 import copy
 import pickle
 

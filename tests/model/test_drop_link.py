@@ -1,7 +1,5 @@
 """Levers with a link, and the bars they carry, against closed forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

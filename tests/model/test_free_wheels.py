@@ -1,7 +1,5 @@
 """Free wheels that gears, racks and screws tie: energy, teeth and angles over long runs."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """A guide that follows another one by a curve: values, rates, power, and what is refused."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator

@@ -1,7 +1,5 @@
 """Guides of two inputs, forces of guides and rods, shafts, and drives that let go."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -2,8 +2,6 @@
 method, and Newton's and Euler's laws of the body they act on.
 """
 
-from __future__ import annotations
-
 from math import cos, sin
 
 import numpy as np

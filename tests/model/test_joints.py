@@ -1,7 +1,5 @@
 """Each joint leaves the degrees of freedom it should, keeps its condition in motion and conserves momentum."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Ports of a rigid body: forces of joints and springs there, quasi-static outputs, and what is refused."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

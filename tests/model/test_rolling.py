@@ -1,7 +1,5 @@
 """Rolling wheels and skates as an engineer writes them: what they refuse, and what they add."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Sensors read what they say; joint forces come from the multipliers."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation

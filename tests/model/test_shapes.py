@@ -1,7 +1,5 @@
 """Shapes of bodies: what is taken, what is refused with which sentence, and that refusals change nothing."""
 
-from __future__ import annotations
-
 import base64
 
 import numpy as np

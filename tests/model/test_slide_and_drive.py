@@ -1,7 +1,5 @@
 """A sliding point (rack), driven distances and driven components follow their guides."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import cumulative_trapezoid, solve_ivp

@@ -1,7 +1,5 @@
 """A wheel reduced to its spin moves its carrier as a full rotating wheel does."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

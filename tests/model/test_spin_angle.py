@@ -1,7 +1,5 @@
 """The angle of a reduced wheel on its carrier: against the same wheel as a full body on a bearing."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation

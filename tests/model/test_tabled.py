@@ -1,7 +1,5 @@
 """Bodies and numbers by table, against the joints they stand for, closed forms and conservation laws."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import pairwise
 from typing import Any

@@ -1,7 +1,5 @@
 """Gears, racks, screws and anti-roll bars against closed forms, by every method that takes them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -2,8 +2,6 @@
 of the model.
 """
 
-from __future__ import annotations
-
 import inspect
 import pydoc
 import re

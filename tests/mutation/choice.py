@@ -1,7 +1,5 @@
 """Which tests are likely to notice a mutant, the likeliest first: by names, imports and folders."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from functools import cache

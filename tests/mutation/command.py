@@ -8,8 +8,6 @@ Without `--sample` and `--again` those of the tables. The score is the share of 
 itself is not touched.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

@@ -1,7 +1,5 @@
 """Small errors in a text of C, JavaScript or Python: the usual operators, applied to the syntax tree."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass

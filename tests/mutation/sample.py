@@ -4,8 +4,6 @@ What identifies a mutant is its line, or lines where a statement has several. Sp
 the line stands more than once, or no longer in its file, the function around it and the lines before and after decide.
 """
 
-from __future__ import annotations
-
 import math
 import random
 import re

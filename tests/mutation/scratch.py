@@ -1,7 +1,5 @@
 """A copy of the project in which one mutant at a time is tried, and what its tests say."""
 
-from __future__ import annotations
-
 import json
 import multiprocessing
 import os

@@ -9,8 +9,6 @@ A line with `@` names the file by the end of its path, and test files below `tes
 name. An empty `+` takes it away. What is changed must compile without a warning. Lines with `#` are comments.
 """
 
-from __future__ import annotations
-
 import functools
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Mutants drawn by chance: their operators, the same for the same seed, found again where code has moved."""
 
-from __future__ import annotations
-
 import shutil
 from dataclasses import replace
 from pathlib import Path

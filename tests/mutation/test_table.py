@@ -1,7 +1,5 @@
 """Every row of the tables of mutants still applies, and names tests that are there."""
 
-from __future__ import annotations
-
 from tests.mutation.table import ROOT, all_mutants
 
 LEAST = 200

@@ -1,7 +1,5 @@
 """A System as dense matrices, read from its arrays by plain loops: M, Phi, Phi_q, H, Q, and C and K of its springs."""
 
-from __future__ import annotations
-
 import numpy as np
 
 SPRING_DAMPER = 1

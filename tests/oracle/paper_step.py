@@ -9,8 +9,6 @@ penalty. The multipliers follow the projected accelerations: a change x of qdd b
 multipliers with which M x = Phi_q' dlam, up to h/2 C x + h^2/4 K x.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Every step of the kernel is the step of the paper's equations, to round-off."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The car that drives over roads."""
 
-from __future__ import annotations
-
 import pytest
 
 import mbs

@@ -1,7 +1,5 @@
 """Peak loads of a wheel on roads of every origin, against a dense search of the disc over the same sampled profile."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Roads from tables, arrays, pictures and descriptions; the command; its pictures."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

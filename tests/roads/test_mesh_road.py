@@ -1,7 +1,5 @@
 """Roads from meshes of triangles: heights against an independent interpolation, and what is not a road."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

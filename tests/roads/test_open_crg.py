@@ -1,7 +1,5 @@
 """Roads from OpenCRG files, against a second reader (pycrg, the C library of the standard) and closed forms."""
 
-from __future__ import annotations
-
 import logging
 import warnings
 from pathlib import Path

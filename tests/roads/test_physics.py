@@ -1,7 +1,5 @@
 """What a car and a quarter of one do on roads from files, against closed forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.interpolate import PPoly

@@ -1,7 +1,5 @@
 """Roads and worlds that are right in form and wrong in meaning are told, with the mistake that explains it."""
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Road files: the same road as in memory, whatever is kept of it, and one sentence for what is none."""
 
-from __future__ import annotations
-
 import os
 import struct
 import sys

@@ -1,7 +1,5 @@
 """Roads as texts that the kernel reads by itself: the same numbers as Python's, one sentence for what is none."""
 
-from __future__ import annotations
-
 import locale
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The classes of ISO 8608: spectra measured back from the heights, coherence of two tracks, seeds."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

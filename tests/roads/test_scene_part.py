@@ -1,7 +1,5 @@
 """Roads as entries of a scene: the heights that are drawn are those of the physics."""
 
-from __future__ import annotations
-
 import base64
 import json
 from dataclasses import replace

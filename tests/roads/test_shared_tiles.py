@@ -1,7 +1,5 @@
 """Road files that store equal tiles once: the same road, and one sentence for what is none."""
 
-from __future__ import annotations
-
 import struct
 import zlib
 

@@ -1,7 +1,5 @@
 """A face of a grid that is a wall for a wheel is told where the road is made, and where a car is built on it."""
 
-from __future__ import annotations
-
 import re
 import warnings
 from pathlib import Path

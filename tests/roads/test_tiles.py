@@ -1,7 +1,5 @@
 """Which tiles of a road file are read: counts."""
 
-from __future__ import annotations
-
 import ctypes
 
 import numpy as np

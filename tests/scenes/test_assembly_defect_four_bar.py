@@ -1,7 +1,5 @@
 """Four-bar with assembly defect: section forces against geometrically exact beams; rigid bars lock."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.interpolate import PPoly

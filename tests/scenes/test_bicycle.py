@@ -2,8 +2,6 @@
 and the run of the library at 4.6 m/s against that model.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Bricard's loop (IFToMM benchmark A04): one redundant constraint at every position."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The double four-bar (paper, section 3.1): ten singular positions in 10 s, against its exact reduction."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

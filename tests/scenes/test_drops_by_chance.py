@@ -1,7 +1,5 @@
 """Cars that are dropped by chance, mostly rolled: no wheel goes deep into the road without a word, none folds back."""
 
-from __future__ import annotations
-
 import math
 import warnings
 

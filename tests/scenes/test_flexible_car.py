@@ -1,7 +1,5 @@
 """The prototype car with a flexible chassis: mass, rest, forces at the joints, and the limit of a stiff frame."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 

@@ -1,7 +1,5 @@
 """The paper's test on the kerb: guide, size of the model, iterations, moments against the reference, and rest."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

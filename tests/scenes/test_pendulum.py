@@ -1,7 +1,5 @@
 """The planar pendulum (IFToMM benchmark A01): published positions, tension in closed form, order two."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.special import ellipk

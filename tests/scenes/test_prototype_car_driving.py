@@ -1,7 +1,5 @@
 """Prototype car in motion: cornering, energy, symmetry, invariance."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Prototype car over a kerb and dropped."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

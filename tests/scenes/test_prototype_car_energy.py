@@ -1,7 +1,5 @@
 """The balance of the car's energy in a drive: what works on it against what it has, and each work against its power."""
 
-from __future__ import annotations
-
 import csv
 from functools import cache
 from pathlib import Path

@@ -2,8 +2,6 @@
 tyres, and what overturns rests on its frame.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

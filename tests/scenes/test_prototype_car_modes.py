@@ -1,7 +1,5 @@
 """Prototype car: natural frequencies of the linear model against a model of four masses without constraints."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Prototype car that should stay where it is: on the level, on slopes, after braking."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Prototype car at rest against figures found by energy minimisation, without a constraint solver (project data)."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

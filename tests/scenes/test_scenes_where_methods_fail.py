@@ -1,7 +1,5 @@
 """The scenes of the charts against closed forms, published values and minimum-norm accelerations."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Scenes of models: valid, with the frames at the right places, and with shapes where nobody gave one."""
 
-from __future__ import annotations
-
 import base64
 import importlib
 import json

@@ -1,7 +1,5 @@
 """Random mechanisms by number, behind a random number that is not used."""
 
-from __future__ import annotations
-
 import numpy as np
 
 import mbs

@@ -1,7 +1,5 @@
 """Mechanisms with closed loops, for what is said of their assembly modes."""
 
-from __future__ import annotations
-
 from math import atan2, cos, sin
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Cars that do different things at once: what each starts with."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

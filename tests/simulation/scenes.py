@@ -1,7 +1,5 @@
 """Small scenes with closed forms, for the tests of stepping and linearising."""
 
-from __future__ import annotations
-
 from mbs import Model, compile
 
 GRAVITY = 9.81  # m/s2

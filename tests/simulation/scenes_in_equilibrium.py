@@ -1,7 +1,5 @@
 """Scenes that start in static equilibrium, with a spring or a payload as a parameter."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from mbs import Model

@@ -1,7 +1,5 @@
 """What a run finds out about its own error: warnings with numbers, repeats of suspects only, and nothing at rest."""
 
-from __future__ import annotations
-
 import re
 import warnings
 

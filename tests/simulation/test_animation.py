@@ -1,7 +1,5 @@
 """`animate`, recordings of runs, and runs from files."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A closed loop that changes its assembly mode is reported; one that passes a singular position smoothly is not."""
 
-from __future__ import annotations
-
 import re
 import warnings
 from contextlib import suppress

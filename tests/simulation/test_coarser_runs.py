@@ -1,7 +1,5 @@
 """The coarser runs that a run is compared with: which ones, and that they do not make a wrong run right."""
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import replace
 from itertools import product

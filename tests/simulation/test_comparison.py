@@ -1,7 +1,5 @@
 """What of a run is judged: what rests or is prescribed judges nothing, and switches nothing off."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.interpolate import PPoly

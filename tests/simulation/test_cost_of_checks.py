@@ -1,7 +1,5 @@
 """What the check of a run costs: no repeat is made whose outcome is known, and none is left out that would tell."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

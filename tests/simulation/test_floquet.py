@@ -1,7 +1,5 @@
 """Floquet multipliers against the reduced equation of a shaken pendulum and against a steady motion."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp

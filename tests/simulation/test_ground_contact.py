@@ -1,7 +1,5 @@
 """Bodies that touch a road, in the whole engine: closed forms, orders, energy, every kind of road."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

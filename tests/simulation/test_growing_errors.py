@@ -1,7 +1,5 @@
 """Runs to a tolerance of motions in which errors grow: two runs that are far apart, or off alike, say nothing."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

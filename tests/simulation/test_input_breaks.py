@@ -1,7 +1,5 @@
 """Inputs that jump or peak within steps, and repeats of runs whose first repeats are off alike."""
 
-from __future__ import annotations
-
 import tracemalloc
 from collections.abc import Callable
 from typing import Any

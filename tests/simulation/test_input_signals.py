@@ -1,7 +1,5 @@
 """Inputs over time: constants, functions, tables with jumps, ranges."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

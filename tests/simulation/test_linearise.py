@@ -1,7 +1,5 @@
 """Frequencies, damping and shapes against closed forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """`simulate_many` warns of the runs that `simulate` warns of, in its words."""
 
-from __future__ import annotations
-
 import warnings
 from collections import Counter
 

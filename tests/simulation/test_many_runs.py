@@ -1,7 +1,5 @@
 """Many variants of a System at once: each with the numbers of a run of its own."""
 
-from __future__ import annotations
-
 import math
 import re
 import warnings

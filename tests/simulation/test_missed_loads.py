@@ -1,7 +1,5 @@
 """Loads between the instants at which two runs are compared: a missed one is seen, a late one is not."""
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Poses over a run: against sensors of the same places, closed forms, and what a run keeps of them."""
 
-from __future__ import annotations
-
 import pickle
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The progress bar appears only when a run takes a while."""
 
-from __future__ import annotations
-
 import io
 import math
 import sys

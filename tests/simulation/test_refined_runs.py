@@ -1,7 +1,5 @@
 """What repeats with shorter steps say, in closed form."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Crates on slopes: they stand where the law of friction lets them, slide beyond it and tip where they must."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

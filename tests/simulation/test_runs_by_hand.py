@@ -1,7 +1,5 @@
 """Runs of a Simulation: checked by repeats from their start, to a tolerance, with switches in between."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

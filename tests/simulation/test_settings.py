@@ -1,7 +1,5 @@
 """Settings are checked when they are made, and their defaults are the kernel's."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import pytest

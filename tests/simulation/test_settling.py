@@ -1,7 +1,5 @@
 """`Simulation.settle`: a start in motion is held while the rest settles."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

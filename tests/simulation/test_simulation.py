@@ -1,7 +1,5 @@
 """Stepping: physics of a pendulum, exact save and restore, inputs, errors."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

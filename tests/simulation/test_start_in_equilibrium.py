@@ -1,7 +1,5 @@
 """A scene that starts in static equilibrium does so with other parameters, too: the kernel finds it again."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

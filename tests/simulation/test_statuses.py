@@ -1,7 +1,5 @@
 """Each status is caused: in the kernel, where nothing is left that refuses before it, and through Python."""
 
-from __future__ import annotations
-
 import ctypes
 import math
 from collections.abc import Callable

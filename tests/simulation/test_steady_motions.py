@@ -1,7 +1,5 @@
 """`linearise` about motions in which coordinates turn, against closed forms, and what it refuses."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.interpolate import PPoly

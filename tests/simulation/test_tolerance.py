@@ -1,7 +1,5 @@
 """Runs to a tolerance: the error reached against exact motions, the record, choices, and what is said of them."""
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Results by name: mapping, CSV round trip, plot."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

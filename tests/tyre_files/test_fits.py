@@ -1,7 +1,5 @@
 """Tyres from one formula to the other and to a file: by the kernel's forces of both, with the errors that are told."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, replace
 from functools import cache
 from math import atan

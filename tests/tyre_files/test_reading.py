@@ -1,7 +1,5 @@
 """Tyre property files: what is read, what is named, what is refused."""
 
-from __future__ import annotations
-
 import random
 import re
 from dataclasses import replace

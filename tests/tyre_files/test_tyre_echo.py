@@ -1,7 +1,5 @@
 """Tyre files that are right in form and wrong in meaning are told; those of others are not."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Torques of two robots by Pinocchio, which are stored: python -m tests.urdf.pinocchio_reference, where `pin` is."""
 
-from __future__ import annotations
-
 import tempfile
 from pathlib import Path
 

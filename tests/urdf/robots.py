@@ -1,7 +1,5 @@
 """Two public robots as tables, written as URDF files."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Robots that are right in form and wrong in meaning are told; what is malformed is an error with its line."""
 
-from __future__ import annotations
-
 import re
 import warnings
 from collections.abc import Callable

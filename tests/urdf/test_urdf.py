@@ -1,7 +1,5 @@
 """Robots from URDF files: torques against Pinocchio's inverse dynamics, closed forms, what is refused or left out."""
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Cars on a rigid chassis, and with a steering column, which does not stand on a flexible frame."""
 
-from __future__ import annotations
-
 import copy
 
 from mbs.vehicle import Car, load

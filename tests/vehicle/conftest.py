@@ -1,7 +1,5 @@
 """Folders with copies of the cars of the package."""
 
-from __future__ import annotations
-
 import shutil
 
 import pytest

@@ -1,7 +1,5 @@
 """The content of car files for tests that change it."""
 
-from __future__ import annotations
-
 import re
 import warnings
 

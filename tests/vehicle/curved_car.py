@@ -1,7 +1,5 @@
 """Cars whose axles are tables that are made of their own links."""
 
-from __future__ import annotations
-
 import copy
 import shutil
 from collections.abc import Sequence

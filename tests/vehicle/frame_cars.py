@@ -1,7 +1,5 @@
 """The prototype with frames of other kinds."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The hatchback for its tests."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -4,8 +4,6 @@ The left wheel moves against the chassis by a twist: velocity v of the origin an
 moves with v + w x p.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -1,7 +1,5 @@
 """Cars of the package without their flexible frame: their FMUs are built in a third of the time."""
 
-from __future__ import annotations
-
 import shutil
 import tomllib
 from pathlib import Path

@@ -3,8 +3,6 @@
 python -m tests.vehicle.road_leads
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 import mbs

@@ -3,8 +3,6 @@
 python -m tests.vehicle.second_tyres [--limits]
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Mapping
 from functools import cache

@@ -1,7 +1,5 @@
 """Toe and camber as set: in the drawing, at rest, in the kinematics and on the road."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A car file that is wrong is refused with a sentence for each fault, the same through every door."""
 
-from __future__ import annotations
-
 import os
 
 import pytest

@@ -1,7 +1,5 @@
 """What a user adds to a car stands in its books of energy; what he does not add changes no car."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Brakes that differ from left to right, `brakes.side`."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

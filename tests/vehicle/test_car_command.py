@@ -1,7 +1,5 @@
 """The command `ali3 car`: lists, copies and checks cars."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

@@ -1,7 +1,5 @@
 """Cars and tyres that are right in form and wrong in meaning are told, with the mistake that explains it."""
 
-from __future__ import annotations
-
 import json
 import warnings
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Cars against their converged trajectories (`tests/data/car`, origin in each file)."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

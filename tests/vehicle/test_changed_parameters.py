@@ -1,7 +1,5 @@
 """Every parameter of a car's FMU, set to another value, gives the run of a car that is built from a file with it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path

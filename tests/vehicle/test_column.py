@@ -1,7 +1,5 @@
 """Steering with a column: by angle and by torque, wind-up, friction, assistance, ends of the rack, self-centring."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Compliance of an axle by its curves in camber and in the place of the wheel: on a rig, in a car, in lanes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any

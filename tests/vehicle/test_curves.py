@@ -1,7 +1,5 @@
 """Axles by their curves: against the links their tables come from, closed forms, and tables that are none."""
 
-from __future__ import annotations
-
 import copy
 import csv
 import shutil

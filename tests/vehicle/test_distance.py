@@ -1,7 +1,5 @@
 """Cars far from the origin: the same bits as at it, at every fidelity."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The free length that the warning of a car out of its equilibrium gives."""
 
-from __future__ import annotations
-
 import copy
 import re
 import warnings

@@ -1,7 +1,5 @@
 """Forces, wind and tyres at ports: closed forms, works that close, a copy of the tyre in a second place."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import product
 

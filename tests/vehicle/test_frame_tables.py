@@ -1,7 +1,5 @@
 """Tables beside a car file that are wrong are refused with a sentence."""
 
-from __future__ import annotations
-
 import os
 
 import pytest

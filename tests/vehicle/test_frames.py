@@ -1,7 +1,5 @@
 """Frames of other kinds and other shapes than the prototype's, read from a car file."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Gauges of a car file against closed forms, and what they leave as it was."""
 
-from __future__ import annotations
-
 from functools import cache
 from typing import Any
 

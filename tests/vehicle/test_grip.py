@@ -1,7 +1,5 @@
 """The forces in a car file set the grip, and what `ali3 car` and `ali3 build` print of it is what the tyres reach."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

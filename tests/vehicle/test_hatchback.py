@@ -1,7 +1,5 @@
 """The hatchback: statics by closed form, symmetry, energy, braking, and the measures of its class."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The frame of the hatchback: size and stiffness, equilibrium, kerb, and what meshes and steps leave open."""
 
-from __future__ import annotations
-
 import shutil
 from functools import cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Work of a steering whose input jumps and is held, at a usual step and at a tenth of it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The cheapest level of a car within tolerances: drives, measured rows, the choice, and the command."""
 
-from __future__ import annotations
-
 import json
 import re
 

@@ -1,7 +1,5 @@
 """Every number of a car file that says it may change is a parameter of the FMU and does what the file would do."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

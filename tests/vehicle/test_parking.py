@@ -1,7 +1,5 @@
 """Steering on the spot: what bore torque of the tyres asks of the rack."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

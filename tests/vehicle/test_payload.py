@@ -1,7 +1,5 @@
 """Payloads of the prototype: wheel loads, and what they do to a frame that bends."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The force of a payload reaches the gauges of a frame; load paths are those of a car without one."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

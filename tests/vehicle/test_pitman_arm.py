@@ -1,7 +1,5 @@
 """A steering by Pitman arm, centre link and idler arm: against the closed form of a four-bar, and what is refused."""
 
-from __future__ import annotations
-
 import math
 import shutil
 import tomllib

@@ -1,7 +1,5 @@
 """Ports of a car: what they replace is left out, loops through them converge to the closed car, works are booked."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Steering by an angle: both inputs, the torque of the hands, friction."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A steering whose ratio varies: from the file by drawing, kinematics, run, lanes and torque, and what is refused."""
 
-from __future__ import annotations
-
 import math
 import re
 import shutil

@@ -1,7 +1,5 @@
 """Random changes of a car file give a car that compiles, or sentences, and never anything else."""
 
-from __future__ import annotations
-
 import copy
 import datetime
 import math

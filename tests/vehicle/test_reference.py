@@ -1,7 +1,5 @@
 """The JSON Schema and the reference page say what the types say, and every range catches a unit wrong by 1000."""
 
-from __future__ import annotations
-
 import copy
 import functools
 import json

@@ -1,7 +1,5 @@
 """The road at ports: answers of a copy of the road give the closed car, the start stands on them, works are booked."""
 
-from __future__ import annotations
-
 from functools import cache
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """The saloon has the masses, rates and roll stiffness of the measured car that its file names, and drives straight."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

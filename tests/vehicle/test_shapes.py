@@ -1,7 +1,5 @@
 """Looks of cars: drawn from the hard points of their files, and nothing but looks."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
 from typing import Any, get_args

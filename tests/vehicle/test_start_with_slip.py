@@ -1,7 +1,5 @@
 """A start with slip: rates of carcasses are there at once, so that what follows is of the order of the method."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

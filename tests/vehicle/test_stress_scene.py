@@ -1,7 +1,5 @@
 """Deformation and stress of a car, computed from its scene and its outputs alone, against the engine's own."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """MacPherson strut, twist beam and anti-roll bar: kinematics on the rig against the motion at an instant by hand."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

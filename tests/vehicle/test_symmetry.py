@@ -1,7 +1,5 @@
 """Cars that are their own image in the middle plane, at every fidelity that they offer."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Cars whose suspensions are tables made of their links, against the cars with the links."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

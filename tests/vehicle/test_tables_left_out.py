@@ -1,7 +1,5 @@
 """Each table of the cars' files left out: a car that drives, or a sentence that names the table."""
 
-from __future__ import annotations
-
 import re
 import warnings
 

@@ -4,8 +4,6 @@ Lengths are multiplied by L, masses by M; with the same gravity times are multip
 kg^a m^b s^c is multiplied by M^a L^(b + c/2).
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

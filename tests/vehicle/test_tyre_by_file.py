@@ -1,7 +1,5 @@
 """Cars whose tyres are files of the Magic Formula."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import warnings

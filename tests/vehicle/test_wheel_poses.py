@@ -1,7 +1,5 @@
 """Poses of the wheels as outputs of both cars: computed again from one another, from the road and from the way."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What must hold for the bar of every page: one line within the window, and no choice whose words are cut."""
 
-from __future__ import annotations
-
 from typing import Any
 
 _MEASURED = """(bar) => {

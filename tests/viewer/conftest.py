@@ -1,7 +1,5 @@
 """Recordings of films, one Chromium for the pictures of a module of tests, and a page with one view in it."""
 
-from __future__ import annotations
-
 import io
 import pickle
 from collections.abc import Callable, Iterator

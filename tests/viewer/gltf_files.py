@@ -1,7 +1,5 @@
 """Reads glTF files in the tests: by hand, by three.js, and by the validator of Khronos."""
 
-from __future__ import annotations
-
 import base64
 import json
 import struct

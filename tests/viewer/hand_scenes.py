@@ -1,7 +1,5 @@
 """Scenes made by hand: one with every kind of thing in it, and a mechanism with a run in closed form."""
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Sequence
 from typing import Any

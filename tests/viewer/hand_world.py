@@ -1,7 +1,5 @@
 """A world made by hand: a hill, a kerb, patches of different spacing, one lane of each surface, one of each scenery."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A corner of a car on a bumpy way, in closed form: every kind of frame and shape, each where it can be recomputed."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

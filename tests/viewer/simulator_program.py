@@ -1,7 +1,5 @@
 """In place of the program that drives the car: frames that a test sends, and what the page says."""
 
-from __future__ import annotations
-
 import json
 import struct
 from typing import Any

@@ -1,7 +1,5 @@
 """How the user's browser is told of an address that nobody else may know."""
 
-from __future__ import annotations
-
 import threading
 from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path

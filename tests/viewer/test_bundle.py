@@ -1,7 +1,5 @@
 """The script of the page: built once, whole, by one process at a time, and in one sentence where it cannot be."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import os

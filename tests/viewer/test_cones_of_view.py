@@ -1,7 +1,5 @@
 """Cones in the pictures of `ali3 view` of a run: as many and where the lanes have them by which the run is judged."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The draft of a picture: few calls and triangles, and still the same things at the same places."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

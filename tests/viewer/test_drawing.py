@@ -1,7 +1,5 @@
 """What stands in a picture, and where: pixels of pictures against places and numbers that are known."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Tyre marks and dust in pictures; the sound of a car as it would be heard, rendered to memory."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import pairwise
 from typing import Any

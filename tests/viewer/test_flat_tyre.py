@@ -1,7 +1,5 @@
 """A tyre is drawn flat on the road: pixels of its lowest part against the plane of the contact."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """glTF files: nothing for the validator of Khronos to say, and the poses of the recording for another reader."""
 
-from __future__ import annotations
-
 import base64
 import re
 import struct

@@ -1,7 +1,5 @@
 """Every scene that has a film as a glTF file: the validator finds nothing, and another reader has its poses."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

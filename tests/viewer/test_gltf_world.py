@@ -1,7 +1,5 @@
 """Surroundings, cones and paths in glTF files, as another reader finds them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import trimesh

@@ -1,7 +1,5 @@
 """Wheels of the cars: looked at along the axle, no two surfaces of different looks lie within a millimetre."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any
 

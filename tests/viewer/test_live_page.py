@@ -1,7 +1,5 @@
 """Pages that run an FMU, opened from disk in a Chromium without a window, against the same FMU run natively."""
 
-from __future__ import annotations
-
 import base64
 import csv
 import json

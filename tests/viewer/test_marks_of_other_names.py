@@ -1,7 +1,5 @@
 """Tyre marks of a run whose columns have the names of another program."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

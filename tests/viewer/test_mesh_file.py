@@ -1,7 +1,5 @@
 """Meshes from files: a block written by hand in every format, and one sentence for what is none."""
 
-from __future__ import annotations
-
 import struct
 import sys
 

@@ -1,7 +1,5 @@
 """The text of a page: whole or not at all, closed in itself, safe from any name; and what a notebook shows."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import html

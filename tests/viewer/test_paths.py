@@ -1,7 +1,5 @@
 """What a run leaves on the ground, and the cameras that stand still: pixels against places that are known."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The player in a browser without a window: what it shows at which time, its controls, and what it asks of nobody."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Callable, Iterator
 from pathlib import Path

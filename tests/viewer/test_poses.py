@@ -1,7 +1,5 @@
 """Poses of frames from columns: against closed forms, against the page's own code, and where numbers are missing."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The proving ground from every place where a car may start: what it costs to draw, and that all of it is known."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

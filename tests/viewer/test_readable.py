@@ -4,8 +4,6 @@ axe-core looks for controls without a name, faint words, and parts that no reade
 `npm --prefix viewer/page ci --ignore-scripts` installs it; without it its tests are skipped.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import combinations

@@ -1,7 +1,5 @@
 """Recordings: what is checked, what is taken out and said, and how they are thinned."""
 
-from __future__ import annotations
-
 import tracemalloc
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The page of a run and the simulator draw one world: pixel by pixel the same picture of the same instant."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from typing import Any
 

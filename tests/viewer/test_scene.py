@@ -1,7 +1,5 @@
 """The format of scenes: what is wrong is said in one sentence with the place; the JSON Schema says the same."""
 
-from __future__ import annotations
-
 import copy
 import json
 import re

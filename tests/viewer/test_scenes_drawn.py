@@ -1,7 +1,5 @@
 """Every scene that has a film: its bodies stand in the picture where the run has them, all of the way."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

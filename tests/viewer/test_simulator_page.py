@@ -1,7 +1,5 @@
 """The page of the simulator in a Chromium without a window, against frames that the test sends."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import combinations
 from typing import Any

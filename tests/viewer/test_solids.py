@@ -1,7 +1,5 @@
 """Triangles of shapes and where they stand, for files: against closed forms."""
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Films: as many pictures as asked for, of the size asked for, that show the motion of the recording."""
 
-from __future__ import annotations
-
 import sys
 
 import av

@@ -1,7 +1,5 @@
 """A world in a page that runs an FMU: one file with its road, thin, its drawing and its places."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Worlds in pictures: pixels of terrain, surfaces, paint and scenery against places and heights that are known."""
 
-from __future__ import annotations
-
 import io
 import json
 from typing import Any

@@ -1,7 +1,5 @@
 """A glTF file in the making: nodes, meshes, materials, animation, and the bytes that they name."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from pathlib import Path

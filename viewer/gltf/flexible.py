@@ -1,7 +1,5 @@
 """Flexible parts in glTF: tubes whose corners move by morph targets, coloured by the stress at its largest."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any

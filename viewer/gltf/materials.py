@@ -1,7 +1,5 @@
 """Looks of the materials of a scene in glTF; the same as in the page."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Motion of a node over time: thinned, and how far the motion between the kept times is from the recorded one."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The paths of the reference point and of the wheels as bands on the ground."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Roads of a scene as triangles."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

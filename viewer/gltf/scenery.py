@@ -1,7 +1,5 @@
 """What of the scenery of a world stands by the way."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Triangles of what a scene shows, as the code of the page makes them, and how they move."""
 
-from __future__ import annotations
-
 import base64
 import json
 import subprocess

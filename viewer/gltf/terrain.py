@@ -1,7 +1,5 @@
 """The terrain of a world as triangles, by what it is made of."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

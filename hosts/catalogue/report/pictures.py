@@ -1,7 +1,5 @@
 """Plots of a test as SVG, lines of several cars in one."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Writes the report."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

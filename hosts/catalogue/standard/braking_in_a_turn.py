@@ -1,7 +1,5 @@
 """Braking from a steady circle with the steering fixed, in steps of growing deceleration."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 

@@ -1,7 +1,5 @@
 """Sinusoidal steering whose frequency rises: responses over frequency, after ISO 7401."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Double lane change: the highest entry speed at which no cone is hit, on both courses of ISO 3888."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

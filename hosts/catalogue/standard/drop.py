@@ -1,7 +1,5 @@
 """Free fall onto four wheels: a test of the springs, the stops and of the balance of forces at rest."""
 
-from __future__ import annotations
-
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.preparation import held
 

@@ -1,7 +1,5 @@
 """Down a kerb and up the same: loads, travel, vertical vibration and, where computed, stresses."""
 
-from __future__ import annotations
-
 import math
 
 from hosts.catalogue.measure_sheet import Sheet

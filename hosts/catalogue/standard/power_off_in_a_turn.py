@@ -1,7 +1,5 @@
 """The throttle released on a steady circle with the steering fixed, from circles driven faster and faster."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """One period of sinusoidal steering, to both sides, after ISO 7401."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

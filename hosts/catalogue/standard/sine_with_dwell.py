@@ -1,7 +1,5 @@
 """Sine with dwell of growing amplitude, to both sides, after 49 CFR 571.126 (FMVSS 126) and ISO 19365."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Braking on a road whose left and right side have different friction, with the steering fixed, after ISO 14512."""
 
-from __future__ import annotations
-
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.standard.straight_braking import stop
 

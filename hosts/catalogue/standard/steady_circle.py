@@ -1,7 +1,5 @@
 """Steady driving on a circle, both ways, after ISO 4138: what a car needs of steering as it is driven faster."""
 
-from __future__ import annotations
-
 from hosts.catalogue.circle_run import CircleRun, drive_circle
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.steering_ratio import steering_ratio

@@ -1,7 +1,5 @@
 """Step of the steering at a constant speed, to both sides and several lateral accelerations, after ISO 7401."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

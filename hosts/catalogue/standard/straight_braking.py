@@ -1,7 +1,5 @@
 """Braking to rest on a straight at full pedal."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """The manoeuvres that come with the hosts, and their names."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 FOLDER = Path(__file__).parent

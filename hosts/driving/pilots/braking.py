@@ -1,7 +1,5 @@
 """A pilot that drives as another one does and then brakes with the steering fixed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 

@@ -1,7 +1,5 @@
 """A pilot that drives a circle, and holds or changes the speed on it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 

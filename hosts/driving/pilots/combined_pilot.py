@@ -1,7 +1,5 @@
 """Several pilots as one."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from hosts.driving.ground_marks import Mark, marks_of

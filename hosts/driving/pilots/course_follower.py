@@ -1,7 +1,5 @@
 """A pilot that follows a course with a view ahead, and holds the speed with throttle and brake."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

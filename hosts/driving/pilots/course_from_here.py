@@ -1,7 +1,5 @@
 """A pilot that gathers speed on a straight and then drives a course that begins before the car."""
 
-from __future__ import annotations
-
 import math
 from collections import ChainMap
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """A pilot that lets another one steer and then keeps the mean of what that one did."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from hosts.driving.ground_marks import Mark, marks_of

@@ -1,7 +1,5 @@
 """A pilot that steers along a course by its direction of travel."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

@@ -1,7 +1,5 @@
 """What a pilot is."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 

@@ -1,7 +1,5 @@
 """A pilot that holds a speed, or follows one that changes, with throttle and brake."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 

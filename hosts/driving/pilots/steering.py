@@ -1,7 +1,5 @@
 """A pilot that steers by a table, whatever the car does."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

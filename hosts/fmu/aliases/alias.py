@@ -1,7 +1,5 @@
 """Our names for variables of an FMU, with factor and offset."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,7 +1,5 @@
 """Units that an alias file states, held against those that the FMU declares."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Values of derived variables, from rows of those that are there."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Sequence
 

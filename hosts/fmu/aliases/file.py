@@ -1,7 +1,5 @@
 """Alias files: what stands in them, held against the variables of an FMU."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path

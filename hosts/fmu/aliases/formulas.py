@@ -3,8 +3,6 @@
 Vehicle axes are those of ISO 8855, turned from the earth's by yaw, pitch and roll about z, the new y and the new x.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias

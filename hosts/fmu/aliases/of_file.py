@@ -1,7 +1,5 @@
 """The aliases that a command is given, if it is."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from hosts.fmu.aliases.alias import Aliases

@@ -1,7 +1,5 @@
 """Reads how a variable is derived, as an alias file has it."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 

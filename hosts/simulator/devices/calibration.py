@@ -1,7 +1,5 @@
 """The ends and the rest of axes, found while a person moves everything once."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 from hosts.simulator.devices.defaults import PEDAL_DEAD_ZONE

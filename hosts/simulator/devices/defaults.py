@@ -1,7 +1,5 @@
 """Mappings of devices that nobody has assigned yet, by the kind that SDL tells."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection
 

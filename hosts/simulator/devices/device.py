@@ -1,7 +1,5 @@
 """One device that is plugged in: what it wants of the car."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import asdict

@@ -1,7 +1,5 @@
 """From the torque of the car's steering wheel to the force of a motor."""
 
-from __future__ import annotations
-
 import math
 
 from hosts.simulator.devices.mapping import DeviceSettings

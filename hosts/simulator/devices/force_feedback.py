@@ -1,7 +1,5 @@
 """The thread that moves the motor of one device."""
 
-from __future__ import annotations
-
 import threading
 import time
 from collections.abc import Callable

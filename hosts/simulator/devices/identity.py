@@ -1,7 +1,5 @@
 """Persistent names of devices, under which their mappings are stored; devices of one model are distinguished."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 MOST_OF_A_MODEL = 8

@@ -1,7 +1,5 @@
 """Devices that are plugged in, read by SDL's joystick interface."""
 
-from __future__ import annotations
-
 import ctypes
 from dataclasses import dataclass
 from typing import Any

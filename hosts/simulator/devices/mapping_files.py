@@ -1,7 +1,5 @@
 """Mappings of devices in TOML files in the user's configuration folder."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import asdict
 from pathlib import Path

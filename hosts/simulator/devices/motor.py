@@ -1,7 +1,5 @@
 """The motor of a device, moved by SDL's haptics."""
 
-from __future__ import annotations
-
 import ctypes
 from typing import Any
 

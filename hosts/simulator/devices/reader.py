@@ -1,7 +1,5 @@
 """The thread that reads devices, notices which are plugged in or out, and passes on their values."""
 
-from __future__ import annotations
-
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping

@@ -1,7 +1,5 @@
 """SDL, which reads wheels, pedals and gamepads and moves their motors."""
 
-from __future__ import annotations
-
 import warnings
 from typing import Any
 

@@ -1,7 +1,5 @@
 """From the turn of a real steering wheel to the input that steers the car."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

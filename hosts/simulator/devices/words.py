@@ -1,7 +1,5 @@
 """Sentences about devices."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 
 from hosts.simulator.devices.mapping import DeviceMapping

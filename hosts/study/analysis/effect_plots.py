@@ -1,7 +1,5 @@
 """Plots over each parameter: main effects, runs, and the share of failed runs."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Which part of the variance of a measure a parameter makes: Sobol' indices."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Main effects: the mean of a measure over a parameter, whatever the others are."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Parallel coordinates: a line a run, an axis a parameter."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Plots of a whole measure: its distribution, its indices, and its correlation with the parameters."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """What makes one number of a signal over time; a closed list."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

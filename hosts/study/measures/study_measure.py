@@ -1,7 +1,5 @@
 """What every measure of a study can do: an expression, or a function in a file."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import TypeAlias

@@ -1,7 +1,5 @@
 """A function of the user's that makes numbers of a run."""
 
-from __future__ import annotations
-
 import hashlib
 import inspect
 import math

@@ -1,7 +1,5 @@
 """Second derivatives of the rows that measure angles, which the tangent adds in turn."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from mbs.compiler.generated.pattern import Pattern

@@ -1,7 +1,5 @@
 """Factor and solve, a function for each shape of a front; L, D and their order are those of the kernel's fronts."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

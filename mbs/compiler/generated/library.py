@@ -1,7 +1,5 @@
 """Generated code as a library, compiled once for the same content."""
 
-from __future__ import annotations
-
 import hashlib
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The structure of a System as generated code sees it: where each number is read and written, and in which order."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Products by coordinates: J' w, M x, and forces of elements on their signals; and the signals."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from mbs.compiler.generated.pattern import Pattern

@@ -1,7 +1,5 @@
 """Phi, Phi_q and gamma of the quadratic terms of the rows, four rows at a time; and J x."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from mbs.compiler.generated.pattern import Pattern

@@ -1,7 +1,5 @@
 """Forward and back substitution in the fronts, each sum in the order of the kernel."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from mbs.compiler.generated.fronts import Piece, pieces

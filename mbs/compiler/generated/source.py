@@ -1,7 +1,5 @@
 """The whole file: functions, and the tables by which the kernel finds them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The tangent in front storage, target by target: mass, J' J, second derivatives of rows, B' S B of the elements."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass

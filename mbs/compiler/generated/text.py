@@ -1,7 +1,5 @@
 """Words of generated C: numbers that lie side by side are read and written as vectors of four."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 

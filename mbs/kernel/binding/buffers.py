@@ -1,7 +1,5 @@
 """Sequences and buffers as C arrays of doubles."""
 
-from __future__ import annotations
-
 from ctypes import c_double
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What a refused call of the kernel raises."""
 
-from __future__ import annotations
-
 import ctypes
 import math
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """A System in the kernel's memory."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 from ctypes import byref, c_void_p

@@ -1,7 +1,5 @@
 """Instances of one System that advance together."""
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Sequence
 from ctypes import POINTER, byref, c_double, c_void_p

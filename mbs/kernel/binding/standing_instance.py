@@ -1,7 +1,5 @@
 """A State of a System where it stands: set up, started, read."""
 
-from __future__ import annotations
-
 import math
 from ctypes import byref, c_double, c_void_p
 from typing import Any

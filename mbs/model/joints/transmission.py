@@ -1,7 +1,5 @@
 """What gears and racks couple: how far a wheel has turned against its carrier, and how fast."""
 
-from __future__ import annotations
-
 from mbs.common.affine import Affine
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.carried import Spin

@@ -1,7 +1,5 @@
 """The PUMA 560 whose hand is pinned to the ground and released while it moves (paper, section 3.2)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.resources import files

@@ -6,8 +6,6 @@ with z up. Mass and inertia of the waist are free but for its axial moment of 0.
 project: the paper (section 3.2) gives its three stages and their durations.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Which points of the chassis the rest of a car hangs on, found by building it on a rigid chassis that takes notes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations

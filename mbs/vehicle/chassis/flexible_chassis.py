@@ -1,7 +1,5 @@
 """Adds a flexible chassis to a car, with its stresses and amplitudes, the same outputs at every fidelity."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 
 import numpy as np

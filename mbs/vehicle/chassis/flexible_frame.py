@@ -1,7 +1,5 @@
 """Modes of a flexible frame and what its gauges read, at every fidelity."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Which joints of a frame the suspension, the drive and the ground act on."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeAlias

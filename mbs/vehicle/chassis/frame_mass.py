@@ -1,7 +1,5 @@
 """Whether the mass of a frame is the one that the file gives the chassis."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.common.errors import ModelError

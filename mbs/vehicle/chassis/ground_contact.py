@@ -1,7 +1,5 @@
 """Where the chassis touches the ground."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Mass, centre of mass and inertia of the chassis as parameters."""
 
-from __future__ import annotations
-
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.chassis.section import Chassis
 

@@ -1,7 +1,5 @@
 """What the rest of the car needs of the chassis, whatever its fidelity."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Tables of the chassis."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag

@@ -1,7 +1,5 @@
 """The part `flexible` of a car's scene: its frame, deformed and coloured by stress at any fidelity."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What a car file says of a frame of tubes."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """A frame of tubes from the tables of a car."""
 
-from __future__ import annotations
-
 from collections.abc import Container
 from dataclasses import dataclass
 from itertools import pairwise

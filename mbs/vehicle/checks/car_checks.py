@@ -1,7 +1,5 @@
 """All checks of a car."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from mbs.common.errors import ModelError

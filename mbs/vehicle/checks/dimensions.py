@@ -1,7 +1,5 @@
 """Wheelbase and tracks."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from mbs.vehicle.car_content import CarContent

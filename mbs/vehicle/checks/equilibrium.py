@@ -1,7 +1,5 @@
 """Where the car comes to rest, against where it is drawn."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Masses, centres of mass and inertias."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

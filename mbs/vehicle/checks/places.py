@@ -1,7 +1,5 @@
 """Places of points: on the left side, above the ground, beside the tyres."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """Tyres: their radius against the drawing, their curves, their load."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from mbs.vehicle.axle import Axle

@@ -1,7 +1,5 @@
 """Between which values of its parameters a car works, where the range of the type of the number is wider."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

@@ -1,7 +1,5 @@
 """Templates of drives: a new one is a file here and a member of `Drive`."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import Field

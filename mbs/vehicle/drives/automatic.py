@@ -1,7 +1,5 @@
 """Engine, torque converter, automatic gears and differential."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Literal
 

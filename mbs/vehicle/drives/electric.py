@@ -1,7 +1,5 @@
 """Electric motor with a fixed ratio and an open differential."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Literal
 

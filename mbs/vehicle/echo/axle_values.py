@@ -1,7 +1,5 @@
 """Values of an axle of a car file."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What was understood of a car file."""
 
-from __future__ import annotations
-
 import copy
 import math
 from collections.abc import Callable, Iterator, Mapping

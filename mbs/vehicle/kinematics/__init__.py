@@ -1,7 +1,5 @@
 """Kinematics and compliance of a car's axles: ``kinematics(load("hatchback"))`` gives its curves."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from mbs.common.lazy_modules import lazy_modules

@@ -7,8 +7,6 @@ Small motions that the held rows allow are q = V z. With multipliers lam of all 
 their stiffness is V' (H - dQ/dq) V, H = sum lam_k Phi_k,qq: springs, frame and the preload of links that turn.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

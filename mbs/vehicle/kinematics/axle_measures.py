@@ -10,8 +10,6 @@ centre of mass, s |dx/dz| l/h is the share of the load transfer that goes throug
 the contact centre. The drive's torque is carried by the chassis: dx/dz is that of the wheel's centre.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Kinematics of a whole car: the curves of both axles, what they are at the drawing, and what is to be said."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

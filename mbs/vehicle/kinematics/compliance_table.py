@@ -1,7 +1,5 @@
 """Compliance of a car's axles as rows of text."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 

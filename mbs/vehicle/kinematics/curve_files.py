@@ -1,7 +1,5 @@
 """Curves as CSV files with names and units in the headings, in SI units and with all digits."""
 
-from __future__ import annotations
-
 import csv
 from os import PathLike
 from pathlib import Path

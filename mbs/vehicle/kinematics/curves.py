@@ -1,7 +1,5 @@
 """Curves of an axle over wheel travel and over steering."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """A car whose chassis is held in its mean, with its steering and suspensions, without tyres, brakes and gravity."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

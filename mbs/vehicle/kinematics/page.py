@@ -1,7 +1,5 @@
 """One HTML page with the table, the notes and the plots in it."""
 
-from __future__ import annotations
-
 from ali3.charts import drawing
 from ali3.html_elements import document, element, picture, table
 from mbs.vehicle.kinematics.axle_compliance import Compliance

@@ -3,8 +3,6 @@
 The standard itself was not at hand: the terms are those of public summaries and textbooks.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Draws the wheel travel and steer curves of a car: the work of ``ali3 car CAR --kinematics``."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import math

@@ -4,8 +4,6 @@ Without slip the lines of both wheels' axes meet on that of the rear axle. From 
 give a centre of the turn on that line; Ackermann's steer angle of the outer wheel is that for the centre of the inner.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import TypeAlias

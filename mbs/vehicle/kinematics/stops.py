@@ -1,7 +1,5 @@
 """Where the stops of an axle's springs begin and end, in wheel travel."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 

@@ -1,7 +1,5 @@
 """What a car's axles are at the drawing, as a table of text."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -5,8 +5,6 @@ contact centres satisfy sum_i F_i dz_i/dz_j = g_j. As a wheel leans its contact 
 load on the lever of that is part of the wheel rate.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

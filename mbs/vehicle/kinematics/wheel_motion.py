@@ -4,8 +4,6 @@ Vehicle axes: x forward, y left, z up; the chassis stands. Angles of the right w
 their names say toe, camber or kingpin, and in vehicle axes where they say steer or inclination.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a car does while its levels are compared."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection
 from dataclasses import dataclass, field

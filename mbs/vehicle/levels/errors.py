@@ -1,7 +1,5 @@
 """Errors of the signals of a car against those of another run at the same times."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 

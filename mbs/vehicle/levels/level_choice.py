@@ -1,7 +1,5 @@
 """The cheapest measured level, fidelity and step, that meets tolerances."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Errors and cost of the levels of a car: each fidelity that it has, with several steps."""
 
-from __future__ import annotations
-
 import time
 import warnings
 from collections.abc import Callable, Sequence

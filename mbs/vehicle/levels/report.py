@@ -1,7 +1,5 @@
 """Prints the table of the levels of a car and the cheapest that meets tolerances: ``ali3 car CAR --cheapest``."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys

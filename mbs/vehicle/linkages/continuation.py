@@ -1,7 +1,5 @@
 """Positions of a linkage along a motion, continued from the drawing in small steps."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from mbs.vehicle.linkages.linkage import Array, Linkage, NotReachedError, Position

@@ -1,7 +1,5 @@
 """Tables of an axle by its curves, made of its links: what `kind = "curves"` reads."""
 
-from __future__ import annotations
-
 import csv
 from os import PathLike
 from pathlib import Path

@@ -1,7 +1,5 @@
 """How far the links of an axle without stops let its wheels and its steering go."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

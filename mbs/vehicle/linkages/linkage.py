@@ -10,8 +10,6 @@ redundant rows do no harm. The tangent of the position follows from the same mat
 direction from d(Phi_q)/dt qd: nothing is differenced.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

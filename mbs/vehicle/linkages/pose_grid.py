@@ -4,8 +4,6 @@ The springs are the measure of travel, as their length leaves arms and wishbones
 what is steered needs a table of two variables.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A compiled model at its start: its points over the coordinates, and what the kernel says of places near it."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

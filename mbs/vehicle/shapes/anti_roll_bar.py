@@ -1,7 +1,5 @@
 """Looks of an anti-roll bar: a bar between its bushes, levers that turn, links to the suspension."""
 
-from __future__ import annotations
-
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.shapes.appearance import BARE, CAST, Looks

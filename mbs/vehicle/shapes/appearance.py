@@ -1,7 +1,5 @@
 """What the shapes of a car share: its bodies by name, how thick its tubes are drawn, how they are painted."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property

@@ -5,8 +5,6 @@ It is that of a hatchback, of a van where the car is high for its length, and of
 The shares in the tables are those of no car: a picture, as everything here.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """All shapes of a car: each part draws its own."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 
 from mbs.model.carried import Spin

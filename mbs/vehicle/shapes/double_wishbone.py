@@ -1,7 +1,5 @@
 """Looks of a suspension by double wishbones."""
 
-from __future__ import annotations
-
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.shapes.appearance import Looks, between, share_along
 from mbs.vehicle.shapes.knuckle import knuckle

@@ -1,7 +1,5 @@
 """Surfaces through cross-sections."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Looks of the driver, of persons and of luggage: simple shapes at the places of the payloads."""
 
-from __future__ import annotations
-
 import math
 
 from mbs.vehicle.car_content import CarContent

@@ -1,7 +1,5 @@
 """Looks of engine or motor, and of the shafts to the driven wheels."""
 
-from __future__ import annotations
-
 from mbs.vehicle.shapes.appearance import BARE, CAST, DARK, Looks
 from mbs.vehicle.side import sides
 

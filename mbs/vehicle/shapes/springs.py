@@ -1,7 +1,5 @@
 """Looks of springs and dampers: coils that compress around rods that slide."""
 
-from __future__ import annotations
-
 import math
 
 from mbs.vehicle.shapes.appearance import COIL, POLISHED, Anchor, Looks

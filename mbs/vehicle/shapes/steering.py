@@ -1,7 +1,5 @@
 """Looks of the steering: rack that slides or linkage of a Pitman arm, column, steering wheel that turns."""
 
-from __future__ import annotations
-
 import math
 
 from mbs.model.drawn import Owner

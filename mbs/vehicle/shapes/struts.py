@@ -1,7 +1,5 @@
 """Looks of suspensions by a lower arm and a strut that is fixed in the upright."""
 
-from __future__ import annotations
-
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.shapes.appearance import CAST, Looks, between, share_along
 from mbs.vehicle.shapes.knuckle import knuckle

@@ -1,7 +1,5 @@
 """Looks of a frame of tubes: its tubes and a floor between the lowest of its joints."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 

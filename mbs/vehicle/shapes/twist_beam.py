@@ -1,7 +1,5 @@
 """Looks of a twist beam."""
 
-from __future__ import annotations
-
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.shapes.appearance import BARE, Looks
 from mbs.vehicle.shapes.knuckle import knuckle

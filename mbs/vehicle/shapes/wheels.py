@@ -1,7 +1,5 @@
 """Looks of the wheels: tyre and rim from the data of the tyre."""
 
-from __future__ import annotations
-
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.shapes.appearance import Looks
 from mbs.vehicle.side import sides

@@ -1,7 +1,5 @@
 """Rack, pinion and column with a torsion bar, power assistance and friction, turned by an angle or by a torque."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from typing import ClassVar, Literal

@@ -1,7 +1,5 @@
 """A rack or arm by angle that is asked for by a port, has a table or friction, or moves suspensions without links."""
 
-from __future__ import annotations
-
 from numpy.typing import ArrayLike
 
 from mbs.elements.coordinate_friction import CoordinateFriction

@@ -1,7 +1,5 @@
 """What a driver asks of a steering."""
 
-from __future__ import annotations
-
 from mbs.model.model import Model
 from mbs.model.records import Input
 

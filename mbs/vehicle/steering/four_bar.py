@@ -5,8 +5,6 @@ the joint B of link and idler arm is where circles about A and about the idler's
 is drawn. The rates follow from the velocity of B, which is at right angles to the idler arm.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Steering box with a Pitman arm, a centre link and an idler arm, without compliance and mass of their own."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from functools import cached_property

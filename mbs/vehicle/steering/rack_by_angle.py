@@ -1,7 +1,5 @@
 """Rack that the steering wheel moves without compliance."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """What every steering with a rack has in a car file."""
 
-from __future__ import annotations
-
 import math
 
 from mbs.model.ends import End

@@ -1,7 +1,5 @@
 """Travel of the rack by the angle of the steering wheel, of a steering whose ratio varies."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """What a steering gives the rest of the car."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What every steering reports to the driver, and what a rack reports."""
 
-from __future__ import annotations
-
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.records import Guide, Input

@@ -1,7 +1,5 @@
 """What the rest of a car asks of every steering in a file."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Iterator
 from typing import ClassVar

@@ -1,7 +1,5 @@
 """Templates of suspensions: a new one is a file here and a line in `Suspension`."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import Field

@@ -3,8 +3,6 @@
 Levers and links have no mass of their own; that of the bar is in the chassis, that of the links in what they hang on.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 

@@ -9,8 +9,6 @@ axis at the height a/g over the contact, against a spring of 1/a at the contact,
 it slides against 1/b, with b the compliance of its place along x. The body that leans and slides carries the table.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 

@@ -4,8 +4,6 @@ A share of an arm in the carrier that weighs right has too much kinetic energy o
 at the end of a uniform rod, which has that of m/3.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Places and rotations of a wheel carrier from the columns of its table."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """An axle by its curves: where its wheels stand over travel and rack is a table, in place of links."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import ClassVar, Literal

@@ -1,7 +1,5 @@
 """Double wishbones, the spring on the lower one, a tie rod to the rack or the chassis."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import ClassVar, Literal

@@ -1,7 +1,5 @@
 """What templates of independent suspensions share: both sides are alike, each steered or held by a rod."""
 
-from __future__ import annotations
-
 import math
 from abc import abstractmethod
 from collections.abc import Iterator

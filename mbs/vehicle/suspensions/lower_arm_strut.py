@@ -1,7 +1,5 @@
 """Lower arm, strut fixed in the upright and sliding through its top, toe link."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 

@@ -1,7 +1,5 @@
 """MacPherson strut: lower arm, strut fixed in the upright and sliding through its top, tie rod to the rack."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import ClassVar, Literal
 

@@ -1,7 +1,5 @@
 """A lower arm, a strut fixed in the upright and a rod that steers it: the linkage of several templates."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 import numpy as np

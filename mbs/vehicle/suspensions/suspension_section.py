@@ -1,7 +1,5 @@
 """What the rest of a car asks of every suspension in a file."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from typing import ClassVar, Literal

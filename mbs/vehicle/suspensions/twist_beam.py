@@ -10,8 +10,6 @@ of a millimetre: by so much both halves may slide on each other along the shear-
 and roll, and mirrored motions are mirrored; each bush takes the side force of its wheel.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Literal

@@ -1,7 +1,5 @@
 """Tyres of a car file: a new formula is a file here and a member of `Tyre`."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import Field

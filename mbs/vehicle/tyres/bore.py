@@ -1,7 +1,5 @@
 """Bore torque of the tyres of a car file."""
 
-from __future__ import annotations
-
 from mbs.elements.tyre_bore import TyreBore
 from mbs.vehicle.quantities import Length, YawDamping, YawStiffness
 from mbs.vehicle.section import Section

@@ -1,7 +1,5 @@
 """Tyres of a car file: TMeasy."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Literal
 

@@ -1,7 +1,5 @@
 """What tyres of a car file share, whatever their formula."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from mbs.vehicle.section import Section

@@ -1,7 +1,5 @@
 """FMUs of one car in the names, units, signs and frames of other programs."""
 
-from __future__ import annotations
-
 import platform
 import shutil
 import sys

@@ -1,7 +1,5 @@
 """Alias files: our names for variables of other programs, there and back, and what is refused."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """``ali3 build --names`` and ``--aliases`` are one another's inverse: a car under other names drives as under ours."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A test of the catalogue gives the same measures of the same car in whatever names it has."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

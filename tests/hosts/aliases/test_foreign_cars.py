@@ -1,7 +1,5 @@
 """The same car in the names of other programs gives the same record as in ours; a wrong sign or unit does not pass."""
 
-from __future__ import annotations
-
 import re
 import zipfile
 from dataclasses import replace

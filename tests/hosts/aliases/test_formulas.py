@@ -1,7 +1,5 @@
 """Formulas of derived variables against SciPy's rotations and closed forms, and what is refused of them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation

@@ -1,7 +1,5 @@
 """The header in C++: the bits of Python on Linux, under wine and on aarch64, and what it refuses."""
 
-from __future__ import annotations
-
 import platform
 import shutil
 import subprocess

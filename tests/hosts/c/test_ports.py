@@ -1,7 +1,5 @@
 """Ports that a program in C++ sets at every communication point: the bits and the warnings that FMPy gets."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from pathlib import Path

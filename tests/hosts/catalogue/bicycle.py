@@ -1,7 +1,5 @@
 """A car of the catalogue that is a linear bicycle model, so that every answer is known in closed form."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

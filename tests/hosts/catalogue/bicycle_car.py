@@ -1,7 +1,5 @@
 """A car whose motion is known on paper: the linear bicycle model, integrated; it drives as a `TestedCar` does."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """The prototype car as the catalogue tests it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

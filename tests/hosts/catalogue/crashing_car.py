@@ -1,7 +1,5 @@
 """A car whose FMU takes the process with it, and one whose test has a fault."""
 
-from __future__ import annotations
-
 import os
 import signal
 from typing import Any

@@ -1,7 +1,5 @@
 """A turn whose every measure is known."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a test of the catalogue has measured."""
 
-from __future__ import annotations
-
 from typing import Any, cast
 
 from hosts.catalogue.definition import file_of_test

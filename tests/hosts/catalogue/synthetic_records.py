@@ -1,7 +1,5 @@
 """Records of tests that nobody has driven: of every kind that a report can meet."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

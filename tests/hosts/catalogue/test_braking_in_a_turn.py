@@ -1,7 +1,5 @@
 """Stops from a circle: closed forms of a made turn, both sides of the prototype car, the step, what cannot be done."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The command does tests with cars side by side, and tells a user what is wrong before it begins."""
 
-from __future__ import annotations
-
 import csv
 import json
 import os

@@ -1,7 +1,5 @@
 """The prototype car between cones: the limit is one, the measures are those of the run, and what is told."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

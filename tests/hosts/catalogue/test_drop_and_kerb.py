@@ -1,7 +1,5 @@
 """The prototype car falls and drives over a kerb: free fall, balance of forces, step of communication."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The same command takes tests that are done as they are; another test, program or FMU is done again."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

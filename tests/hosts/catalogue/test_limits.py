@@ -1,7 +1,5 @@
 """Limits of a user are judged beside those of standards, in any unit of the quantity."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path

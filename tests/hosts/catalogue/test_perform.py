@@ -1,7 +1,5 @@
 """A test is checked before it is done, and what the FMU says in it is kept."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Tests run in processes of their own: what one does to itself is its outcome, and the others go on."""
 
-from __future__ import annotations
-
 import os
 import sys
 import time

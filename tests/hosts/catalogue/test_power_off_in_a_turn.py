@@ -1,7 +1,5 @@
 """The throttle released on circles: closed forms of a made turn, the prototype car, what cannot be done."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """The report: what stands in it, that it is whole HTML, and that nothing in a name can become a part of it."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import time

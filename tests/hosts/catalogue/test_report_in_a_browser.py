@@ -1,7 +1,5 @@
 """The report in Chromium: no error, nothing loaded, nothing wider than a phone."""
 
-from __future__ import annotations
-
 import pytest
 
 from hosts.catalogue.report import write_report

@@ -1,7 +1,5 @@
 """No test of the catalogue keeps a limit, or is silent, where the car was not driven through it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Sine with dwell of a car that is a linear bicycle model: series, limits, and where it stops."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Braking on split friction: a made stop whose measures are known, and the prototype, which turns to the high side."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

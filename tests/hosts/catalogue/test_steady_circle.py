@@ -1,7 +1,5 @@
 """The steady circle measures what a linear bicycle model has on paper."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The tests with steering on the prototype: they agree with each other where they measure the same."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

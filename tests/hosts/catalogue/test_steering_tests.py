@@ -1,7 +1,5 @@
 """Step, sine and chirp steer of a car that is a linear bicycle model, against its closed forms."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

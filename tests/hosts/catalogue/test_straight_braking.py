@@ -1,7 +1,5 @@
 """The prototype car stops: closed forms of force, load and energy, the step, and what cannot be braked."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

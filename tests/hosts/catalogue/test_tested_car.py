@@ -1,7 +1,5 @@
 """A foreign car is driven under our names, in our units and signs, and moves as if it were ours."""
 
-from __future__ import annotations
-
 import math
 import zipfile
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The scene `tuned`, a swinging mass on a spring, as SciPy integrates it: an engine that shares nothing with ours."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Delay and drift that are known, in closed form."""
 
-from __future__ import annotations
-
 import math
 import re
 

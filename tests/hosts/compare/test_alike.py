@@ -1,7 +1,5 @@
 """Intervals of parameters where signals differ alike, against many logs."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.signal import lfilter

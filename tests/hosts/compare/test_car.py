@@ -1,7 +1,5 @@
 """Logs of a car: made by the car's FMU at another step, with noise, delay and units of a data logger."""
 
-from __future__ import annotations
-
 import csv
 import functools
 import json

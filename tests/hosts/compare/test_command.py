@@ -1,7 +1,5 @@
 """The command, from a log to its files, and what it says of logs and wishes that are not right."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """Parameters come back within their confidence: logs by SciPy's integrator, with noise and delay, fitted by our FMU."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 

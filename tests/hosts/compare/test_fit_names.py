@@ -1,7 +1,5 @@
 """Names after ``--fit`` and ``--signals``."""
 
-from __future__ import annotations
-
 from hosts.compare.command import _names
 
 

@@ -1,7 +1,5 @@
 """A follower that is given the demand moves as was measured."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.signal import lsim

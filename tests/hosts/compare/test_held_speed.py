@@ -1,7 +1,5 @@
 """A measured speed is held within 0.05 m/s, and without swinging where communication steps are long."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

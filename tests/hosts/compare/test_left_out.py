@@ -1,7 +1,5 @@
 """Parts that are left out of a fit, against fits that were made without them, and intervals against many logs."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy import stats

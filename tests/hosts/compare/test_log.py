@@ -1,7 +1,5 @@
 """Logs as data loggers write them: delimiters, decimals, units, clocks, several rates."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A drive whose columns are in other units, late, exchanged, frozen or put together is told, with what mends it."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from dataclasses import replace

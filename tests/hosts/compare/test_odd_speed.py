@@ -1,7 +1,5 @@
 """A speed that falls where that of the simulation rises."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

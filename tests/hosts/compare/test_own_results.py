@@ -1,7 +1,5 @@
 """A result of `ali3 run` as the log: what its record says was held drives the FMU as it did in the run."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path

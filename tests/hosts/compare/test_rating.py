@@ -1,7 +1,5 @@
 """Errors against NumPy, the rating against its properties and an independent program."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Starts of a fit that the FMU refuses are left out and told; one that the user has given is not."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from pathlib import Path

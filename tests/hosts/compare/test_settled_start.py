@@ -1,7 +1,5 @@
 """A log that begins in a turn: what is not measured has settled before the comparison begins."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

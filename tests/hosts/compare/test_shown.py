@@ -1,7 +1,5 @@
 """What a comparison shows: units of the field, and no rating where there is none."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

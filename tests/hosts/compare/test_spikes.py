@@ -1,7 +1,5 @@
 """Single wrong samples of a log."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

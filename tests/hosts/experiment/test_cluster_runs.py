@@ -1,7 +1,5 @@
 """Runs on a cluster are sent in chunks: seconds of work, each run once, small ones at the end."""
 
-from __future__ import annotations
-
 import math
 from concurrent.futures import Future
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """An experiment shows how much of it is done, and its folder keeps what is done for the same command."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from contextlib import closing

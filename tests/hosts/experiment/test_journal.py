@@ -1,7 +1,5 @@
 """What was written to a journal is there after a kill; what was cut is left out."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

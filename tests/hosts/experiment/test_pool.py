@@ -1,7 +1,5 @@
 """Processes that make runs stay for the next ones, and end where an iteration is left."""
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping

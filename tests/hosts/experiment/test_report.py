@@ -1,7 +1,5 @@
 """The page of an experiment: links to its sections, and plots that are drawn once."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import html5lib

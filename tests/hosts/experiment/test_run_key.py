@@ -1,7 +1,5 @@
 """A run is the same where its FMU, all it is told, the files that it reads and the program are."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from hosts.experiment.run_key import run_key

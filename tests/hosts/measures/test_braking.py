@@ -1,7 +1,5 @@
 """Measures of braking against motions in closed form."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

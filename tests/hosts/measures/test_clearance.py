@@ -1,7 +1,5 @@
 """Clearance of an outline from cones against distances worked out by hand."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

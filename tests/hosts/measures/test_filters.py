@@ -1,7 +1,5 @@
 """Filters leave what they should, where it is."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

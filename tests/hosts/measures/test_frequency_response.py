@@ -1,7 +1,5 @@
 """Responses over frequency against systems that are known."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Measures of a fall against a mass on a spring and a damper, in closed form."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One period of steering: known lags and ratios come back."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Numbers of sine with dwell on signals that are made for them."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

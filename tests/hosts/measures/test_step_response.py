@@ -1,7 +1,5 @@
 """Measures of a step response against the closed form of a system of second order."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

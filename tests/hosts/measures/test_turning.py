@@ -1,7 +1,5 @@
 """Circle, distance from it and the yaw rate that keeps it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

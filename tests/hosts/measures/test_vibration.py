@@ -1,7 +1,5 @@
 """The frequency weighting against the published table of its factors, and the measures against closed forms."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

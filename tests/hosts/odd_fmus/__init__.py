@@ -1,7 +1,5 @@
 """Small FMUs that do what no FMU should, each one C file around `small.h`."""
 
-from __future__ import annotations
-
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path

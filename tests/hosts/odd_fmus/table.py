@@ -1,7 +1,5 @@
 """Planted faults by check, and which of them other programs find, printed: python -m tests.hosts.odd_fmus.table."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tempfile

@@ -1,7 +1,5 @@
 """FMUs of a car without a flexible frame, built once."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

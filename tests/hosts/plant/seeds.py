@@ -1,7 +1,5 @@
 """What a seed of an environment of Gymnasium promises."""
 
-from __future__ import annotations
-
 import gymnasium
 import numpy as np
 

@@ -1,7 +1,5 @@
 """FMUs of a car with all ports: whatever comes in, steps are made or refused with a word."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

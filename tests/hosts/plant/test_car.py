@@ -1,7 +1,5 @@
 """A car in Python: the bits of its FMU, starts by a seed, arrays, states that come back."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Environments of Gymnasium: its checker, seeds, several at once, and a controller that does what it should."""
 
-from __future__ import annotations
-
 from contextlib import closing
 from pathlib import Path
 

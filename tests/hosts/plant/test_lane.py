@@ -1,7 +1,5 @@
 """What a car senses of a lane, against a circle and a straight."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

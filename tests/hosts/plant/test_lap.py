@@ -1,7 +1,5 @@
 """The lap of the proving ground: the ring of the world, Gymnasium's checker, seeds, the driver as baseline."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import gymnasium

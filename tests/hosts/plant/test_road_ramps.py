@@ -1,7 +1,5 @@
 """Answers on the road for the end of a step: within the step the FMU goes there from the last ones (decision 91)."""
 
-from __future__ import annotations
-
 import pytest
 
 from tests.vehicle.road_leads import loads_of_fmu

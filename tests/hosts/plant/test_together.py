@@ -1,7 +1,5 @@
 """Environments on threads: to the last bit those one after the other, with Gymnasium's seeds and new starts."""
 
-from __future__ import annotations
-
 import threading
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """FMUs of small scenes, and a clock that the tests move."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A sledge that is driven and recorded as the simulator does it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

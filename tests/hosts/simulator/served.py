@@ -1,7 +1,5 @@
 """A server in a thread of the test, and a car that needs no FMU."""
 
-from __future__ import annotations
-
 import asyncio
 import socket
 import threading

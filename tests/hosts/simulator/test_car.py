@@ -1,7 +1,5 @@
 """The car in a process of its own: it runs, pauses, steps, goes back, and nobody else can delay it."""
 
-from __future__ import annotations
-
 import json
 import math
 import multiprocessing

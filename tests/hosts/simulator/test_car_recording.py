@@ -1,7 +1,5 @@
 """The rows of a car reach its recording, whatever the one who writes them does."""
 
-from __future__ import annotations
-
 import json
 import math
 import shutil

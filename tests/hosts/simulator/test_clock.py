@@ -1,7 +1,5 @@
 """Sleeps of the car's clock end at an absolute time, never before it."""
 
-from __future__ import annotations
-
 import gc
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """The command without a page, with a real car in its process: report, manoeuvres, aliases, and what is refused."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import math

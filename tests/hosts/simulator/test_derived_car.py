@@ -1,7 +1,5 @@
 """A car seen through aliases has its derived variables too, and they follow jumps of its time."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """An FMU that goes back, starts again and is set upright is bit for bit the one that never did."""
 
-from __future__ import annotations
-
 import math
 import zipfile
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """Several sources at one input: who moved last has the word, and what nobody holds goes back."""
 
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Inputs move by at most so much per simulated second, and a new start forgets what was wanted before it."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Steps cut short and words of the FMU are said, once in a while and with their numbers."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Deadlines are absolute; what is late is caught up, moved and said."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

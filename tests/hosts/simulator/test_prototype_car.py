@@ -1,7 +1,5 @@
 """The prototype car rolls over, is set on its wheels where it lies, and goes back to before."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Recordings: repeated bit for bit, and driven again."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Recordings as files: readable after a kill, refused in words, shown by the commands and moving."""
 
-from __future__ import annotations
-
 import json
 import os
 import signal

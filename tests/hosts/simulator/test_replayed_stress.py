@@ -1,7 +1,5 @@
 """A replay in a browser has the colours of the stress that was driven with."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Any step of the last 30 s can be gone back to, in memory that does not grow."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -4,8 +4,6 @@ Frame rates and lateness are printed (``-s``), not asserted: they are those of t
 environment variable ``ALI3_SESSION_PICTURES`` names keeps the pictures.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,7 +1,5 @@
 """What the server says to pages and takes from them, by two independent clients, and whom it refuses."""
 
-from __future__ import annotations
-
 import errno
 import gzip
 import json

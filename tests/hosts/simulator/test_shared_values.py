@@ -1,7 +1,5 @@
 """Two processes share values without waiting for each other, and no reader sees half a record."""
 
-from __future__ import annotations
-
 import multiprocessing
 import time
 

@@ -1,7 +1,5 @@
 """Histograms of the steps: their quantiles are those of the steps, and they say everything that is late."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

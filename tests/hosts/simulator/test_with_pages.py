@@ -1,7 +1,5 @@
 """The command with pages, from the terminal to the car's process: a drive, hostile clients, Ctrl-C, and the report."""
 
-from __future__ import annotations
-
 import json
 import re
 import signal

@@ -1,7 +1,5 @@
 """The FMU of a mass on a spring, a study of it, and a scheduler that the tests share."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Frames of runs as `hosts.study.store.read_study` gives them, made of a function in place of an FMU."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 

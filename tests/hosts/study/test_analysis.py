@@ -1,7 +1,5 @@
 """Main effects and Sobol' indices against closed forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

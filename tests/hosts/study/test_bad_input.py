@@ -1,7 +1,5 @@
 """What cannot be run is said in one sentence before the first run."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A table that changes between two halves of a study."""
 
-from __future__ import annotations
-
 import pytest
 
 from hosts.study.points import digest, points_of_columns

@@ -1,7 +1,5 @@
 """One bit of a file of rows or signals is turned: a report tells it, and the study makes those runs again."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable
 from contextlib import AbstractContextManager

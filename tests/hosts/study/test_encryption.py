@@ -1,7 +1,5 @@
 """A study opens no port; whether the traffic of a scheduler that is named is encrypted is checked and told."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from contextlib import suppress

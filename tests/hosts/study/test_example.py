@@ -1,7 +1,5 @@
 """The example of a study: its car is built, all is checked, and its plan is what its words promise."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

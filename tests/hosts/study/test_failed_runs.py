@@ -1,7 +1,5 @@
 """A run that fails is a row with its reason, whatever it does to its process."""
 
-from __future__ import annotations
-
 import math
 import re
 import sys

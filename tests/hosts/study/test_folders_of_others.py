@@ -1,7 +1,5 @@
 """Folders of results that somebody else made or altered: rows are read, no program is run, no link is followed."""
 
-from __future__ import annotations
-
 import copy
 import json
 from collections.abc import Callable, Iterator

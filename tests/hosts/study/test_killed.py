@@ -1,7 +1,5 @@
 """The command, the scheduler and workers are killed in the middle: no row is lost, none is made twice."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

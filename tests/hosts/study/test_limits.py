@@ -1,7 +1,5 @@
 """The share of a study's runs within limits."""
 
-from __future__ import annotations
-
 import csv
 import json
 import math

@@ -1,7 +1,5 @@
 """Measures of a study against closed forms on signals that are known."""
 
-from __future__ import annotations
-
 import math
 import pickle
 import re

@@ -1,7 +1,5 @@
 """The report of a study on frames whose truth is known."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A study that is started again: what is done stays, and only the same study goes on."""
 
-from __future__ import annotations
-
 import shlex
 import shutil
 import subprocess

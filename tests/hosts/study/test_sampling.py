@@ -1,7 +1,5 @@
 """Points: against SALib, in blocks as in one piece, and what each method promises."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Callable
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """The search for a value of a measure, on functions whose solutions are known."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

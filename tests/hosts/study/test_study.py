@@ -1,7 +1,5 @@
 """A study from its file to its table, on a scheduler with two workers."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

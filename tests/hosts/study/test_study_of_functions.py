@@ -1,7 +1,5 @@
 """A study of a real FMU, run on workers, analysed, and its worst runs repeated."""
 
-from __future__ import annotations
-
 import html
 import os
 import re

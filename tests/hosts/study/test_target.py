@@ -1,7 +1,5 @@
 """`ali3 study --target`: the value of a parameter that gives a wanted measure."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable

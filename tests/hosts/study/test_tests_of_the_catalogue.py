@@ -1,7 +1,5 @@
 """Every test of the catalogue is a manoeuvre of a study, and its row is whole."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

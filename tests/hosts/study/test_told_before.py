@@ -1,7 +1,5 @@
 """What a study tells before it: its plan, and a measure that the trial could not compute."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

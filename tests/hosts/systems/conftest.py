@@ -1,7 +1,5 @@
 """Small FMUs of which the tests make systems."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Cars with controllers in second FMUs, and what the communication step changes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path

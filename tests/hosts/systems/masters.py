@@ -1,7 +1,5 @@
 """Other people's programs that run an SSP: values of a part after equal steps."""
 
-from __future__ import annotations
-
 import ctypes
 import sys
 import zipfile

@@ -3,8 +3,6 @@
 python -m tests.hosts.systems.on_off
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

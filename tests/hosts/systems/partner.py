@@ -1,7 +1,5 @@
 """What second FMUs of the tests share: variables in a dictionary, outputs at the start, states that go back whole."""
 
-from __future__ import annotations
-
 import copy
 from typing import Any
 

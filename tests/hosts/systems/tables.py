@@ -3,8 +3,6 @@
 python -m tests.hosts.systems.tables [--write]
 """
 
-from __future__ import annotations
-
 import sys
 
 from benchmarks.shared.pages import DOCS, replace

@@ -1,7 +1,5 @@
 """Systems of FMUs: cars wired to copies of their own parts converge to the closed car; what is wrong is said."""
 
-from __future__ import annotations
-
 import math
 import os
 import subprocess

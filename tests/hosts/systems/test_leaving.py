@@ -1,7 +1,5 @@
 """A process that drove an FMU leaves nothing behind, and reads no memory that was freed."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

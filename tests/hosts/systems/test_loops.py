@@ -1,7 +1,5 @@
 """Systems of a car and its partners have no algebraic loop as masters see one, and step without iteration."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """SSP archives of systems: what FMPy reads in them, that they fit the schema, and what is refused."""
 
-from __future__ import annotations
-
 import sys
 import zipfile
 from pathlib import Path

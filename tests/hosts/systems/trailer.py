@@ -1,7 +1,5 @@
 """A trailer of one axle: a scene of its own, and on the hitch of the hatchback in one model."""
 
-from __future__ import annotations
-
 import atexit
 import shutil
 import tempfile

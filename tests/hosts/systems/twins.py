@@ -1,7 +1,5 @@
 """Systems of cars and controllers as one: in each step the laws hold at its end, as the forces of the cars do."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import cache
 from typing import Any

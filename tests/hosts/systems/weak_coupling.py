@@ -1,7 +1,5 @@
 """How far cars wired to parts in second FMUs are from the same as one model, over the communication step."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The proving ground, made once: from the cache of the user where it was made before by the same code."""
 
-from __future__ import annotations
-
 import json
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """Heights and frictions of a road file as the kernel computes them."""
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Iterator
 from contextlib import contextmanager

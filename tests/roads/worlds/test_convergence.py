@@ -1,7 +1,5 @@
 """The points of the proving ground are near enough: finer ones give the same loads of the tyres."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The road file of the proving ground as the kernel reads it, and what is drawn of it."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

@@ -1,7 +1,5 @@
 """A world of one's own: the example of docs/worlds.md, and one sentence for what is wrong."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

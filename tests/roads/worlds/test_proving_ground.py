@@ -1,7 +1,5 @@
 """The proving ground: heights and slopes in closed form, frictions and surfaces at places, no steps."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

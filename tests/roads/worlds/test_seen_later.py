@@ -1,7 +1,5 @@
 """Tables of runs in a world, opened later: its ground and what stands on it, or a word about what is not drawn."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """Double wishbones whose links move in planes across the car, solved in closed form as four-bar linkages."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 

@@ -3,8 +3,6 @@
 An independent model: no coordinates, rows or kernel of the engine. Unknown of a body are its shift and rotation vector.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation

@@ -1,7 +1,5 @@
 """A planar steering with upright steering axes: angles by the sine rule, Ackermann and turning circle by hand."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

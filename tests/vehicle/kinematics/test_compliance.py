@@ -1,7 +1,5 @@
 """Compliance: exactly none of a rigid car, a torsion bar by hand, a flexible frame against the engine's equilibrium."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

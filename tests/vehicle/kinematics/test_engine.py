@@ -1,7 +1,5 @@
 """Kinematics against the car in motion: a slow heave, roll and lock to lock on frictionless ground by the engine."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The command, its files by two readers, and what is said of bad input."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import json

@@ -1,7 +1,5 @@
 """Planar wishbones against closed forms: equal and parallel, parallel and sloping, unequal; over large travel."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Every template against positions found by SciPy from the hard points alone, over travel and steering."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Anti-dive and its like, by the pole in the side view and by the upright's twist, without the engine."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

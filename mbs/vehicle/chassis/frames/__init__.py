@@ -1,7 +1,5 @@
 """Flexible frames, one file each: a new one is a file here and a line in `Frame`."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import Field

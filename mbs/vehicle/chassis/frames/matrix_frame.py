@@ -1,7 +1,5 @@
 """What frames that come as matrices of another program share."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A frame from Nastran."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Literal
 

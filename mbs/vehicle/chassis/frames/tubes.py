@@ -1,7 +1,5 @@
 """A frame of tubes from tables."""
 
-from __future__ import annotations
-
 import pickle
 from functools import lru_cache
 from pathlib import Path

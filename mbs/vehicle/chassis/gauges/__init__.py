@@ -1,7 +1,5 @@
 """Strain gauges of a flexible chassis, one file a kind: on tubes, or on the nodes of matrices."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import Field

@@ -1,7 +1,5 @@
 """Strain gauge by rows of recovery that another program has written."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Literal

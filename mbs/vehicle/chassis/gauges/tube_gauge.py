@@ -1,7 +1,5 @@
 """Strain gauges at a place of a tube, joined to the bridge that a measurement needs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Annotated, Literal

@@ -1,7 +1,5 @@
 """Ends, rest and direction of axes from what a person does, and assignment by moving."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Devices as SDL reads them: virtual ones, plugged in, moved, pulled out."""
 
-from __future__ import annotations
-
 import json
 import math
 import sys

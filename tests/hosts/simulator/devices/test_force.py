@@ -1,7 +1,5 @@
 """Force feedback: its sign, size, smoothing and saturation; when it is zero; what is said where there is none."""
 
-from __future__ import annotations
-
 import math
 import threading
 import time

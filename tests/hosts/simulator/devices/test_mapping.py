@@ -1,7 +1,5 @@
 """How a source moves an input: whole, inverted and half axes, their ends, dead zones."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 

@@ -1,7 +1,5 @@
 """Files of mappings and the names of devices."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

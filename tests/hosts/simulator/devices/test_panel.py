@@ -1,7 +1,5 @@
 """The panel of devices in a Chromium without a window, on virtual devices."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator
 from typing import Any

@@ -1,7 +1,5 @@
 """A virtual wheel drives the FMU of a car, and its motor feels the car."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """SDL's virtual devices, and what stands in for the car's side."""
 
-from __future__ import annotations
-
 import ctypes
 import time
 import warnings

@@ -1,7 +1,5 @@
 """The ball of a hitch in its cup, in a second FMU."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from tests.hosts.systems.partner import Partner

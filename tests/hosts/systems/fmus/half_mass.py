@@ -1,7 +1,5 @@
 """Mass of an oscillator in an FMU."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from pythonfmu import Fmi2Causality, Fmi2Variability, Real

@@ -1,7 +1,5 @@
 """Spring of an oscillator in an FMU, which breaks at a time."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

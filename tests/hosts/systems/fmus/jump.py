@@ -1,7 +1,5 @@
 """A step function in an FMU, which can refuse a communication step."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from pythonfmu import Fmi2Causality, Fmi2Variability, Real

@@ -1,7 +1,5 @@
 """Brakes that are on or off by the slip of their wheels, in a second FMU."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from tests.hosts.systems.partner import Partner

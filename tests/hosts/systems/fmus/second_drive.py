@@ -1,7 +1,5 @@
 """A copy of the drive of the prototype in a second FMU."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from tests.hosts.systems.partner import Partner

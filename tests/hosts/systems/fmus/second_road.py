@@ -1,7 +1,5 @@
 """A road of waves in a second FMU."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Copies of the tyres of the hatchback in a second FMU."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from tests.hosts.systems.partner import Partner

@@ -1,7 +1,5 @@
 """Parameters of all types in an FMU."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from pythonfmu import Boolean, Fmi2Causality, Fmi2Slave, Fmi2Variability, Integer, Real, String

@@ -1,7 +1,5 @@
 """Gears by the speed of the engine, in a second FMU."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from tests.hosts.systems.partner import Partner
