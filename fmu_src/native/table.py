@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from itertools import accumulate
 
+from ali3.words import unit_text
 from fmu_src.variables.arrays import Array, references
 from fmu_src.variables.text_variables import TextVariable
 from fmu_src.variables.variables import Variable
@@ -60,7 +61,7 @@ def c_table(
     length : float
         Of the model, m.
     """
-    units = ["" if v.unit == "1" else f" {v.unit}" for v in table]
+    units = [unit_text(v.unit) for v in table]
     uncomputed = [sum(1 << k for k in v.uncomputed) for v in table]
     variables = "\n".join(
         f"    {{{c_string(v.name)}, {c_string(unit)}, {_SOURCES[v.source]}, {v.index}, "

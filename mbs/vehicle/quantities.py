@@ -8,6 +8,8 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from ali3.words import unit_text
+
 Change = Literal["tunable", "fixed"]
 
 
@@ -38,7 +40,7 @@ class Quantity:
         """The range in words."""
         zero = "0 or " if self.zero and self.low > 0.0 else ""
         limits = f"{self.low:g}" if self.low == self.high else f"between {self.low:g} and {self.high:g}"
-        return f"{zero}{limits}" + ("" if self.unit == "1" else f" {self.unit}")
+        return f"{zero}{limits}{unit_text(self.unit)}"
 
     @property
     def least(self) -> float:

@@ -5,7 +5,7 @@ every test; a picture of one point stands for what matplotlib makes of them, but
 """
 
 import base64
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from pathlib import Path
 from typing import IO, Any
 
@@ -35,3 +35,9 @@ def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Figure, "savefig", _one_point)
         return (yield)
+
+
+@pytest.fixture(scope="session")
+def tuned(scene_fmu: Callable[..., Path]) -> Path:
+    """The FMU of a mass on a spring whose values can be set."""
+    return scene_fmu(f"{HERE / 'scenes.py'}:tuned")

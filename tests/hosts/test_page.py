@@ -28,11 +28,6 @@ DRAWING = {
 }
 
 
-@pytest.fixture(scope="module")
-def tuned(scene_fmu: Callable[..., Path]) -> Path:
-    return scene_fmu(f"{SCENES}:tuned")
-
-
 def changed(fmu: Path, folder: Path, change: Any, scene: Any = DRAWING) -> Path:
     """A copy of an FMU whose files `change` has altered: a function of a name and its bytes, None leaves it out.
 

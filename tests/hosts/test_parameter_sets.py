@@ -1,9 +1,8 @@
 """Parameter sets: SSV files between an FMU, its hosts and other readers, with units, refusals and round trips."""
 
-import json
 import re
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import nullcontext
 from pathlib import Path
 
@@ -12,7 +11,6 @@ import pytest
 import xmlschema
 from fmpy.model_description import BaseUnit, DisplayUnit, Item, ModelDescription, ScalarVariable, SimpleType, Unit
 from fmpy.ssp.ssd import read_ssv
-from fmpy.util import read_csv
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pyssp_standard.ssv import SSV
@@ -33,46 +31,15 @@ from hosts.fmu.fmu import Fmu
 from hosts.fmu.parameters_as_set import parameter_set_of
 from hosts.fmu.settings import Settings
 from hosts.fmu.variables import Variables
-from hosts.run.command import main as run
+from tests.hosts.parameter_files import UNITS, ssv
 
 HERE = Path(__file__).parent
 PLATFORM = fmpy.platform
 NAMES = ["spring.stiffness", "spring.damping", "spring.free_length", "step_size", "solver.step_iterations"]
-HEAD = (
-    '<ssv:ParameterSet xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues" '
-    'xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon" version="{}" name="test"><ssv:Parameters>'
-)
-UNITS = (
-    '<ssv:Units><ssc:Unit name="kN/m"><ssc:BaseUnit kg="1" s="-2" factor="1000"/></ssc:Unit>'
-    '<ssc:Unit name="mm"><ssc:BaseUnit m="1" factor="0.001"/></ssc:Unit>'
-    '<ssc:Unit name="inch"><ssc:BaseUnit m="1" factor="0.0254"/></ssc:Unit>'
-    '<ssc:Unit name="m"><ssc:BaseUnit m="1" factor="10"/></ssc:Unit>'
-    '<ssc:Unit name="Nm/deg"><ssc:BaseUnit kg="1" m="2" s="-2" rad="-1" factor="57.29577951308232"/></ssc:Unit>'
-    '<ssc:Unit name="1/s2"><ssc:BaseUnit s="-2"/></ssc:Unit></ssv:Units>'
-)
-
-
-def ssv(*entries: str, units: str = UNITS, version: str = "1.0") -> str:
-    """A document of ``name=value[unit]`` entries, or of XML elements."""
-    body = ""
-    for entry in entries:
-        if entry.startswith("<"):
-            body += entry
-            continue
-        name, _, rest = entry.partition("=")
-        value, bracket, unit = rest.partition("[")
-        attribute = f' unit="{unit[:-1]}"' if bracket else ""
-        body += f'<ssv:Parameter name="{name}"><ssv:Real value="{value}"{attribute}/></ssv:Parameter>'
-    return f"{HEAD.format(version)}{body}</ssv:Parameters>{units}</ssv:ParameterSet>"
 
 
 def entry(name: str, element: str) -> str:
     return f'<ssv:Parameter name="{name}"><ssv:{element}/></ssv:Parameter>'
-
-
-@pytest.fixture(scope="module")
-def tuned(scene_fmu: Callable[..., Path]) -> Path:
-    return scene_fmu(f"{HERE / 'scenes.py'}:tuned")
 
 
 @pytest.fixture
@@ -341,105 +308,6 @@ def test_values_of_the_command_line_are_of_their_kind(name: str, text: str, word
         Settings(kinds()).add_texts([(name, text)], "--set")
 
 
-def test_the_command_line_wins_over_the_set_and_the_set_over_the_manoeuvre(
-    tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    file.write_text(ssv("spring.stiffness=200", "spring.damping=3", "spring.free_length=0.8"))
-    table = tmp_path / "pull.csv"
-    table.write_text('# start: spring.damping=5,spring.stiffness=50\n"time","pull"\n0,0\n1,10\n')
-    command = [str(tuned), "--parameters", str(file), "--set", "spring.stiffness=300", "--set", "pull=4"]
-    assert run([*command, "--input", str(table), "--out", str(tmp_path)]) == 0
-    printed = capsys.readouterr().out
-    assert "set.ssv           3 values, 2 of them other than in the FMU" in printed
-    assert "--set replaces 200 N/m of set.ssv" in printed
-    assert "set.ssv replaces 5 N·s/m of start of pull" in printed
-    assert "4 N of --set has no effect: it is a column of the manoeuvre pull" in printed
-    assert "100 -> 300 N/m (--set)" in printed
-    record = json.loads((tmp_path / "tuned_pull.json").read_text())
-    assert record["set"] == [
-        {"name": "spring.stiffness", "old": 100.0, "new": 300.0, "unit": "N/m", "from": "--set"},
-        {"name": "spring.damping", "old": 1.0, "new": 3.0, "unit": "N.s/m", "from": "set.ssv"},
-    ]
-
-
-@pytest.mark.slow
-def test_what_does_nothing_is_told(tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    for text, words in (
-        (ssv(), "empty: it sets nothing"),
-        (ssv("spring.damping=1"), "all 1 values are those of the FMU: it changes nothing"),
-    ):
-        file.write_text(text)
-        assert run([str(tuned), "--parameters", str(file), "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
-        assert words in capsys.readouterr().out
-    assert run([str(tuned), "--set", "spring.damping=1", "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
-    assert "1 N·s/m as in the FMU (--set)" in capsys.readouterr().out
-    twice = ["--set", "spring.damping=1", "--set", "spring.damping=2"]
-    assert run([str(tuned), *twice, "--out", str(tmp_path)]) == 2
-    assert "--set: 'spring.damping' is given as 1 and as 2; give it once" in capsys.readouterr().err
-
-
-@pytest.mark.slow
-def test_a_tunable_parameter_may_be_a_column_and_a_fixed_one_not(
-    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    table = tmp_path / "softer.csv"
-    table.write_text('"time","pull","spring.stiffness"\n0,0,100\n1,0,100\n1,0,50\n2,0,50\n')
-    assert run([str(tuned), "--input", str(table), "--out", str(tmp_path), "--step", "0.01"]) == 0
-    found = read_csv(tmp_path / "tuned_softer.csv")
-    assert (found["spring.stiffness"][99], found["spring.stiffness"][100]) == (100.0, 50.0)
-    with Fmu(tuned) as fmu:  # the same by hand
-        fmu.initialise({})
-        for k in range(200):
-            if k == 100:
-                fmu.setter(["spring.stiffness"])([50.0])
-            fmu.step(0.01 * k, 0.01)
-        assert fmu.getter(["bob.y"])()[0] == found["bob.y"][-1]
-    assert found["bob.y"][-1] < found["bob.y"][100] - 0.05
-    table.write_text('"time","spring.free_length"\n0,0.8\n1,0.7\n')
-    assert run([str(tuned), "--input", str(table), "--out", str(tmp_path)]) == 2
-    said = capsys.readouterr().err
-    assert "a column 'spring.free_length', a fixed parameter of Tuned.fmu: it can be set before the start only" in said
-    table.write_text('"time","spring.stiffness"\n0,100\n1,1e5\n')
-    assert run([str(tuned), "--input", str(table), "--out", str(tmp_path)]) == 2
-    said = capsys.readouterr().err
-    assert "has a column 'spring.stiffness' that reaches 100000 N/m in row 2" in said
-    assert "range of the FMU's input is 10 to 900 N/m" in said
-    table.write_text('"time","bob.x"\n0,1\n1,1\n')
-    assert run([str(tuned), "-m", str(table), "--out", str(tmp_path)]) == 2
-    said = capsys.readouterr().err
-    assert "'bob.x', which is not an input of Tuned.fmu; its inputs are: pull; a tunable parameter, such as" in said
-
-
-def test_differences_of_a_set(tuned: Path, file: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file.write_text(ssv("spring.stiffness=0.2[kN/m]", "spring.damping=1"))
-    assert check([str(tuned), "--diff", str(file)]) == 0
-    assert capsys.readouterr().out == "spring.stiffness  100 -> 200 N/m\n"
-    assert check([str(tuned), "--set", "spring.stiffness=200", "--diff", str(file)]) == 0
-    assert "sets nothing to another value" in capsys.readouterr().out
-    assert check([str(tuned), "--show-parameters"]) == 0
-    printed = capsys.readouterr().out
-    rows = [re.split(r"\s{2,}", line) for line in printed.splitlines()]
-    assert ["spring.free_length", "0.8", "m", "0.1 to 2", "fixed", "Of the spring: free_length"] in rows
-
-
-@pytest.mark.parametrize("more", [["-m", "pull.csv"], [], ["--show-parameters"]])
-def test_every_host_says_the_same_of_a_wrong_set(
-    tuned: Path,
-    file: Path,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-    more: list[str],
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    file.write_text(ssv("spring.damping=200"))
-    Path("pull.csv").write_text('"time","pull"\n0,0\n1,10\n')
-    command = check if "--show-parameters" in more else run
-    assert command([str(tuned), *more, "--parameters", str(file)]) == 2
-    said = capsys.readouterr().err
-    assert said == "error: set.ssv: 'spring.damping' is 200 N·s/m; its range is 0 to 20 N·s/m.\n"
-
-
 @pytest.mark.parametrize(
     ("one", "other", "value", "converted"),
     [
@@ -506,22 +374,3 @@ def test_a_set_of_all_parameters_of_a_car_is_the_engine_with_them(file: Path, tm
         assert len(names) > 100
         found = dict(zip(names, driven.getter(names)(), strict=True))
     assert found == {n: simulation.sensors[n] for n in names}
-
-
-@pytest.mark.slow
-def test_a_column_of_whole_numbers_is_held_between_its_rows(
-    scene_fmu: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    fmu = scene_fmu(f"{HERE / 'scenes.py'}:switched")
-    table = tmp_path / "shift.csv"
-    table.write_text('"time","pull","gear"\n0,0,1\n1,2,3\n2,2,-1\n')
-    assert run([str(fmu), "--input", str(table), "--step", "0.1", "--out", str(tmp_path)]) == 0
-    found = read_csv(tmp_path / "switched_shift.csv")
-    assert list(found["gear"]) == [1.0] * 10 + [3.0] * 11  # with which the next step begins
-    assert list(found["gear_used"]) == [1.0] * 11 + [3.0] * 10
-    assert found["pull"][5] == pytest.approx(1.0)
-    table.write_text('"time","gear"\n0,1\n1,1.5\n')
-    assert run([str(fmu), "--input", str(table), "--out", str(tmp_path)]) == 2
-    assert "a column 'gear' with the value 1.5; 'gear' is a whole number" in capsys.readouterr().err
-    assert run([str(fmu), "--set", "gear=0.5", "--out", str(tmp_path)]) == 2
-    assert "--set: 'gear' is 0.5; it must be a whole number" in capsys.readouterr().err

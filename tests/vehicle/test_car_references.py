@@ -71,7 +71,7 @@ def test_smooth_manoeuvres_converge_with_the_square_of_the_step(car, name):
 
 
 @pytest.mark.parametrize("car", BOUNDS)
-def test_kerb_lock_and_brake_at_once_are_right_at_five_milliseconds(car):
+def test_kerb_lock_and_brake_at_once_are_right_at_two_milliseconds(car):
     path, load, length = error(car, "kerb_lock_brake", 0.002)
     assert path / length < (4e-5 if car in ("prototype", "hatchback", "saloon") else 4e-4)
     assert load < 0.03

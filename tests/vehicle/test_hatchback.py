@@ -56,6 +56,13 @@ def test_the_wheels_carry_the_weight_and_the_car_stands_as_drawn(at_rest):
     assert abs(at_rest["chassis.pitch"]) < 1e-5
 
 
+def test_straight_ahead_it_goes_straight():
+    run = drive(4.0, inputs={"throttle": ([0.0, 1.0, 4.0], [0.0, 1.0, 1.0])})
+    assert run["speed"][-1] > 8.0
+    for name in ("chassis.y", "chassis.roll", "chassis.yaw"):
+        assert np.abs(run[name]).max() < 1e-7
+
+
 def test_the_front_wheels_drive_and_the_chassis_takes_the_reaction():
     run = drive(2.0, inputs={"throttle": ([0.0, 0.2, 2.0], [0.0, 0.5, 0.5])})
     late = run.t > 1.0

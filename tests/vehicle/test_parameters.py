@@ -164,3 +164,11 @@ def test_parameters_do_together_what_the_file_would_do(name):
     alone = [[path] for path in own if path in ALONE]
     wrong = wrong_parameters(name, [g for g in (*(paths[k::groups] for k in range(groups)), turned, *alone) if g])
     assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.proof
+@pytest.mark.parametrize("name", car_names())
+def test_a_parameter_does_what_the_file_would_do(name):
+    car = load(name)
+    wrong = wrong_parameters(name, [[path] for path in told(car) if path not in without_assistance(car)])
+    assert not wrong, "\n".join(wrong)

@@ -4,10 +4,7 @@
  * Prints the status and the iterations, factorizations and solves of these steps; with REPEATS also the least processor
  * time, s, of so many runs from the same state. CODE is a library of code that was generated for the System, which
  * LOOPS_ALONE does without: for kernels that cannot call it. */
-#if defined(_WIN32) && !defined(LOOPS_ALONE)
-#define LOOPS_ALONE
-#endif
-#ifndef LOOPS_ALONE
+#if !defined(LOOPS_ALONE) && !defined(_WIN32)
 #include <dlfcn.h>
 #endif
 #include <inttypes.h>
@@ -28,12 +25,16 @@ static void *contents(const char *name, size_t *size) {
   return bytes;
 }
 
-#ifndef LOOPS_ALONE
-static const void *table_of(const char *name) {
+static int attach(ali3_system *system, const char *name, char *message, size_t size) {
+#if defined(LOOPS_ALONE) || defined(_WIN32)
+  (void)system, (void)name, (void)message, (void)size;
+  return 1;
+#else
   void *library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
-  return library != NULL ? dlsym(library, "ali3_generated_code") : NULL;
-}
+  const void *table = library != NULL ? dlsym(library, "ali3_generated_code") : NULL;
+  return ali3_system_attach(system, table, message, size) != ALI3_OK;
 #endif
+}
 
 int main(int count, char **words) {
   if (count < 6 || count > 8) return 2;
@@ -49,11 +50,7 @@ int main(int count, char **words) {
   int64_t done;
   clock_t least = 0;
   if (ali3_system_load(bytes, system_size, &system, message, sizeof message) != ALI3_OK) return 4;
-#ifdef LOOPS_ALONE
-  if (count > 7) return 7;
-#else
-  if (count > 7 && ali3_system_attach(system, table_of(words[7]), message, sizeof message) != ALI3_OK) return 7;
-#endif
+  if (count > 7 && attach(system, words[7], message, sizeof message)) return 7;
   if (ali3_instance_new(system, &in) != ALI3_OK) return 5;
   const long repeats = count > 6 ? atol(words[6]) : 1;
   for (long k = 0; k < repeats && status == ALI3_OK; k++) {

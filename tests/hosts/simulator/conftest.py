@@ -1,9 +1,12 @@
-"""FMUs of small scenes, and a clock that the tests move."""
+"""FMUs of small scenes, a clock that the tests move, and a server whose car needs no FMU."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
+
+from tests.hosts.simulator.served import FakeCar, serving
 
 TESTS = Path(__file__).parents[2]
 _SCENES = {"sledge": TESTS / "hosts" / "scenes.py", "switched": TESTS / "hosts" / "scenes.py"}
@@ -54,3 +57,14 @@ class FakeClock:
 @pytest.fixture
 def clock() -> FakeClock:
     return FakeClock()
+
+
+@pytest.fixture
+def car() -> FakeCar:
+    return FakeCar()
+
+
+@pytest.fixture
+def served(car: FakeCar) -> Iterator[Any]:
+    with serving(car) as found:
+        yield found
