@@ -1,5 +1,7 @@
 """What readers return says what was understood of it."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import singledispatch

@@ -1,5 +1,7 @@
 """Forces that are not smooth at a state: where their slopes differ to both sides, or within a small velocity."""
 
+from __future__ import annotations
+
 import warnings
 from dataclasses import replace
 

@@ -18,6 +18,8 @@ With conditions on velocities A qd = 0 (rolling, skates) there are more places t
 the null space of the rows on positions alone, w one V of the null space of all, and ``zd = P' M (V w + N z)``.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """Brake that holds by sticking."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector

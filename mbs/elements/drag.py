@@ -1,5 +1,7 @@
 """Aerodynamic drag."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import ClassVar
 

@@ -1,5 +1,7 @@
 """Force and moment on the hub of a wheel, given by inputs in place of a tyre."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """Generalised force given by an input."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """Aerodynamic lift."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 
 from mbs.common.affine import AffineVector

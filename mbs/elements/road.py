@@ -1,5 +1,7 @@
 """Roads: what `mbs/kernel/src/elements/road.h` needs to know of them."""
 
+from __future__ import annotations
+
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Sequence

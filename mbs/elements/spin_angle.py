@@ -1,5 +1,7 @@
 """Angle by which a wheel that is reduced to one coordinate has turned on its carrier."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from mbs.common.affine import Affine, AffineVector

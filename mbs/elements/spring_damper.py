@@ -1,5 +1,7 @@
 """Spring and damper between two points, with stops."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Annotated
 

@@ -1,5 +1,7 @@
 """Aerodynamic drag in wind."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from mbs.common.affine import AffineVector

@@ -1,5 +1,7 @@
 """Frames of beams: what they consist of, and each beam in its axes."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 

@@ -1,5 +1,7 @@
 """Craig-Bampton reduction with the floating frame clamped at a reference node."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

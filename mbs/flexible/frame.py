@@ -1,5 +1,7 @@
 """Frames of beams: the finite-element model of one."""
 
+from __future__ import annotations
+
 import numpy as np
 import scipy.sparse as sp
 

@@ -1,5 +1,7 @@
 """Constant shape integrals: what ``M = B' M_FEM B`` and ``Q_v`` of a flexible body collapse to."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

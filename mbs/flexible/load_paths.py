@@ -1,5 +1,7 @@
 """Only those deformations that the forces of the interfaces can excite."""
 
+from __future__ import annotations
+
 import numpy as np
 from scipy.linalg import eigh
 

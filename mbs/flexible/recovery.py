@@ -5,6 +5,8 @@ weight: of free fall) whose inertia forces the beams carry between their ends. `
 know both; a frame that is loaded at its nodes only needs the first 6 n.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

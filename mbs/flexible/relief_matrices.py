@@ -1,5 +1,7 @@
 """From interface forces, weight and the inertia of rigid motion to what a frame does at once."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

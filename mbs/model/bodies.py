@@ -1,5 +1,7 @@
 """Bodies of a model: how they are added, and what a joint asks of them."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What undoes a call that is refused, and shapes that are deferred until they are needed."""
 
+from __future__ import annotations
+
 import functools
 import weakref
 from collections.abc import Callable, Iterator

@@ -1,5 +1,7 @@
 """Numbers that only the users of a System need."""
 
+from __future__ import annotations
+
 from mbs.common.checks import number, shown, text
 from mbs.model.records import Constant
 from mbs.model.register import Register

@@ -1,5 +1,7 @@
 """Name, dimension and full coordinates of a model, and expressions of them."""
 
+from __future__ import annotations
+
 from typing import NoReturn
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Flexible bodies, and rigid ones whose forces make a structure bend at once: the vocabulary."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Forces and torques by name: thin wrappers around the records of `mbs.elements`."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Literal
 

@@ -1,5 +1,7 @@
 """Sensors of joints: forces and moments from the multipliers of their rows."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import replace
 

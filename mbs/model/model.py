@@ -1,5 +1,7 @@
 """The modelling vocabulary: what an engineer writes, in earth axes in the reference configuration."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 
 import numpy as np

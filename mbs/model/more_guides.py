@@ -1,5 +1,7 @@
 """Guides that few models need: in time, of one input, by a table from another guide."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 
 import numpy as np

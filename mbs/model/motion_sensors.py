@@ -1,5 +1,7 @@
 """Sensors of points and coordinates, and their rates."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

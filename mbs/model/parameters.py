@@ -1,5 +1,7 @@
 """Numbers of a System that are set without compiling it again."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias

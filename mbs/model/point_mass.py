@@ -1,5 +1,7 @@
 """Particles: a position and a mass."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

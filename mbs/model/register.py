@@ -1,5 +1,7 @@
 """The register of a model: what it consists of, by kind, in the order in which it was added, and by name."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol, Self, TypeVar
 

@@ -1,5 +1,7 @@
 """Roads of a model."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 from mbs.common.checks import instance_of

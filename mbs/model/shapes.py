@@ -1,5 +1,7 @@
 """What bodies look like: shapes on bodies and between points of several bodies. They take no part in the motion."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

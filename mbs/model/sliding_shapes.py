@@ -1,5 +1,7 @@
 """Looks beyond those of bodies: what slides along a body, and meshes that are computed."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Axisymmetric wheels reduced to one coordinate, their absolute axial rate, and their axes, which parameters turn."""
 
+from __future__ import annotations
+
 from math import asin, atan2
 
 import numpy as np

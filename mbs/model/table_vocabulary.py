@@ -1,5 +1,7 @@
 """Bodies and numbers by table: the vocabulary."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

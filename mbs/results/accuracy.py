@@ -2,6 +2,8 @@
 a refined run with shorter steps.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,5 +1,7 @@
 """Runs that can be looked at: a page, a notebook, a glTF animation, a film."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,5 +1,7 @@
 """The errors of stepping; they carry what a run has recorded so far."""
 
+from __future__ import annotations
+
 from mbs.results.trajectory import Trajectory
 
 

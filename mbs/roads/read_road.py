@@ -1,5 +1,7 @@
 """Roads from files of any kind, whole in memory."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
 

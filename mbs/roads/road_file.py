@@ -1,5 +1,7 @@
 """The road file in Python: what a model is given, and the whole of it in memory."""
 
+from __future__ import annotations
+
 import os
 import struct
 import zlib

@@ -1,5 +1,7 @@
 """Faces of a grid that are walls for a wheel."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from mbs.elements.road import GridRoad

@@ -1,5 +1,7 @@
 """Writes road files."""
 
+from __future__ import annotations
+
 import os
 import struct
 import warnings

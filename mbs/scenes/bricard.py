@@ -2,6 +2,8 @@
 everywhere.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from mbs.model.model import Model

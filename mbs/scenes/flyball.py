@@ -2,6 +2,8 @@
 stiff springs and dampers hold; its fast mode is 27000 1/s, its motion a second.
 """
 
+from __future__ import annotations
+
 from math import cos, pi, radians, sin
 
 import numpy as np

@@ -4,6 +4,8 @@ The forward motion of the chassis is guided in time, as the paper guides it by w
 speed and the three intervals are the paper's; the times within them and where the kerb lies are assumed.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from functools import partial
 

@@ -2,6 +2,8 @@
 there (the slider goes on, or stays while the arms turn as one).
 """
 
+from __future__ import annotations
+
 from math import cos, radians, sin
 
 from mbs.model.model import Model

@@ -2,6 +2,8 @@
 freedom, without a loop; what tree-coordinate engines are made for.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from mbs.common.checks import whole

@@ -2,6 +2,8 @@
 15 s. In shear it is stiff; centrifugal tension acts between the parts that it is made of.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, PPoly
 

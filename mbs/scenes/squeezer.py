@@ -4,6 +4,8 @@ motion happens in hundredths of a second.
 Data and start angles: W. Schiehlen, Multibody System Dynamics 1, 1997; E. Hairer, G. Wanner, Solving ODEs II.
 """
 
+from __future__ import annotations
+
 from math import cos, sin
 
 from mbs.model.model import Model

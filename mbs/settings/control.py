@@ -1,5 +1,7 @@
 """What a run with a tolerance, or without a step, was asked for and did."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

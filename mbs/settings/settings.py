@@ -1,5 +1,7 @@
 """The numbers that steer the integrator, in one place."""
 
+from __future__ import annotations
+
 from dataclasses import asdict, dataclass
 
 from mbs.common.checks import LARGEST, flag, is_finite, shown, whole

@@ -7,6 +7,8 @@ chain of 1, 2, 4 and 8 bodies is off by 11, 4.8, 2.1 and 1.4 mm of 1 m where its
 0.007 rad.
 """
 
+from __future__ import annotations
+
 import warnings
 
 import numpy as np

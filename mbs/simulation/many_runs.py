@@ -1,5 +1,7 @@
 """`simulate_many`: runs of many variants of one System, several at once on each core."""
 
+from __future__ import annotations
+
 import os
 import threading
 import time

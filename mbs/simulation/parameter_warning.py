@@ -1,5 +1,7 @@
 """The warning about a value of a parameter with which the model does not do what it is made for."""
 
+from __future__ import annotations
+
 import warnings
 from collections.abc import Mapping
 from typing import Any

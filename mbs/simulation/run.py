@@ -1,5 +1,7 @@
 """`simulate`: a whole run, in equal steps or to a tolerance."""
 
+from __future__ import annotations
+
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace

@@ -1,5 +1,7 @@
 """Where a run starts and where it is: pose and state."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

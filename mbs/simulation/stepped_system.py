@@ -1,5 +1,7 @@
 """A System in the kernel that steps, with its counters."""
 
+from __future__ import annotations
+
 from mbs.common.checks import instance_of
 from mbs.results.run_report import Report
 from mbs.settings.settings import Settings

@@ -1,5 +1,7 @@
 """Stepping a System by hand."""
 
+from __future__ import annotations
+
 import math
 import os
 import warnings

@@ -1,5 +1,7 @@
 """A System in the kernel: its instance and its state."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

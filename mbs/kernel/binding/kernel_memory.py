@@ -1,5 +1,7 @@
 """Objects that own memory of the kernel."""
 
+from __future__ import annotations
+
 from typing import NoReturn
 
 

@@ -1,5 +1,7 @@
 """Constant or driven distance between two points: a massless rod is one row."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

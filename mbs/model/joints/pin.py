@@ -1,5 +1,7 @@
 """A point that can be held where it is at the moment, and let go: rows that are switched at run time."""
 
+from __future__ import annotations
+
 from numpy.typing import ArrayLike
 
 from mbs.common.errors import ModelError

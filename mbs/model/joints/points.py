@@ -1,5 +1,7 @@
 """Joints that share a point: what they have in common, and the spherical joint."""
 
+from __future__ import annotations
+
 from numpy.typing import ArrayLike
 
 from mbs.common.affine import AffineVector

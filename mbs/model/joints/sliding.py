@@ -1,5 +1,7 @@
 """Joints that slide along a line: what they have in common, point on line and cylindrical."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -1,5 +1,7 @@
 """The weld."""
 
+from __future__ import annotations
+
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.ends import different
