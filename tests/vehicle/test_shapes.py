@@ -15,7 +15,7 @@ from mbs.vehicle.shapes.car_shapes import SUSPENSIONS
 from mbs.vehicle.shapes.occupants import RADIUS, SHIRT, SKIN, TILT, TROUSERS, steering_wheel_place
 from mbs.vehicle.shapes.tube_frame import FRAME
 from mbs.vehicle.suspensions import Suspension
-from viewer.poses import FramePoses
+from tests.viewer.poses import FramePoses
 
 
 @cache

@@ -15,7 +15,7 @@ from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.linkages.linkage import Linkage
 from mbs.vehicle.linkages.pose_grid import at_springs
 from tests.vehicle.column_car import column_car
-from viewer.poses import FramePoses
+from tests.viewer.poses import FramePoses
 
 CARS = ("prototype", "hatchback")
 WHEELS = ("FL", "FR", "RL", "RR")

@@ -5,9 +5,12 @@ import json
 import struct
 import subprocess
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+import trimesh
+from scipy.spatial.transform import Rotation
 
 from viewer import page_build
 
@@ -55,3 +58,33 @@ def world(path, times, name):
     turn = np.eye(4)
     turn[:3, :3] = TO_EARTH
     return turn @ made
+
+
+class Part(NamedTuple):
+    """What a node has of one look, where it is at the start."""
+
+    node: str
+    frame: str
+    """The node that it hangs on."""
+    look: dict[str, Any]
+    mesh: trimesh.Trimesh
+    """In the axes of the frame."""
+    normals: np.ndarray | None
+
+
+def parts_of(path):
+    """The triangles of a file, read by hand."""
+    made = content(path)[0]
+    frames = {child: node["name"] for node in made["nodes"] for child in node.get("children", ())}
+    found = []
+    for number, node in enumerate(made["nodes"]):
+        for part in made["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
+            kept, triangles = np.unique(accessor(path, part["indices"]).astype(int), return_inverse=True)
+            read = {key: accessor(path, index)[kept] for key, index in part["attributes"].items()}
+            turn = Rotation.from_quat(node.get("rotation", [0.0, 0.0, 0.0, 1.0]))
+            points = turn.apply(read["POSITION"] * node.get("scale", 1.0)) + node.get("translation", 0.0)
+            mesh = trimesh.Trimesh(points, triangles.reshape(-1, 3), process=False)
+            look = made["materials"][part["material"]]
+            normals = turn.apply(read["NORMAL"]) if "NORMAL" in read else None
+            found.append(Part(node["name"], frames.get(number, ""), look, mesh, normals))
+    return found

@@ -56,7 +56,7 @@ def start(page, out):
 def whole(out):
     """Whether the bundle is whole and nothing else lies beside it."""
     names = {path.name for path in out.iterdir()}
-    assert names == {bundle.SCRIPT, bundle.SOLIDS, bundle.LICENCES, bundle.STAMP, ".lock"}
+    assert names == {bundle.SCRIPT, bundle.GLTF, bundle.LICENCES, bundle.STAMP, ".lock"}
     return (out / bundle.SCRIPT).read_text(encoding="utf-8").rstrip().endswith("*/")
 
 
@@ -198,7 +198,7 @@ def test_a_wheel_carries_the_page_or_says_that_it_does_not(backend, tmp_path, bu
     error = 'raise RuntimeError("npm could not fetch its packages")'
     body = 'return "ali3-viewer.js"' if built else error
     (tmp_path / "viewer").mkdir()
-    text = f'SCRIPT = "ali3-viewer.js"\nSOLIDS = "solids.mjs"\nLICENCES = "LICENCES.txt"\ndef bundle():\n    {body}\n'
+    text = f'SCRIPT = "ali3-viewer.js"\nGLTF = "gltf.mjs"\nLICENCES = "LICENCES.txt"\ndef bundle():\n    {body}\n'
     (tmp_path / "viewer" / "bundle.py").write_text(text, encoding="utf-8")
     said = []
     app = SimpleNamespace(display_warning=said.append, display_info=lambda text: None)
@@ -206,7 +206,7 @@ def test_a_wheel_carries_the_page_or_says_that_it_does_not(backend, tmp_path, bu
     backend.BuildHook._bundle(SimpleNamespace(root=str(tmp_path), app=app), data)
     if built:
         assert data["artifacts"] == [
-            f"/viewer/bundle/{name}" for name in ("ali3-viewer.js", "solids.mjs", "LICENCES.txt")
+            f"/viewer/bundle/{name}" for name in ("ali3-viewer.js", "gltf.mjs", "LICENCES.txt")
         ]
         assert said == []
     else:

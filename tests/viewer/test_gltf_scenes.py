@@ -5,8 +5,8 @@ import pytest
 
 from benchmarks.pictures.animations import ANIMATIONS
 from tests.viewer.gltf_files import accessor, content, run_node
+from tests.viewer.poses import FramePoses, rotated
 from viewer.gltf import write_gltf
-from viewer.poses import FramePoses, rotated
 
 SCENES = [name for name in ANIMATIONS if name not in ("drop", "proving_ground")]  # the car of the lane change
 FEW = ("slider_crank", "bricard", "kerb_test")  # in the plane, in space, a car that bends; the others in the proof run

@@ -9,8 +9,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from tests.viewer import moving_car
+from tests.viewer.poses import FramePoses, from_matrices
 from viewer import page_build
-from viewer.poses import FramePoses, from_matrices, shortest_turns
 
 PAGE = Path(page_build.__file__).parent / "page"
 FRAMES = ("chassis", "carrier", "wheel", "arm")
@@ -99,11 +99,3 @@ def test_quaternions_of_matrices():
     for given in (rotations, half_turns, Rotation.identity(2)):
         found = from_matrices(given.as_matrix())
         assert (given.inv() * Rotation.from_quat(np.roll(found, -1, axis=1))).magnitude().max() < 1e-7
-
-
-def test_shortest_turns_also_to_the_opposite_direction():
-    a = np.array([[0.0, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]])
-    b = np.array([[0.0, 1, 0], [0, -1, 0], [0, 1, 0], [-1, 0, 0]])
-    q = Rotation.from_quat(np.roll(shortest_turns(a, b), -1, axis=1))
-    assert np.abs(q.apply(a) - b).max() < 1e-15
-    assert q.magnitude() == pytest.approx([0.0, np.pi, np.pi / 2, np.pi])

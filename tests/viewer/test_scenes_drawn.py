@@ -7,7 +7,7 @@ import pytest
 
 from ali3.scene.recording import Recording
 from benchmarks.pictures.animations import ANIMATIONS
-from viewer.poses import FramePoses
+from tests.viewer.poses import FramePoses
 
 # They have the car of the lane change.
 SCENES = [name for name in ANIMATIONS if name not in ("drop", "proving_ground")]

@@ -1,4 +1,4 @@
-// Makes the bundle: node build.mjs OUT writes ali3-viewer.js (one script, window.ALi3Viewer), ali3-solids.mjs (a program
+// Makes the bundle: node build.mjs OUT writes ali3-viewer.js (one script, window.ALi3Viewer), ali3-gltf.mjs (a program
 // of Node) and their licences into OUT.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -25,7 +25,7 @@ const options = {
   write: false,
 };
 const result = await esbuild.build({ ...options, entryPoints: ["src/main.js"], format: "iife", globalName: "ALi3Viewer" });
-const solids = await esbuild.build({ ...options, entryPoints: ["src/solids.js"], format: "esm", platform: "node" });
+const gltf = await esbuild.build({ ...options, entryPoints: ["src/gltf/index.js"], format: "esm", platform: "node" });
 
 const packages = new Set();
 for (const input of Object.keys(result.metafile.inputs)) {
@@ -46,4 +46,4 @@ const code = result.outputFiles[0].text.replace(/<\/script/gi, "<\\/script").rep
 writeFileSync(join(out, "THIRD_PARTY_LICENSES.txt"), notice);
 const comment = notice.replace(/\*\//g, "* /").replace(/\u00a9/g, "(c)").replace(/[^\0-\x7f]/g, "?");
 writeFileSync(join(out, "ali3-viewer.js"), `${code}/*!\n${comment}*/\n`);
-writeFileSync(join(out, "ali3-solids.mjs"), `${solids.outputFiles[0].text}/*!\n${comment}*/\n`);
+writeFileSync(join(out, "ali3-gltf.mjs"), `${gltf.outputFiles[0].text}/*!\n${comment}*/\n`);

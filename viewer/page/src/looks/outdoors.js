@@ -43,7 +43,7 @@ export function outdoors(view, fine) {
   const asphalt = groundMaterial({ noise, up, paint: 1, fine });
   const road = groundMaterial({ noise, up, fine });
   const grass = groundMaterial({ noise, up, grass: true });
-  const roads = makeRoads(scene, { up, asphalt: asphalt.material, road: road.material, grass: grass.material, extent });
+  const roads = makeRoads(scene, { up, asphalt: asphalt.material, road: road.material, grass: grass.material });
   world.add(roads.group);
   const draft = makeDraft(view, sun);
   const spots = contactShadows(view);

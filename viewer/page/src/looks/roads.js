@@ -10,7 +10,7 @@ import { gripOf, heldWithin, slickness } from "./heights.js";
 /** Half the side of a road without end, in metres. */
 const ENDLESS = 1500;
 /** Metres from the eye at which ground without end is cut: a processor that draws is off in the depth of large triangles. */
-const EDGES = [-ENDLESS, -320, -80, -20, 20, 80, 320, ENDLESS];
+const EDGES = [-320, -80, -20, 20, 80, 320];
 /** Metres that the eye goes before a profile is built about it again: less than its middle piece reaches. */
 const STEP = 10;
 /** Metres beyond a grid that its border goes on. */
@@ -24,7 +24,7 @@ const MOST_ADDED = 400;
 
 /**
  * @param {Data} scene
- * @param {{up: number[], asphalt: THREE.Material, road: THREE.Material, grass: THREE.Material, extent: number}} looks
+ * @param {{up: number[], asphalt: THREE.Material, road: THREE.Material, grass: THREE.Material, reach?: number}} looks reach: half the side of a road without end, m
  */
 export function makeRoads(scene, looks) {
   const group = new THREE.Group();
@@ -58,11 +58,12 @@ export function makeRoads(scene, looks) {
 }
 
 /** A square that stays under the eye, on a plane through a point, as slick as a road. */
-function endless(point, normal, material, road = {}) {
-  const cells = EDGES.length - 1;
+function endless(point, normal, material, road, reach = ENDLESS) {
+  const edges = cut(-reach, reach);
+  const cells = edges.length - 1;
   const geometry = new THREE.PlaneGeometry(cells, cells, cells, cells).rotateX(-Math.PI / 2);
   const places = geometry.getAttribute("position");
-  const edge = (/** @type {number} */ at) => EDGES[Math.round(at + cells / 2)];
+  const edge = (/** @type {number} */ at) => edges[Math.round(at + cells / 2)];
   for (let k = 0; k < places.count; k++) places.setXYZ(k, edge(places.getX(k)), 0, edge(places.getZ(k)));
   cover(geometry, Array(places.count).fill(slickness(gripOf(road))).flat());
   const mesh = new THREE.Mesh(geometry, material);
@@ -77,14 +78,14 @@ function cover(geometry, slick) {
   geometry.setAttribute("slick", new THREE.BufferAttribute(Float32Array.from(slick), 2));
 }
 
-const flat = (road, { up, asphalt }) => endless(scale(up, road.height ?? 0), up, asphalt, road);
+const flat = (road, { up, asphalt, reach }) => endless(scale(up, road.height ?? 0), up, asphalt, road, reach);
 
-function plane(road, { up, asphalt }) {
-  return endless(road.point ?? scale(up, road.height ?? 0), unit(road.normal ?? up) ?? up, asphalt, road);
+function plane(road, { up, asphalt, reach }) {
+  return endless(road.point ?? scale(up, road.height ?? 0), unit(road.normal ?? up) ?? up, asphalt, road, reach);
 }
 
 /** Levels along a direction of travel; before the first and after the last the road goes on level, under the eye too. */
-function profile(road, { up, asphalt: material }) {
+function profile(road, { up, asphalt: material, reach = ENDLESS }) {
   const forward = unit(road.direction ?? [1, 0, 0]);
   const side = cross(up, forward);
   const base = road.origin ?? [0, 0, 0];
@@ -95,7 +96,7 @@ function profile(road, { up, asphalt: material }) {
     const [s, aside] = [dot(to, forward), road.width === undefined ? dot(to, side) : 0];
     if (built === null || Math.abs(s - built.s) > STEP || Math.abs(aside - built.aside) > STEP) {
       built = { s, aside, at: add(base, add(scale(forward, s), scale(side, aside))) };
-      rebuild(mesh.geometry, strip(road, s, ENDLESS), { forward, side, up, half: (road.width ?? 2 * ENDLESS) / 2, slick: slickness(gripOf(road)) });
+      rebuild(mesh.geometry, strip(road, s, reach), { forward, side, up, half: (road.width ?? 2 * reach) / 2, slick: slickness(gripOf(road)) });
     }
     mesh.position.fromArray(subtract(built.at, origin));
   };
@@ -265,7 +266,7 @@ function grid(road, { up, road: material, grass }) {
   sheet(aside, material, (value) => slickness(frictions === null ? gripOf(road) : factor * value(frictions)));
   for (const side of [right, left]) sheet(side, grass, () => [0, 0]);
   const low = heights.reduce((a, b) => Math.min(a, b), Infinity);
-  pieces.push(...endless(scale(up, low - 0.15), up, grass));
+  pieces.push(...endless(scale(up, low - 0.15), up, grass, {}));
   return pieces;
 }
 

@@ -174,7 +174,7 @@ function trianglesOf({ n, m }, stride, start) {
 }
 
 /** Largest difference of the heights from those between the points that are left. */
-function errorOf({ patch, i0, j0, n, m }, stride) {
+export function errorOf({ patch, i0, j0, n, m }, stride) {
   if (stride === 1) return 0;
   const [rows, columns] = [strided(n, stride), strided(m, stride)];
   const height = (i, j) => patch.heights[(i0 + i) * patch.shape[1] + j0 + j];

@@ -85,7 +85,7 @@ export class Traces {
  * @param {Data} scene @param {(i: number) => (name: string) => number | undefined} lookups @param {import("../scene/scene_view.js").SceneView} view
  * @returns {{move: (i: number) => void, feet: (() => number[] | null)[]}}
  */
-function feetOf(scene, lookups, view) {
+export function feetOf(scene, lookups, view) {
   const { up, floor } = view;
   const frames = new Frames(scene);
   const touched = new Wheels(scene).list;

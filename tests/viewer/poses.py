@@ -132,11 +132,6 @@ def _rotation(quaternion: Vectors) -> Rotation:
     return Rotation.from_quat(quaternion, scalar_first=True)
 
 
-def conjugate(quaternion: Vectors) -> Vectors:
-    """Quaternion of the inverse rotation."""
-    return quaternion * [1.0, -1.0, -1.0, -1.0]
-
-
 def about_axis(axis: Sequence[float], angle: Vectors) -> Vectors:
     """Quaternions of right-handed turns about an axis by n angles, rad."""
     unit = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
@@ -161,13 +156,3 @@ def from_matrices(rotation: Vectors) -> Vectors:
     good = np.isfinite(rotation).all(axis=(1, 2))
     found[good] = Rotation.from_matrix(rotation[good]).as_quat(scalar_first=True)
     return found
-
-
-def shortest_turns(a: Vectors, b: Vectors) -> Vectors:
-    """Quaternions of the shortest turns that take n unit vectors to n others."""
-    half = np.column_stack([1.0 + np.einsum("ni,ni->n", a, b), np.cross(a, b)])
-    opposite = half[:, 0] < 1e-12
-    if opposite.any():  # any axis across will do
-        other = np.eye(3)[np.argmin(np.abs(a[opposite]), axis=1)]
-        half[opposite] = np.column_stack([np.zeros(len(other)), np.cross(a[opposite], other)])
-    return np.asarray(half / np.linalg.norm(half, axis=1)[:, None])

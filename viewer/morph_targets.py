@@ -1,0 +1,47 @@
+"""Morph targets of flexible parts: their modes, or few combinations of them."""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.scene.base64_numbers import decoded
+
+MOST = 8
+"""That every reader of glTF animates."""
+_SAMPLES = 400  # times at which the error is looked for
+
+
+class MorphTargets(NamedTuple):
+    """How the nodes of a part move."""
+
+    shapes: NDArray[np.float64]
+    """Displacements of nodes, m, shape (targets, nodes, 3)."""
+    weights: NDArray[np.float64]
+    """By which they are multiplied, within -1 and 1, shape (times, targets)."""
+    error: float
+    """Largest distance of a node from where all modes put it, m."""
+
+
+def morph_targets(part: Mapping[str, Any], columns: Mapping[str, NDArray[Any]]) -> MorphTargets:
+    """The modes of a flexible part, or the eight combinations of them that move most.
+
+    `part`: of a scene; `columns`: arrays of shape (n,) by name, with its amplitudes.
+    """
+    modes = decoded(part["modes"], "f").reshape(3 * len(part["nodes"]), -1).astype(float)
+    amplitudes = np.column_stack([np.nan_to_num(columns[name]) for name in part["amplitudes"]])
+    if part.get("computed"):
+        amplitudes *= np.nan_to_num(columns[part["computed"]])[:, None] != 0.0
+    shapes, weights = modes, amplitudes
+    if modes.shape[1] > MOST:
+        q, r = np.linalg.qr(modes)
+        u, s, v = np.linalg.svd(amplitudes @ r.T, full_matrices=False)
+        shapes, weights = q @ v[:MOST].T, u[:, :MOST] * s[:MOST]
+    largest = np.abs(weights).max(axis=0)
+    moves = largest > 0.0
+    shapes, weights = shapes[:, moves] * largest[moves], weights[:, moves] / largest[moves]
+    looked = np.linspace(0, len(weights) - 1, min(len(weights), _SAMPLES)).astype(np.intp)
+    off = amplitudes[looked] @ modes.T - weights[looked] @ shapes.T
+    error = np.linalg.norm(off.reshape(len(looked), -1, 3), axis=2).max(initial=0.0)
+    return MorphTargets(shapes.T.reshape(-1, len(part["nodes"]), 3), weights, float(error))

@@ -1,0 +1,95 @@
+// A glTF file in the making: nodes and their motion; three.js' exporter writes it.
+import { Buffer } from "node:buffer";
+import fs from "node:fs";
+import * as THREE from "three";
+import { GLTFExporter } from "three/addons/exporters/GLTFExporter.js";
+import { largestErrors, thinned } from "./motion.js";
+
+/** What the exporter needs of a browser's. */
+class FileReader {
+  readAsArrayBuffer = async (/** @type {Blob} */ blob) => this._read(await blob.arrayBuffer());
+
+  readAsDataURL = async (/** @type {Blob} */ blob) => this._read(`data:application/octet-stream;base64,${Buffer.from(await blob.arrayBuffer()).toString("base64")}`);
+
+  _read(result) {
+    Object.assign(this, { result });
+    /** @type {Data} */ (this).onloadend();
+  }
+}
+
+/** Nodes, and the largest errors of their motion. */
+export class File {
+  /** @param {string} name @param {Float64Array} t s @param {number} rate times a second that are kept */
+  constructor(name, t, rate) {
+    this.t = t;
+    this.rate = rate;
+    this.scene = new THREE.Scene();
+    this.scene.name = name;
+    this.tracks = [];
+    this.names = new Map();
+    /** m, rad */
+    this.error = [0, 0];
+  }
+
+  /** Adds a node; a second one of a name has a number behind it. @template {THREE.Object3D} T @param {T} object @param {string} name @param {THREE.Object3D} [parent] */
+  add(object, name, parent = this.scene) {
+    const number = (this.names.get(name) ?? 0) + 1;
+    this.names.set(name, number);
+    object.name = number === 1 ? name : `${name} (${number})`;
+    parent.add(object);
+    return object;
+  }
+
+  /** Gives a node its motion; what does not change is written once. @param {THREE.Object3D} node @param {import("./motion.js").Motion} motion @param {number[]} [before] errors of what it hangs on */
+  animate(node, motion, before = [0, 0]) {
+    const track = thinned(motion, this.t, this.rate);
+    for (const [path, values] of Object.entries({ position: track.position, quaternion: track.quaternion, scale: track.scale })) {
+      if (values === undefined) continue;
+      node[path].fromArray(values); // for readers that do not animate
+      const size = values.length / track.times.length;
+      if (values.some((value, i) => value !== values[i % size])) this._track(node, path, track.times, values);
+    }
+    return this.count(largestErrors(motion, track, this.t).map((off, k) => off + before[k]));
+  }
+
+  /** Weights of the targets of a mesh. @param {THREE.Mesh} mesh @param {number[]} kept times @param {number[]} values */
+  bend(mesh, kept, values) {
+    if (kept.length > 1) this._track(mesh, "morphTargetInfluences", kept.map((k) => this.t[k]), values);
+    else mesh.morphTargetInfluences = values;
+  }
+
+  _track(node, path, times, values) {
+    const Track = { quaternion: THREE.QuaternionKeyframeTrack, morphTargetInfluences: THREE.NumberKeyframeTrack }[path] ?? THREE.VectorKeyframeTrack;
+    this.tracks.push(new Track(`${node.uuid}.${path}`, times, values));
+  }
+
+  /** @param {number[]} off m, rad */
+  count(off) {
+    this.error = this.error.map((most, k) => Math.max(most, off[k]));
+    return off;
+  }
+
+  /** @param {string} path @param {boolean} binary */
+  async write(path, binary) {
+    Object.assign(globalThis, { FileReader });
+    const animations = this.tracks.length > 0 ? [new THREE.AnimationClip(this.scene.name, -1, this.tracks)] : [];
+    const made = await new GLTFExporter().register(once).parseAsync(this.scene, { binary, trs: true, animations });
+    fs.writeFileSync(path, binary ? Buffer.from(/** @type {ArrayBuffer} */ (made)) : JSON.stringify(made));
+  }
+}
+
+/** Equal numbers stand once in a file, and its meshes have names. @param {Data} writer of the exporter */
+function once(writer) {
+  const known = new Map();
+  const written = writer.processAccessor.bind(writer);
+  writer.processAccessor = (attribute, geometry, start = 0, count = Infinity) => {
+    const { array, itemSize } = attribute;
+    const last = Math.min(array.length, (start + count) * itemSize);
+    const { buffer, byteOffset, byteLength } = array.subarray(start * itemSize, last);
+    const use = geometry === undefined ? "motion" : attribute === geometry.index ? "index" : "points";
+    const key = [use, array.constructor.name, itemSize, Buffer.from(buffer, byteOffset, byteLength).toString("base64")].join();
+    if (!known.has(key)) known.set(key, written(attribute, geometry, start, count));
+    return known.get(key);
+  };
+  return { writeMesh: (mesh, made) => Object.assign(made, { name: mesh.name }) };
+}

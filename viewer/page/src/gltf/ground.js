@@ -1,0 +1,151 @@
+// Roads, terrain and the paths over them, as triangles near the way.
+import * as THREE from "three";
+import looks from "../../../looks.json" with { type: "json" };
+import { ribbonEdges, ribbonTriangles, waysOf } from "../effects/path.js";
+import { HeightField, SurfaceRaster, gripOf, nearest, slickName } from "../looks/heights.js";
+import { LIFT } from "../looks/lifted.js";
+import { groundAxes, makeRoads } from "../looks/roads.js";
+import { errorOf, strided } from "../looks/terrain_mesh.js";
+import { feetOf } from "../player/traces.js";
+import { floats } from "../scene/data.js";
+import { add, length, scale, subtract } from "../scene/math.js";
+
+/** What of a ground is drawn beside the way, m. */
+export const AROUND = 60;
+/** Cells of a ground at most, and their sides where that is not too many, m. */
+const [MOST, FINEST] = [60000, 0.25];
+/** Of paths above the ground, m: tyres are not as round as they are taken to be, and the ground is thinned. */
+const ABOVE = 0.05;
+/** Points of a path are so far apart, as a share of the size of the scene. */
+const APART = 0.02;
+
+const { body: BODY, wheel: WHEEL, shares: SHARES, opacities: OPACITIES } = looks.paths;
+
+/** @type {Map<string, THREE.Material>} */
+const surfaces = new Map();
+
+/** @param {string} name of a surface */
+function surface(name) {
+  if (!surfaces.has(name)) {
+    const color = new THREE.Color(...(looks.surfaces[name] ?? looks.surfaces.asphalt));
+    surfaces.set(name, new THREE.MeshStandardMaterial({ name, color, roughness: name === "wet" || name === "ice" ? 0.25 : 0.92 }));
+  }
+  return surfaces.get(name);
+}
+
+/** Low and high along x and y, with what is drawn beside the way. @param {import("./run.js").Run} run @param {number[][]} axes */
+export const nearby = (run, axes) => axes.slice(0, 2).map((axis) => run.extentAlong(axis)).map(([low, high]) => [low - AROUND, high + AROUND]); // prettier-ignore
+
+/** A level, an inclined road or a profile, as far as the frames go and twice the size of the scene beyond. @param {Data} road @param {import("./run.js").Run} run @param {number[]} up @returns {THREE.Mesh} */
+export function plainRoad(road, run, up) {
+  const ways = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => run.extentAlong(axis)); // prettier-ignore
+  const reach = 0.5 * Math.hypot(...ways.map(([low, high]) => high - low)) + 2 * run.scene.extent;
+  const asphalt = surface(slickName(gripOf(road)));
+  const made = makeRoads({ roads: [road] }, { up, asphalt, road: asphalt, grass: surface("grass"), reach });
+  made.follow([0, 0, 0], ways.map(([low, high]) => 0.5 * (low + high)));
+  return /** @type {THREE.Mesh} */ (made.group.children[0]);
+}
+
+/** @typedef {{patch: import("../looks/heights.js").Patch, i0: number, j0: number, n: number, m: number}} Part */
+
+/** What of a patch lies in a rectangle; null where nothing does. @param {import("../looks/heights.js").Patch} patch @param {number[][]} ways @returns {Part | null} */
+function cut(patch, ways) {
+  const [[i0, i1], [j0, j1]] = ways.map(([low, high], k) => {
+    const at = (/** @type {number} */ value) => (value - patch.origin[k]) / patch.spacing[k];
+    return [Math.max(0, Math.floor(at(low))), Math.min(patch.shape[k] - 1, Math.ceil(at(high)))];
+  });
+  return i0 < i1 && j0 < j1 ? { patch, i0, j0, n: i1 - i0 + 1, m: j1 - j0 + 1 } : null;
+}
+
+/**
+ * Heights on patches, those in a rectangle, all thinned alike until they have few cells.
+ * @param {import("../looks/heights.js").Patch[]} patches @param {number[][]} ways low and high along x and y @param {(x: number, y: number) => string} nameAt of a surface
+ * @param {number} [border] m that they go on before and behind
+ * @returns {{parts: Map<THREE.Material, THREE.BufferGeometry>, base: number[], error: number}} base: to which they are relative; error: of a height, m
+ */
+function sheet(patches, ways, nameAt, border = 0) {
+  const inside = patches.map((patch) => cut(patch, ways)).filter((part) => part !== null);
+  let spacing = FINEST;
+  const stride = ({ patch }) => Math.max(1, Math.round(spacing / Math.sqrt(patch.spacing[0] * patch.spacing[1])));
+  const lines = (part) => [part.n, part.m].map((n, k) => strided(n, stride(part)).map((line) => line + [part.i0, part.j0][k]));
+  const cells = (part) => lines(part).reduce((product, { length: n }) => product * (n - 1), 1);
+  while (inside.reduce((sum, part) => sum + cells(part), 0) > MOST) spacing *= 2;
+  const base = [...ways.map(([low, high]) => Math.round(0.5 * (low + high))), 0];
+  /** @type {Object<string, {positions: number[], index: number[]}>} */
+  const made = {};
+  for (const part of inside) {
+    const { patch, i0, n } = part;
+    const [rows, columns] = lines(part).map((list, k) => list.map((line) => [line, patch.origin[k] + patch.spacing[k] * line]));
+    if (i0 === 0) rows.unshift([0, rows[0][1] - border]);
+    if (i0 + n === patch.shape[0]) rows.push([i0 + n - 1, rows[rows.length - 1][1] + border]);
+    const numbers = new Map();
+    const number = (name, a, b) => {
+      const key = `${name} ${a} ${b}`;
+      if (!numbers.has(key)) {
+        const [[i, x], [j, y]] = [rows[a], columns[b]];
+        numbers.set(key, made[name].positions.push(x - base[0], y - base[1], patch.heights[i * patch.shape[1] + j]) / 3 - 1);
+      }
+      return numbers.get(key);
+    };
+    for (let a = 0; a + 1 < rows.length; a++) {
+      for (let b = 0; b + 1 < columns.length; b++) {
+        const name = nameAt(0.5 * (rows[a][1] + rows[a + 1][1]), 0.5 * (columns[b][1] + columns[b + 1][1]));
+        made[name] ??= { positions: [], index: [] };
+        const [p, q, r, s] = [[a, b], [a + 1, b], [a, b + 1], [a + 1, b + 1]].map(([c, d]) => number(name, c, d)); // prettier-ignore
+        made[name].index.push(p, q, r, q, s, r); // as the page cuts its cells
+      }
+    }
+  }
+  const parts = new Map(Object.entries(made).sort().map(([name, { positions, index }]) => {
+    const geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
+    return [surface(name), geometry.setIndex(index)];
+  })); // prettier-ignore
+  return { parts, base, error: inside.reduce((most, part) => Math.max(most, errorOf(part, stride(part))), 0) };
+}
+
+/** A terrain, or the grid of a road, near the way. @param {any} given @param {import("./run.js").Run} run @param {number[]} up */
+export function heights(given, run, up) {
+  const axes = [...(given.kind === "grid" ? groundAxes(given, up) : groundAxes({}, up)).slice(0, 2), up];
+  const ways = nearby(run, axes);
+  if (given.kind === "terrain") {
+    const raster = new SurfaceRaster(given.surface);
+    return { axes, ...sheet(new HeightField(given).patches, ways, (x, y) => raster.nameAt(x, y)) };
+  }
+  const frictions = given.frictions && floats(given.frictions);
+  const nameAt = (x, y) => slickName(frictions ? frictions[nearest(given, x, y)] * (given.friction_factor ?? 1) : gripOf(given));
+  return { axes, ...sheet([{ ...given, heights: floats(given.heights) }], ways, nameAt, looks.border) };
+}
+
+/**
+ * Bands where the reference point and the wheels have been; none where what is followed stays where it is.
+ * @param {import("./run.js").Run} run @param {number[]} up @returns {{name: string, mesh: THREE.Mesh}[]}
+ */
+export function paths(run, up) {
+  const { scene, epoch, count } = run;
+  if (!scene.focus || scene.planar) return [];
+  const terrain = (scene.roads ?? []).find(({ kind }) => kind === "terrain");
+  const field = terrain && new HeightField(terrain);
+  const view = /** @type {any} */ ({ scene, up, floor: run.extentAlong(up)[0], look: field && { height: (x, y) => field.at(x, y) } });
+  const { move, feet } = feetOf(scene, (k) => run.lookup(k), view);
+  const most = Math.min(count, 4000);
+  const ways = waysOf(move, Array.from({ length: most }, (_, n) => Math.round((n * (count - 1)) / Math.max(1, most - 1))), feet);
+  const [{ points: whole }] = ways;
+  if (whole.every((point) => length(subtract(point, whole[0])) < scene.extent)) return [];
+  const frames = [...new Set(scene.shapes.filter(({ kind }) => kind === "wheel").map(({ frame }) => frame))];
+  return ways.flatMap(({ points, at }, n) => {
+    const kept = [];
+    points.forEach((point, k) => {
+      const last = kept[kept.length - 1];
+      if (k === 0 || epoch[at[k]] !== epoch[at[last]] || length(subtract(point, points[last])) >= APART * scene.extent) kept.push(k);
+    });
+    const [way, epochs, which] = [kept.map((k) => points[k]), kept.map((k) => epoch[at[k]]), Math.min(n, 1)];
+    if (way.length < 2) return [];
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(ribbonEdges(way, epochs, 0.5 * SHARES[which] * scene.extent, up).edges, 3));
+    geometry.setIndex(ribbonTriangles(epochs));
+    const look = { name: "path", color: [BODY, WHEEL][which], opacity: OPACITIES[which], transparent: true, side: THREE.DoubleSide };
+    const mesh = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial(look));
+    mesh.position.fromArray(add(way[0], scale(up, ABOVE - LIFT)));
+    return [{ name: n === 0 ? "path" : `path ${frames[n - 1]}`, mesh }];
+  });
+}

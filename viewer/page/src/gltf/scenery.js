@@ -1,0 +1,73 @@
+// The scenery of a world by the way, as triangles.
+import * as THREE from "three";
+import looks from "../../../looks.json" with { type: "json" };
+import { addLine, addStrip } from "../looks/scenery/index.js";
+import { PAINTS, arrowStrips } from "../looks/scenery/ribbon.js";
+import { addSign } from "../looks/scenery/signs.js";
+import { coneGeometry, postGeometry, turned } from "../looks/scenery/small_things.js";
+import { Triangles } from "../looks/scenery/triangles.js";
+import { addBarrier, addBuilding } from "../looks/scenery/walls.js";
+
+const MOST_TREES = 1500;
+
+/** A geometry that stands somewhere. @param {Triangles} made @param {THREE.BufferGeometry} geometry @param {number[]} at @param {number[]} size */
+function stand(made, geometry, at, size) {
+  const [points, normals, colours] = ["position", "normal", "color"].map((name) => geometry.getAttribute(name).array);
+  const vector = (values, i) => [...values.subarray(3 * i, 3 * i + 3)];
+  const first = made.positions.length / 3;
+  for (let i = 0; i < points.length / 3; i++) {
+    made.point(vector(points, i).map((value, k) => at[k] + size[k] * value), vector(normals, i), vector(colours, i));
+  }
+  made.index.push(...[...geometry.index.array].map((number) => first + number));
+}
+
+/** A board without words, and what carries it. */
+function sign(made, thing) {
+  const board = new Triangles();
+  addSign(board, made, thing, 0, 1);
+  const [a, b, c, d] = [0, 3, 6, 9].map((k) => board.positions.slice(k, k + 3));
+  made.quad([a, b, c, d], looks.things.board);
+}
+
+/** Trunk and crown; pages have twigs. */
+function tree(made, { at, height }) {
+  const rings = (colour, profile) => profile.map(([radius, z]) => ({ radius, z, colour }));
+  const whole = new Triangles();
+  turned(whole, rings(looks.things.bark, [[0.028, -0.01], [0.014, 0.5]]), 5); // prettier-ignore
+  turned(whole, rings(looks.things.leaves, [[0.001, 0.22], [0.2, 0.34], [0.24, 0.55], [0.14, 0.83], [0.001, 1]]), 7); // prettier-ignore
+  stand(made, whole.geometry(), at, [height, height, height]);
+}
+
+/** @type {Object<string, (made: Triangles, thing: Data) => void>} */
+const THINGS = {
+  line: (made, line) => addLine(made, line, null),
+  arrow: (made, arrow) => arrowStrips(/** @type {any} */ (arrow), null).forEach((strip) => addStrip(made, strip, PAINTS.white)),
+  barrier: (made, barrier) => addBarrier(made, /** @type {any} */ (barrier)),
+  building: addBuilding,
+  sign,
+  tree,
+  cone: (made, { at: place, colour, height = 0.5 }) => stand(made, coneGeometry(colour), place, [height, height, height]),
+  post: (made, { at: place, height = 1 }) => stand(made, postGeometry(), place, [1, 1, height]),
+};
+
+/**
+ * What stands in a rectangle, of trees at most so many, one mesh a kind.
+ * @param {Data[]} things @param {number[][]} ways low and high along x and y of the world
+ * @returns {{meshes: {kind: string, geometry: THREE.BufferGeometry, base: number[], material: THREE.Material}[], left: number}} base: in the axes of the
+ *   world; left: how many are not drawn
+ */
+export function scenery(things, ways) {
+  let trees = 0;
+  const near = things.filter(({ kind, at, points = [at] }) => {
+    const inside = ways.every(([low, high], k) => points.some((point) => point[k] >= low) && points.some((point) => point[k] <= high));
+    return inside && (kind !== "tree" || ++trees <= MOST_TREES);
+  });
+  const meshes = [...new Set(near.map(({ kind }) => kind))].map((kind) => {
+    const same = near.filter((thing) => thing.kind === kind);
+    const made = new Triangles(same[0].at ?? same[0].points[0]);
+    for (const thing of same) THINGS[kind](made, thing);
+    const material = new THREE.MeshStandardMaterial({ name: kind, roughness: 0.85, side: THREE.DoubleSide });
+    return { kind, geometry: made.geometry(), base: made.base, material };
+  });
+  return { meshes, left: things.length - near.length };
+}
