@@ -1,6 +1,7 @@
 // Words at places of the picture: gauges with their values, the tube that is stressed most, what was clicked.
 import * as THREE from "three";
 import { el, write } from "../common/dom.js";
+import { besides } from "../common/labels.js";
 import { forcesOf, worded } from "./forces.js";
 import { add, length, rotate, scale, subtract, transpose } from "./math.js";
 import { tyresOf } from "./tyres.js";
@@ -11,10 +12,6 @@ const DOT = "position:absolute;width:9px;height:9px;margin:-4.5px;border-radius:
 const WORDS = "position:absolute;left:0;top:0;width:max-content;max-width:15em;background:#ffffffe0;border-radius:3px;padding:0 5px;font-variant-numeric:tabular-nums";
 /** How far the top of words is above their dot, by their height and in pixels: the largest stress stands above gauges. */
 const ABOVE = { gauge: [0.5, 0], most: [1, 12], picked: [0, -10] };
-/** Words stand so far beside their dot, and so many of their heights higher where others are in the way, first to last. */
-const [GAP, HIGHER] = [8, [0, 1, -1, 2, -2, 3, -3]];
-/** Words over dots or outside of the picture are so much worse than words over each other. */
-const DEAR = 10;
 /** What stands over pictures, which words leave free, and how often it is looked for, ms. */
 const [OVER, LOOKED] = ["[data-legend], .a3-cluster, .a3-tyres, .a3-inset, .a3-timing, .a3-head, .a3-flags > *", 500];
 /** Words find place between their dot and the border of the picture if it is so wide, pixels. */
@@ -105,25 +102,26 @@ export class Marks {
   }
 
   _write(wanted) {
-    const kept = new Set();
-    const seen = wanted.map((mark) => ({ ...mark, pixel: mark.at && this.view.project(mark.at) })).filter(({ pixel }) => pixel);
-    const dots = seen.map(({ pixel: [x, y] }) => [x - 5, y - 5, x + 5, y + 5]);
-    const taken = seen.length > 0 ? [...this._covered()] : [];
-    for (const { kind, name, text, pixel } of seen) {
-      const key = `${kind} ${name}`;
-      kept.add(key);
+    const [width] = this.view.size;
+    const seen = wanted.map((mark) => ({ ...mark, at: mark.at && this.view.project(mark.at), key: `${mark.kind} ${mark.name}` })).filter(({ at }) => at);
+    const labels = seen.map(({ kind, key, text, at }) => {
       const made = this._made.get(key) ?? this._make(key, kind);
       write(made.words, text);
       if (made.letters !== text.length || made.size[0] === 0) {
         const { offsetWidth, offsetHeight } = made.words; // dear, and digits are of one width
         Object.assign(made, { letters: text.length, size: [offsetWidth, offsetHeight] });
       }
-      const place = this._free(kind, made, pixel, taken, dots);
-      made.place = place.name;
-      taken.push(place.box);
-      made.words.style.transform = `translate(${place.box[0] - pixel[0]}px, ${place.box[1] - pixel[1]}px)`;
-      made.box.style.transform = `translate(${pixel[0].toFixed(1)}px, ${pixel[1].toFixed(1)}px)`;
+      const outward = Math.min(at[0], width - at[0]) > WIDE; // so that few lie over each other
+      return Object.assign(made, { at, above: ABOVE[kind], sides: 2 * at[0] < width === outward ? [-1, 1] : [1, -1] });
+    });
+    const places = besides(labels, this.view.size, seen.length > 0 ? this._covered() : []);
+    for (const [k, { box, words, at }] of labels.entries()) {
+      const { left, top, spot } = places[k];
+      labels[k].spot = spot;
+      words.style.transform = `translate(${left - at[0]}px, ${top - at[1]}px)`;
+      box.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px)`;
     }
+    const kept = new Set(seen.map(({ key }) => key));
     for (const [key, { box }] of this._made) {
       if (kept.has(key)) continue;
       box.remove();
@@ -149,27 +147,6 @@ export class Marks {
       this._over = { at: now, boxes: boxes.map((box) => [box.left - left, box.top - top, box.right - left, box.bottom - top]) };
     }
     return this._over.boxes;
-  }
-
-  /** Where words lie over least; where they stand they stay, unless another place is much better. */
-  _free(kind, { size: [width, height], place }, [x, y], taken, dots) {
-    const picture = [0, 0, ...this.view.size];
-    const [before, behind] = [x, picture[2] - x];
-    const outward = Math.min(before, behind) > WIDE; // so that few lie over each other
-    const sides = before < behind === outward ? [-1, 1] : [1, -1];
-    const [share, more] = ABOVE[kind];
-    const free = HIGHER.flatMap((higher) => sides.map((side) => {
-      const beside = Math.min(side > 0 ? x + GAP : x - GAP - width, picture[2] - width);
-      const [left, top] = [Math.max(0, beside), y - (share + higher) * height - more];
-      return { name: `${side} ${higher}`, box: [left, top, left + width, top + height] };
-    }));
-    const area = width * height || 1; // of none where the layer is hidden
-    const cost = ({ name, box }, k) => {
-      const over = (boxes) => boxes.reduce((sum, one) => sum + shared(one, box), 0);
-      return (over(taken) + DEAR * (over(dots) + area - shared(picture, box))) / area + 0.01 * k - (name === place ? 0.1 : 0);
-    };
-    const costs = free.map(cost);
-    return free[costs.indexOf(Math.min(...costs))];
   }
 
   /** The nearest solid thing under a pixel. */
@@ -213,6 +190,3 @@ export class Marks {
 
 /** @param {THREE.Object3D | null} object @returns {boolean} */
 const visible = (object) => object === null || (object.visible && visible(object.parent));
-
-/** The area that two boxes share. @param {number[]} one @param {number[]} other */
-const shared = (one, other) => [0, 1].map((k) => Math.max(0, Math.min(one[k + 2], other[k + 2]) - Math.max(one[k], other[k]))).reduce((a, b) => a * b);
