@@ -20,7 +20,7 @@ def flexible_beam() -> mbs.Model:
     nodes = np.column_stack([np.linspace(0.0, LENGTH, ELEMENTS + 1), np.zeros((ELEMENTS + 1, 2))])
     frame = Frame(nodes, [Beam(i, i + 1, SECTION, ALUMINIUM) for i in range(ELEMENTS)])
     end = [Interface(ELEMENTS, rotations=True)]
-    reduced = craig_bampton(frame.finite_element_model(), reference=0, interfaces=end, dynamic_modes=4)
+    reduced = craig_bampton(frame.finite_element_model(), reference=0, interfaces=end, inertia_modes=True)
     m = mbs.Model("flexible beam", gravity=(0.0, 0.0, -GRAVITY))
     m.start_in_equilibrium = True
     beam = m.flexible_body("beam", reduced)

@@ -8,7 +8,7 @@ import { Trail } from "../src/instruments/map.js";
 import { Factor } from "../src/sources/factor.js";
 import { Surfaces, frictionOf } from "../src/instruments/surfaces.js";
 import { useColour, wheelsOf } from "../src/instruments/tyres.js";
-import { besides } from "../src/instruments/map.js";
+import { besides } from "../src/common/labels.js";
 import { cameraActs } from "../src/common/views.js";
 import { Wants } from "../src/sources/wants.js";
 
@@ -228,13 +228,15 @@ test("a camera on a rope: it follows a turn in its time, stays level, and jumps 
   assert.deepEqual(new Trailing(0).along([0, -1, 0], up), [0, -1, 0]);
 });
 
-test("words of the map stand beside their places and over no others", () => {
-  const places = [[400, 100], [430, 104], [434, 90], [790, 300], [2, 310], [400, 100]].map((at) => ({ at, wide: 90 })); // prettier-ignore
-  const spots = besides(places, 800);
-  spots.forEach(([left, middle], k) => {
+test("words stand beside their dots, over no others, within the picture, and stay where they are", () => {
+  const labels = [[400, 100], [430, 104], [434, 90], [790, 300], [2, 310], [400, 100]].map((at) => ({ at, size: [90, 14] })); // prettier-ignore
+  const spots = besides(labels, [800, 400]);
+  spots.forEach(({ left, top }, k) => {
     assert.ok(left >= 0 && left + 90 <= 800);
-    assert.ok(Math.abs(middle - places[k].at[1]) < 60);
-    for (const [other, level] of spots.slice(k + 1)) assert.ok(Math.abs(left - other) > 90 || Math.abs(middle - level) >= 14);
+    assert.ok(Math.abs(top + 7 - labels[k].at[1]) < 60);
+    for (const other of spots.slice(k + 1)) assert.ok(Math.abs(left - other.left) > 89 || Math.abs(top - other.top) >= 13.5);
   });
-  assert.deepEqual(spots[0], [408 - 8 - 8 - 90, 100]); // to the left: a place is to the right
+  assert.deepEqual([spots[0].left, spots[0].top], [400 - 8 - 90, 93]); // to the left: a dot is to the right
+  assert.equal(besides([{ ...labels[0], spot: "-1 1" }], [800, 400])[0].spot, "-1 1");
+  assert.equal(besides([{ ...labels[0], spot: "-1 1" }], [800, 400], [[300, 60, 400, 93]])[0].spot, "1 0");
 });

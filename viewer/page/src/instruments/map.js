@@ -1,5 +1,6 @@
 // The world from above: its ground, scenery and places, the car and where it has been.
 import { el } from "../common/dom.js";
+import { besides } from "../common/labels.js";
 import { Surfaces } from "./surfaces.js";
 
 /** Metres between points of the trail, and how many are kept. */
@@ -106,24 +107,6 @@ export class WorldPlan {
       }
     }
   }
-}
-
-/**
- * Where words stand beside their places, so that none lies over others or their dots: the first free spot of several.
- * @param {{at: number[], wide: number}[]} places pixels @param {number} width of the map
- * @returns {number[][]} left end and middle of each line of words
- */
-export function besides(places, width) {
-  const taken = places.map(({ at: [x, y] }) => [x - 5, x + 5, y - 5, y + 5]);
-  return places.map(({ at: [x, y], wide }) => {
-    const rows = [0, -1, 1, -2, 2, -3, 3].map((k) => y + k * WORDS);
-    const all = rows.flatMap((middle) => [[x + 8, middle], [x - 8 - wide, middle], [x - wide / 2, middle]]); // prettier-ignore
-    const boxOf = (/** @type {number[]} */ [left, middle]) => [left, left + wide, middle - WORDS / 2, middle + WORDS / 2];
-    const apart = (/** @type {number[]} */ [a, b, c, d], /** @type {number[]} */ [e, f, g, h]) => b < e || a > f || d < g || c > h;
-    const free = all.find((spot) => spot[0] >= 0 && spot[0] + wide <= width && taken.every((box) => apart(boxOf(spot), box))) ?? all[0];
-    taken.push(boxOf(free));
-    return free;
-  });
 }
 
 function stroke(context, points, colour, width, dash = []) {
@@ -261,17 +244,17 @@ export class WorldMap {
     const seen = this.plan.places
       .map((place) => ({ words: place.name.replaceAll("_", " "), at: this.pixel([place.x, place.y]) }))
       .filter(({ at: [x, y] }) => x >= 0 && y >= 0 && x <= width && y <= height);
-    const spots = besides(seen.map(({ words, at }) => ({ at, wide: context.measureText(words).width })), width); // prettier-ignore
+    const spots = besides(seen.map(({ words, at }) => ({ at, size: [context.measureText(words).width, WORDS] })), [width, height]);
     for (const [k, { words, at }] of seen.entries()) {
-      const [[x, y], [left, middle]] = [at, spots[k]];
+      const [[x, y], { left, top }] = [at, spots[k]];
       context.fillStyle = "#ffffff";
       context.beginPath();
       context.arc(x, y, 4, 0, 2 * Math.PI);
       context.fill();
       context.strokeStyle = "#10161c";
       context.lineWidth = 3;
-      context.strokeText(words, left, middle);
-      context.fillText(words, left, middle);
+      context.strokeText(words, left, top + WORDS / 2);
+      context.fillText(words, left, top + WORDS / 2);
     }
   }
 

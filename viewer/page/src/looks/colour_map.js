@@ -1,4 +1,4 @@
-// A perceptually uniform colour map: viridis (Smith, van der Walt, Firing; public domain), at 17 places.
+// A perceptually uniform colour map: viridis (Smith, van der Walt, Firing; public domain), every fifth of its 256 colours.
 import * as THREE from "three";
 import looks from "../../../looks.json" with { type: "json" };
 

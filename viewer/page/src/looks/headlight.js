@@ -45,7 +45,7 @@ void main() {
   meant = texture2D(map, vec2((0.5 + 255.0 * clamp(vLevel, 0.0, 1.0)) / 256.0, 0.5)).rgb;
   #endif
   float facing = abs(dot(normalize(vNormal), normalize(vEye)));
-  gl_FragColor = vec4(meant * mix(0.45, 1.0, smoothstep(0.0, 0.75, facing)), 1.0);
+  gl_FragColor = vec4(meant * mix(0.45, 1.0, smoothstep(0.0, FULL, facing)), 1.0);
   #include <colorspace_fragment>
 }`;
 
@@ -58,7 +58,8 @@ export function headlight({ color = "#ffffff", map = null, front = false }) {
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     uniforms: { colour: { value: new THREE.Color(color) }, map: { value: map } },
-    defines: map === null ? {} : { BY_LEVEL: 1 },
+    // A colour that is read as a number is the same on all tubes but those seen within 20 degrees of their axis.
+    defines: map === null ? { FULL: "0.75" } : { FULL: "0.34", BY_LEVEL: 1 },
     toneMapped: false,
     depthTest: !front,
     depthWrite: !front,

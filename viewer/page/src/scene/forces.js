@@ -68,12 +68,18 @@ export function niceStep(length) {
 /** @type {[number, string][]} */
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "u"]]; // prettier-ignore
 
-/** A number with its unit for people: 2.5e8 Pa is "250 MPa". @param {number} value @param {string} unitName */
-export const worded = (value, unitName) => parted(value, unitName).join(" ");
+/** A number with its unit for people: 2.5e8 Pa is "250 MPa". @param {number} value @param {string} unitName @param {number} [like] see `parted` */
+export const worded = (value, unitName, like) => parted(value, unitName, like).join(" ");
 
-/** The number and the unit of `worded`. @param {number} value @param {string} unitName @returns {[number, string]} */
-export function parted(value, unitName) {
+/**
+ * The number and the unit of `worded`.
+ * @param {number} value @param {string} unitName
+ * @param {number} [like] has its unit too unless the value is below a thousandth of it
+ * @returns {[number, string]}
+ */
+export function parted(value, unitName, like = value) {
   if (value === 0) return [0, unitName];
-  const [size, prefix] = PREFIXES.find(([factor]) => Math.abs(value) >= factor * 0.9999999) ?? PREFIXES[PREFIXES.length - 1];
+  const by = Math.abs(value) < Math.abs(like) / 1000 ? value : like;
+  const [size, prefix] = PREFIXES.find(([factor]) => Math.abs(by) >= factor * 0.9999999) ?? PREFIXES[PREFIXES.length - 1];
   return [Number((value / size).toPrecision(3)), `${prefix}${unitName.replaceAll(".", "\u00b7")}`];
 }

@@ -1,6 +1,7 @@
 // Words at places of the picture: gauges with their values, the tube that is stressed most, what was clicked.
 import * as THREE from "three";
 import { el, write } from "../common/dom.js";
+import { besides } from "../common/labels.js";
 import { forcesOf, worded } from "./forces.js";
 import { add, length, rotate, scale, subtract, transpose } from "./math.js";
 import { tyresOf } from "./tyres.js";
@@ -8,9 +9,11 @@ import { tyresOf } from "./tyres.js";
 const COLOURS = { gauge: "#1565c0", most: "#c62828", picked: "#111" };
 const BOX = "position:absolute;left:0;top:0;white-space:pre-wrap;will-change:transform";
 const DOT = "position:absolute;width:9px;height:9px;margin:-4.5px;border-radius:50%;border:2px solid #fff;box-sizing:border-box";
-const WORDS = "position:absolute;width:max-content;max-width:15em;background:#ffffffe0;border-radius:3px;padding:0 5px;font-variant-numeric:tabular-nums";
-/** Where the words stand beside their place: the largest stress stands above gauges that are near. */
-const BESIDE = { gauge: "top:-9px", most: "bottom:12px", picked: "top:10px" };
+const WORDS = "position:absolute;left:0;top:0;width:max-content;max-width:15em;background:#ffffffe0;border-radius:3px;padding:0 5px;font-variant-numeric:tabular-nums";
+/** How far the top of words is above their dot, by their height and in pixels: the largest stress stands above gauges. */
+const ABOVE = { gauge: [0.5, 0], most: [1, 12], picked: [0, -10] };
+/** What stands over pictures, which words leave free, and how often it is looked for, ms. */
+const [OVER, LOOKED] = ["[data-legend], .a3-cluster, .a3-tyres, .a3-inset, .a3-timing, .a3-head, .a3-flags > *", 500];
 /** Words find place between their dot and the border of the picture if it is so wide, pixels. */
 const WIDE = 190;
 /** A press that moves the mouse farther than this turns the camera, pixels. */
@@ -22,18 +25,19 @@ const LINES = 7;
  * What is marked where stress is coloured: places in the axes of the body's frame, with their words.
  * @param {import("../shapes/flexible.js").Flexible} body
  * @param {((name: string) => number | undefined) | null} lookup
+ * @param {number} full stress at the end of the colours: gauges have the unit of their legend
  * @returns {{kind: string, name: string, at: number[], text: string}[]}
  */
-export function stressMarks({ bending, name: body }, lookup) {
+export function stressMarks({ bending, name: body }, lookup, full) {
   const { displaced, gauges } = bending;
-  const found = gauges.map(({ name, value, unit, nodes: [from, to], along }) => {
+  const found = gauges.map(({ name, value, unit = "Pa", nodes: [from, to], along }) => {
     const number = lookup?.(value);
     const at = add(scale(displaced[from], 1 - along), scale(displaced[to], along));
-    return { kind: "gauge", name, at, text: Number.isFinite(number) ? `${name}: ${worded(number, unit ?? "Pa")}` : "" };
+    return { kind: "gauge", name, at, text: Number.isFinite(number) ? `${name}: ${worded(number, unit, unit === bending.unit ? full : number)}` : "" };
   });
   const most = bending.stress.reduce((best, value, k) => (value > bending.stress[best] ? k : best), 0);
   const at = displaced[bending.beams[most >> 1]?.[most & 1] ?? 0];
-  return [...found.filter(({ text }) => text), { kind: "most", name: body, at, text: `largest: ${tubeWords(bending, most >> 1, [most & 1]).join(", ")}` }];
+  return [{ kind: "most", name: body, at, text: `largest: ${tubeWords(bending, most >> 1, [most & 1]).join(", ")}` }, ...found.filter(({ text }) => text)];
 }
 
 /**
@@ -52,6 +56,7 @@ export function tubeWords(bending, beam, ends) {
 /** The words over a picture. */
 export class Marks {
   _made = new Map();
+  _over = { at: -Infinity, boxes: [] };
   /** @type {{frame: string, at: number[], lines: () => string[]} | null} */
   _picked = null;
 
@@ -76,14 +81,16 @@ export class Marks {
     return this._picked?.lines() ?? [];
   }
 
-  /** Everything to its place. */
-  place() {
-    const { parts, lookup } = this.view;
+  /** Everything to its place. @param {boolean} [again] once more when what stands over the picture has settled */
+  place(again = true) {
+    const { parts, lookup, gone } = this.view;
+    clearTimeout(this._settled);
+    if (gone) return;
     const { frames, flexible, bending } = parts;
     const wanted = [];
     if (bending.coloured && !parts.closed) {
       for (const body of flexible.filter(({ stressed }) => stressed)) {
-        for (const mark of stressMarks(body, lookup)) wanted.push({ ...mark, at: frames.point(body.frame, mark.at) });
+        for (const mark of stressMarks(body, lookup, bending.most)) wanted.push({ ...mark, at: frames.point(body.frame, mark.at) });
       }
     }
     if (this._picked) {
@@ -91,34 +98,55 @@ export class Marks {
       wanted.push({ kind: "picked", name: "", at: frames.point(frame, at), text: lines().join("\n") });
     }
     this._write(wanted);
+    if (again && wanted.length > 0) this._settled = setTimeout(() => this.place(false), LOOKED);
   }
 
   _write(wanted) {
-    const kept = new Set();
-    for (const { kind, name, at, text } of wanted) {
-      const pixel = at && this.view.project(at);
-      if (!pixel) continue;
-      const key = `${kind} ${name}`;
-      kept.add(key);
-      if (!this._made.has(key)) {
-        const words = el("span", { style: `${WORDS};${BESIDE[kind]}` });
-        const box = el("div", { style: BOX }, el("span", { style: `${DOT};background:${COLOURS[kind]}` }), words);
-        box.dataset.mark = key.trim();
-        this.layer.append(box);
-        this._made.set(key, { box, words });
+    const [width] = this.view.size;
+    const seen = wanted.map((mark) => ({ ...mark, at: mark.at && this.view.project(mark.at), key: `${mark.kind} ${mark.name}` })).filter(({ at }) => at);
+    const labels = seen.map(({ kind, key, text, at }) => {
+      const made = this._made.get(key) ?? this._make(key, kind);
+      write(made.words, text);
+      if (made.letters !== text.length || made.size[0] === 0) {
+        const { offsetWidth, offsetHeight } = made.words; // dear, and digits are of one width
+        Object.assign(made, { letters: text.length, size: [offsetWidth, offsetHeight] });
       }
-      const { box, words } = this._made.get(key);
-      write(words, text);
-      const [before, behind] = [pixel[0], this.view.size[0] - pixel[0]];
-      const outward = Math.min(before, behind) > WIDE; // so that few lie over each other
-      [words.style.left, words.style.right] = before < behind === outward ? ["auto", "8px"] : ["8px", "auto"];
-      box.style.transform = `translate(${pixel[0].toFixed(1)}px, ${pixel[1].toFixed(1)}px)`;
+      const outward = Math.min(at[0], width - at[0]) > WIDE; // so that few lie over each other
+      return Object.assign(made, { at, above: ABOVE[kind], sides: 2 * at[0] < width === outward ? [-1, 1] : [1, -1] });
+    });
+    const places = besides(labels, this.view.size, seen.length > 0 ? this._covered() : []);
+    for (const [k, { box, words, at }] of labels.entries()) {
+      const { left, top, spot } = places[k];
+      labels[k].spot = spot;
+      words.style.transform = `translate(${left - at[0]}px, ${top - at[1]}px)`;
+      box.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px)`;
     }
+    const kept = new Set(seen.map(({ key }) => key));
     for (const [key, { box }] of this._made) {
       if (kept.has(key)) continue;
       box.remove();
       this._made.delete(key);
     }
+  }
+
+  _make(key, kind) {
+    const words = el("span", { style: WORDS });
+    const box = el("div", { style: BOX }, el("span", { style: `${DOT};background:${COLOURS[kind]}` }), words);
+    box.dataset.mark = key.trim();
+    this.layer.append(box);
+    this._made.set(key, { box, words });
+    return this._made.get(key);
+  }
+
+  /** What stands over the picture: left, top, right and bottom in its pixels. @returns {number[][]} */
+  _covered() {
+    const now = performance.now();
+    if (now - this._over.at >= LOOKED - 1) {
+      const { left, top } = this.layer.getBoundingClientRect();
+      const boxes = [...document.querySelectorAll(OVER)].map((element) => element.getBoundingClientRect());
+      this._over = { at: now, boxes: boxes.map((box) => [box.left - left, box.top - top, box.right - left, box.bottom - top]) };
+    }
+    return this._over.boxes;
   }
 
   /** The nearest solid thing under a pixel. */
