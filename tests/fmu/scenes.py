@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import PPoly
 
 import mbs
 from benchmarks.methods.free_wheels import WHEELS
@@ -206,6 +207,22 @@ def crank_slider() -> mbs.Model:
     m.torque_on("motor", angle, input=torque)
     m.sense_coordinate("crank.angle", angle, description="Angle of the crank, not wrapped")
     m.sense_input("torque_used", torque)
+    return m
+
+
+def driven_crank() -> mbs.Model:
+    """A crank that turns at 30 rad/s, with a rod that is longer by 1 %: what its rows err is work of the drive."""
+    m = mbs.Model("driven crank", dimension=2)
+    crank = m.body("crank", mass=0.1, com=(0.05, 0.0), inertia=1e-4)
+    rod = m.body("rod", mass=0.5, com=(0.1505, 0.0), inertia=1e-3)
+    piston = m.body("piston", mass=1.0, com=(0.201, 0.0), inertia=1e-3)
+    m.revolute("main bearing", m.ground, crank, point=(0.0, 0.0))
+    m.revolute("big end", crank, rod, point=(0.1, 0.0))
+    m.revolute("small end", rod, piston, point=(0.201, 0.0))
+    m.prismatic("bore", m.ground, piston, axis=(1.0, 0.0))
+    way = m.guide_time("way", PPoly([[30.0], [0.3]], [0.0, 100.0]), unit="rad")
+    m.drive("drive", m.relative_angle("crank angle", m.ground, crank), way)
+    m.sense_position("piston.x", piston, component="x")
     return m
 
 
