@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from hosts.common.wheels import WHEELS
 
 LARGEST_BALANCE = 0.05
-"""Of `solver.energy_balance`: above it the FMU itself warns."""
+"""Of `solver.energy_balance`: above it an FMU without prescribed motion warns itself."""
 
 _SETTLED = 100  # steps of a run before its energy is looked at
 _WORKS = tuple(f"energy.{name}" for name in ("drive", "brakes", "tyres", "dampers", "drag", "ground"))

@@ -33,6 +33,7 @@ OF_STEPS = {
     "Update": (PUBLIC, "ALI3_UPDATE_LINEARISED", "ALI3_UPDATE_", "`ali3_settings.update`."),
     "Predictor": (PUBLIC, "ALI3_PREDICTOR_PARABOLA", "ALI3_PREDICTOR_", "`ali3_settings.predictor`."),
     "BranchKind": (PUBLIC, "ALI3_BRANCH_NONE", "ALI3_BRANCH_", "`ali3_report.branch_kind`."),
+    "Balance": (PUBLIC, "ALI3_BALANCE_KEPT", "ALI3_BALANCE_", "`ali3_report.balance`."),
 }
 OF_SENSORS = {"SensorReads": (SENSORS, "ALI3_READS_MOTION", "ALI3_READS_", "What the value of a sensor comes from.")}
 LIMITS = {

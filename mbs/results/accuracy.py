@@ -13,6 +13,7 @@ import numpy as np
 from ali3.words import unit_text
 from mbs.kernel.header.enumerations import GuideType
 from mbs.kernel.header.limits import AGREED, WRONG_ERROR
+from mbs.kernel.header.steps import Balance
 from mbs.results.comparison import COORDINATES, INSTANTS, Compared
 from mbs.results.run_report import Report
 from mbs.results.smooth_laws import UNRESOLVED, is_open_tree
@@ -87,7 +88,7 @@ def doubt(report: Report) -> str:
 
     An open balance, and a loop that left its mode, are signs of coarse steps already.
     """
-    if report.balance_wrong or report.branch_changes > 0:
+    if report.balance != Balance.KEPT or report.branch_changes > 0:
         return FINER
     # what an abrupt force does is missed, or hidden in parts of steps
     whole = report.halvings == report.divisions == report.abrupt_steps == 0
@@ -142,13 +143,10 @@ def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
     )
 
 
-def balance_says(report: Report, method: str, driven: bool) -> bool:
-    """Whether the energy balance alone shows that a result is wrong; a drive whose rate jumps adds energy instantly."""
-    return METHOD_TABLE[method].balance_decides and not driven and report.balance_wrong
-
-
 def balance_text(report: Report) -> str:
-    """The energy balance in a sentence."""
+    """The energy balance in a sentence; empty where it does not say that the run is wrong."""
+    if report.balance != Balance.WRONG:
+        return ""
     return (
         f"Constraint forces and projections did {report.energy_error:.3g} J of work, {_percent(report.energy_balance)} "
         f"of the {report.energy_size:.3g} J in the motion; they should do none."

@@ -23,7 +23,7 @@ def measured_order(method: str, coarse: Report, fine: Report, ratio: float) -> f
     """Order with which errors fall: that of the energy where both runs measured it, at most that of the method."""
     most = float(METHOD_TABLE[method].order)
     first, second = abs(coarse.energy_error), abs(fine.energy_error)
-    if not METHOD_TABLE[method].balance_decides or not (second > 0.0 and first > second):
+    if most > 2.0 or not (second > 0.0 and first > second):  # the quadrature of a work is of lower order
         return most
     return min(most, max(1.0, math.log(first / second) / math.log(ratio)))
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
-from mbs.kernel.header.limits import WRONG_ERROR
+from mbs.kernel.header.steps import Balance
 
 LINE = 0.5
 """Square of the correlation of energy and time from which energy grows: of a whole swing it is 0.6, of two 0.15."""
@@ -56,6 +56,9 @@ class Report:
     free_start, free_steps, free_energy, free_steps_squares, free_energy_squares, free_product : float
         The energy of the first of these, J, means of the steps and of the energy, and sums of squares and products of
         what they are off these.
+    balance : int
+        Whether `energy_balance` is above what is wrong, and by more than the tolerance of the residual leaves open: 0
+        not, 1 it is, 2 it is and decides that the run is wrong.
     rim_pressed, rim_time, rim_x, rim_y : float
         How much deeper than a wheel holds a rim was pressed into a road, m, 0: never; when, s, and where, m.
     divisions : int
@@ -119,6 +122,7 @@ class Report:
     capped: int = 0
     capped_residual: float = 0.0
     abrupt_steps: int = 0
+    balance: int = Balance.KEPT
 
     @classmethod
     def from_kernel(cls, values: Mapping[str, float]) -> Report:
@@ -139,11 +143,6 @@ class Report:
     def energy_balance(self) -> float:
         """``|energy_error|`` over `energy_size`; 0 where nothing moved."""
         return abs(self.energy_error) / self.energy_size if self.energy_size > 0.0 else 0.0
-
-    @property
-    def balance_wrong(self) -> bool:
-        """Whether it is above what is wrong, by more than the tolerance of the residual leaves open."""
-        return self.energy_balance > WRONG_ERROR and abs(self.energy_error) > self.energy_floor
 
     @property
     def energy_growth(self) -> float:

@@ -17,9 +17,6 @@ class Method:
     """With which errors of fixed steps fall."""
     project: bool | None = None
     """Value of the setting `project` that the name stands for; None: that of the settings."""
-    balance_decides: bool = False
-    """Whether the energy that constraint forces give says by itself that a run is wrong; the quadrature of
-    runge_kutta_8 errs where it is stiff."""
     conservative_only: bool = False
     tree_only: bool = False
     positions_only: bool = False
@@ -44,7 +41,6 @@ METHOD_TABLE = {
     "ali3p": Method(
         number=MethodNumber.ALI3P,
         title="ALi3-P",
-        balance_decides=True,
     ),
     "ali3p_no_projection": Method(
         number=MethodNumber.ALI3P,
@@ -54,7 +50,6 @@ METHOD_TABLE = {
     "ali3p_generalised_alpha": Method(
         number=MethodNumber.GENERALISED_ALPHA,
         title="ALi3-P, generalised-α",
-        balance_decides=True,
     ),
     "energy_momentum": Method(
         number=MethodNumber.ENERGY_MOMENTUM,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from mbs.common.progress import progress_for
 from mbs.kernel.header.enumerations import Status
 from mbs.kernel.header.limits import MOST_PARTS, WRONG_ERROR
-from mbs.kernel.header.steps import BranchKind
+from mbs.kernel.header.steps import Balance, BranchKind
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import Accuracy
@@ -126,9 +126,7 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
     report, known = run[0].report, run[0].accuracy
     if report is None or known is None or run[0].settings is None:
         return known
-    method, driven = run[0].settings.method, len(system.arrays["gterm_row"]) > 0
-    balance = accuracy.balance_text(report) if accuracy.balance_says(report, method, driven) else ""
-    doubt = accuracy.doubt(report)
+    method, balance, doubt = run[0].settings.method, accuracy.balance_text(report), accuracy.doubt(report)
     if len(run[0].t) < 2 or not (always or refined.divisor or doubt):
         return known
     if not always and refined.before is None and doubt == accuracy.COARSER:
@@ -154,7 +152,7 @@ def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
         return replace(known, check_cost=refined.cost, message=text)
     branch = run[0].branch_change if refined.left_alone else ""
     off = refined.text(known) if (known.error or 0.0) > WRONG_ERROR else ""
-    if not (off or (balance and refined.finest.balance_wrong)):  # if it is, the refined run is off as well
+    if not (off or (balance and refined.finest.balance == Balance.WRONG)):  # if it is, the refined run is off as well
         notice = f"{balance} {accuracy.RIGHT}" if balance else ""
         return replace(known, branch=branch, notice=notice)
     tried = refined.tried_steps(known) if off else []

@@ -167,10 +167,9 @@ class _Run:
         return told + self._remarks()
 
     def _told(self, run: Trajectory) -> Warned:
-        system, report = self.simulation.system, run.report
-        driven, told = len(system.arrays["gterm_row"]) > 0, list(self.told_at_start)
-        if report is not None and accuracy.balance_says(report, METHOD, driven):
-            told.append((AccuracyWarning, f"{accuracy.balance_text(report)} The result is wrong; take shorter steps."))
+        told = list(self.told_at_start)
+        if run.report is not None and (balance := accuracy.balance_text(run.report)):
+            told.append((AccuracyWarning, f"{balance} The result is wrong; take shorter steps."))
         told += [(BranchWarning, run.branch_change)] if run.branch_change else []
         return told + self._remarks()
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PPoly
 
 import mbs
 from benchmarks.methods.free_wheels import WHEELS
@@ -207,6 +209,30 @@ def crank_slider() -> mbs.Model:
     m.sense_coordinate("crank.angle", angle, description="Angle of the crank, not wrapped")
     m.sense_input("torque_used", torque)
     return m
+
+
+def driven_crank(speed: float = 30.0, longer: float = 0.01) -> mbs.Model:
+    """A crank of 0.1 m that turns at `speed`, rad/s, with a rod longer by a share: what its rows err is work of the
+    drive.
+    """
+    m, end = mbs.Model("driven crank", dimension=2), 0.1 * (2.0 + longer)
+    crank = m.body("crank", mass=0.1, com=(0.05, 0.0), inertia=1e-4)
+    rod = m.body("rod", mass=0.5, com=(0.05 + 0.5 * end, 0.0), inertia=1e-3)
+    piston = m.body("piston", mass=1.0, com=(end, 0.0), inertia=1e-3)
+    m.revolute("main bearing", m.ground, crank, point=(0.0, 0.0))
+    m.revolute("big end", crank, rod, point=(0.1, 0.0))
+    m.revolute("small end", rod, piston, point=(end, 0.0))
+    m.prismatic("bore", m.ground, piston, axis=(1.0, 0.0))
+    way = m.guide_time("way", PPoly([[speed], [0.3]], [0.0, 100.0]), unit="rad")
+    m.drive("drive", m.relative_angle("crank angle", m.ground, crank), way)
+    m.sense_position("piston.x", piston, component="x")
+    return m
+
+
+def piston_of(speed: float, longer: float, t: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Where the piston of `driven_crank` is at times t (n,), m."""
+    angle = 0.3 + speed * t
+    return 0.1 * (np.cos(angle) + np.sqrt((1.0 + longer) ** 2 - np.sin(angle) ** 2))
 
 
 def buffered() -> mbs.Model:

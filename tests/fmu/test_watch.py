@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import fmpy
+import numpy as np
 import pytest
 
 import mbs
@@ -16,7 +18,7 @@ from mbs.kernel.binding import Status
 from mbs.scenes import assembly_defect_four_bar
 from mbs.vehicle import load
 from tests.fmu.calls import ERROR, FMI_2, OK, WARNING, HostMaker
-from tests.fmu.scenes import contradicting_arm
+from tests.fmu.scenes import contradicting_arm, driven_crank, piston_of
 
 SCENES = Path(__file__).parent / "scenes.py"
 TORQUE = 4.0
@@ -56,6 +58,31 @@ def test_a_right_run_is_silent(slider: Path, host: HostMaker) -> None:
     assert set(run(driven, 1e-4, 0.4)) == {OK}
     assert driven.messages == []
     assert 0.0 < driven.get("solver.energy_balance") < 0.04
+
+
+@pytest.mark.parametrize(("steps", "wrong"), [(90, False), (60, True)])
+@FMI_2
+def test_an_fmu_and_python_agree_on_a_driven_motion_whose_balance_is_open(
+    build: Callable[..., Path], host: HostMaker, kind: str, steps: int, wrong: bool
+) -> None:
+    """The drive takes up what the rows err: the balance says nothing, and a second motion decides."""
+    driven, h = host(build("driven_crank", kind)), 1.0 / steps
+    driven.start({"step_size": h})
+    found = [driven.get("piston.x")]
+    for k in range(2 * steps):
+        driven.step(k * h, h)
+        found.append(driven.get("piston.x"))
+    driven.slave.terminate()  # what is not judged yet is told at the end
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        run = mbs.simulate(mbs.compile(driven_crank()), 2.0, h, progress=False)
+    assert run.report is not None
+    assert run.report.energy_balance > 0.1
+    piston = piston_of(30.0, 0.01, run.t)
+    for values in (np.array(found), run["piston.x"]):
+        assert (np.abs(values - piston).max() > 0.05 * np.ptp(piston)) == wrong
+    assert bool(caught) == wrong
+    assert any("step_size" in message for message in driven.messages) == wrong
 
 
 def test_the_warning_is_part_of_the_state(slider: Path, host: HostMaker) -> None:

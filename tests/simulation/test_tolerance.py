@@ -2,6 +2,7 @@
 
 import math
 import warnings
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -75,6 +76,31 @@ def test_the_error_is_within_ten_tolerances(scene: str, method: str | None, tole
     assert run.control is not None
     assert error_of(scene, run) < ALLOWED * tolerance
     assert run.control.kept
+
+
+def test_runs_that_are_far_apart_say_nothing_of_the_finer_one() -> None:
+    """A double pendulum that turns over: the last two runs are a length apart; by what their steps err it is 0.2."""
+    m, x, last = mbs.Model("double pendulum", dimension=2), np.zeros(2), None
+    for i, angle in enumerate((2.6, 0.0)):
+        d = np.array([np.cos(angle), np.sin(angle)])
+        body = m.body(f"bar {i}", mass=1.0, com=x + 0.5 * d, inertia=0.09)
+        m.revolute(f"joint {i}", m.ground if last is None else last, body, point=x)
+        x, last = x + d, body
+    for c in "xy":
+        m.sense_position(f"tip.{c}", last, x, c)
+    system, runs = mbs.compile(m), []
+    for tolerance, told in ((1e-2, pytest.warns(AccuracyWarning, match="estimated as")), (1e-7, nullcontext())):
+        with told:
+            runs.append(
+                mbs.simulate(
+                    system, 10.0, tolerance=tolerance, method="runge_kutta_8", times=np.linspace(0.0, 10.0, 51)
+                )
+            )
+    run, exact = runs
+    assert run.control is not None
+    off = max(np.abs(run[name] - exact[name]).max() for name in ("tip.x", "tip.y")) / run.control.length
+    assert off > ALLOWED * 1e-2
+    assert 0.5 * off < run.control.error < 5.0 * off
 
 
 def test_the_stiff_governor_is_not_followed_in_its_fastest_motion() -> None:

@@ -13,6 +13,7 @@ from benchmarks.references.cases import system_of
 from mbs.settings.input_signals import InputSignals
 from mbs.simulation import controlled_run
 from mbs.simulation.controlled_run import ControlledRun, Task
+from tests.fmu.scenes import driven_crank, piston_of
 
 
 def near_equal_arms() -> mbs.System:
@@ -124,3 +125,15 @@ def test_a_method_that_does_not_keep_a_tolerance_hands_on_to_another(
     assert run.control.method == "radau_5"
     assert "semi_recursive cannot hold it" in run.control.reason
     assert off(run) < tolerance * run.control.length
+
+
+@pytest.mark.parametrize("speed", [20.0, 30.0, 50.0])
+@pytest.mark.parametrize("longer", [0.01, 0.02, 0.05])
+def test_a_loop_that_is_driven_fast_does_not_pass_to_another_branch(speed: float, longer: float) -> None:
+    """Its drive leaves no error that would limit steps: they are at most half a radian of it."""
+    run = mbs.simulate(
+        mbs.compile(driven_crank(speed, longer)), 2.0, tolerance=1e-2, times=np.linspace(0.0, 2.0, 101), progress=False
+    )
+    assert run.control is not None
+    assert np.abs(run["piston.x"] - piston_of(speed, longer, run.t)).max() < 0.1 * run.control.length
+    assert run.control.largest < 1.01 * 0.5 / speed

@@ -26,7 +26,6 @@ static bool spent(const slave_half_steps *t, const slave_late_step *step) {
 /* The error of a motion by what another with 1/n of its step differs by; of order two, as ALi3-P is. */
 static double error_of(double apart, double n) { return apart * n * n / (n * n - 1.0); }
 
-/* Steps so far that were halved, or in which a force changed abruptly. */
 /* Of the kernel; zeros where it has none. */
 static ali3_report report_of(const slave *s) {
   ali3_report report;
@@ -34,6 +33,7 @@ static ali3_report report_of(const slave *s) {
   return report;
 }
 
+/* Steps so far that were halved, or in which a force changed abruptly. */
 static int64_t abrupt_steps(const ali3_report *report) { return report->abrupt_steps + report->halvings; }
 
 /* Whether two motions that differ by this much do not agree. */

@@ -8,7 +8,7 @@ static const double MUCH_LEFT = 1e-3; /* m */
 static const double QUARTER_TURN = 1.5707963267948966;
 
 static slave_status watch_energy(slave *s, const ali3_report *report) {
-  if (s->calls.energy_warned || !ali3_balance_wrong(report)) return SLAVE_OK;
+  if (s->calls.energy_warned || report->balance != ALI3_BALANCE_WRONG) return SLAVE_OK;
   s->calls.energy_warned = 1;
   return slave_say(
       s, SLAVE_WARNING,

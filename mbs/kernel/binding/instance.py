@@ -11,6 +11,7 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_void_
 from typing import Any
 
 from ..header.limits import POSE
+from ..header.steps import Balance
 from ..header.structures import ControlFields, InputTable, InputTables, RecordFields, SettingsFields
 from .buffers import buffer, numbers
 from .errors import KernelError
@@ -299,8 +300,8 @@ class Instance(StandingInstance):
         self._check(self._library.ali3_ports_follow(self._handle, other._handle))
 
     def balance_wrong(self) -> bool:
-        """Whether the energy balance says that the run is wrong; see ali3_balance_wrong."""
-        return bool(self._library.ali3_balance_wrong(byref(self._report())))
+        """Whether the energy balance says that the run is wrong; see ali3_report.balance."""
+        return bool(self._report().balance == Balance.WRONG)
 
     def branch_text(self) -> str:
         """A sentence about the first change of the assembly mode of a closed loop; empty where there was none."""

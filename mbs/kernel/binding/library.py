@@ -93,7 +93,6 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "ali3_time": (c_double, [c_void_p]),
     "ali3_solver_value": (c_double, [c_void_p, c_int32]),
     "ali3_capped_residual": (c_double, [c_void_p]),
-    "ali3_balance_wrong": (c_int32, [POINTER(ReportFields)]),
     "ali3_compare": (
         None,
         [POINTER(JudgedFields), c_int32, c_int64, _DOUBLES, _DOUBLES, _DOUBLES, POINTER(ComparedFields)],

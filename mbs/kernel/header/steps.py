@@ -25,6 +25,14 @@ class BranchKind(IntEnum):
     JUMP = 2
 
 
+class Balance(IntEnum):
+    """`ali3_report.balance`."""
+
+    KEPT = 0
+    OPEN = 1
+    WRONG = 2
+
+
 class MethodNumber(IntEnum):
     """`ali3_settings.method`."""
 

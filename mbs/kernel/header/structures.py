@@ -77,6 +77,7 @@ class ReportFields(Structure):
         ("branch_kind", c_int32),
         ("branch_loop", c_int32),
         ("branch_triad", c_int32),
+        ("balance", c_int32),
         ("capped", c_int64),
         ("capped_residual", c_double),
     )

@@ -199,11 +199,16 @@ typedef struct {
   int64_t branch_changes; /* changes of the assembly mode of closed loops; the first one: */
   double branch_time; /* s */
   int32_t branch_kind, branch_loop, branch_triad; /* ALI3_BRANCH_*, number of the loop, of the joint within it */
+  int32_t balance; /* ALI3_BALANCE_*, as ali3_report_get finds it */
   int64_t capped; /* steps that ended at settings.step_iterations, or stayed whole for it */
   double capped_residual; /* the largest they left: max |r_i|/m_i or max |Phi|, m */
 } ali3_report;
 
 enum { ALI3_BRANCH_NONE = 0, ALI3_BRANCH_LEFT, ALI3_BRANCH_JUMP }; /* ali3_report.branch_kind */
+/* ali3_report.balance. The energy balance is open where ali3_energy_balance is above ALI3_WRONG_ERROR, by more than what
+ * the tolerance of the residual leaves open. It decides that the run is wrong where the method says so and no row is
+ * driven: a drive whose rate jumps adds energy instantly, and correctly. A run whose balance is kept may be wrong too. */
+enum { ALI3_BALANCE_KEPT = 0, ALI3_BALANCE_OPEN, ALI3_BALANCE_WRONG };
 
 typedef struct {
   int32_t nq, nc, nu, ng, ne, ny, ns, np, nout, nf, front_size, nnz_mass, nnz_rows, nsig, has_pose, n_switch;
@@ -415,9 +420,6 @@ ALI3_API ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out);
 #define ALI3_FASTEST 1e6
 /* |energy_error| over the energy that was in the motion: largest kinetic energy and work, at least energy_floor. */
 ALI3_API double ali3_energy_balance(const ali3_report *report);
-/* 1: it is above ALI3_WRONG_ERROR, by more than what the tolerance of the residual leaves open; below a run may be wrong
- * too. */
-ALI3_API int32_t ali3_balance_wrong(const ali3_report *report);
 /* Two motions of a System with longer and shorter steps, compared by numbers that they show, each in a unit. What rests
  * judges nothing: its size is 0. Rates, and forces of motors, are judged where no place moves by itself. */
 enum { /* units */

@@ -19,14 +19,16 @@ typedef struct {
   void (*before)(ali3_instance *in, const ali3_request *request); /* what it changes in in->now, after ali3_back_up */
   void (*motion)(ali3_instance *in, double h);   /* ali3_balance_change after a good step; NULL: the step does it */
   bool (*has_balance)(const ali3_instance *in);  /* whether its steps end with ali3_energy_watch; NULL: never */
+  /* Whether an open balance says by itself that a run is wrong; a quadrature of work errs where it is stiff. */
+  bool balance_decides;
   bool (*has_guides_work)(const ali3_instance *in); /* whether its steps measure the work of guides; NULL: never */
   ali3_status (*takes)(const ali3_instance *in); /* ALI3_OK, or why it cannot take the System; NULL: it takes all */
   const char *excludes; /* what it takes no System with, in words for users; NULL: it takes all */
   /* What readers of in->now need after steps of which nothing is read, and after those of which sensors are. */
   void (*after_unobserved)(ali3_instance *in);
   void (*after_sampled)(ali3_instance *in);
-  int32_t owner;      /* ALI3_METHOD_* that its steps leave in the history of the state: its own, or one it shares */
-  bool relative;      /* steps relative coordinates: no copy to in->next, which is filled when it is read */
+  int32_t owner; /* ALI3_METHOD_* that its steps leave in the history of the state: its own, or one it shares */
+  bool relative; /* steps relative coordinates: no copy to in->next, which is filled when it is read */
   bool fills; /* steps write all of q, qd, qdd and lam of in->next and, of rigid Systems, past_a and past_lam; these are
                  then no copy */
   double stable_rate; /* of an explicit rule: largest step times rate that it follows, of negative rates; else 0 */

@@ -88,7 +88,6 @@ ENTRY(ali3_status, ali3_ports_follow, (ali3_instance *in, const ali3_instance *w
 ENTRY(ali3_status, ali3_sensor_rates, (ali3_instance *in, double *rates, unsigned char *known), (in, rates, known), in)
 ENTRY(ali3_status, ali3_report_get, (const ali3_instance *in, ali3_report *out), (in, out), NULL)
 ENTRY(double, ali3_energy_balance, (const ali3_report *report), (report), NULL)
-ENTRY(int32_t, ali3_balance_wrong, (const ali3_report *report), (report), NULL)
 PROCEDURE(ali3_compare, (const ali3_judged *what, int32_t n, int64_t rows, const double *time, const double *one, const double *other, ali3_compared *seen), (what, n, rows, time, one, other, seen), NULL)
 PROCEDURE(ali3_compared_sizes, (const ali3_judged *what, int32_t n, const ali3_compared *seen, double length, double energy, int32_t guided, double *size), (what, n, seen, length, energy, guided, size), NULL)
 ENTRY(double, ali3_compared_error, (int32_t n, const ali3_compared *seen, const double *size, int32_t latest, int32_t *worst), (n, seen, size, latest, worst), NULL)

@@ -84,7 +84,8 @@ static bool polynomial(ali3_instance *in, const ali3_measure *measure, double t,
     in->step.w[i] = OF_POSITION * h * h * defect;
     in->step.r[i] = OF_VELOCITY * h * defect;
   }
-  return ali3_distance(in, measure, in->step.w, in->step.r, ali3_rate(in, measure)) <= measure->control->tolerance;
+  return ali3_distance(in, measure, in->step.w, in->step.r, ali3_rate(in, measure, false)) <=
+         measure->control->tolerance;
 }
 
 /* Where there are element states or filtered guides, just behind the start: its forces and states with the motion of

@@ -35,6 +35,7 @@ static const double UNUSUAL = 0.3, USUAL_STEPS = 200.0;
 static const double ROUND_OFF = 64.0 * 2.3e-16; /* of the time */
 static const double FIRST = 1e-3;       /* of the span: first step where none is given */
 static const double ON_A_ROAD = 0.05;   /* lengths on the way in a step: bumps between two evaluations are not seen */
+static const double IN_A_LOOP = 0.5; /* the same of closed loops, or radians of a drive, which leaves no error */
 static const double LEAST_ERROR = 1e-4; /* parts of what a step may err: below, errors are round-off */
 
 static bool valid(const ali3_control *c) {
@@ -92,7 +93,7 @@ static double factor(double part, double last, int32_t order) {
 }
 
 static double shortest(const ali3_instance *in, const ali3_measure *measure, double t, const double *share) {
-  return fmax(share[ali3_method_of(in)->round_off] * fmin(measure->control->span, 1.0 / ali3_rate(in, measure)),
+  return fmax(share[ali3_method_of(in)->round_off] * fmin(measure->control->span, 1.0 / ali3_rate(in, measure, false)),
               ROUND_OFF * fabs(t));
 }
 
@@ -153,18 +154,24 @@ static void take_back(ali3_instance *in, const ali3_report *before) {
   ali3_balance_restore(&in->report, before);
 }
 
+/* The longest step, s: as given, and shorter where the motion may hold more than its error shows. */
+static double longest(const ali3_instance *in, const ali3_measure *measure) {
+  const double given = measure->control->longest;
+  if (in->system->nr > 0) return fmin(given, ON_A_ROAD / ali3_rate(in, measure, false));
+  return in->system->n_mode_triad > 0 ? fmin(given, IN_A_LOOP / ali3_rate(in, measure, true)) : given;
+}
+
 /* One accepted step from t, at most to `end`; *h is its length. */
 static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measure, double t, double end, double *h) {
   ali3_control *c = measure->control;
   const int32_t order = ali3_method_order(in);
   const double least = shortest(in, measure, t, SHORTEST), end_of_tries = shortest(in, measure, t, SHORTEST_TRIED);
-  const bool roads = in->system->nr > 0;
-  const double longest = roads ? fmin(c->longest, ON_A_ROAD / ali3_rate(in, measure)) : c->longest;
+  const double most = longest(in, measure);
   tries seen = {0};
   for (;;) {
     double error = 0.0;
     const ali3_report before = in->report;
-    const double size = fmin(c->h, longest), tried = fitted(size, end - t);
+    const double size = fmin(c->h, most), tried = fitted(size, end - t);
     const ali3_status status = ali3_step_doubling(in, measure, t, tried, &error);
     *h = tried;
     if (status == ALI3_BAD_ARGUMENT || ali3_roads_status(in) != ALI3_OK) return status;

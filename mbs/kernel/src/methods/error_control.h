@@ -15,7 +15,7 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
 ali3_status ali3_trial_step(ali3_instance *in, double t, double h, ali3_reading reading);
 double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const double *q, const double *qd,
                      double rate);
-double ali3_rate(const ali3_instance *in, const ali3_measure *measure);
+double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all);
 
 /* branch_watch.c */
 double ali3_branch_share(ali3_instance *in, const ali3_measure *measure, double t, double h);

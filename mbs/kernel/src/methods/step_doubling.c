@@ -40,12 +40,13 @@ double ali3_distance(const ali3_instance *in, const ali3_measure *measure, const
   return largest / measure->control->length;
 }
 
-/* Rate by which velocities are measured, 1/s: that of the present motion, and at least the one given. */
-double ali3_rate(const ali3_instance *in, const ali3_measure *measure) {
+/* Rate by which velocities are measured, 1/s: that of the present motion, and at least the one given. `all`: with the
+ * coordinates that have no mass, such as driven angles. */
+double ali3_rate(const ali3_instance *in, const ali3_measure *measure, bool all) {
   const ali3_system *S = in->system;
   double largest = 0.0;
   for (int32_t i = 0; i < S->size.nq; i++)
-    if (in->mass.missing[i] == 0.0) largest = fmax(largest, scale_of(measure, i) * fabs(in->now.qd[i]));
+    if (all || in->mass.missing[i] == 0.0) largest = fmax(largest, scale_of(measure, i) * fabs(in->now.qd[i]));
   return fmax(measure->control->rate, largest / measure->control->length);
 }
 
@@ -72,7 +73,7 @@ ali3_status ali3_step_doubling(ali3_instance *in, const ali3_measure *measure, d
       in->step.w[i] = share * (in->now.q[i] - in->kept.coarse.q[i]);
       in->step.x[i] = share * (in->now.qd[i] - in->kept.coarse.qd[i]);
     }
-    *error = ali3_distance(in, measure, in->step.w, in->step.x, ali3_rate(in, measure));
+    *error = ali3_distance(in, measure, in->step.w, in->step.x, ali3_rate(in, measure, false));
     in->report.steps++;
     if (*error < 1e300) return ALI3_OK;
     status = ALI3_NOT_FINITE;

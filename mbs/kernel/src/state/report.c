@@ -9,12 +9,6 @@ double ali3_time(const ali3_instance *in) {
   return in != NULL ? in->clock.base + (double)in->clock.count * in->clock.h : 0.0;
 }
 
-ali3_status ali3_report_get(const ali3_instance *in, ali3_report *out) {
-  if (in == NULL || out == NULL) return ALI3_BAD_ARGUMENT;
-  *out = in->report;
-  return ALI3_OK;
-}
-
 ali3_status ali3_run_status(const ali3_report *report) {
   if (report == NULL) return ALI3_BAD_ARGUMENT;
   const ali3_status last = (ali3_status)report->last_status;
@@ -57,7 +51,3 @@ double ali3_solver_value(const ali3_instance *in, int32_t kind) {
 }
 
 double ali3_capped_residual(const ali3_instance *in) { return in != NULL ? in->bound.call_residual : 0.0; }
-
-int32_t ali3_balance_wrong(const ali3_report *r) {
-  return r != NULL && ali3_energy_balance(r) > ALI3_WRONG_ERROR && fabs(r->energy_error) > r->energy_floor;
-}
