@@ -181,15 +181,13 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
-    from hosts.check.reference import OUT, check_references
+    from hosts.check.reference import OUT, Asked, check_references
 
     if len(options.fidelity) > 1:
         raise HostError("--fidelity is given twice; a reference is of one.")
-    fidelity = options.fidelity[0] if options.fidelity else None
-    jobs = options.jobs or available_cores()
-    driven = options.manoeuvre, options.step, fidelity, wishes(options), jobs
-    kept = options.out or OUT, options.again
-    return check_references(fmu, options.reference, cases, options.bound, *driven, *kept)
+    asked = Asked(options.manoeuvre, options.step, next(iter(options.fidelity), None), wishes(options))
+    jobs, out = options.jobs or available_cores(), options.out or OUT
+    return check_references(fmu, options.reference, cases, options.bound, asked, jobs, out, options.again)
 
 
 def _settings(fmu: Path, given: Wishes) -> Settings:
