@@ -130,7 +130,7 @@ def check_references(
         raise HostError(f"There is no table (.csv) in the folder {place}.")
     for pattern, share in bounds:
         if not 0.0 <= share < math.inf:
-            raise HostError(f"--bound {pattern} is {share:g}; a bound is a share of the range, from 0 on.")
+            raise HostError(f"--bound {pattern} is {share:g}; it must be a share of the range, 0 or more.")
     errors = list[UserError]()
 
     def fails(file: Path, error: UserError) -> None:
@@ -284,7 +284,7 @@ def _read(
         raise HostError(f"{file} has no column that is an output of {fmu.path.name}; there is nothing to compare.")
     check_begin(values[0, 0], values[-1, 0], file)
     if not values[-1, 0] > 0.0:
-        raise HostError(f"{file} ends at {values[-1, 0]:g} s; a reference goes on after 0 s.")
+        raise HostError(f"{file} ends at {values[-1, 0]:g} s; a reference must end after 0 s.")
     return driven, values[:, 0], columns, [n for n in table.names[1:] if n not in drives | outputs]
 
 
@@ -303,7 +303,7 @@ def _check_times(times: NDArray[np.float64], step: float, file: Path) -> None:
     if off[worst] > _ROUND_OFF:
         raise HostError(
             f"{file} has a row at {times[worst]:.9g} s, which is not a communication point of a run from 0 "
-            f"s in steps of {step:g} s; --step gives one that divides all times."
+            f"s in steps of {step:g} s; give a step that divides all times (--step)."
         )
 
 

@@ -22,7 +22,7 @@ def opened_parquet(
     """A Parquet file that can be read.
 
     `name`: how a sentence calls it; `by_parts`: whether it is read one group of rows after the other;
-    `checksums`: whether its pages are held against theirs. Raises `HostError`: it is not a regular file, or would take
+    `checksums`: whether its pages are checked by them. Raises `HostError`: it is not a regular file, or would take
     too much memory; what pyarrow raises on a damaged one passes.
     """
     import pyarrow.parquet as pq

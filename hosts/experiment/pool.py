@@ -65,7 +65,7 @@ class Pool(Closing, Generic[T, R]):
     ) -> Generator[tuple[int, R | Lost]]:
         """Make runs; give each result with the number of its task, from 0, as soon as it is there.
 
-        `tasks`: is read as processes become free; `told`: called with the number of a task and what its work tells.
+        `tasks`: is read as processes become free; `told`: called with the number of a task and what its work reports.
         Raises `UserError`: the work of a task has raised one; no further task is begun.
         """
         idle: queue.SimpleQueue[Isolated[T, R]] = queue.SimpleQueue()

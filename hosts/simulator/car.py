@@ -131,7 +131,7 @@ class Car(Closing):
         if name == "step":
             value = value or 1.0
             if not (1.0 <= value <= 1e9 and value == int(value)):
-                raise HostError(f"{value:g} steps are asked for; it must be a whole number of at least 1.")
+                raise HostError(f"The number of steps is {value:g}; it must be a whole number of at least 1.")
         elif name == "speed" and not SLOWEST <= value <= 1.0:
             raise HostError(f"The speed is {value:g}; it must be from {SLOWEST:g} to 1.")
         elif name == "rewind" and not (math.isfinite(value) and value > 0.0):
