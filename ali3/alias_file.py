@@ -62,7 +62,7 @@ def read_content(file: Path, depth: int = 0) -> Content:
         if not isinstance(base, str):
             raise UserError(f"{file}: {EXTENDS} is {base!r}; it must be the name of an alias file.")
         if depth >= _MOST_FILES:
-            raise UserError(f"{file}: more than {_MOST_FILES} files extend one another; is there a ring among them?")
+            raise UserError(f"{file}: more than {_MOST_FILES} files extend one another; does one extend itself?")
         below = read_content(_found(base, file), depth + 1)
         made = Content(str(file), dict(below.entries), dict(below.constants), dict(below.needs))
     partial = table.pop(PARTIAL, False)
@@ -133,7 +133,7 @@ def _entry(value: Any, where: str) -> dict[str, Any]:
         return {"name": value}
     if isinstance(value, dict) and isinstance(value.get("from"), str):
         if len(value) > 1:
-            raise UserError(f"{where}: beside from nothing else can stand; it has {', '.join(value)}.")
+            raise UserError(f"{where}: 'from' must stand alone; the table has {', '.join(value)}.")
         return value
     if isinstance(value, dict) and isinstance(value.get("name"), str):
         unknown = next((key for key in value if key not in _KEYS), None)

@@ -1,4 +1,4 @@
-"""Arrays of NumPy (``.npy``, ``.npz``), whose headers are held against what is there before they take memory."""
+"""Arrays of NumPy (``.npy``, ``.npz``), whose headers are checked against the file's size before memory is taken."""
 
 import io
 import math

@@ -1,4 +1,4 @@
-"""Bars of what takes a while: drawn on a terminal; elsewhere, such as in a file, a line of each now and then."""
+"""Progress bars: drawn on a terminal; in a file, lines at growing intervals."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from typing import Any
 from tqdm import tqdm
 
 _DELAY = 2.0  # s before a bar appears
-_LATER = 1.5  # how much later than the last the next line comes
-_LONGEST = 60.0  # s between lines
+_LATER = 1.5  # ratio of an interval between lines to the one before
+_LONGEST = 60.0  # s: longest interval
 
 
 class _Lines:
-    """A stream to which a bar draws itself: some drawings and the last are lines without control characters."""
+    """A stream for a bar: writes some of its states, and the last one, as lines without control characters."""
 
     bar: tqdm[Any] | None = None
-    # Chosen here: a bar whose interval changes while it goes through things counts some of them twice.
+    # The interval grows here: tqdm counts some items twice if its own interval changes during an iteration.
     _apart, _next = _DELAY, 0.0
 
     def write(self, text: str) -> None:

@@ -1,4 +1,4 @@
-"""What a chart shows, in words that its file carries: pictures of documents are held against what draws them."""
+"""What a chart shows, in words that its file carries: pictures of documents are compared with what draws them."""
 
 from __future__ import annotations
 

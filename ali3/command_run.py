@@ -47,7 +47,7 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (),
 
 
 def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | None:
-    """What a user is told of an error; None where the error is not the user's. `errors`: see `run_command`."""
+    """The sentence for a user on an error; None where the error is not the user's. `errors`: see `run_command`."""
     if isinstance(error, ModuleNotFoundError):
         return missing_module(error)
     if isinstance(error, MemoryError) or (_may_lack_memory(error) and is_memory_short()):

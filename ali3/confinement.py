@@ -45,7 +45,7 @@ def confined(command: Sequence[str], readable: Iterable[Path], writable: Sequenc
 
 
 def environment(given: dict[str, str], folder: Path) -> dict[str, str]:
-    """What a confined process is told of the environment."""
+    """Environment variables that a confined process gets."""
     temporary = dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), str(folder))
     return {name: value for name, value in given.items() if name in _KEPT} | temporary
 

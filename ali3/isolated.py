@@ -115,7 +115,7 @@ class _Process:
         return self.process.stdout
 
     def kill(self) -> None:
-        """End it, and all that it has started where the system tells what that is."""
+        """End it, and all that it has started if the system reports what that is."""
         if self._life >= 0:
             self._close_life()  # its guard does it
             return

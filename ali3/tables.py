@@ -1,4 +1,4 @@
-"""Reads tables of text (CSV) that others wrote: what a line, a cell and a number is, is said here once."""
+"""Reads tables of text (CSV) that other programs wrote; the one place that defines lines, cells and numbers of them."""
 
 import csv
 import math
@@ -38,10 +38,10 @@ class Row(NamedTuple):
 class TextTable:
     """A table of text, read once from its beginning.
 
-    Empty lines and lines that begin with ``#`` are left out. Cells are divided by semicolons, tabs or commas, the first
-    of these that the first line has; unless commas divide them, a comma may be the decimal mark. A cell in quotation
-    marks may hold the mark, not the end of a line. All lines have as many cells as the first. The heading may be a
-    comment, as NumPy and the databases of race tracks write it.
+    Empty lines and lines that begin with ``#`` are skipped. The separator is the first of semicolon, tab and comma that
+    the first line has; unless it is a comma, numbers may have decimal commas. A cell in quotation marks may contain the
+    separator, but no end of a line. All lines have as many cells as the first. The heading may be a comment, as NumPy
+    and the databases of race tracks write it.
 
     Parameters
     ----------
@@ -50,31 +50,31 @@ class TextTable:
     error : type of exception
         What is raised, with one sentence that names file and line.
     name : str
-        How the sentence calls the file; by default its path.
+        The file in sentences; by default its path.
     headed : bool, optional
-        Whether there are names, in the first line or, where that has numbers, in a comment above it; None: where there
-        are such. Without names the columns are told apart by their order.
+        Whether the table must have a heading: its first line, or a comment above it if the first line has numbers;
+        None: it may have one. Columns without names are identified by their order.
     known : collection of str
-        Names of columns in small letters, without units: a comment that has one of them is a heading, and one right
-        above the values whose cells are words, for there it names columns that are not known; by default any with as
-        many cells as the first line, none of them a number.
+        Names of columns in small letters, without units. A comment is a heading if it has one of them, or if it stands
+        right above the values and each of its cells is one word. Without `known`, any comment is one that has as many
+        cells as the first line and no number among them.
     units : bool
         Whether names may have units, as `HEADING`.
     whole : bool
-        Whether a last line without an end is left out: a program that was killed has cut it.
+        Whether a last line without a line end is skipped: the program that wrote it was killed.
     largest : int
-        Bytes.
+        Limit of the file's size, bytes.
 
     Attributes
     ----------
     names : list of str
-        Of the columns; empty without a heading.
+        Names of the columns; empty without a heading.
     units : dict of str to str
-        By name, where the heading has them.
+        Units by name, where the heading has them.
     comments : list of (int, str)
-        Lines that begin with ``#``, as far as the table has been read, with their numbers.
+        Number and text of the lines that begin with ``#``, as far as the table has been read.
     decimal : str
-        What else than a point may be the decimal mark: "," or nothing.
+        A decimal mark besides the point: "," or nothing.
     """
 
     def __init__(
@@ -108,7 +108,7 @@ class TextTable:
             self._take_names(heading, units)
 
     def rows(self, every: int = 1) -> Iterator[Row]:
-        """Lines below the heading, or every so many of them."""
+        """Lines below the heading: the first and each `every`-th after it."""
         lines = self._lines if self._first is None else chain([self._first], self._lines)
         for k, (line, text) in enumerate(lines):
             if k % every == 0:
@@ -123,8 +123,7 @@ class TextTable:
     def numbers(self, row: Row, finite: bool = True, first: int = 0) -> list[float]:
         """Cells of a line as numbers.
 
-        `finite`: whether ``nan`` and ``inf`` are refused; `first`: column that they begin with; those before it are
-        text.
+        `finite`: whether ``nan`` and ``inf`` are refused; `first`: first column of numbers.
         """
         cells = row.cells[first:]
         if self.decimal:
@@ -143,7 +142,7 @@ class TextTable:
         raise self.error(f"{self.name}, line {row.line}{what}: {brief(row.cells[k])} is not a {word}.")
 
     def values(self, every: int = 1, finite: bool = True, least: int = 1) -> NDArray[np.float64]:
-        """Numbers of all lines, or of every so many, of shape (n, columns); at least so many lines."""
+        """Numbers of the lines, shape (n, columns). `every`, `finite`: as of `rows` and `numbers`; `least`: least n."""
         held = array("d")
         for row in self.rows(every):
             held.extend(self.numbers(row, finite))
@@ -185,7 +184,7 @@ class TextTable:
             raise self.error(f"{self.name}, line {line}: {fault}.") from None
 
     def _heading(self, first: list[str], headed: bool | None, known: Collection[str]) -> list[str]:
-        """Cells that name the columns: those of the first line, or of a comment above it; none: there are no names."""
+        """Cells of the heading, which is the first line or a comment above it; empty: there is none."""
         if headed is False:
             return []
         if not any(is_number(cell, self.decimal) for cell in first):
@@ -211,7 +210,7 @@ class TextTable:
         return all(_WORD.fullmatch(plain_name(cell)) for cell in cells)
 
     def comment_cells(self) -> list[tuple[int, list[str]]]:
-        """Cells of the comments read so far that have as many as the first line, with the numbers of their lines."""
+        """Number and cells of each comment, read so far, that has as many cells as the first line."""
         found = []
         for line, comment in self.comments:
             text = comment.lstrip("# \t")
@@ -239,7 +238,7 @@ class TextTable:
 
 
 def cells_of(line: str, mark: str) -> list[str]:
-    """Cells of a line without the blanks around them; `ValueError` with what is wrong, as the rest of a sentence."""
+    """Cells of a line, stripped of blanks. Raises `ValueError` with the end of a sentence that says what is wrong."""
     if '"' in line:
         try:
             cells = next(csv.reader([line], delimiter=mark, skipinitialspace=True, strict=True), [])
@@ -258,8 +257,8 @@ def plain_name(cell: str) -> str:
 
 
 def number_of(cell: str, decimal: str = "") -> float:
-    """A cell as a number, with a decimal comma if `decimal` is one; `ValueError` if it is not one."""
-    if not cell.isascii() or "_" in cell:  # which `float` takes
+    """A cell as a number; `decimal`: "," where decimal commas are allowed. Raises `ValueError`: it is not a number."""
+    if not cell.isascii() or "_" in cell:  # `float` would accept these
         raise ValueError
     return float(cell.replace(",", ".") if decimal else cell)
 

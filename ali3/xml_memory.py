@@ -1,4 +1,4 @@
-"""How lxml tells that memory was not enough."""
+"""How lxml reports that memory was not enough."""
 
 
 def is_lack_of_memory(error: Exception) -> bool:

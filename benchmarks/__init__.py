@@ -1,4 +1,4 @@
-"""Commands that measure speed and accuracy, and write the reference trajectories they are held against.
+"""Commands that measure speed and accuracy, and write the reference trajectories that they are compared with.
 
 A file of this folder, or a room that can be run, is a command, ``python -m benchmarks.NAME PART``; ``python -m
 benchmarks`` lists them. A command says what its parts are; `shared.command` gives each its arguments, table, machine

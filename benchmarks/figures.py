@@ -306,7 +306,7 @@ MADE: dict[str, Callable[[], list[Again]]] = {
 
 @wrong_on_purpose()
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command."""
+    """Run ``python -m benchmarks.figures``: make figures of the pages again, and compare or write them."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.figures", description=__doc__)
     names = ", ".join((*WRITTEN, *MADE))
     parser.add_argument("--only", default="", metavar="TEXT", help=f"part of a name: {names}")

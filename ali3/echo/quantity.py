@@ -32,7 +32,7 @@ class Quantity:
     source: str
     """Where the range is from."""
     near: Range | None = None
-    """What undoing a mistake must reach, where that is narrower than what is told."""
+    """What undoing a mistake must reach, where that is narrower than the range of the warning."""
     shown_outside: bool = False
     """Whether tables of text show it only where it is outside of its range."""
 

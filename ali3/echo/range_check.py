@@ -1,4 +1,4 @@
-"""Values of quantities of a file, compared with their ranges, and what is told of those outside."""
+"""Values of quantities of a file, compared with their ranges, and sentences on those outside."""
 
 import math
 import warnings
@@ -65,7 +65,7 @@ class Mistake:
     undo: Undo
     """The values of the file without it; None where there is no such thing."""
     guessed: bool = False
-    """Whether it is fitted to the values, as a factor: it is told only where none with a name mends the same."""
+    """Whether it is fitted to the values, as a factor: it is named only if no mistake with a name explains the same."""
 
 
 @dataclass(frozen=True)

@@ -83,16 +83,16 @@ def read_corners(path: str | os.PathLike[str], scale: float = 1.0, extra: str = 
     file = Path(path)
     factor = _checked_scale(path, scale)
     if file.suffix.lower() not in SUFFIXES:
-        raise MeshError(f"{path} is of a kind that is not read as a mesh; {', '.join(SUFFIXES)} are.")
+        raise MeshError(f"{path} is not read as a mesh; its suffix must be one of {', '.join(SUFFIXES)}.")
     mesh = _load(file, extra)
     points = np.asarray(mesh.vertices, dtype=float) * factor
     triangles = np.asarray(mesh.faces, dtype=np.int64)
     if not len(triangles):
         raise MeshError(f"{path} is not a mesh: it has no triangles.")
     if points.ndim != 2 or points.shape[1] != 3:
-        raise MeshError(f"{path} is not a mesh: its points have not three coordinates each.")
+        raise MeshError(f"{path} is not a mesh: its points do not have three coordinates each.")
     if triangles.min() < 0 or triangles.max() >= len(points):
-        raise MeshError(f"{path} is not a mesh: a triangle has a point that is not there.")
+        raise MeshError(f"{path} is not a mesh: a triangle refers to a point that does not exist.")
     used = points[triangles]
     largest = float(np.finfo(np.float32).max)
     bad = int((~(np.abs(used) < largest).all(axis=(1, 2))).sum())

@@ -1,4 +1,6 @@
-"""What holds between several places of a scene: names that are used exist, arrays have their sizes, axes are axes."""
+"""Checks that concern several places of a scene: names are those of frames and meshes, arrays fit each other, axes are
+orthonormal. They follow the check of types; each fault is a sentence.
+"""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -26,7 +28,7 @@ def relation_errors(scene: Mapping[str, Any]) -> list[str]:
     for k, part in enumerate(scene.get("flexible") or []):
         found += _flexible(scene, part, ("flexible", k))
     for k, arrow in enumerate(scene.get("arrows") or []):
-        found += _arrow(scene, arrow, ("arrows", k))
+        found += _users(scene, arrow, ("arrows", k))
     for k, road in enumerate(scene.get("roads") or []):
         found += _road(road, ("roads", k))
     if not any(scene.get("up") or (0.0, 0.0, 1.0)):
@@ -83,6 +85,11 @@ def _circles(scene: Mapping[str, Any]) -> Iterator[str]:
             del left[name]
 
 
+def _length(found: int, right: int, path: tuple[str | int, ...], each: str) -> Iterator[str]:
+    if found != right:
+        yield f"{place(path)} has {found} entries; it must have {right}, one for each {each}."
+
+
 def _direction(vector: Any, path: tuple[str | int, ...]) -> Iterator[str]:
     if not math.hypot(*vector) > 0.0:
         yield f"{place(path)} is {value_words(vector)}; it must not be zero."
@@ -123,7 +130,7 @@ def _array(text: str, kind: str, path: tuple[str | int, ...], size: int | None =
         yield f"{place(path)} {error}."
         return
     if size is not None and len(numbers) != size:
-        yield f"{place(path)} has {len(numbers)} numbers where {size} belong."
+        yield f"{place(path)} has {len(numbers)} numbers; it must have {size}."
     elif kind == "f" and not np.isfinite(numbers).all():
         yield f"{place(path)} holds {int((~np.isfinite(numbers)).sum())} values that are not numbers."
 
@@ -144,25 +151,24 @@ def _mesh(mesh: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]
             yield f"{place((*path, key))} has {len(numbers)} numbers; it must be three a point, and not none."
             return
     if corners.max() >= len(positions) // 3:
-        yield f"{place((*path, 'triangles'))} names corner {corners.max()}; there are {len(positions) // 3} from 0 on."
+        yield f"{place((*path, 'triangles'))} names corner {corners.max()}; the largest is {len(positions) // 3 - 1}."
 
 
 def _flexible(scene: Mapping[str, Any], part: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
     yield from _users(scene, part, path)
     nodes, beams, modes = len(part["nodes"]), len(part["beams"]), len(part["amplitudes"])
-    for key, count in (("names", nodes), ("start", modes)):
-        if part.get(key) is not None and len(part[key]) != count:
-            yield f"{place((*path, key))} has {len(part[key])} entries where {count} belong."
+    for key, count, each in (("names", nodes, "node"), ("start", modes, "mode")):
+        if part.get(key) is not None:
+            yield from _length(len(part[key]), count, (*path, key), each)
     yield from _array(part["modes"], "f", (*path, "modes"), nodes * 3 * modes)
-    if len(part["radii"]) != beams:
-        yield f"{place((*path, 'radii'))} has {len(part['radii'])} entries where there are {beams} beams."
+    yield from _length(len(part["radii"]), beams, (*path, "radii"), "beam")
     for k, beam in enumerate(part["beams"]):
         if max(beam) >= nodes:
-            yield f"{place((*path, 'beams', k))} names node {max(beam)}; there are {nodes} from 0 on."
+            yield f"{place((*path, 'beams', k))} names node {max(beam)}; the largest is {nodes - 1}."
     for k, gauge in enumerate(part.get("gauges") or []):
         if max(gauge["nodes"]) >= nodes:
             where = place((*path, "gauges", k, "nodes"))
-            yield f"{where} names node {max(gauge['nodes'])}; there are {nodes} from 0 on."
+            yield f"{where} names node {max(gauge['nodes'])}; the largest is {nodes - 1}."
     stress = part.get("stress")
     if stress is not None:
         if stress.get("rule") == "round" and stress["fibres"] != 3:
@@ -173,18 +179,13 @@ def _flexible(scene: Mapping[str, Any], part: Mapping[str, Any], path: tuple[str
             yield from _array(stress["constant"], "f", (*path, "stress", "constant"), count)
 
 
-def _arrow(scene: Mapping[str, Any], arrow: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
-    yield from _users(scene, arrow, path)
-
-
 def _road(road: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
     for key in ("normal", "direction"):
         if key in road:
             yield from _direction(road[key], (*path, key))
     if road["kind"] == "profile":
         stations, heights = road["stations"], road["heights"]
-        if len(stations) != len(heights):
-            yield f"{place((*path, 'heights'))} has {len(heights)} entries where there are {len(stations)} stations."
+        yield from _length(len(heights), len(stations), (*path, "heights"), "station")
         if not (np.diff(stations) > 0.0).all():
             yield f"{place((*path, 'stations'))} must rise."
     if road["kind"] == "terrain":
@@ -201,11 +202,7 @@ def _terrain(road: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[s
         size = patch["shape"][0] * patch["shape"][1]
         yield from _array(patch["heights"], "f", (*path, "patches", k, "heights"), size)
     surface, where = road["surface"], (*path, "surface")
-    if len(surface["frictions"]) != len(surface["names"]):
-        yield (
-            f"{place((*where, 'frictions'))} has {len(surface['frictions'])} entries where there are "
-            f"{len(surface['names'])} names."
-        )
+    yield from _length(len(surface["frictions"]), len(surface["names"]), (*where, "frictions"), "name")
     try:
         cells = octets(surface["classes"])
     except ValueError as error:
@@ -213,6 +210,6 @@ def _terrain(road: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[s
         return
     size = surface["shape"][0] * surface["shape"][1]
     if len(cells) != size:
-        yield f"{place((*where, 'classes'))} has {len(cells)} numbers where {size} belong."
+        yield f"{place((*where, 'classes'))} has {len(cells)} numbers; it must have {size}."
     elif cells.max() >= len(surface["names"]):
-        yield f"{place((*where, 'classes'))} names surface {cells.max()}; there are {len(surface['names'])} from 0 on."
+        yield f"{place((*where, 'classes'))} names surface {cells.max()}; the largest is {len(surface['names']) - 1}."

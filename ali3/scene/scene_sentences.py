@@ -1,5 +1,6 @@
-"""From what the types of a scene refuse to sentences: place, value, and what would be right."""
+"""A sentence for each error that pydantic finds in a scene: place, value, and what would be right."""
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -45,10 +46,24 @@ _CHOICES: dict[tuple[str | int, ...], str] = {
     "and 'way', or 'points' and 'on'",
     ("arrows",): "the keys 'value' and 'between', 'vector' and 'at', or 'tyre'",
 }
+# What pydantic says of a value, as regular expressions, and how a sentence says it.
+_REPLACEMENTS = (
+    ("Input should be ", ""),
+    ("greater than or equal to", "at least"),
+    ("less than or equal to", "at most"),
+    ("greater than", "above"),
+    (r"a valid dictionary( or instance of \w+)?", "a table"),
+    ("a valid (tuple|list)", "a list"),
+    ("String should have at least 1 character", "a text that is not empty"),
+    ("a (valid )?string", "a text"),
+    ("a valid integer", "a whole number"),
+    ("a valid boolean", "true or false"),
+    ("a valid ", "a "),
+)
 
 
 def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
-    """A sentence for each fault; a key that is misspelt is not missing besides."""
+    """A sentence for each error; where a key is misspelt, the key that was meant is not reported as missing too."""
     items = sorted(error.errors(include_url=False), key=lambda item: item["type"] != UNKNOWN)
     lengths: dict[tuple[str | int, ...], int] = {}
     for item in items:
@@ -81,52 +96,58 @@ def place(path: Sequence[str | int]) -> str:
 def _sentence(
     scene: Mapping[str, Any], item: Any, path: tuple[str | int, ...], lengths: Mapping[tuple[str | int, ...], int]
 ) -> str:
-    kind, message = item["type"], str(item["msg"])
+    """Sentence for one fault. `item`: as pydantic reports it; `lengths`: least lengths of lists that are too short."""
+    kind, value = item["type"], item["input"]
     if kind == MISSING and isinstance(path[-1], str):
         why = _description(item["loc"])
         return f"{place(path)} is missing{f': {why}' if why else ''}."
-    if path[:1] in _CHOICES and kind == "union_tag_not_found":
-        given = item["input"]
-        if not isinstance(given, Mapping):
-            return f"{place(path)} is {value_words(given)}; it must be a table."
-        unknown = [f"{brief(str(key))} is not known" for key in given if key not in ("name", "unit", "start")]
-        hint = f" ({unknown[0]})" if unknown else ""
-        return f"{place(path)} must have {_CHOICES[path[:1]]}{hint}."
     if kind in ("union_tag_invalid", "union_tag_not_found"):
-        known = item.get("ctx", {}).get("expected_tags") or ", ".join(repr(k) for k in _kinds_at(path))
-        if not isinstance(item["input"], Mapping):
-            return f"{place(path)} is {value_words(item['input'])}; it must be a table with a key 'kind'."
-        if "kind" not in item["input"]:
-            near = _near("kind", list(map(str, item["input"])))
-            hint = f" ('{near}' is not known)" if near else ""
-            return f"{place((*path, 'kind'))} is missing{hint}; it is one of {known}."
-        return f"{place((*path, 'kind'))} is {value_words(item['input']['kind'])}; it must be one of {known}."
-    value = item["input"]
-    if kind in ("missing", "too_short", "too_long"):  # of a list
-        path = path[:-1] if kind == MISSING else path
-        whole = _at(scene, path)
-        limit = item.get("ctx", {})
-        wanted = limit.get("max_length", limit.get("min_length", lengths.get(path)))
-        many = f"; it must have {'at least ' if kind == 'too_short' and 'min_length' in limit else ''}{wanted}"
-        return f"{place(path)} has {len(whole)} entries{many if wanted is not None else ', too few'}."
+        return _choice_sentence(item, path)
+    if kind in (MISSING, "too_short", "too_long"):
+        return _length_sentence(scene, item, path, lengths)
+    key = "[key]" in item["loc"]
     if kind == "string_pattern_mismatch":
-        words = _PATTERNS.get(item["ctx"]["pattern"], "a colour such as '#3366cc'")
-        if item["loc"][-1] == "[key]":
-            return f"{place(path[:-1])} has the key {value_words(value)}; it must be {words}."
-        return f"{place(path)} is {value_words(value)}; it must be {words}."
-    if path and "[key]" in item["loc"]:
-        known = message.replace("Input should be ", "") if kind == "literal_error" else "a text that is not empty"
-        return f"{place(path[:-1])} has the key {value_words(value)}; it must be {known}."
-    wanted = message.replace("Input should be ", "").replace("greater than or equal to", "at least")
-    wanted = wanted.replace("less than or equal to", "at most").replace("greater than", "above")
-    wanted = wanted.replace("a valid dictionary or instance of ", "a table ").replace("a valid dictionary", "a table")
-    wanted = wanted.replace("a valid tuple", "a list").replace("a valid list", "a list").replace("a valid ", "a ")
-    wanted = wanted.replace("String should have at least 1 character", "a text that is not empty")
-    wanted = wanted.replace("a string", "a text").replace("a integer", "a whole number")
-    wanted = wanted.replace("a boolean", "true or false")
-    for name in _MODELS:
-        wanted = wanted.replace(f"a table {name}", "a table")
+        wanted = _PATTERNS.get(item["ctx"]["pattern"], "a colour such as '#3366cc'")
+    elif key and kind != "literal_error":
+        wanted = "a text that is not empty"
+    else:
+        wanted = str(item["msg"])
+        for theirs, ours in _REPLACEMENTS:
+            wanted = re.sub(theirs, ours, wanted)
+    if key:
+        return f"{place(path[:-1])} has the key {value_words(value)}; it must be {wanted}."
     return f"{place(path)} is {value_words(value)}; it must be {wanted}."
+
+
+def _choice_sentence(item: Any, path: tuple[str | int, ...]) -> str:
+    """Of a table whose keys, or whose key `kind`, choose none of the types that it could be."""
+    given = item["input"]
+    by_keys = path[:1] in _CHOICES and item["type"] == "union_tag_not_found"
+    if not isinstance(given, Mapping):
+        table = "a table" if by_keys else "a table with a key 'kind'"
+        return f"{place(path)} is {value_words(given)}; it must be {table}."
+    if by_keys:
+        unknown = next((key for key in given if key not in ("name", "unit", "start")), None)
+        hint = "" if unknown is None else f" ({brief(str(unknown))} is not known)"
+        return f"{place(path)} must have {_CHOICES[path[:1]]}{hint}."
+    known = item.get("ctx", {}).get("expected_tags") or ", ".join(map(repr, _kinds_at(path)))
+    where = place((*path, "kind"))
+    if "kind" in given:
+        return f"{where} is {value_words(given['kind'])}; it must be one of {known}."
+    near = _near("kind", list(map(str, given)))
+    return f"{where} is missing{f' ({near!r} is not known)' if near else ''}; it is one of {known}."
+
+
+def _length_sentence(
+    scene: Mapping[str, Any], item: Any, path: tuple[str | int, ...], lengths: Mapping[tuple[str | int, ...], int]
+) -> str:
+    """Of a list with too few or too many entries."""
+    path = path[:-1] if item["type"] == MISSING else path
+    limits = item.get("ctx", {})
+    wanted = limits.get("max_length", limits.get("min_length", lengths.get(path)))
+    at_least = "at least " if item["type"] == "too_short" and "min_length" in limits else ""
+    right = ", too few" if wanted is None else f"; it must have {at_least}{wanted}"
+    return f"{place(path)} has {len(_at(scene, path))} entries{right}."
 
 
 def _at(scene: Any, path: Sequence[str | int]) -> Any:
@@ -178,9 +199,9 @@ def _description(loc: Sequence[str | int]) -> str:
 
 
 def _kinds_at(path: Sequence[str | int]) -> list[str]:
-    base = types.Shape if path and path[0] == "shapes" else Part
-    shapes = [kind for kind, model in _KINDS.items() if issubclass(model, types.Shape)]
-    return shapes if base is types.Shape else [kind for kind in _KINDS if kind not in shapes]
+    """Kinds of the tables at a place: of shapes, or of roads."""
+    shapes = path[:1] == ("shapes",)
+    return [kind for kind, model in _KINDS.items() if issubclass(model, types.Shape) == shapes]
 
 
 def _near(word: str, known: Sequence[str | int]) -> str | None:

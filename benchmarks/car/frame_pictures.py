@@ -20,23 +20,23 @@ from viewer.pictures import write_picture
 Array = NDArray[np.float64]
 SCALE = 150.0  # of the deformation
 END = 8.9  # s, after the rear wheels have landed
-PERCENTILE = 99.5  # of the stresses, where the colours end: single joints would take all the range
-SHOWN = ("wheel", "spring", "damper")  # beside the frame
-NEAR = (0.5, 0.1)  # m: the names of gauges that are nearer would lie on each other
+PERCENTILE = 99.5  # of the stresses, at which the colours end, as a few joints would take most of the range
+SHOWN = ("wheel", "spring", "damper")  # shapes besides the frame
+NEAR = (0.5, 0.1)  # m: names of gauges that are nearer would overlap
 VIEWS = ((0, 2, "z, m"), (0, 1, "y, m"))  # from the side, from above
 AT_REST = {"radius": 0.002, "color": "#bbbbbb"}  # of the lines where the frame is not deformed
 
 
 @dataclass(frozen=True)
 class Motion:
-    """What the frame does."""
+    """Deformation and stress of the frame over time."""
 
     t: Array
-    """Shape (n,): s."""
+    """Times, s, shape (n,)."""
     places: Array
-    """Shape (n, nodes, 3): deformed and scaled, in the axes of the chassis, m."""
+    """Nodes with their deformation times `SCALE`, in the axes of the chassis, m, shape (n, nodes, 3)."""
     stress: Array
-    """Shape (n, elements, 2): largest normal stress at the ends of each element, Pa."""
+    """Largest normal stress at the ends of each element, Pa, shape (n, elements, 2)."""
 
 
 def kerb_picture(folder: Path) -> None:
@@ -80,7 +80,7 @@ def frame_alone(recording: Recording, limit: float) -> Recording:
 
 
 def draw(recording: Recording, motion: Motion, picture: Path) -> None:
-    """The moment of the largest stress."""
+    """Draw the frame at the time of the largest stress."""
     shown = frame_alone(recording, float(np.percentile(motion.stress, PERCENTILE)))
     options = {"stress": True, "deformation": SCALE}
     write_picture(picture, shown, motion.t[int(motion.stress.max(axis=(1, 2)).argmax())], (1000, 600), None, options)

@@ -116,7 +116,7 @@ def run_on(
     settings: Settings | None = None,
     estimate_error: bool | None = False,
 ) -> Trajectory:
-    """The same with any car. Runs that are held against a reference need no estimate of their error."""
+    """The same with any car. Runs that are compared with a reference need no estimate of their error."""
     parameters, pose = start_of(manoeuvre, system)
     return simulate(
         system,

@@ -1,4 +1,4 @@
-"""Measures by which a car is held against its class: ride, wheel hop, roll, understeer, performance, brakes.
+"""Measures by which a car is compared with its class: ride, wheel hop, roll, understeer, performance, brakes.
 
 Definitions after ISO 8855 and, for the steady turn, ISO 4138 (constant speed, slowly rising steering-wheel angle).
 """
@@ -77,14 +77,14 @@ MEASURES = (
 def measure(car: Car) -> dict[str, float]:
     """All `MEASURES` of a car, by name."""
     system = compile(car.model())
-    return _weight(car, system) | _modes(car) | _axles(car) | steady_turn(car, system) | _straight(system)
+    return _weight(system) | _modes(car) | _axles(car) | steady_turn(car, system) | _straight(system)
 
 
 def _neutral(system: System) -> dict[str, float]:
     return {name: v for name, v in NEUTRAL.items() if name in {p["name"] for p in system.meta["parameters"]}}
 
 
-def _weight(car: Car, system: System) -> dict[str, float]:
+def _weight(system: System) -> dict[str, float]:
     at_rest = Simulation(system, parameters=_neutral(system)).sensors
     loads = [at_rest[f"wheel_{w}.Fz"] for w in ("FL", "FR", "RL", "RR")]
     return {"mass": sum(loads) / GRAVITY, "front_load": 100.0 * sum(loads[:2]) / sum(loads)}

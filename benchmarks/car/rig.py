@@ -22,16 +22,16 @@ NEUTRAL = {"drive.creep_torque": 0.0}
 
 
 def kinematics(car: Car) -> dict[str, float]:
-    """What the axles do, by name as ``front.roll_centre_height``. `car`: its drawing is taken for its equilibrium.
+    """Kinematics and stiffnesses of both axles, in the terms of ISO 8855, about the pose of the drawing.
 
-    Result: per axle, in the words of ISO 8855: ``wheel_rate`` (wheel load per travel, N/m), ``spring_ratio`` (spring
-    travel per wheel travel), ``bump_steer`` (left wheel, toe-out positive, rad/m), ``bump_camber`` (left wheel, top
-    outwards positive, rad/m); and per suspension roll angle, which is that of the chassis less what the tyres give,
-    ``roll_centre_height`` (m), ``roll_steer`` (mean steering angle to the left as the left side comes up),
-    ``roll_camber`` (inclination of the left wheel against the axle), ``roll_stiffness`` (N m/rad). Of the steering:
-    ``steering_ratio`` at straight ahead, and ``lock_inner``, ``lock_outer`` (rad).
+    Keys begin with ``front.`` or ``rear.``. Per wheel travel: ``wheel_rate`` (N/m), ``spring_ratio``, ``bump_steer``
+    (rad/m, left wheel, toe-out positive), ``bump_camber`` (rad/m, left wheel, top outwards positive). Per suspension
+    roll angle, the roll angle of the chassis less that of the axle on its tyres: ``roll_centre_height`` (m),
+    ``roll_steer`` (mean steering angle, to the left positive as the left side rises), ``roll_camber`` (left wheel
+    against the axle), ``roll_stiffness`` (N m/rad). Without an axle: ``steering_ratio`` straight ahead, ``lock_inner``
+    and ``lock_outer`` (rad).
     """
-    heave, roll, steer = (moved(car, **{kind: True}) for kind in ("heave", "roll", "steer"))
+    heave, roll, steer = (moved(car, kind) for kind in ("heave", "roll", "steer"))
     found: dict[str, float] = {}
     for axle, (left, right) in WHEELS.items():
         z = heave[f"wheel_{left}.travel"]
@@ -61,17 +61,17 @@ def kinematics(car: Car) -> dict[str, float]:
     return found
 
 
-def moved(car: Car, *, heave: bool = False, roll: bool = False, steer: bool = False) -> Trajectory:
-    """One slow period of a motion; the sensors are those of the car and the contacts' ``rig_FL.y`` and so on."""
+def moved(car: Car, motion: str) -> Trajectory:
+    """One slow period of ``heave``, ``roll`` or ``steer``, with the sensors of the car and of `_contacts`."""
     m = car.model(PlaneRoad(friction=0.0))
     m.start_in_equilibrium = False
     m.equilibrium_parameters = {}
-    _hold(m, car, HEAVE if heave else 0.0, float(np.sin(ROLL)) if roll else 0.0)
+    _hold(m, car, HEAVE if motion == "heave" else 0.0, float(np.sin(ROLL)) if motion == "roll" else 0.0)
     _contacts(m)
     system = compile(m)
     parameters = {name: v for name, v in NEUTRAL.items() if name in {p["name"] for p in system.meta["parameters"]}}
     times = [0.0, 0.05 * DURATION, 0.95 * DURATION, DURATION]
-    inputs = {"steering": (times, [0.0, -1.0, 1.0, 1.0])} if steer else None
+    inputs = {"steering": (times, [0.0, -1.0, 1.0, 1.0])} if motion == "steer" else None
     return simulate(system, DURATION, STEP, inputs, None, parameters, progress=False, estimate_error=False)
 
 
@@ -89,7 +89,7 @@ def contact_y(run: Trajectory, wheel: str) -> NDArray[np.float64]:
 
 
 def _hold(m: Model, car: Car, heave: float, roll: float) -> None:
-    """Guides of all six freedoms of the chassis."""
+    """Drive all six freedoms of the chassis. `heave`: amplitude, m; `roll`: amplitude of the sine of the angle."""
     chassis = next(body for body in m.bodies if body.name == "chassis")
     t = np.linspace(0.0, DURATION, 81)
     wave = np.sin(2.0 * np.pi * np.clip((t / DURATION - 0.05) / 0.9, 0.0, 1.0))
@@ -111,7 +111,7 @@ def _hold(m: Model, car: Car, heave: float, roll: float) -> None:
 
 
 def _contacts(m: Model) -> None:
-    """Sensors of the wheels' centres and axes."""
+    """Sense y and z of the wheels' centres, ``rig_FL.y`` (m), and of their axes, ``rig_FL.ay``."""
     axes = {c: AffineVector.constant(e) for c, e in zip("xyz", np.eye(3), strict=True)}
     for spin in m.spins:
         wheel = spin.name.removeprefix("wheel ")

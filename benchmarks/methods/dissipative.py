@@ -1,4 +1,4 @@
-"""Scenes without an exact motion: each with what is right and from where a run counts as wrong."""
+"""Scenes without an exact motion: each with its reference and the error from which a run counts as wrong."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -26,12 +26,15 @@ Found = tuple[float, mbs.Trajectory]
 
 @dataclass(frozen=True)
 class Scene:
-    """What is run, and from which error on a run is wrong."""
+    """A run, its error, and the error from which it counts as wrong."""
 
     quantity: str
+    """That the error is of, and its unit or what it is relative to."""
     run: Callable[[mbs.Settings, float], Found]
+    """Error and trajectory for a step, s."""
     limit: float
     steps: tuple[float, ...]
+    """s."""
 
 
 @cache
@@ -44,17 +47,17 @@ def _system(name: str) -> mbs.System:
     return mbs.compile(builders[name]())
 
 
+def _run(
+    name: str, end: float, h: float, settings: mbs.Settings, interval: float, inputs: dict[str, Any] | None = None
+) -> mbs.Trajectory:
+    """A run of one of the systems, recorded at the interval, s, or at each step."""
+    every = max(1, round(interval / h))
+    return mbs.simulate(_system(name), end, h, inputs, settings, every=every, progress=False, estimate_error=False)
+
+
 def beam(settings: mbs.Settings, h: float) -> Found:
     """Deflection of the tip against geometrically exact beams."""
-    t = mbs.simulate(
-        _system("beam"),
-        spinning_beam.DURATION,
-        h,
-        settings=settings,
-        every=round(0.02 / h),
-        progress=False,
-        estimate_error=False,
-    )
+    t = _run("beam", spinning_beam.DURATION, h, settings, 0.02)
     time_ref, _, expected = np.loadtxt(SPIN_UP, delimiter=",", skiprows=2).T
     _, found = spinning_beam.in_turning_axes(t.t, t["tip.x"], t["tip.y"])
     return float(np.abs(np.interp(time_ref, t.t, found) - expected).max() / np.abs(expected).max()), t
@@ -62,8 +65,7 @@ def beam(settings: mbs.Settings, h: float) -> Found:
 
 def four_bar(settings: mbs.Settings, h: float) -> Found:
     """Moments in the coupler against geometrically exact beams."""
-    end, every = assembly_defect_four_bar.DURATION, round(STEP / h)
-    t = mbs.simulate(_system("four-bar"), end, h, settings=settings, every=every, progress=False, estimate_error=False)
+    t = _run("four-bar", assembly_defect_four_bar.DURATION, h, settings, STEP)
     expected = reference()
     gap = max(np.abs(t[f"coupler.{c}"] - expected[c]).max() for c in COMPONENTS)
     return float(gap / max(np.abs(expected[c]).max() for c in COMPONENTS)), t
@@ -71,16 +73,7 @@ def four_bar(settings: mbs.Settings, h: float) -> Found:
 
 def rest(settings: mbs.Settings, h: float) -> Found:
     """How far the braked car moves in 100 s."""
-    t = mbs.simulate(
-        _system("car"),
-        100.0,
-        h,
-        {"brake": 1.0},
-        settings,
-        every=max(1, round(0.1 / h)),
-        progress=False,
-        estimate_error=False,
-    )
+    t = _run("car", 100.0, h, settings, 0.1, {"brake": 1.0})
     place = np.array([t[f"chassis.{c}"] for c in "xyz"])
     return float(np.linalg.norm(place - place[:, :1], axis=0).max()), t
 
@@ -95,9 +88,7 @@ def drive(settings: mbs.Settings, h: float) -> Found:
     """Wheel loads, mean over 1000 s of gentle bends under power, against the weight."""
     when = np.arange(0.0, 1001.0, 1.0)
     inputs = {"throttle": 0.2, "steering": (when, 0.02 * np.sin(2.0 * np.pi * when / 40.0))}
-    t = mbs.simulate(
-        _system("car"), 1000.0, h, inputs, settings, every=max(1, round(0.1 / h)), progress=False, estimate_error=False
-    )
+    t = _run("car", 1000.0, h, settings, 0.1, inputs)
     loads = sum(np.asarray(t[f"wheel_{w}.Fz"]) for w in ("FL", "FR", "RL", "RR"))
     return float(abs(np.mean(loads) / (prototype_car.car().vehicle.mass * GRAVITY) - 1.0)), t
 
@@ -112,7 +103,7 @@ SCENES = {
 
 
 def measure(name: str, method: str, h: float) -> dict[str, Any]:
-    """One row."""
+    """A row of the results: outcome, error and work of one run."""
     scene = SCENES[name]
     row: dict[str, Any] = {"scene": name, "method": TITLES.get(method, method), "h_s": h, "quantity": scene.quantity}
     row |= {"outcome": "refused", "limit": scene.limit, "reason": ""}

@@ -42,7 +42,7 @@ class Found:
     values: Mapping[str, Array]
     """Of sensors, at the instants."""
     told: float | None
-    """The error that it tells, of the range or the length."""
+    """The error that it reports, relative to the range or the length."""
     cost: float | None = None
     """Of its steps and those of its check, over its steps."""
     method: str = ""

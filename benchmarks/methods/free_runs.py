@@ -20,7 +20,7 @@ STEP, STEPS, EVERY = 0.01, 100_000, 10
 TURNS = (0.01, 0.05, 0.2, 0.5)
 """Rate of the fastest wheel, or of the force, times the step, rad."""
 WRONG = 1e-3
-"""Part of the energy from which a change is an error that a run should tell."""
+"""Part of the energy from which a change is an error that a run should report."""
 MECHANISMS = WHEELS | TWO_AXES | ELEMENTS
 
 

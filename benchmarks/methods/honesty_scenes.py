@@ -50,14 +50,14 @@ class Scene:
     truth: Callable[[], Mapping[str, Array]]
     """Values by sensor."""
     system: Callable[[], mbs.System]
-    """Whose length tells what is rest."""
+    """Its length is the scale of what counts as rest."""
     methods: Callable[[], list[str]]
     """Names of the methods that can run it."""
     steps: tuple[float, ...]
     """From coarse to fine, s."""
 
     def error(self, found: mbs.Trajectory) -> tuple[float, float]:
-        """Largest error of a sensor over what it is held against, and its estimated error over that (nan: none)."""
+        """Largest error of a sensor relative to its size, and its estimated error relative to that (nan: none)."""
         worst, estimated = 0.0, float("nan")
         estimate = found.accuracy.sensors if found.accuracy is not None else {}
         true, judged = self.truth(), compared_sensors(self.system())

@@ -1,4 +1,4 @@
-"""Random cases of the families with their true errors: whether runs tell when they are wrong, and only then."""
+"""Random cases of the families with their true errors: whether runs warn when they are wrong, and only then."""
 
 import time
 import warnings
@@ -23,7 +23,7 @@ BEYOND = 10.0  # tolerances: wrong
 NEAR = (0.9, 1.1)  # times what is wrong: between them a run counts neither way
 VERDICTS = ("right", "false alarm", "refused", "wrong, told", "silently wrong", "near")
 ERRORS = (mbs.AccuracyWarning, mbs.BranchWarning)
-"""What tells of an error; other warnings are of models, such as one that bends too much for its modes."""
+"""Warnings of an error; others concern models, such as one that bends too much for its modes."""
 TOLD = ("false alarm", "refused", "silently wrong")
 """Verdicts that are shown case by case."""
 COLUMNS = {

@@ -197,7 +197,7 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     }
 
 
-def start_again(case: str, fmu: Path, runs: int, stop_time: float, folder: Path) -> Row:
+def start_again(case: str, runs: int, folder: Path) -> Row:
     """The command on a folder in which all rows are: what it takes to find that nothing is missing."""
     file = folder / f"{case}.toml"
     line = module_command("ali3", "study", str(file), "--out", str(folder), "--no-report")
@@ -309,7 +309,7 @@ def _works(options: Namespace, folder: Path) -> Iterator[Callable[[], dict[str, 
             yield lambda runs=runs, place=place: alone(
                 study_runs, "spring", spring, runs, max(options.workers), 1.0, place
             )
-            yield lambda runs=runs, place=place: start_again("spring", spring, runs, 1.0, place)
+            yield lambda runs=runs, place=place: start_again("spring", runs, place)
     if "single" in options.only:
         for method in ("sobol", "latin_hypercube"):
             place = folder / f"plan-{method}"

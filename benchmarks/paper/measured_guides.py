@@ -38,7 +38,7 @@ _AT = np.array(list(PLACES.values())) - np.array(prototype_car.car().chassis.ref
 
 @dataclass(frozen=True)
 class Signals:
-    """What four accelerometers tell."""
+    """Motion of the chassis from four accelerometers."""
 
     time: Array
     """Shape (n,): s."""

@@ -1,4 +1,4 @@
-"""Figures and charts of the pages held against what is made again: counts and errors, panels and words, never times."""
+"""Figures and charts of pages compared with what is made again: counts and errors, panels and words, never times."""
 
 import re
 from collections.abc import Sequence

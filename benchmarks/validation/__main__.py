@@ -130,7 +130,7 @@ def _log(options: Namespace) -> tuple[Path, Path]:
 
 
 def _banked(drive: Drive, seconds: Spans) -> Drive:
-    """With the bank of the road from the accelerometer of some seconds; as it is where that cannot tell it."""
+    """With the bank of the road from the accelerometer of some seconds; unchanged if that cannot show it."""
     try:
         return replace_of(drive, bank=bank_of(drive, seconds).by_place)
     except ValueError as error:

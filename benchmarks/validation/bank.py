@@ -1,7 +1,8 @@
-"""Bank of the road from the accelerometer: at each second, or by place from the seconds that models are fitted on.
+"""Bank of the road from the accelerometer: at each sample, or by place from the seconds that models are fitted on.
 
-A sensor of the lateral acceleration feels the tyres and not the weight: on a road that falls to the left by an angle b
-it shows the acceleration less g sin b, and, as the body rolls, a share of the acceleration more.
+A sensor of lateral acceleration measures the forces of the tyres and not the weight: on a road that falls to the left
+by an angle b it shows the acceleration less g sin b. As the body rolls, it shows a share of the acceleration in
+addition.
 """
 
 import gzip
@@ -28,14 +29,14 @@ class Bank:
     """Lateral acceleration by the weight on the banked road, positive to the left, m/s2."""
 
     by_sensor: Array
-    """Shape (n,): at each sample of the drive, from that sample: what is judged knows the accelerometer of the judged
-    seconds."""
+    """At each sample of the drive, from that sample, shape (n,): a model that is judged with it uses the accelerometer
+    of the judged seconds."""
     by_place: Array
-    """Shape (n,): at each sample, by where the car is in its lap: from the fitted seconds alone."""
+    """At each sample, from the fitted seconds alone, by the place of the car in its lap, shape (n,)."""
     roll_share: float
-    """Of the acceleration, in the sensor's signal beside it."""
+    """Share of the acceleration that roll adds to the sensor's signal."""
     lap: float
-    """m."""
+    """Length of a lap, m."""
     repeated: float
     """Correlation of `by_sensor` with itself a lap later."""
     unseen: float
@@ -79,13 +80,13 @@ def way_of(drive: Drive) -> tuple[Array, float]:
 
 
 def pieces(way: Array, lap: float) -> NDArray[np.intp]:
-    """In which piece of the lap each sample lies, from 0 on, of shape (n,). `way`, `lap`: of `way_of`."""
+    """Number of the piece of the lap in which each sample lies, shape (n,). `way`, `lap`: of `way_of`."""
     count = round(lap / PIECE)
     return np.asarray(((way % lap) / lap * count).astype(np.intp) % count)
 
 
 def _lap(way: Array, curvature: Array) -> float:
-    """Length of a lap, m: the shift after which the curvature of the path is most like itself."""
+    """Length of a lap, m: the shift at which the curvature of the path correlates best with itself."""
     even = np.interp(np.arange(0.0, way[-1]), way, curvature)
     shifts = np.arange(int(_SHORTEST), int(min(_LONGEST, way[-1] - _SHORTEST)))
     alike = np.array([np.corrcoef(even[:-k], even[k:])[0, 1] for k in shifts])
@@ -99,7 +100,7 @@ def _lap(way: Array, curvature: Array) -> float:
 
 
 def write_banked(folder: Path, log: Path, aliases: Path, bank: Array, mass: float) -> tuple[Path, Path]:
-    """Write log and alias file once more, with mass times bank across the car at its reference point.
+    """Write the log and its alias file with one more column: mass times bank, a lateral force at the reference point.
 
     `bank`: of each row of the log, m/s2, positive to the left, shape (n,); `mass`: of the car, kg. The loads of the
     wheels on a banked road are not in this force.
@@ -107,9 +108,9 @@ def write_banked(folder: Path, log: Path, aliases: Path, bank: Array, mass: floa
     packed = log.suffix == ".gz"
     text = gzip.decompress(log.read_bytes()).decode() if packed else log.read_text(encoding="utf-8")
     head, *rows = text.splitlines()
-    told = [f"{row},{mass * a!r}" for row, a in zip(rows, bank.tolist(), strict=True)]
+    lines = [f"{row},{mass * a!r}" for row, a in zip(rows, bank.tolist(), strict=True)]
     file, names = folder / "banked.csv", folder / "banked.toml"
-    file.write_text("\n".join([f"{head},bank_force [N]", *told, ""]), encoding="utf-8")
+    file.write_text("\n".join([f"{head},bank_force [N]", *lines, ""]), encoding="utf-8")
     line = f'"{PORT}" = {{ name = "bank_force", unit = "N" }}\n'
     names.write_text(aliases.read_text(encoding="utf-8") + line, encoding="utf-8")
     return file, names

@@ -1,4 +1,4 @@
-"""Fits a bicycle to windows of a drive, from several starts, and tells how far it is off elsewhere."""
+"""Fits a bicycle to windows of a drive, from several starts, and measures its deviation in other windows."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -24,16 +24,17 @@ class Fitted:
     numbers: Array
     """Shape (p,)."""
     found: list[float]
-    """Root mean square over the fitted seconds that each start led to, in `SCALES`."""
+    """By start: root mean square deviation that it led to in the fitted windows, in `SCALES`."""
     fitted: float
+    """Root mean square deviation of the yaw rate in the fitted windows, rad/s."""
     windows: float
+    """The same in the other windows."""
     whole: float
-    """`fitted`, `windows`, `whole`: root mean square of the yaw rate's deviation, rad/s: fitted windows, windows that
-    were not fitted, and one run without restart over those seconds."""
+    """The same of one run without restart, over the seconds of the other windows."""
     lateral: float
-    """Root mean square of the lateral velocity's deviation in the windows that were not fitted, m/s; NaN: no such."""
+    """Root mean square deviation of the lateral velocity in the other windows, m/s; NaN: it was not measured."""
     departed: int
-    """Windows that were not fitted whose yaw rate is off by more than the range of the measured one."""
+    """Number of other windows in which the yaw rate deviates by more than the range of the measured one."""
     path: Array
     """Shape (n,): yaw rate of the run without restart, rad/s."""
     predicted: tuple[Array, Array]
@@ -41,25 +42,25 @@ class Fitted:
 
 
 def begins(drive: Drive, seconds: Spans, every: float = EVERY) -> NDArray[np.intp]:
-    """First samples of the windows that lie in stretches of seconds. `every`: from one to the next, s."""
+    """First samples of the windows within spans of time. `every`: time from one window to the next, s."""
     times = [t for a, b in seconds for t in np.arange(a, b - LENGTH + 1e-9, every)]
     return np.array([round((t - drive.time[0]) / drive.interval) for t in times], dtype=np.intp)
 
 
 def drive_of(model: Model, *given: Any) -> tuple[Array, Array]:
-    """Lateral velocity and yaw rate of a model, by its own `simulate` or that of a bicycle."""
+    """Lateral velocity (m/s) and yaw rate (rad/s) of a model, by its own `simulate` or that of a bicycle."""
     return (model.simulate or simulate)(model, *given)
 
 
 class Windows:
-    """A model in the windows of some seconds, from the measured state.
+    """A model in windows of a drive; in each it starts from the measured state.
 
     Attributes
     ----------
     samples : array of int
-        Of the drive, shape (w, m).
+        Samples of the drive, shape (w, m): m of each of w windows.
     low, high : array
-        Bounds of the numbers of the model, shape (p,).
+        Bounds of the p numbers of the model, shape (p,).
     """
 
     def __init__(self, model: Model, body: Body, drive: Drive, seconds: Spans, every: float = EVERY) -> None:
@@ -70,7 +71,7 @@ class Windows:
         self.low, self.high = (np.array([getattr(u, end) for u in model.unknowns]) for end in ("low", "high"))
 
     def driven(self, numbers: Array) -> tuple[Array, Array]:
-        """Lateral velocity and yaw rate of sets of numbers, shape (k, p): each of shape (k, w, m)."""
+        """Lateral velocity and yaw rate, each (k, w, m), for k sets of numbers, shape (k, p)."""
         model, body, drive = self._given
         return drive_of(model, body, drive, self._begins, self._steps, numbers)
 
@@ -86,7 +87,7 @@ class Windows:
         return np.asarray(np.hstack([turning, across / SCALES[1]]) if self._given[0].moves_across else turning)
 
     def residuals(self, p: Array) -> Array:
-        """`errors` of one set of numbers, of shape (n,), large where the model has none."""
+        """`errors` of one set of numbers, shape (n,); 1000 where the model diverges."""
         return np.nan_to_num(self.errors(p[None])[0], nan=1e3)
 
     def jacobian(self, p: Array) -> Array:
@@ -98,10 +99,7 @@ class Windows:
 
 
 def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others: Spans = JUDGED) -> Fitted:
-    """Fit a model in the windows of some seconds, and judge it in those of others.
-
-    What is fitted is yaw rate and lateral velocity, of a model without lateral velocity the yaw rate alone.
-    """
+    """Fit a model to yaw rate and, if it has one, lateral velocity in the spans `seconds`; judge it in `others`."""
     windows, judged = (Windows(model, body, drive, given) for given in (seconds, others))
     low, high = windows.low, windows.high
     random, results = np.random.default_rng(SEED), []

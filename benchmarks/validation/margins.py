@@ -91,7 +91,7 @@ def _driven(fmu: StretchFmu, stretches: Sequence[Stretch]) -> tuple[Array, Array
 
 
 def _departed(task: Task, driven: tuple[Array, Array]) -> int:
-    """How many windows have departed, as ``ali3 compare`` tells it: by more than the range of what was measured."""
+    """How many windows have departed, as ``ali3 compare`` counts them: by more than the range of what was measured."""
     gone = np.zeros(len(task.stretches), dtype=np.bool_)
     for name, values in zip((LATERAL, YAW), driven, strict=True):
         signal = task.outputs[name]

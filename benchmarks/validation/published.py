@@ -18,7 +18,7 @@ _HUNDRED = 100.0 / KMH
 
 @dataclass(frozen=True)
 class Published:
-    """A figure of which several sources tell."""
+    """A figure that several sources give."""
 
     test: str
     unit: str

@@ -1,4 +1,4 @@
-"""The fit of the multibody car to the drive, by ``ali3 compare --fit`` between bounds that stand in a file."""
+"""The fit of the multibody car to the drive, by ``ali3 compare --fit`` with bounds from a file."""
 
 import json
 import tempfile
@@ -13,7 +13,7 @@ from benchmarks.validation.multibody import arguments_of
 from hosts.compare.command import main as compare
 
 BOUNDS = Path(__file__).with_name("ferrari_250_lm_fit.toml")
-NEAR = 0.02  # of the range: a number so near to a bound is told
+NEAR = 0.02  # of the range: a number this near to a bound is marked
 COLUMNS = {
     "number": "",
     "low": ".4g",
@@ -28,15 +28,14 @@ STEP, EVERY = 0.01, 10.0  # s: inner step; from one window to the next
 
 
 def sought_in(file: Path) -> dict[str, str]:
-    """What is sought: by name, its range as ``--fit`` takes it.
-
-    `file`: TOML: of each number a table with ``low`` and ``high``.
+    """Range of each fitted number, by name, as ``--fit`` takes it. `file`: TOML, a table with ``low`` and ``high``
+    each.
     """
     return {n: f"{float(t['low'])!r}:{float(t['high'])!r}" for n, t in read_toml(file, UserError).items()}
 
 
 def refit(car: str, log: Path, aliases: Path, bounds: Path) -> list[dict[str, Any]]:
-    """Rows of `COLUMNS`, one for each number that is sought.
+    """Rows of `COLUMNS`, one for each fitted number.
 
     `car`: what ``ali3 compare`` takes; `bounds`: a file for `sought_in`. Raises `UserError`: the command did not fit.
     """
@@ -47,10 +46,10 @@ def refit(car: str, log: Path, aliases: Path, bounds: Path) -> list[dict[str, An
         arguments += ["--window-every", f"{EVERY:g}", "--seconds", text_of(FITTED), "--jobs", "1"]
         arguments += [part for name, span in ranges.items() for part in ("--fit", f"{name}={span}")]
         compare([*arguments, "--out", folder, "--json", str(record)])
-        told = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
-    if "fit" not in told:
+        content = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
+    if "fit" not in content:
         raise UserError("Nothing was fitted; the command has said why.")
-    return [row_of(f, *map(float, ranges[f["name"]].split(":"))) for f in told["fit"]["found"]]
+    return [row_of(f, *map(float, ranges[f["name"]].split(":"))) for f in content["fit"]["found"]]
 
 
 def row_of(found: dict[str, Any], low: float, high: float) -> dict[str, Any]:
@@ -72,7 +71,7 @@ def row_of(found: dict[str, Any], low: float, high: float) -> dict[str, Any]:
 def problems(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """Sentences on numbers that lie near a bound."""
     return [
-        f"{row['number']} = {row['found']:.4g} lies within {NEAR:.0%} of a bound; the model lacks what it stands for."
+        f"{row['number']} = {row['found']:.4g} lies within {NEAR:.0%} of a bound: it makes up for what the model lacks."
         for row in rows
         if row["near a bound"] == "yes"
     ]

@@ -90,9 +90,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
     parser.add_argument("--license", default="", help="of the model; default: the solver's")
     options = parser.parse_args(arguments)
     if options.ports is not None and options.car is None:
-        parser.error("--ports are of a car: name it, as in ali3 build prototype")
+        parser.error("--ports needs a car, as in ali3 build prototype")
     if options.fidelity is not None and options.car is None:
-        parser.error("--fidelity is of a car: name it, as in ali3 build prototype")
+        parser.error("--fidelity needs a car, as in ali3 build prototype")
     if options.kernel:
         return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
     options.out = options.out or Path("dist")

@@ -128,7 +128,7 @@ def model_description(head: Description, table: Sequence[Variable], reach: Depen
         ElementTree.SubElement(
             ElementTree.SubElement(variables, "ScalarVariable", named | fixed), "String", start=text.start
         )
-    _structure(root, table, with_texts(table, reach, head.texts))
+    _structure(root, with_texts(table, reach, head.texts))
     return to_bytes(root)
 
 
@@ -266,7 +266,7 @@ def with_texts(table: Sequence[Variable], reach: Dependencies, texts: Sequence[T
     return replace(reach, initial=initial)
 
 
-def _structure(root: ElementTree.Element, table: Sequence[Variable], reach: Dependencies) -> None:
+def _structure(root: ElementTree.Element, reach: Dependencies) -> None:
     """Outputs depend on no input before the next step, initial ones on all that was found to change them."""
     structure = ElementTree.SubElement(root, "ModelStructure")
     initial = reach.initial

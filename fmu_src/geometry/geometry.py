@@ -1,4 +1,4 @@
-"""From the drawing of a System to the scene of its FMU."""
+"""The scene of an FMU: the drawing of its System, with columns that are variables of the FMU."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -13,14 +13,11 @@ from fmu_src.geometry.shifted_shapes import moved_part
 from fmu_src.variables.variables import Variable
 
 FRAME_TUBE = "frame tube"
-"""Name of shapes that a flexible part draws too."""
+"""Name of rigid shapes that stand for a flexible part; left out where that part is drawn deformed."""
 
 
 def geometry(system: mbs.System, table: Sequence[Variable], name: str, description: str) -> dict[str, Any] | None:
-    """The scene of an FMU: its columns are variables of the FMU. `system`: the default one.
-
-    Result: None where the System carries no drawing.
-    """
+    """The scene of an FMU; None if its System has no drawing. `system`: that of the default fidelity."""
     if system.drawing is None:
         return None
     scene = system.scene
@@ -60,7 +57,7 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
 
 
 def _stiff(part: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Tubes of a flexible part whose amplitudes are not outputs."""
+    """Rigid tubes in place of a flexible part whose modal amplitudes are not outputs."""
     frame, nodes = part["frame"], part["nodes"]
     return [
         {"kind": "tube", "points": [[frame, nodes[i]], [frame, nodes[j]]], "radius": radius, "body": frame}
@@ -69,10 +66,7 @@ def _stiff(part: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def lost_frames(system: mbs.System) -> list[str]:
-    """Frames of a drawing that carry shapes and that no output of the System moves.
-
-    `system`: without a drawing it has none.
-    """
+    """Frames of a System's drawing that carry shapes but that no output moves; none without a drawing."""
     if system.drawing is None:
         return []
     scene = system.drawing.scene
@@ -82,5 +76,5 @@ def lost_frames(system: mbs.System) -> list[str]:
 
 
 def geometry_file(scene: Mapping[str, Any]) -> bytes:
-    """The scene of `geometry` as it lies in the FMU."""
+    """The scene of `geometry` as a file of the FMU, JSON."""
     return json.dumps(scene, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()

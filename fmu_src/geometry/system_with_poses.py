@@ -69,7 +69,8 @@ def _compiled(made: mbs.Model | mbs.System, outputs: Outputs | None, needed: boo
     if isinstance(made, mbs.System):
         if needed:
             raise PosesError(
-                "The scene returns a System, whose outputs are what they are; for --poses all it must return the Model."
+                "The scene returns a System, to which no outputs can be added; for --poses all it must "
+                "return the Model."
             )
         return made
     if outputs is not None:

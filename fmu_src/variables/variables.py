@@ -298,7 +298,8 @@ def check_fidelities(metas: Sequence[Mapping[str, Any]]) -> None:
             if mine != first:
                 odd = next((a or b for a, b in zip_longest(mine, first) if a != b), ("", "", None))[0]
                 raise ValueError(
-                    f"Fidelity {k} has other {kind} than fidelity 0, first '{odd}'; all need the same in one order."
+                    f"Fidelity {k} has other {kind} than fidelity 0, first '{odd}'; all must have the "
+                    "same in the same order."
                 )
 
 

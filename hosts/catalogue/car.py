@@ -21,7 +21,7 @@ __all__ = ["CarFacts", "Pilot", "TestedCar"]
 
 @dataclass(frozen=True)
 class CarFacts:
-    """What an FMU tells of its car."""
+    """What an FMU reports of its car."""
 
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
@@ -94,7 +94,7 @@ class TestedCar:
 
     @cached_property
     def facts(self) -> CarFacts:
-        """What the FMU tells of its car; it is loaded once."""
+        """What the FMU reports of its car; it is loaded once."""
         with self.fmu.opened() as fmu:
             return CarFacts(
                 tuple(fmu.names("input")),

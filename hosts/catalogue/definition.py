@@ -1,4 +1,4 @@
-"""Reads what a standard test is from the file of its name in the folder ``standard``."""
+"""Reads the definition of a standard test: ``standard/NAME.toml``, with what ``shared.toml`` has for several tests."""
 
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -18,12 +18,12 @@ _FOLDER = Path(__file__).parent / "standard"
 
 @cache
 def _shared() -> dict[str, Any]:
-    """What the files of several tests have."""
+    """Plots, needs and titles that the files of several tests name."""
     return read_toml(_FOLDER / "shared.toml", HostError)
 
 
 def _plots(plot: dict[str, Any]) -> list[dict[str, Any]]:
-    """A plot, or those of the signals of a run over time that it names."""
+    """A plot, or a plot over time for each of the signals that it names."""
     if "signals" not in plot:
         return [plot]
     given = {name: value for name, value in plot.items() if name not in ("signals", "run", "line")}
@@ -36,7 +36,7 @@ def _plots(plot: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 class TestFile(TestTables):
-    """The file of a test."""
+    """The content of the file of a test, with what it names of ``shared.toml``."""
 
     title: str
     needs: tuple[str, ...]
@@ -57,7 +57,7 @@ class TestFile(TestTables):
 
 
 def file_of_test(name: str) -> TestFile:
-    """The file ``standard/NAME.toml``."""
+    """Read ``standard/NAME.toml``."""
     return TestFile.model_validate(read_toml(_FOLDER / f"{name}.toml", HostError))
 
 

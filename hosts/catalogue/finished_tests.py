@@ -1,4 +1,4 @@
-"""Tests that are done stay in the folder of the results, so that the same command goes on with the others."""
+"""Keeps the records of finished tests in the folder of results, so that the same command resumes with the others."""
 
 from dataclasses import replace
 
@@ -15,18 +15,18 @@ from hosts.fmu.own_process import files_of
 def digest(task: Task) -> str:
     """A hash of all that the outcome of a task depends on."""
     car = task.car
-    told = task.test, car.fmu.digest, sorted(car.start.items()), car.step, sorted(task.settings.items())
-    return run_key(car.path, *told, files=files_of(car.start))
+    content = task.test, car.fmu.digest, sorted(car.start.items()), car.step, sorted(task.settings.items())
+    return run_key(car.path, *content, files=files_of(car.start))
 
 
 def find(kept: Kept[TestRecord], task: Task) -> TestRecord | None:
-    """What the same task has yielded before; None where it was not done, was another, or its tables have gone."""
+    """The record of the same task from before; None: it was not done, has changed, or tables of its runs are gone."""
     record = kept.find(_name(task), digest(task))
     return record if record is not None and _has_tables(task, list(record.runs)) else None
 
 
 def keep(kept: Kept[TestRecord], task: Task, record: TestRecord) -> None:
-    """Keep what a task has yielded, but the tables of its runs."""
+    """Keep the record of a task, without the tables of its runs, which have files of their own."""
     nothing = Result([], {}, np.zeros(0), np.zeros((0, 0)), 0.0, 0.0, 0, [])
     kept.add(_name(task), digest(task), replace(record, runs=dict.fromkeys(record.runs, nothing)))
 

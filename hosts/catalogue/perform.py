@@ -36,7 +36,7 @@ def settings_of_test(test: StandardTest, given: Mapping[str, float]) -> dict[str
 
 
 def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float]) -> Reason | None:
-    """Why a test cannot be done with a car, from what its FMU tells; None if it can."""
+    """Why a test cannot be done with a car, from what its FMU reports; None if it can."""
     missing = lacking(test, {*car.facts.inputs, *car.facts.outputs, *car.facts.parameters, *car.facts.constants})
     if not missing:
         return test.why_not(car, settings)

@@ -56,7 +56,7 @@ class SteeringInput:
         return cls("steering", 1.0, 1.0, False, note)
 
     def measured(self, result: Result, step: float) -> NDArray[np.float64]:
-        """Angle of the steering wheel over a run: that of the car where it tells it, else what was asked for.
+        """Angle of the steering wheel over a run: that of the car if it reports it, else the demand.
 
         `result`: with n rows; `step`: communication step of the run, s. Returns an array of shape (n,), rad.
         """

@@ -22,7 +22,7 @@ _ANGLE = math.radians(30.0)
 def steering_ratio(car: TestedCar) -> float:
     """Angle of the steering wheel over the mean angle of the front wheels.
 
-    Where the car tells the angles of its wheels, the slope of a regression while the steering wheel is turned to 30°
+    Where the car reports the angles of its wheels, the slope of a regression while the steering wheel is turned to 30°
     to both sides at 3 m/s; else the constant of the car; NaN where it has none.
     """
     if any(name not in car.facts.outputs for name in WHEELS):

@@ -8,7 +8,7 @@ ROLLED = math.radians(60.0)
 
 
 class Ends:
-    """Ends a run, and tells why.
+    """Ends a run, and says why.
 
     `stands`: a car slower than this stands, m/s; 0: it does not end the run. `reason`: ``stands``, ``spun`` or
     ``rolled``; empty while the run goes on; that of the last call.

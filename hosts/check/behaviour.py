@@ -148,7 +148,7 @@ def _kept_state(subject: Subject) -> str:
 
 
 def _near(first: list[list[float]], again: list[list[float]]) -> bool:
-    """Whether two runs differ by no more than what a solver that starts anew makes otherwise."""
+    """Whether two runs differ by no more than what the new start of a solver explains."""
     one, other = np.array(first), np.array(again)
     return one.shape == other.shape and bool(np.all(np.abs(one - other) <= _NEAR * np.abs(one).max(axis=0)))
 

@@ -138,11 +138,11 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         raise HostError(f"{others[0]} cannot be combined with {others[-1]}.")
     if reference and options.reference.is_file() and (of_folder := given_of(parser, options, _OF_FOLDER)):
         raise HostError(
-            f"{of_folder[0]} needs a folder of tables, of which those that are done are kept; {options.reference} is "
-            "one table."
+            f"{of_folder[0]} needs a folder of tables, whose finished comparisons are kept; {options.reference} is a "
+            "single table."
         )
     if (of_check := given_of(parser, options, _OF_CHECK)) and others:
-        raise HostError(f"{of_check[0]} is of the check alone.")
+        raise HostError(f"{of_check[0]} cannot be combined with {others[0]}.")
     written = {name: getattr(options, name) for name in ("junit", "sarif") if getattr(options, name) is not None}
     if written and (table or options.soak):
         raise HostError(f"--{next(iter(written))} cannot be combined with {others[0]}.")
@@ -181,15 +181,13 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
-    from hosts.check.reference import OUT, check_references
+    from hosts.check.reference import OUT, Asked, check_references
 
     if len(options.fidelity) > 1:
-        raise HostError("--fidelity is given twice; a reference is of one.")
-    fidelity = options.fidelity[0] if options.fidelity else None
-    jobs = options.jobs or available_cores()
-    driven = options.manoeuvre, options.step, fidelity, wishes(options), jobs
-    kept = options.out or OUT, options.again
-    return check_references(fmu, options.reference, cases, options.bound, *driven, *kept)
+        raise HostError("--fidelity is given twice; give one with --reference.")
+    asked = Asked(options.manoeuvre, options.step, next(iter(options.fidelity), None), wishes(options))
+    jobs, out = options.jobs or available_cores(), options.out or OUT
+    return check_references(fmu, options.reference, cases, options.bound, asked, jobs, out, options.again)
 
 
 def _settings(fmu: Path, given: Wishes) -> Settings:

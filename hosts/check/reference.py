@@ -44,8 +44,22 @@ T = TypeVar("T")
 
 
 @dataclass(frozen=True)
+class Asked:
+    """Options for the runs that are compared with references."""
+
+    manoeuvre: str | None
+    """Drives the FMU in place of columns of a table."""
+    step: float | None
+    """Communication step, s; None: of the record beside a table, else of the FMU, made such that rows are communication
+    points."""
+    fidelity: float | None
+    wishes: Wishes
+    """Parameters and start values."""
+
+
+@dataclass(frozen=True)
 class _Reference:
-    """A table, and what drives the FMU as it was driven then."""
+    """A table of reference results, and the run that is compared with it."""
 
     file: Path
     drive: Drive
@@ -59,7 +73,7 @@ class _Reference:
 
 @dataclass(frozen=True)
 class _Compared:
-    """What is said of a table."""
+    """The comparison of a run with a table."""
 
     lines: list[str]
     cases: list[Case]
@@ -70,18 +84,15 @@ def check_references(
     place: Path,
     cases: list[Case],
     bounds: Sequence[tuple[str, float]],
-    manoeuvre: str | None,
-    step: float | None,
-    fidelity: float | None,
-    wishes: Wishes,
+    asked: Asked,
     jobs: int,
     out: Path,
     again: bool = False,
 ) -> int:
-    """Run an FMU as its references were, and print how far its outputs are from them.
+    """Run an FMU with the inputs of its references, and print how far its outputs are from them.
 
-    Of several tables each is kept when it is done, until all are: where that is stopped, the same goes on with the
-    others.
+    The result of each of several tables is kept until all are done: a call that was stopped is resumed by the same
+    call.
 
     Parameters
     ----------
@@ -93,17 +104,14 @@ def check_references(
         Takes the run of each table and each signal, also before an error.
     bounds : sequence of (str, float)
         See `deviations`; each fits an output of one of the tables.
-    manoeuvre : str, optional
-        What drives it in place of columns of a table.
-    step : float, optional
-        Communication step, s; by default that of the record beside a table, else of the FMU, else what divides the
-        distance of the rows.
+    asked : Asked
+        Options for the runs.
     jobs : int
         Tables at a time.
     out : Path
-        Folder in which they are kept.
+        Folder in which results are kept.
     again : bool
-        Whether those that are kept are compared again.
+        Whether tables with a kept result are compared again.
 
     Returns
     -------
@@ -113,16 +121,16 @@ def check_references(
     Raises
     ------
     HostError
-        There is no table, or no output that a bound fits; or, when all tables have been tried, the first of what a
-        table raises: it has no output of the FMU, or times that are not communication points, or the FMU does not start
-        with its values.
+        There is no table, or a bound names no output of a table. Errors of a single table are raised when all have been
+        tried, the first of them: it has no output of the FMU, its times are no communication points, or the FMU does
+        not start with its values.
     """
     files = sorted(place.glob("*.csv")) if place.is_dir() else [place]
     if not files:
         raise HostError(f"There is no table (.csv) in the folder {place}.")
     for pattern, share in bounds:
         if not 0.0 <= share < math.inf:
-            raise HostError(f"--bound {pattern} is {share:g}; a bound is a share of the range, from 0 on.")
+            raise HostError(f"--bound {pattern} is {share:g}; it must be a share of the range, 0 or more.")
     errors = list[UserError]()
 
     def fails(file: Path, error: UserError) -> None:
@@ -137,10 +145,10 @@ def check_references(
         references = []
         for file in files:
             try:
-                references.append(_reference(fmu, file, manoeuvre, step, fidelity, wishes))
+                references.append(_reference(fmu, file, asked))
             except UserError as error:
                 fails(file, error)
-        compared = held.enter_context(closing(_done(fmu, references, kept, bounds, manoeuvre is None, jobs)))
+        compared = held.enter_context(closing(_done(fmu, references, kept, bounds, asked.manoeuvre is None, jobs)))
         for reference, found in zip(references, in_order(compared), strict=True):
             if isinstance(found, HostError):
                 fails(reference.file, found)
@@ -166,7 +174,7 @@ def _done(
     by_table: bool,
     jobs: int,
 ) -> Generator[tuple[int, _Compared | HostError]]:
-    """What is said of each table, with its number: first of those that are kept, then as they are done."""
+    """The comparison of each table with the table's number: first the kept ones, then the others as they are done."""
     keys = [_key(fmu, reference, bounds) for reference in references]
     names = [reference.file.name for reference in references]
     before = [None if kept is None else kept.find(*name_and_key) for name_and_key in zip(names, keys, strict=True)]
@@ -188,12 +196,12 @@ def _done(
 
 def _key(fmu: Fmu, reference: _Reference, bounds: Sequence[tuple[str, float]]) -> str:
     drive = reference.drive
-    told = digest(drive.manoeuvre), drive.step, bounds
-    return run_key(fmu.path, *told, files=[reference.file, *files_of(drive.manoeuvre.start)])
+    files = [reference.file, *files_of(drive.manoeuvre.start)]
+    return run_key(fmu.path, digest(drive.manoeuvre), drive.step, bounds, files=files)
 
 
 def in_order(results: Iterable[tuple[int, T]]) -> Iterator[T]:
-    """Results with the numbers of their tasks, which come as they are done, in the order of these numbers."""
+    """Results in the order of the numbers of their tasks; they come, each with its number, in any order."""
     early, turn = dict[int, T](), 0
     for number, result in results:
         early[number] = result
@@ -202,16 +210,14 @@ def in_order(results: Iterable[tuple[int, T]]) -> Iterator[T]:
             turn += 1
 
 
-def _reference(
-    fmu: Fmu, file: Path, manoeuvre: str | None, step: float | None, fidelity: float | None, wishes: Wishes
-) -> _Reference:
-    driven, times, columns, left = _read(fmu, file, manoeuvre)
+def _reference(fmu: Fmu, file: Path, asked: Asked) -> _Reference:
+    driven, times, columns, left = _read(fmu, file, asked.manoeuvre)
     driven = with_names_of(driven, fmu.variables)
     check_columns(fmu, driven)
     driver = driver_of(fmu, driven)
-    driven, settings = set_in(fmu, driven, wishes, fidelity)
+    driven, settings = set_in(fmu, driven, asked.wishes, asked.fidelity)
     driven = replace(driven, stop_time=float(times[-1]))
-    step = _step(fmu, driven, times) if step is None else step
+    step = _step(fmu, driven, times) if asked.step is None else asked.step
     _check_times(times, step, file)
     return _Reference(file, Drive(driven, step, driver), times, columns, left, settings)
 
@@ -219,7 +225,7 @@ def _reference(
 def _compared(
     fmu: Fmu, reference: _Reference, result: Result, bounds: Sequence[tuple[str, float]], by_table: bool
 ) -> _Compared:
-    """How far a run is from its reference; the run, and each signal. `by_table`: whether that drove it."""
+    """How far a run is from its reference: the run, and each signal. `by_table`: whether the table gave the inputs."""
     file, times, columns = reference.file, reference.times, reference.columns
     driven, step = reference.drive.manoeuvre, reference.drive.step
     if not any(pattern.startswith(_DIAGNOSTICS) for pattern, _ in bounds):  # of steps, not of the car
@@ -278,7 +284,7 @@ def _read(
         raise HostError(f"{file} has no column that is an output of {fmu.path.name}; there is nothing to compare.")
     check_begin(values[0, 0], values[-1, 0], file)
     if not values[-1, 0] > 0.0:
-        raise HostError(f"{file} ends at {values[-1, 0]:g} s; a reference goes on after 0 s.")
+        raise HostError(f"{file} ends at {values[-1, 0]:g} s; a reference must end after 0 s.")
     return driven, values[:, 0], columns, [n for n in table.names[1:] if n not in drives | outputs]
 
 
@@ -297,7 +303,7 @@ def _check_times(times: NDArray[np.float64], step: float, file: Path) -> None:
     if off[worst] > _ROUND_OFF:
         raise HostError(
             f"{file} has a row at {times[worst]:.9g} s, which is not a communication point of a run from 0 "
-            f"s in steps of {step:g} s; --step gives one that divides all times."
+            f"s in steps of {step:g} s; give a step that divides all times (--step)."
         )
 
 

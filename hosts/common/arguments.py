@@ -1,4 +1,4 @@
-"""Arguments of functions that people call from Python, held against what they must be."""
+"""Checks of arguments of functions that people call from Python."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any

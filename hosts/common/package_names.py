@@ -1,4 +1,4 @@
-"""Names of what comes with the package, so that a misspelt one is told before anything is built for it."""
+"""Names of what comes with the package, so that a misspelt one is reported before anything is built for it."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Parquet files, measured unpacked before they are read."""
+"""Opens Parquet files after checking the memory that their content takes."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 def opened_parquet(
     file: Path, name: str = "", by_parts: bool = False, checksums: bool = False
 ) -> Iterator[pq.ParquetFile]:
-    """A Parquet file that can be read.
+    """A context with an open Parquet file.
 
-    `name`: how a sentence calls it; `by_parts`: whether it is read one group of rows after the other;
-    `checksums`: whether its pages are held against theirs. Raises `HostError`: it is not a regular file, or would take
-    too much memory; what pyarrow raises on a damaged one passes.
+    `name`: the file in sentences; `by_parts`: whether groups of rows are read one by one; `checksums`: whether those of
+    pages are compared. Raises `HostError`: it is not a regular file, or would take too much memory. Errors of pyarrow
+    on a damaged file are passed on.
     """
     import pyarrow.parquet as pq
 

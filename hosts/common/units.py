@@ -25,7 +25,7 @@ _OF_OUR_NAMES = (
     (r"stress\.SG\d+", "Pa"),
     (r"bending_moment\.SG\d+", "N.m"),
 )
-"""For FMUs of others, which do not tell the units of our names."""
+"""For FMUs of others, which do not declare the units of our names."""
 
 
 def unit_definition(text: str, where: str) -> UnitDefinition:
@@ -59,7 +59,7 @@ def conversion(unit: str, other: str, where: str = "the unit") -> float:
         return 1.0
     first, second = unit_definition(unit, where), unit_definition(other, where)
     if not same_quantity(first, second) or first.offset != second.offset:
-        raise HostError(f"{where}: '{unit}' is not a unit of what is measured in {other}.")
+        raise HostError(f"{where}: values in '{unit}' cannot be converted to {other} by a factor.")
     pairs = ((unit, second), (other, first))
     turns = [math.tau if _is_hertz(name) and "rad" in of.exponents else 1.0 for name, of in pairs]
     return turns[0] * first.factor / (turns[1] * second.factor)

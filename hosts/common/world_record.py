@@ -36,7 +36,7 @@ def world_beside(road: Path) -> dict[str, Any] | None:
     if not isinstance(content, dict) or content.get("format") != FORMAT or content.get("road") != road.name:
         return None
     if is_file(road) and content.get("checksum") not in (None, _checksum(road)):
-        raise HostError(f"{file} is the record of another {road.name} than that beside it; {_REMEDY}")
+        raise HostError(f"{file} is the record of another {road.name} than the one beside it; {_REMEDY}")
     return read_world_record(file)
 
 

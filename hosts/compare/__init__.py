@@ -1,1 +1,1 @@
-"""An FMU held against the log of a test drive."""
+"""An FMU compared with the log of a test drive."""

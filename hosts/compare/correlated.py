@@ -44,7 +44,7 @@ def autocovariance(residual: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def effective_samples(residual: NDArray[np.float64]) -> float:
-    """How many uncorrelated samples tell as much of a mean as these do; between 1 and their number."""
+    """Number of uncorrelated samples that determine a mean as well as these; between 1 and their number."""
     n = len(residual)
     c = autocovariance(residual - residual.mean())
     if c[0] <= 0.0:

@@ -1,4 +1,4 @@
-"""Seeks parameters with which an FMU comes nearest to a log, and tells how well the log determines them."""
+"""Finds parameters with which an FMU comes nearest to a log, and how well the log determines them."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -155,8 +155,9 @@ def _check_effects(unknowns: Sequence[Unknown], sensitivities: NDArray[np.float6
         if change < max(_NO_EFFECT, 10.0 * own):
             span = f"'{u.name}' from {u.low:.6g} to {number_in(u.high, u.unit, '.6g')}"
             raise HostError(
-                f"{span} does not change any of the compared signals (by {change:.1g} of their noise): this log cannot "
-                "tell it; leave it out, or compare signals that show it."
+                f"{span} does not change any of the compared signals (by {change:.1g} of their noise): "
+                "this log does not "
+                "determine it; leave it out, or compare signals that show it."
             )
 
 

@@ -1,4 +1,4 @@
-"""What a fit has found, and how good it is."""
+"""The result of a fit: values of the unknowns, their uncertainty, and the quality of the fit."""
 
 import math
 from dataclasses import dataclass, field
@@ -11,71 +11,78 @@ from hosts.compare.fit_unknowns import Unknown
 
 @dataclass(frozen=True)
 class Found:
-    """An unknown that was sought."""
+    """The value of one unknown, and how well the log determines it."""
 
     unknown: Unknown
     value: float
     half_width: float
-    """Of its 95 % confidence interval; infinite where the log does not determine it."""
+    """Half the width of its 95 % confidence interval; infinite: the log does not determine it."""
     bound: str = ""
-    """``lower`` or ``upper`` where it lies at this bound, else empty."""
+    """``lower`` or ``upper``: it lies at this bound; else empty."""
     without: float = math.nan
-    """What is left of parts that are left out where it keeps its start value, over what is left with it; to first
-    order."""
+    """Residual on parts left out of the fit if the unknown keeps its start value, over that with the unknown fitted; to
+    first order."""
     folds: list[float] = field(default_factory=list)
-    """Its values where one of four folds of the log is not fitted, to first order; empty where the log is too short."""
+    """Values if one of four folds of the log is left out, to first order; empty if the log is too short."""
 
 
 @dataclass(frozen=True)
 class Start:
-    """Where a search began, and where it led."""
+    """A search for the unknowns from one start."""
 
     begin: list[float]
+    """Unknowns at its start."""
     end: list[float]
-    """`begin`, `end`: the unknowns."""
+    """Unknowns at its end."""
     residual: float
-    """Root mean square over the first weights: what the given values miss of each signal, at least its noise."""
+    """Root mean square at the end, in first weights: of each signal the residual of the given values, or its noise if
+    that is larger."""
 
 
 @dataclass(frozen=True)
 class Fit:
-    """What was found."""
+    """The fit of all unknowns to a log."""
 
     found: list[Found]
     correlation: NDArray[np.float64]
-    """Shape (p, p): of the errors of the unknowns."""
+    """Of the errors of the p unknowns, shape (p, p)."""
     before: float
+    """Root mean square of the residuals over their noise, with the given values."""
     after: float
-    """`before`, `after`: root mean square of the residuals over their noise."""
+    """The same with the fitted values."""
     chance: float
-    """Probability that noise alone makes a fit so much better (F-test with the effective number of samples)."""
+    """Probability that noise alone improves a fit as much (F-test with the effective number of samples)."""
     noise: dict[str, float]
+    """Noise of each measured signal, in its unit."""
     misfit: dict[str, float]
-    """`noise`, `misfit`: by signal, in its unit: noise of the measured signal, and root mean square of what the fit
-    leaves."""
+    """Root mean square residual of each signal after the fit, in its unit."""
     computed_noise: float
-    """Of the FMU, over the noise of the signals."""
+    """Noise of the FMU's outputs, over that of the signals."""
     samples: int
+    """Number of samples."""
     effective: float
-    """`samples`, `effective`: number of samples, and as how many uncorrelated ones they count."""
+    """Number of uncorrelated samples that they are worth."""
     runs: int
+    """Number of runs of the FMU."""
     converged: bool
     starts: list[Start]
-    """One where only one was asked for; without those that the FMU refused."""
+    """Searches, without those whose start the FMU refused."""
     left_out: dict[str, float]
-    """By signal, in its unit: root mean square over parts of the log left out of the fit in turn, to first order."""
+    """Root mean square residual of each signal on parts of the log left out in turn, in its unit, to first order."""
     criterion: float
-    """Of Bayes (Schwarz), with the effective number of samples: the lower of two fits to the same log is the better."""
+    """Bayesian information criterion (Schwarz) with the effective number of samples; of fits to one log the lowest is
+    the best."""
     units: dict[str, str]
+    """Unit of each signal."""
     refused: list[str] = field(default_factory=list)
-    """Of each start that the FMU refused: a sentence with its parameters."""
+    """A sentence with the parameters of each start that the FMU refused."""
 
     @property
     def parameters(self) -> dict[str, float]:
-        """Values of those of the FMU."""
+        """Fitted values of the parameters of the FMU, by name."""
         return {f.unknown.name: f.value for f in self.found if f.unknown.kind == "parameter"}
 
     def sensor(self, signal: str) -> tuple[float, float, float, float]:
-        """Delay, drift, bias and gain of a signal, as far as they were sought."""
+        """Delay (s), drift, bias and gain of a signal; those that were not fitted are 0, 0, 0 and 1."""
         own = {f.unknown.kind: f.value for f in self.found if f.unknown.signal in ("", signal)}
         return own.get("delay", 0.0), own.get("drift", 0.0), own.get("bias", 0.0), own.get("gain", 1.0)

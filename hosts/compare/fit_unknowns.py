@@ -39,7 +39,7 @@ def nuisances(
         if name not in NUISANCES:
             raise HostError(f"--nuisance: '{name}' is not known; known are {', '.join(NUISANCES)}.")
     if "delay" in wanted and "delays" in wanted:
-        raise HostError("--nuisance: 'delay' is one of all signals and 'delays' one of each; take one of them.")
+        raise HostError("--nuisance: 'delay' is one delay for all signals, 'delays' one for each; give one of them.")
     interval = min(s.interval for s in outputs.values())
     length = max(float(s.time[-1]) for s in outputs.values())
     found = []

@@ -128,7 +128,7 @@ def fit_notes(fit: Fit) -> list[str]:
     idle = [f.unknown.name for f in fit.found if f.without <= 1.0]
     if idle:
         notes.append(
-            f"Of {', '.join(idle)} the fit does not pay for itself: parts of the log that are left out are met as well "
+            f"The fit of {', '.join(idle)} has no effect: parts of the log that were left out are reproduced as well "
             "with its start value."
         )
     notes += [f"Another start (--starts) is left out. {words}" for words in fit.refused]

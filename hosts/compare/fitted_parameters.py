@@ -34,7 +34,7 @@ def wanted_parameters(
         if variable.kind != "Real" or variable.start is None:
             raise HostError(f"--fit: '{name}' is of the kind {variable.kind}; only real numbers can be fitted.")
         start = float(given.get(name, variable.start))
-        low, high = _range(variable, start, limits) if equals else _usual_range(variable, start)
+        low, high = _range(variable, limits) if equals else _usual_range(variable, start)
         if not low <= start <= high:
             raise HostError(
                 f"--fit: '{name}' begins at {variable.with_unit(start)}, which is not between {low:g} and {high:g}; "
@@ -59,7 +59,7 @@ def fit_step(step: float | None, variables: Mapping[str, Variable]) -> dict[str,
     return {_STEP: step}
 
 
-def _range(variable: Variable, start: float, text: str) -> tuple[float, float]:
+def _range(variable: Variable, text: str) -> tuple[float, float]:
     low, colon, high = text.partition(":")
     try:
         if not colon:

@@ -1,4 +1,4 @@
-"""The fit of ``ali3 compare --fit``: what is sought is checked, sought, and the FMU with it held against the log."""
+"""The fit of ``ali3 compare --fit``: checks the parameters, fits them, and compares the fitted FMU with the log."""
 
 import argparse
 import math
@@ -75,7 +75,7 @@ def fitted(
         told = [f"{n} by {shown_number(rms(apart[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
         task.notes.append(
             f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
-            f"the fitted FMU differ on the root mean square: {', '.join(told)}."
+            f"the fitted FMU differ by (root mean square): {', '.join(told)}."
         )
         print(f"note: {task.notes[-1]}")
     curves = {n: SensedCurve(Curve(best, n), *found.sensor(n)) for n in outputs}

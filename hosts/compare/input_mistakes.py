@@ -40,10 +40,10 @@ def turned_input(task: Task, compared: Comparison, odd: dict[str, ComparedSignal
             continue
         what = f"input '{signal.source}' ({name})"
         if len(odd) == 1:
-            return f"Or the {what} has the opposite sign: the signal has that of the simulation when it is turned."
+            return f"Or the {what} has the opposite sign: with the other sign the signal has that of the simulation."
         return (
-            f"The {what} has the opposite sign: when it is turned, {_listed(list(odd))} have the sign of the "
-            "simulation, which they have not as it is. factor = -1.0 in the alias file turns it."
+            f"The {what} has the opposite sign: only with the other sign {_listed(list(odd))} have the signs of the "
+            "simulation. factor = -1.0 in the alias file changes it."
         )
     return ""
 

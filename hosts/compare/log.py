@@ -184,7 +184,7 @@ def _times(
     steps = np.diff(t)
     if (twice := int(np.sum(steps == 0.0)) - raw.added) > 0:
         notes.append(
-            f"Rows of '{name}' with the time of the row before them: {twice}; the first counts, and behind it an input "
+            f"Rows of '{name}' with the time of the row before them: {twice}; the first counts, and after it an input "
             "has the value of the last."
         )
     interval = float(np.median(steps[steps > 0.0])) if steps.any() else 0.0
@@ -257,8 +257,9 @@ def _signal(
         written = heading if heading and known_unit(heading) is not None else None
         if heading and written is None:
             notes.append(
-                f"What stands with '{column.name}' of the log is not a known unit, {brief(heading)}: its numbers "
-                f"are taken in '{unit}', that of '{ours}'; the alias file can give another unit."
+                f"The log gives '{column.name}' the unit {brief(heading)}, which is not known: its "
+                "numbers are taken in "
+                f"'{unit}', the unit of '{ours}'; the alias file can give another unit."
             )
     if written is not None and written != unit:
         where = f"The column '{column.name}' of the log ({ours})"
@@ -287,7 +288,7 @@ def _of_each_time(signal: Signal, jumps: bool) -> Signal:
 
 
 def _as_measured(fmu: NamedFmu, signal: Signal, notes: list[str]) -> Signal:
-    """Without rows in which a logger repeats what it has, which is told; whole numbers and switches stay."""
+    """Without rows in which a logger repeats its values, with a note; whole numbers and switches stay."""
     rows = rows_of_a_value(signal.values)
     if fmu.variables[signal.name].type != "Real" or rows == 1:
         return signal
@@ -300,7 +301,7 @@ def _as_measured(fmu: NamedFmu, signal: Signal, notes: list[str]) -> Signal:
 
 
 def _without_spikes(fmu: NamedFmu, signal: Signal, notes: list[str]) -> Signal:
-    """Without single samples that no neighbour supports, which are told; whole numbers and switches may jump."""
+    """Without single samples that no neighbour supports, with a note; whole numbers and switches may jump."""
     wrong = spikes(signal.time, signal.values) & ~np.isin(signal.time, signal.jumps)
     if fmu.variables[signal.name].type != "Real" or not wrong.any():
         return signal

@@ -1,4 +1,4 @@
-"""Does a comparison: what was checked is driven, held against the log, fitted if asked, and written."""
+"""Does a comparison: the FMU is driven by the log, compared with it, fitted if asked, and results are written."""
 
 import argparse
 import math
@@ -97,8 +97,8 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
     enough = {n: s for n, s in finite.items() if len(s.between(options.skip, result.simulated).time) >= FEWEST_SAMPLES}
     if not enough:
         if problems:
-            raise FailedFmuError(f"{' '.join(problems)} That is too little to compare.")
-        raise HostError("No output of the FMU has samples to be compared with: that is too little to compare.")
+            raise FailedFmuError(f"{' '.join(problems)} There is nothing to compare.")
+        raise HostError("No output of the FMU has enough samples in the log; there is nothing to compare.")
     for name in task.outputs:
         if name not in enough:
             problems.append(f"'{name}' is not compared: it is not finite, or has too few samples.")

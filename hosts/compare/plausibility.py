@@ -18,7 +18,7 @@ LONGEST_GAP = 0.2
 _MANY = 5.0  # median intervals are a gap
 _CLOSE = 1.12  # of a ratio
 ALIKE = 0.8
-"""Correlation of signals that tell the same."""
+"""Correlation from which two signals show the same quantity."""
 
 
 def check_inputs(fmu: NamedFmu, inputs: Mapping[str, Signal], longest: float, notes: list[str]) -> None:

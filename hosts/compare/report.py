@@ -1,4 +1,4 @@
-"""One page of HTML that tells a comparison, with its picture inside."""
+"""The report of a comparison: one page of HTML with its picture inside."""
 
 from __future__ import annotations
 

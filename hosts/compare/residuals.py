@@ -125,7 +125,7 @@ class Residuals:
             at.append((float(p[k]), self(p)))
         if len(at) < 2 or at[0][0] == at[1][0]:
             where = f"{u.name} = {number_in(float(p[k]), u.unit, '.6g')}"
-            raise RefusedError(f"The FMU refuses what lies on both sides of {where}; give it another range.")
+            raise RefusedError(f"The FMU refuses values on both sides of {where}; give another range.")
         return np.asarray((at[0][1] - at[1][1]) / (at[0][0] - at[1][0]))
 
     def _exact(self, p: Array, k: int, curves: Mapping[str, Curve]) -> Array:

@@ -75,8 +75,8 @@ def measured_start(
         notes.append(f"The start is not as measured but as given: {', '.join(held)}.")
     if speed is not None and abs(speed) > _MOVES and "initial.speed" not in (start | dict(given)):
         notes.append(
-            f"The log begins at {speed:.3g} m/s; the FMU has no parameter initial.speed, so that it starts as it does "
-            "by itself. Let the log begin at rest (--from), or do not compare the first seconds (--skip)."
+            f"The log begins at {speed:.3g} m/s; the FMU has no parameter initial.speed, and starts at its own "
+            "speed. Let the log begin at rest (--from), or do not compare the first seconds (--skip)."
         )
     if speed is None and "initial.speed" in fmu.variables and "initial.speed" not in given:
         notes.append(

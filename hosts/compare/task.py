@@ -145,7 +145,9 @@ def prepare(options: argparse.Namespace) -> Task:
         notes.append(f"The driver starts with {abs(pedal):.3g} of the {'brake' if pedal < 0.0 else 'throttle'}.")
     scales = scales_of(everything)
     if options.windows is not None:
-        notes.append(f"Each of the {len(stretches)} windows starts so; what is measured is that of the first.")
+        notes.append(
+            f"Each of the {len(stretches)} windows starts in its measured state; the one above is that of the first."
+        )
         outputs, scales = (one_after_the_other(signals, stretches) for signals in (outputs, scales))
     elif wanted is not None:
         begin = options.begin or 0.0
@@ -285,7 +287,7 @@ def _followed(name: str, frequency: float | None, notes: list[str]) -> dict[str,
     if not frequency:
         return {}
     notes.append(
-        f"The steering wheel turns as measured: the demand leads by what its follower of {frequency:.4g} Hz is late."
+        f"The steering wheel turns as measured: the demand leads by the delay of its filter of {frequency:.4g} Hz."
     )
     return {name: frequency}
 

@@ -1,4 +1,4 @@
-"""What windows of a log tell: deviations of each, which have departed, and deviations by speed and acceleration."""
+"""Results of windows of a log: deviations of each, which have departed, and deviations by speed and acceleration."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ class Bin:
     signal: str
     quantity: str
     unit: str
-    """`quantity`, `unit`: by which is told, and its unit."""
+    """`quantity`, `unit`: that the deviations are sorted by, and its unit."""
     low: float
     high: float
     samples: int

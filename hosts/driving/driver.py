@@ -90,7 +90,7 @@ def check_drivable(inputs: Collection[str], outputs: Collection[str], whose: str
 
 
 def driver_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> Driver | None:
-    """The driver of a manoeuvre, who knows what the FMU tells of its car; None where inputs are given over time.
+    """The driver of a manoeuvre, who knows what the FMU reports of its car; None where inputs are given over time.
 
     Raises `HostError` if the FMU is not a car for a driver, or a setting is wrong or missing.
     """

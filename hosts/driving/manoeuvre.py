@@ -19,32 +19,32 @@ ON_TIME = 1e-9
 
 @dataclass(frozen=True)
 class Manoeuvre:
-    """What a host does with an FMU."""
+    """Inputs over time and start values of an FMU, up to a stop time; with a driver, the loop is closed."""
 
     name: str
     time: NDArray[np.float64]
-    """Shape (n,): s, not decreasing; a time that occurs twice is a step."""
+    """Times of the rows, s, not decreasing, shape (n,); at a time that occurs twice the inputs jump."""
     inputs: dict[str, NDArray[np.float64]]
-    """Each of shape (n,): values at `time`, linear in between, by variable name."""
+    """Values at `time` by variable name, each of shape (n,); linear in between."""
     stop_time: float
-    """s."""
+    """End of the run, s."""
     start: dict[str, Value] = field(default_factory=dict)
     """Start values of parameters (or inputs)."""
     driver: dict[str, str] = field(default_factory=dict)
     """Settings of the path-following driver; empty: open loop."""
     state: bytes | None = None
-    """Of the FMU, restored before the first step."""
+    """A state of the FMU that is restored before the first step."""
     state_time: float = 0.0
-    """At which the FMU then stands, s; `time` counts from there."""
+    """Time of this state, s; `time` counts from there."""
     held: frozenset[str] = frozenset()
-    """Inputs that keep the value of a row up to the next one."""
+    """Inputs that are constant from each row to the next."""
     find_throttle: bool = False
-    """Whether the throttle is the one that holds the speed of the start straight on; it is found before the run."""
+    """Whether the throttle that holds the initial speed in a straight line is determined before the run."""
     step: float | None = None
-    """Communication step that it was recorded with, s; taken where no other is asked for."""
+    """Communication step that the manoeuvre was recorded with, s; used if no other is given."""
 
     def initial(self, held: Collection[str] = ()) -> dict[str, float]:
-        """Inputs before the first step: those at time 0, or what they step from where the table begins with a step."""
+        """Inputs before the first step: those at time 0, before a jump that the table begins with."""
         if len(self.time) > 1 and self.time[0] == self.time[1] == 0.0:
             return {name: float(values[0]) for name, values in self.inputs.items()}
         return self.at(0.0, held)
@@ -57,13 +57,13 @@ class Manoeuvre:
         return "begin of the table", f"at {self.time[0]:g} s; before, its first row holds {', '.join(held)}"
 
     def at(self, t: float, held: Collection[str] = (), before: bool = False) -> dict[str, float]:
-        """Inputs at time `t`; outside the table its ends.
+        """Inputs at time `t`, s; outside the table those of its first or last row.
 
-        `t`: s; `held`: names of more inputs that keep the value of a row up to the next one, such as whole numbers;
-        `before`: at a step, return the value before it instead of the one after it.
+        `held`: more inputs that are constant from row to row, such as integers; `before`: whether values at a jump are
+        those before it.
         """
         held = {*held, *self.held}
-        # Times add up with rounding errors; a step must not be missed for them.
+        # Times are sums with rounding errors, which must not hide a jump.
         side: Literal["left", "right"] = "left" if before else "right"
         k = int(np.searchsorted(self.time, t - ON_TIME if before else t + ON_TIME, side=side))
         if k == 0 or k == len(self.time):
@@ -96,17 +96,18 @@ def _between(one: float, other: float, part: float) -> float:
 def digest(manoeuvre: Manoeuvre) -> str:
     """A hash of the content of a manoeuvre, its table and its state included, without its name."""
     m = manoeuvre
-    told = m.stop_time, m.start, m.driver, m.state_time, m.find_throttle, sorted(m.held), list(m.inputs)
-    parts = repr(told).encode(), m.time.tobytes(), m.state or b"", *(values.tobytes() for values in m.inputs.values())
+    content = m.stop_time, m.start, m.driver, m.state_time, m.find_throttle, sorted(m.held), list(m.inputs)
+    parts = (
+        repr(content).encode(),
+        m.time.tobytes(),
+        m.state or b"",
+        *(values.tobytes() for values in m.inputs.values()),
+    )
     return hashlib.sha256(b"\n".join(parts)).hexdigest()
 
 
 def with_names_of(manoeuvre: Manoeuvre, names: Collection[str]) -> Manoeuvre:
-    """The manoeuvre with one name for each start value, where its file gives several.
-
-    `manoeuvre`: a key of its start values may be ``a | b``: the first of these names that there is. Where there is
-    none of several the result has the first of them.
-    """
+    """The manoeuvre with one name for each start value: of a key ``a | b`` the first name among `names`, else ``a``."""
     start = {}
     for key, value in manoeuvre.start.items():
         choice = [name.strip() for name in key.split("|")]

@@ -113,8 +113,8 @@ def check_begin(first: float, last: float, path: Path) -> None:
         raise HostError(f"{path} begins at {first:.15g} s; a run begins at 0: add {-first:.15g} s to all its times.")
     if last > _LATEST:
         raise HostError(
-            f"{path} goes from {first:.15g} to {last:.15g} s; a run begins at 0 and ends before {_LATEST:.2g} s: take "
-            "the first time from all, and write them in s."
+            f"{path} goes from {first:.15g} to {last:.15g} s; a run begins at 0 and ends before {_LATEST:.2g} s: "
+            "subtract the first time from all, and write them in s."
         )
 
 

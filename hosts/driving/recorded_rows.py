@@ -69,9 +69,9 @@ class RecordedRows:
     refused : bool
         Whether the last one was refused.
     jumps : dict of int to list of float
-        By the number of a row: inputs before a jump at its time, where the row alone does not tell them.
+        By the number of a row: inputs before a jump at its time, where the row alone does not show them.
     lost : set of int
-        Inputs that moved between the rows otherwise than the rows tell.
+        Inputs that moved between the rows otherwise than the rows show.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""What a run recorded."""
+"""The result of a run: recorded signals, and what the run could not do as it was asked."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -23,38 +23,37 @@ class Result:
     time: NDArray[np.float64]
     """Shape (n,): s."""
     values: NDArray[np.float64]
-    """Shape (n, len(names)): in the units of the model description. Inputs are those with which the next step begins;
-    in the last row those with which the last step ended, or with which one that was refused would have begun."""
+    """Shape (n, len(names)), in the units of the model description. The inputs of a row are those with which the step
+    from there begins; of the last row, those with which the last step ended or a refused step would have begun."""
     wall: float
-    """Time spent in the loop, s."""
+    """Wall time of the loop, s."""
     simulated: float
-    """s."""
+    """Simulated time, s."""
     failed_steps: int
-    """Communication steps the FMU refused; the run ends with the first."""
+    """Number of communication steps that the FMU refused: 0 or 1, because the run ends there."""
     messages: list[str]
     """What the FMU logged at warning or above."""
     held: list[str] = field(default_factory=list)
-    """Inputs that kept their value over each step; the others went straight."""
+    """Inputs that were constant over each step; the others were linear in time."""
     late: list[str] = field(default_factory=list)
-    """Those of them that were to move between the steps: the FMU takes no input derivatives, or a driver acts on
-    them."""
+    """Inputs of `held` that the manoeuvre changes within steps: the FMU takes no input derivatives, or a driver
+    controls them."""
     jumps: dict[int, list[float]] = field(default_factory=dict)
-    """By the number of a row: inputs before a jump at its time, where the row alone does not tell them."""
+    """Inputs before a jump at the time of a row, by its number, where the rows do not show them."""
     starts: list[int] = field(default_factory=lambda: [0])
-    """Rows at which runs begin that were put one after the other."""
+    """First row of each run, where several runs stand one after the other."""
     lost: list[str] = field(default_factory=list)
-    """Inputs that moved between the rows otherwise than the rows tell, where not every step has one."""
+    """Inputs that are not linear between rows, where rows are farther apart than steps."""
     missed: list[tuple[str, str]] = field(default_factory=list)
-    """What `Manoeuvre.late_begin`, `missed_inputs` and `missed_end` say of the manoeuvre."""
+    """What the run did not do of the manoeuvre: see `Manoeuvre.late_begin`, `missed_inputs` and `missed_end`."""
     notes: list[tuple[str, str]] = field(default_factory=list)
-    """What else is said of the manoeuvre: what and how much."""
+    """Other remarks on the manoeuvre: subject and text."""
     start: Mapping[str, Value] = field(default_factory=dict)
-    """What was set before the start."""
+    """Start values and parameters that were set."""
     marks: list[dict[str, Any]] = field(default_factory=list)
-    """What the manoeuvre has on the ground, see `hosts.driving.ground_marks`."""
-
+    """Marks of the manoeuvre on the ground, see `hosts.driving.ground_marks`."""
     ended: str = ""
-    """Where the process of the FMU has ended before the run: a sentence that says how."""
+    """A sentence that says how the process of the FMU ended, if it ended before the run did; else empty."""
 
     @property
     def is_good(self) -> bool:
@@ -88,7 +87,7 @@ class Result:
         return np.asarray(self.values[:, self.names.index(name)])
 
     def continuous(self, name: str) -> NDArray[np.float64]:
-        """A signal; of runs that were put one after the other each, an angle (rad) without jumps by whole turns."""
+        """A signal; an angle (rad) without jumps by whole turns, within each of several runs."""
         values = self[name]
         if self.units.get(name) != "rad":
             return values

@@ -51,7 +51,9 @@ def steps_of(interval: float, step: float, what: str) -> int:
     every = round(interval / step) if math.isfinite(interval) else 0
     if every < 1 or abs(every * step - interval) > 1e-6 * interval:
         near = step * max(1, every)
-        raise HostError(f"{what} is {interval:g} s, no whole multiple of the step of {step:g} s; take {near:g} s.")
+        raise HostError(
+            f"{what} is {interval:g} s, which is not a multiple of the step of {step:g} s; take {near:g} s."
+        )
     return every
 
 
@@ -65,7 +67,7 @@ def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
     if manoeuvre.inputs and len(manoeuvre.time) and manoeuvre.time[0] > manoeuvre.stop_time > 0.0:
         raise HostError(
             f"The table of the manoeuvre '{manoeuvre.name}' begins at {manoeuvre.time[0]:g} s, and the run ends at "
-            f"{manoeuvre.stop_time:g} s; take the first time from all its times."
+            f"{manoeuvre.stop_time:g} s; subtract the first time from all its times."
         )
     for name, values in manoeuvre.inputs.items():
         what, variable = f"The manoeuvre '{manoeuvre.name}' has a column '{name}'", fmu.variables.get(name)
@@ -78,7 +80,7 @@ def check_columns(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> None:
             raise HostError(
                 f"{what}, which is not an input of {fmu.path.name}; its inputs are: {', '.join(inputs) or 'none'}"
                 f"{f'; a tunable parameter, such as {tunable[0]}, can be a column too' if tunable else ''}. "
-                "Where an input has another name, an alias file says which (--aliases)."
+                "An alias file (--aliases) gives inputs that have other names."
             )
         if fmu.variables[name].type == "Integer" and (values != np.round(values)).any():
             odd = float(values[values != np.round(values)][0])

@@ -16,7 +16,7 @@ from hosts.driving.simulated_fmu import SimulatedFmu
 
 THROTTLE = "throttle"
 KEPT = 0.03
-"""Share of the speed at the start by which it may change before that is told."""
+"""Share of the speed at the start by which it may change without a note."""
 _LONGEST = 30.0  # s, in which the throttle is found
 _WINDOW = 1.0  # s, over which speed and throttle are steady
 _STEADY = 0.004  # of the throttle

@@ -44,7 +44,9 @@ def _check_encryption(address: str) -> None:
                 "distributed.comm.tls.ca-file, .client.cert and .client.key."
             )
     elif settings.require_encryption:
-        raise HostError(f"The configuration of Dask demands encryption; {address} has none, tls://... has.")
+        raise HostError(
+            f"The configuration of Dask demands encryption, which {address} has not; give a tls:// address."
+        )
     else:
         print(
             f"note: The scheduler {shortened(address)} is used without TLS: whoever reaches it or its "
@@ -66,7 +68,7 @@ def connected(scheduler: str) -> Iterator[Client]:
 
 @contextmanager
 def _without_logs() -> Iterator[None]:
-    """Without the tracebacks that Dask and its event loop log where a process has gone, which is told in a sentence."""
+    """Without the tracebacks that Dask and its event loop log where a process has gone, which a sentence reports."""
     before = logging.root.manager.disable
     logging.disable(logging.CRITICAL)
     try:

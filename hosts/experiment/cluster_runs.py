@@ -81,7 +81,7 @@ class ClusterRuns(Closing, Generic[T, R]):
 
     @property
     def left(self) -> int:
-        """Processes that FMUs had started: workers do not tell of them."""
+        """Processes that FMUs had started: workers do not report them."""
         return 0
 
     def close(self) -> None:

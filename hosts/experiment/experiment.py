@@ -47,7 +47,7 @@ class Experiment(Generic[T, R]):
     """On the bar, before the first word of a run."""
     work: Callable[[T, Tell], R]
     answer: Any
-    """`work`, `answer`: see `Isolated`; the work tells how much of the task is done, in the unit of `size`."""
+    """`work`, `answer`: see `Isolated`; the work reports how much of the task is done, in the unit of `size`."""
     label: Callable[[T], str]
     """Of a task, on the bar."""
     reads: Iterable[Path] = ()

@@ -21,11 +21,11 @@ R = TypeVar("R")
 
 
 class Pool(Closing, Generic[T, R]):
-    """Processes that make runs, one at a time each; one that a run takes down is replaced.
+    """Processes that make runs, each one at a time; a process that ends during a run is replaced.
 
-    `work`, `answer`, `reads`: see `Isolated`; `jobs`: how many; `limit`, `in_all`: after which the process of a run is
-    ended, see `Isolated.do`; `finish`: the same, with the task before. An iteration that is left early, as by Ctrl-C or
-    an error, closes the pool.
+    `work`, `answer`, `reads`: see `Isolated`; `jobs`: number of processes; `limit`, `in_all`: time limit of a run, and
+    `finish`: see `Isolated.do`, but `finish` gets the task first. An iteration that ends early, as by Ctrl-C or an
+    error, closes the pool.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class Pool(Closing, Generic[T, R]):
 
     @property
     def left(self) -> int:
-        """Processes that those of the pool had started and that were ended with them."""
+        """Number of processes that those of the pool had started and that were ended with them."""
         return sum(worker.left for worker in self._workers)
 
     def close(self) -> None:
@@ -57,7 +57,7 @@ class Pool(Closing, Generic[T, R]):
             worker.close()
 
     def run(self, task: T) -> R | Lost:
-        """Make a run, each time by the same process."""
+        """Make a run; all calls use the same process."""
         return self._done(self._workers[0], task)
 
     def results(
@@ -65,7 +65,7 @@ class Pool(Closing, Generic[T, R]):
     ) -> Generator[tuple[int, R | Lost]]:
         """Make runs; give each result with the number of its task, from 0, as soon as it is there.
 
-        `tasks`: is read as processes become free; `told`: called with the number of a task and what its work tells.
+        `tasks`: is read as processes become free; `told`: called with the number of a task and what its work reports.
         Raises `UserError`: the work of a task has raised one; no further task is begun.
         """
         idle: queue.SimpleQueue[Isolated[T, R]] = queue.SimpleQueue()

@@ -1,4 +1,4 @@
-"""The page that tells an experiment: its facts, its sections with links to them, and its plots as SVG."""
+"""The page of an experiment: its facts, its sections with links to them, and its plots as SVG."""
 
 from __future__ import annotations
 

@@ -26,5 +26,5 @@ def _there(fmu: Path, files: Iterable[Path]) -> list[Path]:
 
 @cache
 def _file_hash(path: Path, size: int, changed: int) -> str:
-    """Once for all runs of an FMU; its size and the time of its last change, ns, tell another file of its name."""
+    """Once for all runs of an FMU; its size and the time of its last change, ns, show another file of its name."""
     return hashlib.sha256(read_bytes(path, LARGEST_ARCHIVE, HostError)).hexdigest()

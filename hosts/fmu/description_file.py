@@ -1,4 +1,4 @@
-"""The model description of an FMU: its size, depth and number of variables are held to bounds before it is read."""
+"""Reads the model description of an FMU, after checking its size, depth and number of variables against limits."""
 
 import math
 from pathlib import Path
@@ -19,15 +19,15 @@ from hosts.fmu.scalars import ELEMENTS, Place, element_names, scalars
 
 DESCRIPTION = "modelDescription.xml"
 LARGEST_DESCRIPTION = 100_000_000
-"""Bytes."""
+"""Limit of its size, bytes."""
 MOST_VARIABLES = 200_000
-"""Of an FMU, the elements of its arrays counted."""
+"""Limit of the number of variables, elements of arrays counted."""
 _MOST_ELEMENTS = 20 * MOST_VARIABLES
 _DEPTH_OF_VARIABLES = 3
 
 
 def opened(path: Path) -> Archive:
-    """An FMU, to be read or unpacked. Raises `HostError`: there is none, or `ali3.archives` refuses it."""
+    """Open an FMU as an archive. Raises `HostError`: there is none, or it has a fault of `ali3.archives`."""
     if not is_file(path):
         hint = f" Build it with: {command_name('build')}" if path.parent.name == "dist" else ""
         raise HostError(no_file(path, hint))
@@ -39,16 +39,16 @@ def read_description(
 ) -> tuple[ModelDescription, list[ScalarVariable], dict[str, Place]]:
     """Read the description of an FMU of any version that FMPy reads.
 
-    `validate`: whether it must be as its schema has it. Raises `HostError`: it is no FMU that can be read, or has more
-    than the bounds of this file.
+    `validate`: whether it must follow its schema. Raises `HostError`: it is not an FMU that can be read, or is beyond a
+    limit.
 
     Returns
     -------
     description : ModelDescription
     variables : list of ScalarVariable
-        Elements of arrays by names of their own.
+        Scalar variables; each element of an array is one.
     places : dict of str to Place
-        Of these.
+        Variable and index of each element of an array, by name.
     """
     with opened(path) as archive:
         content = archive.read(DESCRIPTION, LARGEST_DESCRIPTION)
@@ -57,7 +57,7 @@ def read_description(
     bounds.check(content)
     try:
         description = read_model_description(str(path), validate=validate)
-        for v in description.modelVariables:  # FMPy passes over this attribute
+        for v in description.modelVariables:  # FMPy does not read this attribute
             v.intermediateUpdate = str(v.valueReference) in bounds.asked
         count = sum(math.prod(v.shape or ()) for v in description.modelVariables)
         if count > raised(MOST_VARIABLES):
@@ -65,7 +65,7 @@ def read_description(
         return description, *scalars(description, element_names(elements.decode()))
     except (ImportError, MemoryError, HostError):
         raise
-    except Exception as error:  # what a description that is none does to its reader is not declared
+    except Exception as error:  # FMPy does not document what a malformed description raises
         if is_lack_of_memory(error):
             raise MemoryError from None
         words = " ".join(str(error).split()) or type(error).__name__
@@ -78,12 +78,12 @@ def _too_many(path: Path, count: int) -> str:
 
 
 class _Bounds:
-    """Goes through the elements of a description, and keeps none."""
+    """Counts the elements of a description without storing them, and refuses one beyond a limit."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
         self.asked: set[str] = set()
-        """Value references of variables with `intermediateUpdate`."""
+        """Value references of variables with ``intermediateUpdate``."""
         self._depth = self._elements = self._variables = 0
         self._most_variables, self._most_elements = raised(MOST_VARIABLES), raised(_MOST_ELEMENTS)
         self._parser = expat.ParserCreate()
@@ -102,7 +102,7 @@ class _Bounds:
 
     def _begin(self, name: str, attributes: dict[str, str]) -> None:
         if not self._elements and (name != "fmiModelDescription" or "fmiVersion" not in attributes):
-            self._refuse(f"begins with <{one_line(name, 60)}>; it must with <fmiModelDescription fmiVersion=...>")
+            self._refuse(f"begins with <{one_line(name, 60)}>; it must begin with <fmiModelDescription fmiVersion=...>")
         self._depth += 1
         self._elements += 1
         self._variables += "valueReference" in attributes and self._depth == _DEPTH_OF_VARIABLES

@@ -282,4 +282,4 @@ class Fmu(Closing, NamedScalars):
         if status > 0 and message and category != "logNotComputed" and len(self.messages) < _MOST_MESSAGES:
             self.messages.append(shortened(message))
             if len(self.messages) == _MOST_MESSAGES:
-                self.messages.append(f"It says more than {_MOST_MESSAGES} sentences; the others are left out.")
+                self.messages.append(f"The FMU has sent more than {_MOST_MESSAGES} messages; the others are left out.")

@@ -15,7 +15,7 @@ CLIPPED = 1.2  # times the range: a factor or an offset more than another unit
 
 
 def beyond_range(variable: Variable, values: NDArray[np.float64], where: str = "row") -> str:
-    """What is told of values beyond the range; empty where all are within, up to rounding.
+    """A sentence on values beyond the range; empty where all are within, up to rounding.
 
     `values`: in the unit of the variable, shape (n,); `where`: how messages call the number of one of them, from 1.
     """

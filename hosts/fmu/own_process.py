@@ -24,7 +24,7 @@ def files_of(values: Mapping[str, Value]) -> list[Path]:
 
 
 def files_of_drives(fmu: Path, starts: Iterable[Mapping[str, Value]]) -> list[Path]:
-    """Files that drives of an FMU read; a start beside its road is told now, before any of them begins."""
+    """Files that drives of an FMU read; a start outside its road is reported now, before any of them begins."""
     given = list(starts)
     tell_starts(given)
     return [fmu, *(file for start in given for file in files_of(start))]
@@ -37,7 +37,7 @@ def in_own_process(
     reads: Iterable[Path],
     tell: Callable[[float], None] = lambda done: None,
 ) -> R:
-    """Do one task. `work`, `answer`, `reads`: see `Isolated`; `tell`: takes the numbers that it tells.
+    """Do one task. `work`, `answer`, `reads`: see `Isolated`; `tell`: takes the numbers that it reports.
 
     Raises `HostError`: the work has raised an error that a command shows; `FailedFmuError`: the process has ended.
     """

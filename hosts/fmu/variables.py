@@ -231,7 +231,7 @@ def check_co_simulation(path: Path, description: ModelDescription) -> None:
 
 
 def default_step(description: ModelDescription) -> float:
-    """The communication step that an FMU asks for, s; where it tells none 0.01, or a multiple of its own fixed step."""
+    """The communication step that an FMU asks for, s; else 0.01, or a multiple of its own fixed step."""
     experiment, face = description.defaultExperiment, description.coSimulation
     if experiment is not None and experiment.stepSize:
         return float(experiment.stepSize)

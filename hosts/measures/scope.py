@@ -46,7 +46,7 @@ class Scope:
         return found
 
     def inner(self, names: Mapping[str, Any]) -> Scope:
-        """A scope with more names, in which formulas are evaluated anew."""
+        """A scope with more names, in which formulas are evaluated again."""
         return Scope(self._names | dict(names), self._formulas, self._functions)
 
     def evaluate(self, expression: str) -> Any:

@@ -57,7 +57,7 @@ def sine_with_dwell(
     completion = _completion(time, side * steering, reversal)
     if not math.isfinite(completion):
         return NOTHING if not math.isfinite(begin) else _of(begin, time, acceleration)
-    peak = _peak(time, -side * yaw_rate, reversal, completion)
+    peak = _peak(time, -side * yaw_rate, reversal)
 
     def after(seconds: float) -> float:
         at = completion + seconds
@@ -86,7 +86,7 @@ def _completion(time: NDArray[np.float64], steering: NDArray[np.float64], revers
     return crossing(time, steering, 0.01 * float(steering[lowest]), max(reversal, float(time[lowest])))
 
 
-def _peak(time: NDArray[np.float64], yaw_rate: NDArray[np.float64], begin: float, end: float) -> float:
+def _peak(time: NDArray[np.float64], yaw_rate: NDArray[np.float64], begin: float) -> float:
     """First local maximum of a yaw rate above zero after the reversal; the largest value where there is none."""
     part = yaw_rate[time >= begin]
     inside = np.flatnonzero((part[1:-1] > part[:-2]) & (part[1:-1] >= part[2:]) & (part[1:-1] > 0.0)) + 1

@@ -1,4 +1,4 @@
-"""What a run says of the course that its driver followed."""
+"""The verdict on the course that the driver of a run followed."""
 
 import math
 
@@ -9,15 +9,15 @@ from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import INITIAL_SPEED
 from hosts.driving.result import Result
 
-_CLOSE = 3.0  # km/h: that ISO 3888 lets the speed of entry be from the one that is wanted
-_STANDS = 0.5  # m/s: slower, more time is no remedy
+_CLOSE = 3.0  # km/h: tolerance of the speed of entry in ISO 3888
+_STANDS = 0.5  # m/s: below it the car stands, and a later stop time would not help
 
 
 def course_result(result: Result, driver: Driver) -> tuple[list[tuple[str, str]], NDArray[np.float64]]:
-    """The row of the summary table that says whether the vehicle stayed inside the gates, none without its path; and
-    the gates, of shape (gates, 4): first and last x, right and left y, m.
+    """The row of the summary table with the verdict, none without a recorded path; and the gates, shape (gates, 4):
+    first and last x, right and left y, m.
 
-    "passed" are all lanes, entered at the speed that was asked for.
+    "passed": the vehicle stayed inside all gates and entered them at the speed that was asked for.
     """
     course = driver.course
     gates = np.array([(g.x_start, g.x_end, g.y_right, g.y_left) for g in course.gates])
@@ -48,7 +48,7 @@ def _verdict(result: Result, driver: Driver) -> str:
 
 
 def _more(result: Result, driver: Driver) -> str:
-    """What would help where not all lanes were driven."""
+    """A remedy where not all lanes were driven, as the end of a sentence."""
     x, speed, gates = result["chassis.x"], float(result["speed"][-1]), driver.course.gates
     if (late := x[0] + 0.5 * driver.settings.vehicle_length - gates[0].x_start) > 0.0:
         return f"; start {late:.4g} m or more before"
@@ -58,6 +58,6 @@ def _more(result: Result, driver: Driver) -> str:
         return "; run without --interval"
     if speed < _STANDS:
         return f"; the car stands at {result.time[-1]:.4g} s"
-    if x[-1] < x[-2:][0]:
-        return "; at last the car drives away from it"
+    if len(x) > 1 and x[-1] < x[-2]:
+        return "; at its end the car drives back"
     return f"; --stop-time {math.ceil(result.time[-1] + 1.1 * way / speed)} is long enough at its speed"

@@ -1,4 +1,4 @@
-"""The car in a process of its own: what is wanted goes in, what it does comes out, and neither waits for the other."""
+"""The car in a process of its own: it takes inputs and commands, and gives its state; neither side waits."""
 
 import math
 import threading
@@ -32,8 +32,8 @@ _ROW_SECONDS, _LEAST_ROWS, _MOST_ROW_BYTES = 8.0, 2000, 1 << 24
 class Car(Closing):
     """An FMU that runs in a process of its own; it begins paused, at time 0.
 
-    `names`: inputs, then outputs, real and whole ones; `units`: of the names; `step`: in s. Raises `HostError`: the FMU
-    cannot be started; later, by every method, that the process has ended unasked.
+    `names`: numeric inputs, then numeric outputs; `units`: by name; `step`: communication step, s. Raises `HostError`:
+    the FMU cannot be started. Every method raises it when the process has ended by itself.
     """
 
     def __init__(self, settings: CarSettings) -> None:
@@ -83,7 +83,7 @@ class Car(Closing):
 
     @property
     def ended(self) -> HostError | None:
-        """Why the process has ended unasked; None while it lives."""
+        """Why the process ended by itself; None: it did not."""
         return self._process.ended if self._process is not None else None
 
     def _alive(self) -> None:
@@ -93,11 +93,11 @@ class Car(Closing):
             raise HostError("The car is closed.")
 
     def want(self, values: Mapping[str, tuple[float, float]]) -> None:
-        """What inputs are to become.
+        """Ask for values of inputs.
 
-        `values`: input to its value, limited to the range of the model description, and its largest change per second
-        of simulated time; infinite: at once, which whole numbers always do. Raises `HostError`: there is no such input,
-        or a number cannot be used; nothing is then changed.
+        `values`: by input, its value, which is limited to the range of the model description, and its largest change
+        per second of simulated time; infinite: at once, as integers always change. Raises `HostError`: there is no such
+        input or a number cannot be used; then no input changes.
         """
         checked = []
         for name, (value, rate) in values.items():
@@ -119,7 +119,7 @@ class Car(Closing):
             self._shared.wants.finish()
 
     def command(self, name: str, value: float = 0.0) -> None:
-        """Ask for something.
+        """Give a command to the car.
 
         `name`: ``run``, ``pause``, ``step`` (value: how many, at least 1; it pauses after them), ``speed`` (0.05 to 1,
         simulated over wall seconds), ``reset``, ``rewind`` (value: seconds of simulated time), ``upright``. Raises
@@ -131,7 +131,7 @@ class Car(Closing):
         if name == "step":
             value = value or 1.0
             if not (1.0 <= value <= 1e9 and value == int(value)):
-                raise HostError(f"{value:g} steps are asked for; it must be a whole number of at least 1.")
+                raise HostError(f"The number of steps is {value:g}; it must be a whole number of at least 1.")
         elif name == "speed" and not SLOWEST <= value <= 1.0:
             raise HostError(f"The speed is {value:g}; it must be from {SLOWEST:g} to 1.")
         elif name == "rewind" and not (math.isfinite(value) and value > 0.0):
@@ -140,10 +140,10 @@ class Car(Closing):
             self._send(name, value)
 
     def restart(self, changes: Mapping[str, Value]) -> None:
-        """A new start at time 0 with other start values, which stay for later resets.
+        """Start again at time 0 with other start values, which later resets keep.
 
-        `changes`: parameters and start values over those so far. Raises `HostError`: there is no such parameter or
-        input, or it cannot have this value.
+        `changes`: parameters and start values that replace present ones. Raises `HostError`: there is no such parameter
+        or input, or it cannot have this value.
         """
         checked = {n: self._table.settable(n, "start values").check(v, "start values") for n, v in changes.items()}
         with self._lock:
@@ -160,7 +160,7 @@ class Car(Closing):
         commands.finish()
 
     def latest(self) -> Moment:
-        """The car as it is now; it never waits for the car, nor the car for it."""
+        """The newest state of the car, at once: neither side waits for the other."""
         with self._lock:
             self._alive()
             v = self._shared.moments.read()
@@ -181,7 +181,7 @@ class Car(Closing):
         return self._last_times
 
     def close(self, progress: Callable[[float], object] = lambda share: None) -> None:
-        """End the process, within 2 s whatever it does; `progress` hears the share of a recording that is finished."""
+        """End the process, within 2 s whatever it does. `progress`: called with the finished share of a recording."""
         self.step_times()
         with self._lock:
             if self._closed:

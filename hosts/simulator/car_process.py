@@ -154,7 +154,8 @@ class Loop:
         if name == "run" or name == "step":
             if self._refused:
                 raise HostError(
-                    f"The step at {car.time:.3f} s was refused: rewind, reset or upright go on, {name} does not."
+                    f"The step at {car.time:.3f} s was refused; continue with rewind, reset or upright, "
+                    f"not with {name}."
                 )
             if not (self._running or self._to_do):
                 self._pace.restart()

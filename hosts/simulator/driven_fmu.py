@@ -161,7 +161,7 @@ class DrivenFmu:
             self._past.begin(self.inputs.values, self._mark())
 
     def _note_offset(self, start: Mapping[str, Value]) -> None:
-        """Where the point that the FMU tells lies from the origin that it places, in axes of the car."""
+        """Where the point that the FMU reports lies from the origin that it places, in axes of the car."""
         if self._poses:
             own = self._fmu.start_values(_INITIAL)
             x, y, yaw = (float(start.get(n, v)) for n, v in zip(_INITIAL, own, strict=True))

@@ -43,7 +43,7 @@ class Guard:
             return f"A request must name this server by its own address, not {host[:80]!r}."
         origin = headers.get("Origin")
         if origin is not None and origin.lower() != f"http://{host.lower()}":
-            return f"Only pages of this server may talk to it; the request is of a page from {origin[:80]!r}."
+            return f"Only pages of this server may talk to it; the request is from a page of {origin[:80]!r}."
         given = parse_qs(urlsplit(path).query).get("token", [""])
         if not secrets.compare_digest(given[0].encode(), self.token.encode()):
             return "This server is guarded; open the address with the token that it printed when it was started."

@@ -11,7 +11,7 @@ CAUSES = ("ran", "others", "stolen")
 
 
 class LateCauses:
-    """Tells which cause took the longest. `clock`: its `spent` is what the system tells of the calling thread."""
+    """Tells which cause took the longest. `clock`: its `spent` is what the system reports of the calling thread."""
 
     def __init__(self, clock: Clock) -> None:
         self._clock = clock
@@ -26,8 +26,8 @@ class LateCauses:
 
         `elapsed`: from its scheduled begin, or from the end of the step before where that was later, to its end, s;
         `period`: what it had been given, s; `late`: whether it missed its deadline. Returns one of `CAUSES`; empty
-        where it was not late or the system does not tell. A step that is late only because the one before was has the
-        cause of that one.
+        where it was not late or the system does not report it. A step that is late only because the one before was has
+        the cause of that one.
         """
         spent = self._clock.spent()
         if spent is None or self._before is None:

@@ -1,4 +1,4 @@
-"""What a car is started with, and what it tells."""
+"""What a car is started with, and what it reports."""
 
 from __future__ import annotations
 

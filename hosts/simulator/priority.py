@@ -41,7 +41,7 @@ def _nice() -> str:
         os.setpriority(os.PRIO_PROCESS, 0, _NICE)
     except OSError:
         return ""
-    return f"No real-time priority was allowed; nice {_NICE} in its place."
+    return f"No real-time priority was allowed; nice {_NICE} instead."
 
 
 def _keep_memory() -> str:

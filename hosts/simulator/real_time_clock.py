@@ -7,7 +7,7 @@ from hosts.simulator.late_causes import LateCauses
 from hosts.simulator.step_times import TimesRecord
 
 MOST_LATE = 0.25
-"""A car that is later than this, s, is not hurried on: its schedule is moved to now, and the lost time is told."""
+"""A car that is later than this, s, is not hurried on: its schedule is moved to now, and the lost time is reported."""
 _LATE, _AGAIN, _SAID_EVERY, _WINDOW = 0.05, 1.0, 5.0, 1.0
 _CHUNK = 0.02
 _PAUSE = 0.001

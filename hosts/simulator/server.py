@@ -228,7 +228,7 @@ class Server:
             return
         now = time.monotonic()
         if now - self._last_new_start < NEW_START_PERIOD:
-            raise HostError(f"'{name}' came less than {NEW_START_PERIOD:g} s after the one before; it is passed over.")
+            raise HostError(f"'{name}' came less than {NEW_START_PERIOD:g} s after the one before; it is ignored.")
         self._last_new_start = now
 
     async def _feed(self, page: ConnectedPage) -> None:

@@ -126,7 +126,7 @@ class StepTimes:
     missed: int
     """Deadlines that were missed: the step was not done when the next was to begin."""
     missed_by: dict[str, int]
-    """How many of them by each of `CAUSES`; all zero where the system does not tell."""
+    """How many of them by each of `CAUSES`; all zero where the system does not report them."""
     skipped: int
     """How often the schedule was moved on because the car was too late."""
     lost: float

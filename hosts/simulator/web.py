@@ -86,7 +86,9 @@ def listening_socket(address: str, port: int | None) -> socket.socket:
             found = _bound(address, tried)
         except OSError as error:
             if error.errno == errno.EACCES and port is not None:
-                raise HostError(f"The port {port} may not be used by you; ports from 1024 on may.") from None
+                raise HostError(
+                    f"The system does not allow you to use the port {port}; give one from 1024 on."
+                ) from None
             if error.errno not in _TAKEN:
                 raise HostError(f"The server cannot listen on {address}: {reason(error)}.") from None
             continue

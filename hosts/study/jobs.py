@@ -71,7 +71,9 @@ def checked_test(name: str, given: Mapping[str, float], fmu: SimulatedFmu, where
     except HostError as error:
         raise HostError(f"{where}: {error}") from None
     for need in lacking(test, {*fmu.variables, *fmu.constants()}):
-        raise HostError(f"{where}: the test {test.name} needs {need.replace(' | ', ' or ')}, which the FMU has not.")
+        raise HostError(
+            f"{where}: the test {test.name} needs {need.replace(' | ', ' or ')}, which the FMU does not have."
+        )
     return test.name, settings
 
 
@@ -150,7 +152,9 @@ def _checked(values: Mapping[str, Value], fmu: SimulatedFmu, where: str) -> dict
 def _check_effect(manoeuvre: Manoeuvre, parameters: Sequence[str], where: str) -> None:
     for name in parameters:
         if name in manoeuvre.inputs:
-            raise HostError(f"{where}: '{name}' is to be varied and is a column of the manoeuvre, which wins.")
+            raise HostError(
+                f"{where}: '{name}' is varied by the study and is a column of the manoeuvre; remove one of them."
+            )
         if manoeuvre.driver and name in ACTS:
             raise HostError(f"{where}: '{name}' is a parameter of the study; the driver of the manoeuvre acts on it.")
 

@@ -73,7 +73,7 @@ class DamagedPartError(HostError):
 
 
 def read_part(file: Path, record: Mapping[str, Any]) -> Any:
-    """The rows of a part, whose pages are held against their checksums. Raises `DamagedPartError`."""
+    """The rows of a part, whose pages are checked by their checksums. Raises `DamagedPartError`."""
     return _read(file, table_schema(record))
 
 

@@ -90,7 +90,7 @@ def _drawn(d: int, sampling: SamplingEntry, file: str) -> tuple[int, Places]:
 
 
 def digest(points: Points) -> str:
-    """A hash of all points of a table, of the first and last where a rule draws them, which tells two plans apart."""
+    """A hash of all points of a table, of the first and last where a rule draws them, which distinguishes plans."""
     whole = _DIGESTED if points.parameters else points.count
     ends = [points.block(0, min(points.count, whole))]
     if points.count > whole:

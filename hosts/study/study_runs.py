@@ -76,7 +76,7 @@ class Bench:
         if manoeuvre.driver:
             driver = driver_of(fmu, manoeuvre)
         result = run(fmu, manoeuvre, job.step, driver)
-        outcome = _of_result(result, job)
+        outcome = _of_result(result)
         if job.every:
             outcome.signals = sampled(result, work.signals, job)
         if outcome.status == DONE:
@@ -120,7 +120,7 @@ def sampled(result: Result, names: Sequence[str], job: Job) -> NDArray[np.float6
     return kept
 
 
-def _of_result(result: Result, job: Job) -> Outcome:
+def _of_result(result: Result) -> Outcome:
     """Whether the run reached its end with numbers."""
     missed = [": ".join(told).replace("--step ", "step = ") for told in result.missed]
     end = Outcome(simulated=result.simulated, messages=said(missed + result.messages))

@@ -204,7 +204,7 @@ class _Search:
         return seek(self.measure, self.wanted, low, high, log, start)
 
     def _first(self, low: float) -> None:
-        """A run that tells which measures a test has; it is kept."""
+        """A run that shows which measures a test has; it is kept."""
         outcome = self._run(low)
         if not outcome.units:  # it failed, so that nobody knows them
             outcome = self._run(self.parameter.high)

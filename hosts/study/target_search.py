@@ -75,7 +75,7 @@ def seek(
 
     The ends of the range come first. Where the wanted value lies between theirs, Brent's method follows; else the
     extremum nearest to it is sought by Brent's minimisation, and his method again if a run is beyond the value. Where
-    it is met, a run beside tells the slope.
+    it is met, a neighbouring run gives the slope.
 
     Parameters
     ----------
@@ -207,7 +207,7 @@ class _Search:
         return min(yielded, key=lambda run: abs(run.y - self._wanted), default=None)
 
     def _result(self, near: Sequence[Run]) -> Found:
-        """`near`: two runs that tell the slope, or fewer."""
+        """`near`: two runs that give the slope, or fewer."""
         known = [run for _, run in sorted(self._runs.items()) if math.isfinite(run.y)]
         changes = [b.y - a.y for a, b in itertools.pairwise(known)]
         largest = max((abs(run.y) for run in known), default=0.0)

@@ -42,7 +42,7 @@ def fmus_of(parts: Mapping[str, Path], stack: ExitStack) -> dict[str, Fmu]:
 
 
 def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[Wire, ...]:
-    """Connections of a system, held against its parts.
+    """Connections of a system, checked against its parts.
 
     `connections`: outputs by the inputs that take them, each as ``part.variable``. Raises `HostError`: there is no such
     part or variable, or the units of both ends differ.

@@ -83,7 +83,7 @@ class CoupledFmus(Closing):
         inputs: Inputs = "held",
     ) -> None:
         if order not in ORDERS or inputs not in INPUTS:
-            raise HostError(f"order '{order}', inputs '{inputs}'; they are out of {ORDERS} and {INPUTS}.")
+            raise HostError(f"order '{order}', inputs '{inputs}'; they must be among {ORDERS} and {INPUTS}.")
         self.step_length, self.order, self.inputs = positive(step, "The communication step", "s"), order, inputs
         self._steps, self._own, self._state = 0, list[str](), "new"
         with ExitStack() as stack:

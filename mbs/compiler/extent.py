@@ -21,7 +21,7 @@ SMALL, LARGE = 0.1, 100.0
 
 
 def model_length(model: Model) -> float:
-    """The stated length, or the drawn one, m: what errors are told in parts of."""
+    """The stated length, or the drawn one, m: relative errors are relative to it."""
     return drawn_length(model) if model.length is None else model.length
 
 

@@ -1,5 +1,4 @@
-"""Overconstrained loops as they are drawn: the constants of the drawing are moved, by as little as possible, to where
-the loops move.
+"""Overconstrained loops: the points and axes of a drawing are corrected, by as little as possible, so that loops move.
 
 A loop with more conditions than Kutzbach's count allows moves only if its lengths and angles are exactly right, and no
 drawing with rounded numbers is. Closing it at the drawn position would not do: the misfit comes back as soon as it
@@ -9,8 +8,8 @@ U' Phi_g; the rows of all positions together,
 
     U_k' Phi_g dg = -U_k' r_k,     k = 1, 2, ...
 
-are as many as one likes and of the rank of the loop's hidden conditions, so dg is their shortest solution, in
-no more directions than it takes to explain the misfit.
+have the rank of the loop's hidden conditions however many they are, so dg is their shortest solution, in no more
+directions than the misfit needs.
 """
 
 import math
@@ -35,7 +34,7 @@ Array = NDArray[np.float64]
 TOLERANCE = 1e-4
 """Largest correction of a drawing, parts of its size and rad."""
 MOST_TOLERANCE = 0.01
-"""Beyond, a drawing is not one of the loop that moves but of another one."""
+"""A larger correction would make another mechanism of the drawing."""
 NEAR = 0.03
 """A singular value below this part of the largest may be that of a redundant condition drawn badly."""
 TIGHT = 1e-9
@@ -46,9 +45,9 @@ ITERATIONS = 25
 REMAINDER = 0.02
 """Part of the misfit that one iteration may leave."""
 MOVES, NEARLY = 10, 2e-3
-"""Positions of a motion that is one; the largest misfit along it, parts of the size, of a loop that nearly moves."""
+"""A loop nearly moves if so many positions follow one another with at most this misfit, parts of its size."""
 REDRAWN = ("equations", "normals", "rows_weight", "places", "ends")
-"""Attributes of a joint that its drawing makes."""
+"""Attributes of a joint that follow from its drawing."""
 APART = 5.0
 """Singular values that differ by this factor are of different kinds: redundant conditions, and short links."""
 
@@ -62,10 +61,14 @@ class Correction:
     distance: float
     angle: float
 
+    def size(self, length: float) -> float:
+        """The larger of its angle (rad) and its distance in parts of a length (m)."""
+        return max(self.distance / length, self.angle)
+
 
 @dataclass
 class Corrected:
-    """A joint with the ends it should have been drawn with, and the correction."""
+    """A joint with corrected points and axes of its two ends, each (2,) or (3,) in its body, and the correction."""
 
     joint: Joint
     points: tuple[Array, Array]
@@ -88,9 +91,9 @@ def corrected_joints(model: Model, tolerance: float = TOLERANCE) -> list[Correct
 def closed_loops(
     tolerance: float,
 ) -> Callable[[Model], Callable[[], AbstractContextManager[dict[str, tuple[float, float]]]]]:
-    """What finds the corrections of a model's drawing, and gives a context in which it is drawn so; see `compile`.
+    """A function that corrects the drawing of a model and returns a context in which the model has the corrections.
 
-    `tolerance`: see `corrected_joints`. Raises `ModelError`: the tolerance is not in its range.
+    See `compile`. `tolerance`: see `corrected_joints`. Raises `ModelError`: the tolerance is not in its range.
     """
     if not is_number(tolerance) or not 0.0 <= tolerance <= MOST_TOLERANCE:
         raise ModelError(
@@ -101,7 +104,7 @@ def closed_loops(
 
 @contextmanager
 def redrawn(joints: list[Corrected]) -> Iterator[dict[str, tuple[float, float]]]:
-    """The model of these joints with their corrected ends, while the context lasts.
+    """A context in which the model has these joints with their corrected ends.
 
     Yields
     ------
@@ -125,7 +128,7 @@ def redrawn(joints: list[Corrected]) -> Iterator[dict[str, tuple[float, float]]]
 
 @dataclass
 class Found:
-    """Constants with which loops move, and the places next to the drawn ones."""
+    """Constants with which loops move, and the position of the loops that is nearest to the drawn one."""
 
     g: Array
     start: Closed
@@ -197,7 +200,7 @@ def _stands_still(loops: Loops) -> bool:
 
 
 def _parallel(loops: Loops, at: Closed, angle: float) -> Array:
-    """Constants that make axes parallel that are so but for an angle, at a position."""
+    """Constants that make axes parallel at a position, where they are within an angle (rad) of it."""
     g = np.zeros(loops.constants)
     ends = [
         (end, E[:, 0 if loops.planar else 2])
@@ -287,7 +290,7 @@ def _joints(loops: Loops, found: Found, tolerance: float) -> list[Corrected]:
 def _joint(
     loops: Loops, c: Condition, g: Array, places: Places, meets: bool, points: list[Array], axes: list[Array]
 ) -> Corrected:
-    """One joint; `points` and `axes` are those that have been drawn, which the same ones take over in all digits."""
+    """One joint; `points` and `axes`: those of other joints, whose digits are taken over where they are the same."""
     ends = c.joint.drawing
     assert ends is not None
     now = loops.ends_in_space(c, places, g)
@@ -312,7 +315,7 @@ def _joint(
 
 
 def _known(v: Array, known: list[Array], near: float) -> Array:
-    """The vector of `known` that this one is (up to its sign if that is opposite), or it is one more."""
+    """The vector of `known` that equals this one or its negative, with the sign of this one; a new one is added."""
     for w in known:
         for sign in (1.0, -1.0):
             if np.max(np.abs(v - sign * w)) <= near:
@@ -323,7 +326,7 @@ def _known(v: Array, known: list[Array], near: float) -> Array:
 
 def _largest(loops: Loops, joints: list[Corrected]) -> float:
     """The largest correction, parts of the size or rad."""
-    return max(max(j.correction.distance / loops.size, j.correction.angle) for j in joints)
+    return max(j.correction.size(loops.size) for j in joints)
 
 
 def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], tolerance: float) -> None:
@@ -336,7 +339,7 @@ def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], 
     stay = "; with tolerance=0 it is taken as drawn and stands still."
     needed = _largest(loops, larger) if larger else np.inf
     if larger and needed <= NEAR:
-        worst = max(larger, key=lambda j: max(j.correction.distance / loops.size, j.correction.angle))
+        worst = max(larger, key=lambda j: j.correction.size(loops.size))
         more = f", or allow compile more: tolerance={_round_up(needed):g}" if needed <= MOST_TOLERANCE else ""
         raise ModelError(
             f"{start}it would move if its joints closed, '{worst.joint.name}' by {worst.correction.distance:.3g} m and "

@@ -80,7 +80,7 @@ def following(systems: list[System]) -> tuple[list[System], list[int]]:
 
 
 def _same_forces(ported: System, without: System) -> bool:
-    """Whether both have elements of the same types and the same inputs; their points are told in other frames."""
+    """Whether both have elements of the same types and the same inputs; their points are given in other frames."""
     types = all(np.array_equal(ported.arrays[n], without.arrays[n]) for n in ("el_type", "el_int", "el_real_ptr"))
     inputs = [[entry["name"] for entry in system.meta["inputs"]] for system in (ported, without)]
     return types and inputs[0] == inputs[1]

@@ -137,7 +137,7 @@ def check(model: Model) -> None:
             raise NoTreeError(f"joint '{joint.name}' is neither revolute, prismatic, spherical nor a weld")
 
 
-def turning(model: Model, groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
+def turning(groups: list[Group], joint: Joint) -> list[tuple[int, float]]:
     """The joints whose coordinates add up to a relative angle, by the numbers of their bodies, and their signs.
 
     Raises `NoTreeError`: where a joint between its bodies turns about another axis.
@@ -168,7 +168,8 @@ def _check_size(model: Model, n_joints: int, cuts: list[Cut]) -> None:
     rows = sum(sum(rows_of(model, cut)) for cut in cuts)
     if n_joints > MOST_JOINTS or rows > MOST_CUT_ROWS:
         raise NoTreeError(
-            f"{n_joints} joints and {rows} rows of loops are there, at most {MOST_JOINTS} and {MOST_CUT_ROWS} may be"
+            f"there are {n_joints} joints and {rows} rows of loops; at most {MOST_JOINTS} and "
+            f"{MOST_CUT_ROWS} are possible"
         )
     for cut in cuts:
         if cut.joint.type == "prismatic":

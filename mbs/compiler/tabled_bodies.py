@@ -1,4 +1,4 @@
-"""Bodies and numbers by table as the `tabled_` arrays of the System: dependents behind its coordinates."""
+"""Lookup-table bodies and numbers: dependent coordinates, numbered behind those of the System, and `tabled_` arrays."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -19,34 +19,33 @@ NONE = [-1] * 12
 
 @dataclass(frozen=True)
 class Dependents:
-    """Expressions of z, those of lookup-table bodies and numbers apart from the others."""
+    """Expressions in the coordinates z of the System; coordinates that tables give, the dependents, follow z."""
 
     remaining: list[int]
     """Natural coordinates that are z."""
     full: list[Affine]
+    """As of `reduce_coordinates`, with dependents as constants, at their drawn values."""
     of_z: list[Affine]
-    """`full`, `of_z`: as of `reduce_coordinates`; tabled ones are constants, as drawn."""
+    """As of `reduce_coordinates`, zero for dependents."""
     seen: list[Affine]
-    """As `full`, the tabled ones numbered behind z: for signals."""
+    """As `full`, with dependents as coordinates behind z: for signals."""
     left: list[RowTerms]
     """Linear equations between coordinates that stay, over z."""
 
 
 def tabled_coordinates(model: Model) -> list[int]:
-    """Full coordinates that tables give, in the order of dependents."""
+    """Natural coordinates that tables give, in the order of dependents."""
     return [i for t in model.tabled for i in _own(t)]
 
 
 def base_coordinates(model: Model) -> set[int]:
-    """Full coordinates of bodies that tables stand on, and parameters: never eliminated."""
-    bases = [b for b in model.bodies if b.is_base]
-    return {i for b in bases for i in range(b.start, b.start + b.size)} | {
-        c.index for t in model.tabled for c in t.parameters
-    }
+    """Natural coordinates that tables depend on, those of base bodies and parameters: they are never eliminated."""
+    bases = {i for b in model.bodies if b.is_base for i in range(b.start, b.start + b.size)}
+    return bases | {c.index for t in model.tabled for c in t.parameters}
 
 
 def carried_mass(model: Model) -> NDArray[np.float64]:
-    """What tabled bodies as drawn add to the diagonal mass of their bases: these may be lighter; shape (n_full,)."""
+    """Diagonal mass that lookup-table bodies, as drawn, add to the coordinates of their bases, shape (n_full,)."""
     mass = np.zeros(len(model.coordinates))
     for t in model.tabled:
         if isinstance(t, TabledBody) and not t.base.is_ground:
@@ -59,7 +58,7 @@ def carried_mass(model: Model) -> NDArray[np.float64]:
 def tell_apart(
     model: Model, remaining: list[int], full: list[Affine], of_z: list[Affine], left: list[RowTerms]
 ) -> Dependents:
-    """Number the dependents behind z."""
+    """Take the dependents out of z and number them behind it; arguments as of `reduce_coordinates`."""
     tabled = {i: d for d, i in enumerate(tabled_coordinates(model))}
     if not tabled:
         return Dependents(remaining, full, of_z, full, left)
@@ -79,12 +78,12 @@ def tell_apart(
 
 
 def refuse_joint(name: str) -> ModelError:
-    """The error for a joint on a tabled body."""
+    """The error for a joint on a lookup-table body."""
     return ModelError(f"The joint '{name}' is on a lookup-table body, which accepts forces and sensors but no joints.")
 
 
 def columns_of(model: Model, seen: Sequence[Affine]) -> list[list[int]]:
-    """For each dependent the coordinates of z that it depends on."""
+    """Coordinates of z that each dependent depends on."""
     return [_places(t, seen) for t in model.tabled for _ in _own(t)]
 
 
@@ -94,12 +93,12 @@ def tabled_cliques(model: Model, seen: Sequence[Affine]) -> list[list[int]]:
 
 
 def spread(columns: Sequence[int], of: Sequence[Sequence[int]], nz: int) -> list[int]:
-    """Coordinates behind columns, some of which are dependents."""
+    """Coordinates of z behind columns, of which those from nz on are dependents. `of`: as of `columns_of`."""
     return sorted({j for c in columns for j in (of[c - nz] if c >= nz else [c])})
 
 
 def locator_of(locate: Locate, of: Sequence[Sequence[int]], nz: int) -> Locate:
-    """The locator where columns may be dependents, whose local index is 0."""
+    """A locator that accepts dependents as columns; their local index is 0."""
 
     def found(columns: Sequence[int]) -> tuple[int, list[int]]:
         if all(c < nz for c in columns):

@@ -172,7 +172,7 @@ def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new
     for joint in model.joints:
         if joint.turn is None:
             continue
-        parts = turning(model, list(groups), joint)
+        parts = turning(list(groups), joint)
         inertia = model.inertias.get(joint.turn.coordinate, 0.0)
         if inertia > 0.0 and not _one_path(groups, [number for number, _ in parts]):
             raise NoTreeError(f"the armature of relative angle '{joint.name}' couples two branches of the tree")
@@ -182,7 +182,7 @@ def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new
         arrays["ptr"].append(len(arrays["joint"]))
         arrays["inertia"].append(inertia)
     if len(arrays["col"]) > MOST_JOINTS:
-        raise NoTreeError(f"{len(arrays['col'])} relative angles are there, at most {MOST_JOINTS} may be")
+        raise NoTreeError(f"there are {len(arrays['col'])} relative angles; at most {MOST_JOINTS} are possible")
     return {f"angle_{name}": values for name, values in arrays.items()}
 
 

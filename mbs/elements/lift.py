@@ -54,7 +54,7 @@ class Lift(Element):
             size(axis, (2, 3), f"The {words} of {what}")
             if len(axis) != len(point):
                 raise ModelError(
-                    f"The {words} of {what} has {len(axis)} components and its point {len(point)}; they must be alike."
+                    f"The {words} of {what} has {len(axis)} components and its point {len(point)}; they must agree."
                 )
         air: tuple[int, ...] = ()
         if wind is not None:

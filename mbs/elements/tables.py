@@ -1,4 +1,4 @@
-"""Tables of force elements for the pages: what their classes declare, and their laws, which their docstrings say."""
+"""Tables of force elements for the documents: what their classes declare, and the laws in their docstrings."""
 
 import dataclasses
 import inspect
@@ -10,7 +10,7 @@ from mbs.kernel.header.enumerations import ElementType
 
 
 def element_table() -> str:
-    """A row a type: its signals, integers, states and outputs, as the page of the System file shows them."""
+    """Table of the page of the System file: signals, integers, states and outputs of each element type."""
     rows = []
     for kind in ElementType:
         of = class_of(kind)
@@ -22,7 +22,7 @@ def element_table() -> str:
 
 
 def number_table() -> str:
-    """A row a field of each type, in the order of the reals: names, range, default, meaning and unit."""
+    """Range, default, meaning and unit of each number of each element type, in the order of its reals."""
     rows = []
     for kind in ElementType:
         name = f"`{kind.name}`"
@@ -33,7 +33,7 @@ def number_table() -> str:
 
 
 def law_table() -> str:
-    """A row a type: its law and the file in C, as the page of the theory shows them."""
+    """Table of the page of the theory: law and C file of each element type."""
     rows = []
     for kind in ElementType:
         of = class_of(kind)
@@ -43,7 +43,7 @@ def law_table() -> str:
 
 
 def _numbers(kind: type, group: Group | None = None, field: str = "") -> Iterator[tuple[list[str], str, str, str]]:
-    """Names of each field, its range, default and text; those of a group by the names that it gives them."""
+    """Names, range, default and text of each field; fields of a group have the names that the group gives them."""
     said = texts(kind)
     defaults = {f.name: f.default for f in dataclasses.fields(kind)} if dataclasses.is_dataclass(kind) else {}
     for name, real in declared(kind).items():
@@ -57,7 +57,7 @@ def _numbers(kind: type, group: Group | None = None, field: str = "") -> Iterato
 
 
 def _range(real: Real) -> str:
-    """What a number must be; nothing where it may be any."""
+    """Range of a number in words; empty: any."""
     return RANGES[real.check][1].replace("must not be", "not").removeprefix("must be ")
 
 
@@ -69,9 +69,6 @@ def _shown(default: object) -> str:
 
 
 def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    lines = [*rows]
     head = (*head,)
-    return "\n".join(
-        f"| {' | '.join(cells)} |"
-        for cells in (head, ("---",) * len(head), *([c.replace("|", "\\|") for c in line] for line in lines))
-    )
+    lines = [head, ("---",) * len(head), *([cell.replace("|", "\\|") for cell in row] for row in rows)]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)

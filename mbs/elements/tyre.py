@@ -43,7 +43,7 @@ TYRE_OUTPUTS = (
     *(Output(f"normal_{c}", "1", f"{c} of the road's unit normal at the contact point, earth, upwards") for c in "xyz"),
     Output("rolling_moment", "N m", "about the contact point: rolling resistance, and Fx by its lever"),
 )
-"""What every tyre tells first, in the order of the kernel."""
+"""The first outputs of every tyre, in the order of the kernel."""
 
 
 def check_rim(bottoming_radius: float, radius: float, what: str) -> None:

@@ -1,4 +1,6 @@
-"""What was understood of a flexible body: mass, size, frequencies, and whether its matrices are those of a body."""
+"""Plausibility of a flexible body: its mass, size and frequencies, and the mistakes in units that would explain odd
+ones.
+"""
 
 from collections.abc import Iterator, Mapping
 from functools import partial
@@ -17,16 +19,16 @@ from mbs.flexible.reduced_body import ReducedBody
 
 RIGID = 6
 SLIM = 0.05
-"""Smallest over largest side of a body whose hull has a volume that says something."""
+"""Least ratio of the smallest to the largest side at which the volume of the convex hull is used."""
 QUANTITIES = quantities_of("flexible")
 
 
 class FlexibleWarning(UserWarning):
-    """A flexible body that can be but is none in its units; the message says what would explain it."""
+    """A flexible body that is possible but unlikely; the message says which mistake in units would explain it."""
 
 
 class Units(NamedTuple):
-    """What a number in a file is in SI units."""
+    """Factors from the numbers of a file to SI units."""
 
     length: float = 1.0
     mass: float = 1.0
@@ -43,17 +45,17 @@ UNDONE = (
     ("g, mm and ms in place of kg, m and s", Units(1e-3, 1e-3, 1e3)),
     ("pounds in place of kg in the mass", Units(mass=0.45359237)),
 )
-"""The commonest first. Units that are consistent change no frequency."""
+"""Mistakes in units, the most common first. Consistent units change no frequency."""
 
 
 @echo_of.register
 def model_echo(
     model: FiniteElementModel, what: str = "", modes: bool = True, beside: float = 0.0, held: ArrayLike = ()
 ) -> list[Echo]:
-    """What was understood of a finite-element model.
+    """Quantities of a finite-element model with their usual ranges.
 
-    `what`: the file; `modes`: whether its frequencies are sought; `beside`: mass that is given beside it, kg; 0: none;
-    `held`: freedoms of its interfaces.
+    `what`: the file, in messages; `modes`: whether its frequencies are computed; `beside`: mass that is given apart
+    from the model, kg; `held`: degrees of freedom of its interfaces.
     """
     x, masses = model.positions, model.mass.masses
     free = _lowest(model, RIGID) if modes else None
@@ -65,14 +67,14 @@ def model_echo(
 
 @echo_of.register
 def reduced_echo(body: ReducedBody) -> list[Echo]:
-    """What was understood of a reduced body, from its reference node; its frequencies are those of its modes."""
+    """Quantities of a reduced body with their usual ranges, from its reference node; frequencies are by its modes."""
     x, moment = body.node_positions, body.masses @ body.mass_positions
     values = partial(_values, x, _hull(x), body.masses, moment, _free(body), _supported(body), {}, 0.0)
     return [_echo("", values)]
 
 
 def _echo(what: str, values: partial[list[Value]], alone: bool = False) -> Echo:
-    """`alone`: whether the stiffness has its units from elsewhere."""
+    """An echo with the mistakes of `UNDONE`. `alone`: only those in one of nodes, mass and stiffness."""
     changed = [(words, frozenset(_changed(units)), units) for words, units in UNDONE]
     mistakes = [Mistake(w, keys, partial(values, units)) for w, keys, units in changed if not alone or len(keys) == 1]
     return Echo(what, values(Units()), mistakes)
@@ -125,14 +127,14 @@ def _three(sides: np.ndarray) -> str:
 
 
 def _hull(x: np.ndarray) -> float:
-    """Volume of the convex hull, m3; 0 where it is too flat or too slim to say something."""
+    """Volume of the convex hull, m3; 0 for a body that is flat or slim, see `SLIM`."""
     centred = x - x.mean(axis=0)
     sides = np.ptp(centred @ np.linalg.svd(centred.T @ centred)[0], axis=0)
     return float(ConvexHull(x).volume) if sides.min() > SLIM * sides.max() else 0.0
 
 
 def _lowest(model: FiniteElementModel, number: int, held: ArrayLike = ()) -> float | None:
-    """Frequency by its number, from 0, Hz; None where its modes cannot be computed."""
+    """Natural frequency by its number from 0, Hz; None: the modes cannot be computed."""
     try:
         return float(natural_modes(model, number + 1, held)[0][-1])
     except ModelError:

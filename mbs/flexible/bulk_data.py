@@ -249,8 +249,8 @@ def _without_tabs(line: _Line, wide: int) -> str:
         first, end = (0, 8) if len(made) < 8 else (8 + wide * ((len(made) - 8) // wide + k) for k in (0, 1))
         if made.rfind(" ") + 1 < min(first, len(made)):
             raise line.error(
-                f"{brief(made.split()[-1])} fills its field or is longer, and a tab follows: which field is next is "
-                "not told; write blanks or commas."
+                f"{brief(made.split()[-1])} fills its field or is longer, and a tab follows, so that the next field is "
+                "ambiguous; write blanks or commas."
             )
         made = made.ljust(end)
     return made + last

@@ -65,7 +65,7 @@ def check_definite(matrix: Sparse, what: str) -> int:
     """Refuse a matrix of the other sign. Result: how many of its eigenvalues are negative."""
     negative = negative_eigenvalues(matrix)
     if negative and not negative_eigenvalues(-matrix):
-        raise ModelError(f"The {what} matrix is negative; it must be positive: its sign is turned.")
+        raise ModelError(f"The {what} matrix is negative; it must be positive: its sign is reversed.")
     return negative
 
 
@@ -79,13 +79,13 @@ def check_free(model: FiniteElementModel) -> None:
     where = f"The stiffness resists rigid motions at node {model.names[node]!r}"
     for words, x, dof in _mistaken(model):
         if _resistance(model, x, dof).max() <= GROUNDED:
-            raise ModelError(f"{where}: {words} would explain it, without that it does not.")
+            raise ModelError(f"{where}: {words} would explain it.")
     if (turned := _turned_entry(model)) is not None:
         raise ModelError(f"{where}: the sign of its entries {turned} and {turned[::-1]} would explain it.")
     moved = forces[:, :3]
     if moved.max() <= GROUNDED:
         raise ModelError(
-            f"{where} that turn it, not at those that move it: the places of the nodes are not those of the "
+            f"{where} for rotations, not for translations: the positions of the nodes do not belong to the "
             "stiffness, by their order, axes or unit."
         )
     across = moved.copy()

@@ -49,7 +49,7 @@ def external_model(
         Number of each freedom, -1 for none. By default node after node with the six freedoms x, y, z, rx, ry, rz, or
         with x, y, z when the matrices have three freedoms per node.
     total_mass : float, optional
-        Of the body as it is known from elsewhere, kg: a model that weighs otherwise is told.
+        Of the body as it is known from elsewhere, kg: a model of another mass is warned about.
     what : str
         The file, for messages.
 

@@ -83,7 +83,9 @@ def modes_for_output(
     exact = np.asarray(rows @ fixed.solve(load))
     scale = np.abs(exact).max(axis=1, keepdims=True)
     if (scale == 0).any():
-        raise ModelError(f"Output {int(np.flatnonzero(scale == 0)[0])} does not see any deformation of the model.")
+        raise ModelError(
+            f"Output {int(np.flatnonzero(scale == 0)[0])} does not depend on any deformation of the model."
+        )
     participation = (modes.T @ load) / ((2 * np.pi * hertz) ** 2)[:, None]
     parts = np.asarray(rows @ modes)[:, :, None] * participation[None] / scale[:, :, None]
     resonant = hertz < RESONANT * frequency

@@ -120,7 +120,7 @@ class _Binary:
 
 
 class _Text:
-    """A file of lines, with numbers in columns of a width that the header tells."""
+    """A file of lines, with numbers in columns of a width that the header gives."""
 
     def __init__(self, file: BinaryIO) -> None:
         self._lines = (line.decode("latin-1").rstrip("\r\n") for line in file)

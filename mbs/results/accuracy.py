@@ -168,7 +168,7 @@ def energy_text(report: Report, system: System, method: str) -> str:
 
 
 def needed_step(h: float, accuracy: Accuracy) -> float | None:
-    """The step that would bring the result to `GOAL_ERROR`, s; None where it is too far off to tell."""
+    """The step that would bring the result to `GOAL_ERROR`, s; None where it is too far off to estimate it."""
     error = accuracy.error
     if error is None or error > UNRESOLVED or accuracy.order is None:
         return None

@@ -46,7 +46,7 @@ class Compared:
     place: bool = False
     """A position, a length, an angle or a coordinate; all else a rate or a load."""
     load: bool = False
-    """A force, held against its largest value, since loads stay; all else against its range."""
+    """Whether it is a force: compared with its largest value, as a load may be constant; others with their range."""
     always: bool = True
     """False: rates and the forces of motors, which change in jumps, judged where nothing else moves by itself."""
     wrapped: bool = False

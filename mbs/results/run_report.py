@@ -49,7 +49,7 @@ class Report:
     velocity_squares, predictor_squares : float
         Sums of the squares of what the steps add to these two, kg m^2/s^2.
     energy_floor : float
-        What gravity does over the tolerance of the residual, J; a smaller `energy_error` tells nothing.
+        What gravity does over the tolerance of the residual, J; a smaller `energy_error` is not significant.
     free_states : int
         Of a System on which nothing acts but forces with a potential, whose energy stays: states that were looked at;
         0 for others, and where parameters or switches changed last.

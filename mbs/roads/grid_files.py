@@ -49,7 +49,7 @@ def read_grid(path: str | os.PathLike[str], picture_range: tuple[float, float] |
     file = Path(path)
     kind = file.suffix.lower()
     if kind not in GRIDS:
-        raise RoadFileError(f"{path} has the {what} of a road in a form that is not read; {', '.join(GRIDS)} are.")
+        raise RoadFileError(f"{path} is not read as {what} of a road; its suffix must be one of {', '.join(GRIDS)}.")
     try:
         check_file(file, MOST_BYTES, RoadFileError)
         if kind in TABLES:

@@ -60,7 +60,7 @@ def read_road(
     if kind == ".road":
         return RoadFile(path).read()
     if kind not in ROADS:
-        raise RoadFileError(f"{path} is of a kind that is not read as a road; {', '.join(ROADS)} are.")
+        raise RoadFileError(f"{path} is not read as a road; its suffix must be one of {', '.join(ROADS)}.")
     from mbs.roads.description import described_road, grid_road
 
     if kind == ".toml":

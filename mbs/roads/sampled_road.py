@@ -1,4 +1,4 @@
-"""A grid that is taken from another surface, and how far it is off."""
+"""A grid of heights sampled from another surface, and its deviation from that surface."""
 
 from __future__ import annotations
 
@@ -19,26 +19,30 @@ Values = NDArray[np.float64]
 MOST_POINTS = 2**24
 """Largest number of points of a grid: 134 MB of heights."""
 TOLD = 0.01
-"""m: a larger difference is warned about."""
+"""A larger deviation is warned about, m."""
 BETWEEN = 0.382, 0.618
-"""Where in its cells a grid is compared; no fraction at which edges of a drawing lie."""
+"""Place in each cell where heights are compared, shares of its sides: no fraction at which edges of a drawing lie."""
 
 
 @dataclass(frozen=True)
 class SampledRoad(GridRoad):
-    """A grid that was taken from a surface of another form."""
+    """A grid that was sampled from a surface of another form.
+
+    Its deviation is that of heights between the points of the grid and at those of the surface.
+    """
 
     source: str = ""
+    """What it was sampled from, in messages."""
     largest: float = 0.0
+    """Largest deviation, m."""
     rms: float = 0.0
-    """`largest`, `rms`: difference of its heights from the surface where that is, between the points of the grid and at
-    those of the surface, m."""
+    """Root mean square of the deviation, m."""
     place: tuple[float, float] = (0.0, 0.0)
-    """x and y of the largest, m."""
+    """x and y of the largest deviation, m."""
 
     @property
     def sentence(self) -> str:
-        """How far it is off."""
+        """Its deviation, as the end of a sentence."""
         return (
             f"differs from {self.source} by {1000.0 * self.largest:.3g} mm at most, at x = {self.place[0]:.6g} m, "
             f"y = {self.place[1]:.6g} m, and by {1000.0 * self.rms:.3g} mm (root mean square)"
@@ -53,9 +57,10 @@ class SampledRoad(GridRoad):
 def points_of_box(
     low: Values, high: Values, spacing: tuple[float, float], source: str, more: str = ""
 ) -> tuple[Values, Values]:
-    """Coordinates x (nx,) and y (ny,) of a grid from border to border of a box, not farther apart than the spacing.
+    """Coordinates x (nx,) and y (ny,), m, of a grid from border to border of a box, at most a spacing apart.
 
-    Raises `RoadFileError`: the grid has too many points, with a spacing that would do; `more` is added to the message.
+    `low`, `high`: x and y of the box's corners; `source`: the surface, in messages. Raises `RoadFileError`: the grid
+    has too many points; the message has a spacing that fits, and ends with `more`.
     """
     sides = high - low
     counts = np.maximum(np.ceil(sides / spacing - 1e-6), 1.0) + 1.0
@@ -71,16 +76,16 @@ def points_of_box(
 
 
 def between(road: GridRoad) -> tuple[Values, Values]:
-    """Coordinates x (nx - 1,) and y (ny - 1,) at which a grid is compared, one place in each cell."""
+    """Coordinates x (nx - 1,) and y (ny - 1,), m, at which heights are compared, one place in each cell."""
     shape = np.shape(road.heights)
     x, y = (road.origin[k] + road.spacing[k] * (np.arange(shape[k] - 1) + BETWEEN[k]) for k in range(2))
     return x, y
 
 
 def compared(road: GridRoad, known: Iterable[tuple[Values, Values]], source: str) -> SampledRoad:
-    """The road with its difference from the surface that it was taken from.
+    """The road with its deviation from the surface that it was sampled from.
 
-    `known`: x and y (n, 2) and heights (n,) of the surface, m; NaN beside it.
+    `known`: x and y (n, 2) and heights (n,) of the surface, m; NaN where it has none.
     """
     heights = np.ascontiguousarray(road.heights, np.float64)
     largest, place, squares, count = 0.0, (float(road.origin[0]), float(road.origin[1])), 0.0, 0
@@ -96,7 +101,7 @@ def compared(road: GridRoad, known: Iterable[tuple[Values, Values]], source: str
 
 
 def tell(road: SampledRoad) -> None:
-    """Warns of a large difference."""
+    """Warn of a large deviation."""
     if road.largest > TOLD:
         step = " by ".join(f"{h:.4g}" for h in road.spacing)
         warnings.warn(
@@ -107,10 +112,9 @@ def tell(road: SampledRoad) -> None:
 
 
 def grid_heights(road: GridRoad, heights: Values, places: Values) -> Values:
-    """Heights of the surface of a grid, as the kernel computes them.
+    """Heights (n,) of the surface of a grid, m, as the kernel computes them.
 
-    `heights`: of the road, contiguous, shape (nx, ny); `places`: x and y, m, shape (n, 2). Returns an array of shape
-    (n,), m.
+    `heights`: those of the road, contiguous, (nx, ny), m; `places`: x and y, (n, 2), m.
     """
     found = np.empty(len(places))
     grid = np.array((*road.origin, *road.spacing), np.float64)

@@ -29,9 +29,9 @@ class Control:
     """Why this method; empty where the caller named it."""
     error: float
     """Guess of the largest error of positions over the run in parts of `length`: its distance from a coarser run, times
-    what its steps err over what those of the other do, at least a tenth of the tolerance: smaller guesses tell little.
-    In nine of ten runs it is within ten times the error; what both runs miss is not in it, and where guides prescribe
-    all motion it is 0. NaN where the step was given: nothing was compared."""
+    what its steps err over what those of the other do, at least a tenth of the tolerance: smaller guesses are
+    unreliable. In nine of ten runs it is within ten times the error; what both runs miss is not in it, and where guides
+    prescribe all motion it is 0. NaN where the step was given: nothing was compared."""
     h: float | None
     """The fixed step, s; None: steps under error control."""
     steps: int

@@ -1,4 +1,4 @@
-"""Coordinates that a run keeps for its poses: all recorded ones, or one of many, so that memory is bounded."""
+"""The coordinates that a run keeps for its poses: at all samples, or at every n-th so that memory is bounded."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,18 +10,18 @@ Array = NDArray[np.float64]
 
 
 class PositionRecord:
-    """Coordinates of a run of `samples` samples.
+    """Coordinates of a run; none if its System has no drawing.
 
     Parameters
     ----------
     system : System
-        Without a drawing nothing is kept.
+        The System of the run.
     q : array of shape (nq,)
-        At the first sample.
+        Coordinates at the first sample.
     samples : int
-        The first one included.
+        Number of samples, with the first one.
     every : int
-        One of that many samples is wanted at most.
+        Keep at most each so many-th sample.
     """
 
     def __init__(self, system: System, q: Array, samples: int, every: int = 1) -> None:
@@ -32,13 +32,13 @@ class PositionRecord:
             self._kept[0] = q
 
     def rows(self, first: int, count: int) -> Array | None:
-        """Where the kernel writes samples `first` to ``first + count - 1``, shape (count, nq); None: nowhere."""
+        """An array for the kernel to write `count` samples from `first` on to, shape (count, nq); None: not needed."""
         if self._kept is None:
             return None
         return self._kept[first : first + count] if self.every == 1 else np.empty((count, self._kept.shape[1]))
 
     def take(self, first: int, rows: Array | None) -> None:
-        """Keep what was written to `rows`."""
+        """Keep samples from `first` on that were written to `rows`, an array of the method `rows`."""
         if self._kept is None or rows is None or self.every == 1:
             return
         begin = -first % self.every
@@ -47,7 +47,7 @@ class PositionRecord:
         self._kept[at : at + len(found)] = found
 
     def fill(self, positions: Array) -> None:
-        """Keep of all samples at once, shape (samples, nq)."""
+        """Take all samples at once, shape (samples, nq)."""
         if self._kept is not None:
             self._kept[:] = positions[:: self.every]
 

@@ -13,7 +13,7 @@ _PREPARED: WeakKeyDictionary[System, tuple[LoadedSystem, dict[str, Any]]] = Weak
 
 
 def prepared(system: System) -> tuple[LoadedSystem, dict[str, Any]]:
-    """What all Simulations of a System share: it in the kernel's memory, and its names, which must not be changed."""
+    """The System in the kernel's memory and its metadata, shared by all Simulations of it: neither may be changed."""
     if system not in _PREPARED:
         loaded = LoadedSystem(system.kernel_bytes())
         if system.native is not None:
@@ -23,15 +23,15 @@ def prepared(system: System) -> tuple[LoadedSystem, dict[str, Any]]:
 
 
 def scales_of(system: System) -> NDArray[np.float64]:
-    """What turns changes of coordinates into lengths, m, shape (nq,)."""
+    """Length (m) that belongs to a change of each coordinate by one unit, shape (nq,)."""
     return np.array(prepared(system)[1].get("coordinate_lengths", [1.0] * system.nq), float)
 
 
 def distance(system: System, one: NDArray[np.float64], other: NDArray[np.float64]) -> float:
-    """Largest distance of coordinates (n, nq) in parts of the length."""
+    """Largest difference of two sets of coordinates, each (n, nq), as a length over the model's length."""
     return float(np.max(np.abs(one - other) * scales_of(system), initial=0.0)) / length_of(system)
 
 
 def length_of(system: System) -> float:
-    """The model's length, m; 1 m in Systems written before they stored it."""
+    """The model's characteristic length, m; 1 m if the System does not state it."""
     return float(prepared(system)[1]["report"].get("length", 1.0))

@@ -58,7 +58,7 @@ def recorded(
 
 
 def notices_of(system: System, t: Array, values: Array) -> list[str]:
-    """What a run tells beside its numbers: `notices_before`, and what sensors with a notice say of their columns,
+    """What a run reports besides its numbers: `notices_before`, and what sensors with a notice say of their columns,
     `values` (n, ns) at `t` (n,).
     """
     meta = prepared(system)[1]

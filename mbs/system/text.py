@@ -1,4 +1,4 @@
-"""What `print(system)` says: counts, rank and degrees of freedom, non-zeros; and what is told of a model."""
+"""What `print(system)` says: counts, rank and degrees of freedom, non-zeros; and notes on the model."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -33,7 +33,7 @@ def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
 
 
 def notices_before(meta: Mapping[str, Any]) -> list[str]:
-    """What is told of a model beside its numbers, by its metadata: that nothing or a part of it can not move, that
+    """Notes on a model, by its metadata: that nothing or a part of it can not move, that
     initial velocities contradict each other.
     """
     report = meta["report"]

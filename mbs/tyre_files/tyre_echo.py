@@ -23,7 +23,7 @@ DEG = math.pi / 180.0
 FARTHEST = 0.6
 """Slip, and slip angle, rad, up to which a peak is looked for."""
 BEYOND = 0.5
-"""Slip at which a curve is held against its peak."""
+"""Slip at which a curve is compared with its peak."""
 NEAR = 0.95
 """Of a peak: some curves rise for ever and have none."""
 SLIPS = np.linspace(0.0, FARTHEST, 1201)
@@ -61,7 +61,7 @@ RANGES = {
 }
 FACTORS = [key for key, usual in MAGIC_COEFFICIENTS.items() if key[0] == "L" and usual == 1.0]
 LEANING = 5.0 * DEG
-"""Camber at which the friction is held against that upright."""
+"""Camber at which the friction is compared with that of an upright wheel."""
 RELATIONS: tuple[tuple[str, tuple[str, ...], str, Callable[..., float]], ...] = (  # quantity, keys, of, how it follows
     (
         "section",

@@ -19,20 +19,20 @@ THIN = 1e-6
 
 
 class UrdfWarning(UserWarning):
-    """A URDF file says what the model has not."""
+    """The model differs from what a URDF file describes."""
 
 
 def pose_of(origin: Any) -> Array:
-    """Frame of an element, shape (4, 4), m."""
+    """Homogeneous transformation of an element's origin, shape (4, 4), m; the identity if it has none."""
     return np.eye(4) if origin is None else np.asarray(origin, float)
 
 
 def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
-    """Mass, centre and inertia about it of several links together, earth axes; a rotor may have an inertia alone.
+    """Mass (kg), centre of mass (3,) (m) and inertia (3, 3) about it (kg m2) of several links together, in earth axes.
 
-    Without a mass of all together the centre is at the origin, and the inertia is the sum.
+    A rotor may have an inertia without a mass; if the sum of all masses is zero, the centre is the origin.
 
-    `parts`: links with their frames in earth axes. Raises `ModelError`: a link with a mass has no inertia.
+    `parts`: links with their frames, (4, 4), in earth axes. Raises `ModelError`: a link with a mass has no inertia.
     """
     found = []
     for link, pose in parts:
@@ -54,14 +54,11 @@ def mass_of(parts: Iterable[tuple[Any, Array]]) -> tuple[float, Array, Array]:
 
 
 def possible_inertia(inertia: Array, what: str) -> tuple[Array, str]:
-    """The inertia, shape (3, 3), or next to it one that a mass distribution has, and by how much it was changed.
+    """An inertia (3, 3), kg m2, corrected if no mass distribution can have it, and a sentence on the correction.
 
-    `what`: file and link, for messages. Its second moments of mass, tr(I)/2 - I, are made positive.
+    The correction makes the second moments of mass, tr(I)/2 - I, positive; the sentence is empty if there is none.
 
-    Raises
-    ------
-    ModelError
-        The correction is larger than `SLIGHT`.
+    `what`: file and link, for messages. Raises `ModelError`: the correction is larger than `SLIGHT`.
     """
     try:
         return inertia_matrix(inertia, 3, what), ""
@@ -75,13 +72,11 @@ def possible_inertia(inertia: Array, what: str) -> tuple[Array, str]:
         near = np.sum(moments) - moments
         change = float(np.max(np.abs(near - given))) / given[-1]
         values, nearest = (", ".join(f"{v:.6g}" for v in principal) for principal in (given, near))
-        says = (
-            f"{what} has the principal values {values} kg m2, which no mass distribution has; the nearest that one has"
-        )
+        fault = f"{what} has the principal values {values} kg m2, which no mass distribution can have"
         if change > SLIGHT:
             raise ModelError(
-                f"{says} are {nearest}, {100.0 * change:.2g} % of the largest away. Correct the file, for example to "
-                f"those; up to {100.0 * SLIGHT:g} % are corrected here with a warning."
+                f"{fault}; the nearest possible ones are {nearest}, {100.0 * change:.2g} % of the largest away. "
+                f"Correct the file, for example to those; up to {100.0 * SLIGHT:g} % are corrected here with a warning."
             ) from error
-        told = f"{says}, {nearest}, are taken: {100.0 * change:.2g} % of the largest away."
-        return np.asarray((axes * near) @ axes.T), told
+        note = f"{fault}; {nearest} are used instead, {100.0 * change:.2g} % of the largest away."
+        return np.asarray((axes * near) @ axes.T), note

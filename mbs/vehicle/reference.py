@@ -1,7 +1,4 @@
-"""The reference of the car file, and its JSON Schema.
-
-``python -m mbs.vehicle.reference`` prints the one and writes the other, in a clone.
-"""
+"""``python -m mbs.vehicle.reference`` prints the reference of the car file, and writes its JSON Schema in a clone."""
 
 import inspect
 import textwrap
@@ -29,25 +26,23 @@ def tables() -> str:
     for table, places in _tables().items():
         paths = list(dict.fromkeys(path for path, _ in places))
         kinds = list(dict.fromkeys(kind for _, kind in places if kind))
-        kind = f", {kinds[0]}" if len(kinds) == 1 else ""
-        heading = " and ".join(f"`{path}`" for path in paths) if len(paths) <= 2 else _name(table)
-        where = "" if len(paths) <= 2 else "Stands at " + ", ".join(f"`{path}`" for path in paths) + "."
         text = inspect.cleandoc(table.__doc__ or "").replace("``", "`")
-        paragraphs = [textwrap.fill(" ".join(p.split()), WIDTH) for p in text.split("\n\n")]
+        blocks = [textwrap.fill(" ".join(p.split()), WIDTH) for p in text.split("\n\n")]
+        quoted = [f"`{path}`" for path in paths]
+        if len(paths) > 2:
+            heading = _name(table)
+            blocks.append(textwrap.fill(f"Stands at {', '.join(quoted)}.", WIDTH, break_on_hyphens=False))
+        else:
+            kind = f", {kinds[0]}" if len(kinds) == 1 else ""
+            heading = (TOP if paths == [""] else " and ".join(quoted)) + kind
         rows = [_row(key, field) for key, field in keys_of(table).items()]
-        parts.append(
-            f"## {heading if paths != [''] else TOP}{kind if len(paths) <= 2 else ''}\n\n"
-            + "\n\n".join(paragraphs)
-            + "\n\n"
-            + (textwrap.fill(where, WIDTH, break_on_hyphens=False) + "\n\n" if where else "")
-            + "\n".join(_line(row) for row in [COLUMNS, ("---",) * len(COLUMNS), *rows])
-            + "\n"
-        )
+        blocks.append("\n".join(_line(row) for row in [COLUMNS, ("---",) * len(COLUMNS), *rows]))
+        parts.append("\n\n".join([f"## {heading}", *blocks]) + "\n")
     return "\n".join(parts)
 
 
 def _name(table: Table) -> str:
-    """Heading of a table that stands at many places: the first words of what is said about it."""
+    """Heading of a table that stands at many places: the first words of its docstring."""
     return inspect.cleandoc(table.__doc__ or "").partition("\n")[0].partition(";")[0].partition(",")[0].rstrip(".")
 
 
@@ -76,9 +71,10 @@ def _row(key: str, field: FieldInfo) -> tuple[str, ...]:
     annotation = annotation_of(field)
     quantities = quantities_in(annotation)
     text = " ".join((field.description or "").split())
-    default = "" if field.is_required() else "optional" if field.default_factory or field.default is None else ""
-    if not field.is_required() and not default:
-        default = _shown(field.default)
+    if field.is_required():
+        default = ""
+    else:
+        default = "optional" if field.default_factory or field.default is None else _shown(field.default)
     units = "; ".join(quantity.unit for quantity in quantities)
     limits = "; ".join(map(_range, quantities))
     change = next((q.change for q in quantities if q.change is not None), "")

@@ -90,13 +90,13 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
     if options.world is None:
         if options.thin:
-            raise UserError("--thin is of a --world.")
+            raise UserError("--thin needs --world.")
         if options.input is None:
-            raise UserError("There is no INPUT to make a road of; --help lists what it may be. A world is a --world.")
+            raise UserError("There is no INPUT to make a road of (--help lists the kinds), and no --world.")
         if options.out is not None:
-            raise UserError("--out is the folder of a --world; a road file is named as OUTPUT.road.")
+            raise UserError("--out needs --world; name a road file as OUTPUT.road.")
         return make_road(options)
     given = given_of(parser, options, _OF_ROADS)
     if given:
-        raise UserError(f"{given[0]} is of a road; with --world leave it out.")
+        raise UserError(f"{given[0]} cannot be combined with --world.")
     return world(options.world, options.out or Path("out", "worlds"), options.picture, options.thin, options.json)

@@ -43,7 +43,7 @@ KNOWN = (
     "metres, and bank (a slope)"
 )
 STEEP = 0.3
-"""A course that climbs more is told: the steepest streets have 0.35."""
+"""A course that climbs more is warned about: the steepest streets have 0.35."""
 GAP = 25.0
 """Two points that are so many times as far apart as the others, and 10 m, are a gap."""
 

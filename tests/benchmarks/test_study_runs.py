@@ -13,7 +13,7 @@ from benchmarks.shared.figures import rows_of
 def test_small_sizes_and_their_tables(tmp_path: Path) -> None:
     fmu = studies.spring_fmu(tmp_path)
     runs = studies.study_runs("spring", fmu, 40, 1, 0.2, tmp_path / "runs")
-    again = studies.start_again("spring", fmu, 40, 0.2, tmp_path / "runs")
+    again = studies.start_again("spring", 40, tmp_path / "runs")
     written = studies.rows_written("spring", fmu, 1000, tmp_path / "rows")
     plan = studies.plan_alone("spring", fmu, 2000, "sobol", tmp_path / "plan")
     assert (runs["runs"], runs["failed"], runs["workers"]) == (40, 0, 1)

@@ -141,7 +141,7 @@ THREE = (
         (THREE, "has 1000000000 variables, the elements of arrays counted; it must have at most 100"),
         (DESCRIPTION.format("<a>" * 1000 + "</a>" * 1000), "nested more than 100 deep"),
         ('<!DOCTYPE x [<!ENTITY a SYSTEM "file:///etc/passwd">]>' + DESCRIPTION, "has a document type"),
-        (DESCRIPTION.replace('fmiVersion="2.0"', ""), "it must with <fmiModelDescription fmiVersion"),
+        (DESCRIPTION.replace('fmiVersion="2.0"', ""), "it must begin with <fmiModelDescription fmiVersion"),
         ("<a/>", "begins with <a>"),
         ("\0", "is not readable XML"),
         ('<?xml version="1.0" encoding="utf-7"?><a/>', "in an encoding that is not read"),

@@ -105,8 +105,8 @@ def long_chain():
         (lambda: spinning_beam.build(), "flexible"),
         (spatial_slider_crank.build, "joint 'C' is neither revolute, prismatic, spherical nor a weld"),
         (floating, "no revolute or prismatic joints lead from the ground to body 'first'"),
-        (lambda: double_four_bar.build(40), "81 joints and 80 rows of loops are there, at most 64 and 64 may be"),
-        (long_chain, "1100 joints and 0 rows of loops are there, at most 64 and 64 may be"),
+        (lambda: double_four_bar.build(40), "there are 81 joints and 80 rows of loops; at most 64 and 64 are possible"),
+        (long_chain, "there are 1100 joints and 0 rows of loops; at most 64 and 64 are possible"),
     ],
     ids=["point", "flexible", "distance", "floating", "large", "long"],
 )

@@ -58,7 +58,7 @@ def test_the_axes_are_those_of_the_body_as_drawn() -> None:
 
 
 def test_bad_lifts_are_refused() -> None:
-    with pytest.raises(ValueError, match=re.escape("has 2 components and its point 3; they must be alike")):
+    with pytest.raises(ValueError, match=re.escape("has 2 components and its point 3; they must agree")):
         Lift(0.3).record("wing", *vectors(3, 2, 3))
     m = Model("points")
     bob = m.point_mass("bob", mass=1.0, position=(0.0, 0.0, 0.0))

@@ -316,7 +316,7 @@ def test_forces_do_not_jump_where_the_wheel_stops_or_turns_back() -> None:
     [
         ({"radius": 0.1}, "bottoming radius"),
         ({"sign_force": 0.5}, "sign"),
-        ({"slip_range_least": 0.1}, "hold zero"),
+        ({"slip_range_least": 0.1}, "contain zero"),
         ({"PCX1": 0.0}, "lacks shape"),
         ({"LKY": -1.0}, "LKX and LKY"),
     ],

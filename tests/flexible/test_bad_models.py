@@ -154,7 +154,7 @@ def test_matrices_from_outside_that_cannot_be(tmp_path: Path) -> None:
         (K * np.nan, M, "not finite"),
         (K, -np.ones(9), "mass at node '0' is -1 kg; it cannot be negative"),
         (K, np.ones(8), "one number for each of 9 nodes"),
-        (-K, M, "stiffness matrix is negative; .* its sign is turned"),
+        (-K, M, "stiffness matrix is negative; .* its sign is reversed"),
         (K, -M, "it must be positive"),
     ):
         with pytest.raises(ModelError, match=sentence):

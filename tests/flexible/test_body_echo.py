@@ -108,8 +108,10 @@ def grounded(K: Any) -> Any:
 
 BY_AXIS = np.arange(54).reshape(9, 6).T.ravel()
 REFUSED: dict[str, tuple[Callable[[Any, Any, np.ndarray], Matrices], str]] = {
-    "sign of K": (lambda K, M, x: (-K, M, x), "stiffness matrix is negative; it must be positive: its sign is turned"),
-    "sign of M": (lambda K, M, x: (K, -M, x), "mass matrix is negative; it must be positive: its sign is turned"),
+    "sign of K": (lambda K, M, x: (-K, M, x), (
+        "stiffness matrix is negative; it must be positive: its sign is "
+        "reversed")),
+    "sign of M": (lambda K, M, x: (K, -M, x), "mass matrix is negative; it must be positive: its sign is reversed"),
     "sign of an entry": (lambda K, M, x: (turned(K, 0, 6), M, x), "negative eigenvalues|entries \\(0, 6\\)"),
     "sign on the diagonal": (lambda K, M, x: (turned(K, 7, 7), M, x), "stiffness matrix has .* negative eigenvalues"),
     "one triangle": (lambda K, M, x: (sp.triu(K), M, x), "stiffness matrix is not symmetric"),
@@ -118,7 +120,7 @@ REFUSED: dict[str, tuple[Callable[[Any, Any, np.ndarray], Matrices], str]] = {
     "mm": (lambda K, M, x: (K, M, 1e3 * x), "mm in place of m in the places of the nodes"),
     "by axis": (lambda K, M, x: (K[BY_AXIS][:, BY_AXIS], M[BY_AXIS][:, BY_AXIS], x), "one axis after the other"),
     "nodes backwards": (lambda K, M, x: (K, M, x[::-1]), "backwards"),
-    "nodes by chance": (lambda K, M, x: (K, M, x[[3, 1, 7, 0, 2, 8, 6, 5, 4]]), "places of the nodes are not those"),
+    "nodes by chance": (lambda K, M, x: (K, M, x[[3, 1, 7, 0, 2, 8, 6, 5, 4]]), "positions of the nodes do not belong"),
     "two freedoms": (lambda K, M, x: (swapped(K), M, x), "freedoms are not in the order of the nodes"),
     "a support": (lambda K, M, x: (grounded(K), M, x), "at node '2': give the free model, without supports"),
 }  # fmt: skip

@@ -173,8 +173,8 @@ def test_a_refused_file_changes_nothing_and_says_why(car: Path, host: Any, roads
     (roads / "x.csv").write_text("1,2\n3,4\n")
     cases = {
         "nothing.road": "there is no such file",
-        str(roads): "no regular file",
-        "..": "no regular file",
+        str(roads): "not a regular file",
+        "..": "not a regular file",
         str(roads / "cut.road"): "it ends too early: it was cut off",
         str(roads / "x.csv"): "ali3 road INPUT OUTPUT.road",
         "x" * 2000: "at most 1023",
@@ -182,7 +182,7 @@ def test_a_refused_file_changes_nothing_and_says_why(car: Path, host: Any, roads
     }
     if sys.platform != "win32":
         os.mkfifo(roads / "pipe")
-        cases[str(roads / "pipe")] = "no regular file"
+        cases[str(roads / "pipe")] = "not a regular file"
     for value, sentence in cases.items():
         driven.messages.clear()
         assert text(driven, value) == ERROR

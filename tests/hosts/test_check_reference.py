@@ -120,7 +120,7 @@ def test_of_one_table_nothing_is_kept(fmu: Path, result: Path, given: tuple[str,
     done = run(main, fmu, "--reference", result, *given)
     assert (done.returncode, done.stdout) == (2, "")
     assert f"{given[0]} needs a folder of tables" in done.stderr
-    assert f"{result} is one table." in done.stderr
+    assert f"{result} is a single table." in done.stderr
 
 
 def test_tables_are_told_in_their_order_whichever_is_done_first() -> None:
@@ -193,7 +193,7 @@ def test_bounds_of_0_ask_for_the_same_bits(fmu: Path, result: Path) -> None:
     for share in ("inf", "nan", "-1"):
         done = run(main, fmu, "--reference", result, "--bound", f"bob.y={share}")
         assert done.returncode == 2
-        assert f"bob.y is {share}; a bound is a share of the range, from 0 on" in done.stderr
+        assert f"bob.y is {share}; it must be a share of the range, 0 or more" in done.stderr
 
 
 def test_a_table_may_have_one_row(fmu: Path, tmp_path: Path) -> None:
@@ -227,7 +227,7 @@ def test_what_the_fmu_does_not_have_is_told(fmu: Path, result: Path) -> None:
     ("table", "options", "said"),
     [
         ('"time","pull"\n0,0\n1,1\n', (), "no column that is an output"),
-        ('"time","bob.x"\n0,0\n', (), "a reference goes on after 0 s"),
+        ('"time","bob.x"\n0,0\n', (), "a reference must end after 0 s"),
         ('"time","bob.x"\n0,0\n0.013,0\n0.02,0\n', ("--step", 0.01), "a row at 0.013 s, which is not a communication"),
         (
             '"time","bob.x"\n1.7e12,0\n1700000003000,0\n',

@@ -132,7 +132,7 @@ def test_a_road_that_is_none(tuned: Path, tmp_path: Path, capsys: pytest.Capture
     assert "The road none.road cannot be used: its file is not there." in refusal(fmu, capsys, "--road", "none.road")
     text = tmp_path / "words"
     text.write_text("no road")
-    assert f"The road {text} cannot be used: {text} is of a kind" in refusal(fmu, capsys, "--road", str(text))
+    assert f"The road {text} cannot be used: {text} is not read as a road" in refusal(fmu, capsys, "--road", str(text))
 
 
 def test_a_road_is_drawn_as_slick_as_it_was_set(tuned: Path, tmp_path: Path) -> None:
@@ -197,7 +197,7 @@ def test_a_result_whose_scenery_alone_is_gone_says_so(tuned: Path, tmp_path: Pat
     (recording,), _, _ = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
     assert recording.scene is not None
     assert recording.scene["roads"] == []
-    assert f"{of_world} is the record of another line.road than that beside it" in notes_of([recording])[0]
+    assert f"{of_world} is the record of another line.road than the one beside it" in notes_of([recording])[0]
 
 
 def test_an_fmu_that_is_named_beside_a_record_is_drawn_where_the_run_was(tuned: Path, tmp_path: Path) -> None:

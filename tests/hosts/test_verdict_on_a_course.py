@@ -49,7 +49,7 @@ def test_nothing_is_passed_that_was_not_driven(course: str) -> None:
         "from far before": (whole - 500.0, "lane 1 was not reached"),
         "backwards": (whole[::-1], "lane 1 was not driven from its beginning"),
         "with rows far apart": (whole[::8], "rows are 4 m apart, lanes are seen by 1 m .*; run without --interval"),
-        "to the other side": (-whole, "lane 1 was not reached.* m; at last the car drives away from it$"),
+        "to the other side": (-whole, "lane 1 was not reached.* m; at its end the car drives back$"),
         "at rest": (np.zeros(50), "lane 1 was not reached"),
         "one row": (whole[:1], "lane 1 was not reached"),
     }.values():  # fmt: skip

@@ -116,7 +116,7 @@ def test_bad_arrays_are_refused(tmp_path):
         ("b.npz", "no array 'heights'"),
         ("text.npy", "cannot be read as an array"),
         ("nothing.npy", "there is no such file"),
-        ("a.xlsx", "of a kind that is not read"),
+        ("a.xlsx", "is not read as a road"),
     ):
         with pytest.raises(RoadFileError, match=sentence):
             read_road(tmp_path / name, spacing=(1.0, 1.0))

@@ -381,7 +381,7 @@ def test_a_cut_or_lengthened_file_is_refused(car, road, size):
 def test_what_is_no_file_is_refused(tmp_path, car):
     for path, sentence in (
         (tmp_path / "nothing.road", "there is no such file"),
-        (tmp_path, "no regular file|may not be read"),
+        (tmp_path, "not a regular file|may not be read"),
         ("x" * 5000, "name is too long|cannot be opened|no such file"),
     ):
         with pytest.raises(ValueError, match=sentence):
@@ -391,7 +391,7 @@ def test_what_is_no_file_is_refused(tmp_path, car):
 @pytest.mark.skipif(sys.platform == "win32", reason="no named pipes and links there")
 def test_a_pipe_does_not_block_and_a_circle_of_links_ends(tmp_path, car):
     os.mkfifo(tmp_path / "pipe.road")
-    with pytest.raises(ValueError, match="no regular file"):
+    with pytest.raises(ValueError, match="not a regular file"):
         run(car, tmp_path / "pipe.road")
     with pytest.raises(RoadFileError, match="is a pipe or device"):
         RoadFile(tmp_path / "pipe.road").read()
@@ -399,7 +399,7 @@ def test_a_pipe_does_not_block_and_a_circle_of_links_ends(tmp_path, car):
     (tmp_path / "b.road").symlink_to("a.road")
     with pytest.raises(ValueError, match="links go in a circle"):
         run(car, tmp_path / "a.road")
-    with pytest.raises(ValueError, match="no regular file"):
+    with pytest.raises(ValueError, match="not a regular file"):
         run(car, "/dev/zero")
 
 

@@ -138,7 +138,7 @@ def test_the_vertical_stiffness_of_a_file_is_that_at_the_nominal_load(tmp_path: 
 def test_another_format_is_named_before_the_sections_it_lacks(tmp_path: Path) -> None:
     """A file of FTire has neither [DIMENSION] nor coefficients: that is no cut."""
     text = "[UNITS]\nLENGTH = 'mm'\n[MODEL]\nPROPERTY_FILE_FORMAT = 'FTIRE'\n[FTIRE_DATA]\nbelt_mass = 5\n"
-    with pytest.raises(TyreFileError, match="PROPERTY_FILE_FORMAT in .MODEL. is 'FTIRE'; read are PAC2002"):
+    with pytest.raises(TyreFileError, match="PROPERTY_FILE_FORMAT in .MODEL. is 'FTIRE'; it must be PAC2002"):
         read_tyre(written(tmp_path, text))
 
 

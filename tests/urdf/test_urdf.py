@@ -375,7 +375,7 @@ def test_an_inertia_that_no_mass_has_is_corrected_with_a_word(
     xx, zz, yy = principal
     rod = ROD._replace(inertia=(xx, 0.0, 0.0, yy, 0.0, zz))
     file = write_urdf([rod], tmp_path / "rod.urdf")
-    with pytest.warns(UrdfWarning, match=rf"rod\.urdf: the inertia of the link 'link_1'.* taken: {change} % of"):
+    with pytest.warns(UrdfWarning, match=rf"rod\.urdf: the inertia of the link 'link_1'.* used instead, {change} % of"):
         robot = read_urdf(file)
     s = mbs.Simulation(mbs.compile(robot.model))
     s.step(0.0005, 300)

@@ -143,7 +143,7 @@ def test_a_unit_that_does_not_fit_is_warned_about(tmp_path):
 @pytest.mark.parametrize(
     ("name", "content", "words"),
     [
-        ("a.step", b"", r"of a kind that is not read as a mesh; \.stl, \.obj, .* are\.$"),
+        ("a.step", b"", r"is not read as a mesh; its suffix must be one of \.stl, \.obj, .*\.$"),
         ("a.stl", b"", "has no triangles"),
         ("a.stl", b"hello", "has no triangles"),
         ("a.stl", stl()[:-70], "has no triangles"),
@@ -152,7 +152,7 @@ def test_a_unit_that_does_not_fit_is_warned_about(tmp_path):
         ("a.gltf", b"{}", "has no triangles"),
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", "has no triangles"),
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "it is damaged or of another format; its reader stops with"),
-        ("a.obj", b"v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n", "its points have not three coordinates each"),
+        ("a.obj", b"v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n", "its points do not have three coordinates each"),
         (
             "a.obj",
             b"v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n",

@@ -3,7 +3,8 @@
  * INPUTS holds the values at the end of each step as doubles, a row a step; an empty file leaves the inputs as they are.
  * Prints the status and the iterations, factorizations and solves of these steps; with REPEATS also the least processor
  * time, s, of so many runs from the same state. CODE is a library of code that was generated for the System, which
- * LOOPS_ALONE does without: for kernels that cannot call it. */
+ * LOOPS_ALONE does without: for kernels that cannot call it. Exit codes: 2 wrong arguments, 3 a file cannot be read,
+ * 4 no System, 5 no memory, 6 the state is of another System, 7 the code is of another System. */
 #if !defined(LOOPS_ALONE) && !defined(_WIN32)
 #include <dlfcn.h>
 #endif
@@ -14,6 +15,7 @@
 
 #include "ali3.h"
 
+/* The bytes of a file, which are not freed before the program ends; NULL: it cannot be read. */
 static void *contents(const char *name, size_t *size) {
   FILE *file = fopen(name, "rb");
   if (file == NULL || fseek(file, 0, SEEK_END) != 0) return NULL;

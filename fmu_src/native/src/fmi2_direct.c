@@ -1,4 +1,4 @@
-/* The native FMU asks the slave itself. */
+/* The functions of fmi2_face.h in the native FMU: each calls the slave directly. */
 #include "fmi2_face.h"
 
 slave *fmi2_new(fmi2_face *face, const ali3_memory *memory, slave_logger *logger, bool logging, const char *name,

@@ -1,6 +1,6 @@
-/* Inputs that the host gives within a communication step, at the end of each inner step before that is made: the
- * intermediate update of FMI 3.0. All inputs at the ends of the inner steps are kept, straight lines in between: for the
- * second motion, for derivatives and in states. */
+/* The intermediate update of FMI 3.0: before each inner step of a communication step the host may give the inputs at its
+ * end. Inputs at the ends of all inner steps are kept, linear in between: the second motion, derivatives and saved states
+ * need them. */
 #include <math.h>
 #include <string.h>
 
@@ -55,14 +55,14 @@ slave_status slave_set_asked(slave *s, const uint32_t *reference, size_t n, cons
   return worst;
 }
 
-/* What the run lies beyond that a host may want to know within a step. */
+/* Whether the car has turned over since the last inner step, which ends a step early where the host allows it. */
 static bool turned_over(slave *s) {
   const bool before = s->overturned_said;
   s->outputs_fresh = false;
   return slave_outputs(s) && s->overturned_said && !before;
 }
 
-/* Up to *n inner steps of h, whose number *n becomes where the host takes less. */
+/* Makes up to *n inner steps of h; *n becomes their number if the step ends early. */
 ali3_status slave_asked_steps(slave *s, int64_t *n, double h, double *left) {
   const size_t nu = inputs_of(s), n_known = slave_the_table.n_known;
   ali3_instance *kernel = s->fidelity.kernel;
@@ -90,7 +90,7 @@ ali3_status slave_asked_steps(slave *s, int64_t *n, double h, double *left) {
   return ALI3_OK;
 }
 
-/* After a good step the inputs stand where the host has brought them, whatever slopes they had. */
+/* After a good step inputs that the host gave within it keep their last value; their slopes are zero. */
 void slave_asked_taken(slave *s) {
   for (size_t i = 0; i < slave_the_table.n_known && s->asked.n > 0; i++) {
     if (!s->asked.given[i]) continue;

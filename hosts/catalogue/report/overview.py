@@ -140,7 +140,7 @@ def _outcome(record: TestRecord | str | None) -> HtmlElement:
 
 
 def _row(name: str, found: Sequence[Measure | None]) -> list[Content]:
-    """A measure of all cars, the first of which is what others are held against."""
+    """A measure of all cars, the first of which is what others are compared with."""
     there = [m for m in found if m is not None]
     known = there[0]
     tail = typeset(known.unit)

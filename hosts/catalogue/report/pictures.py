@@ -77,12 +77,12 @@ def _drawn(axes: Axes, found: Mapping[int, tuple[str, Plot]], shared: Mapping[st
     words = []
     for line in shared.values():
         axes.plot(line.x, line.y, color=_SHARED, linewidth=1.2, label=line.label)
-        words.append(f"{line.label}: {_range(line, first)}")
+        words.append(f"{line.label}: {_range(line)}")
     for k, (label, plot) in found.items():
         for j, line in enumerate(line for line in plot.lines if line.label not in shared):
             name = _name(label, line, plot, many)
             _draw(axes, line, name, *((k, j) if many else (j, 0)))
-            words.append(f"{name or 'the line'}: {_range(line, plot)}")
+            words.append(f"{name or 'the line'}: {_range(line)}")
     for log, axis, set_scale in (
         (first.log_x, axes.xaxis, axes.set_xscale),
         (first.log_y, axes.yaxis, axes.set_yscale),
@@ -138,7 +138,7 @@ def _name(label: str, line: Line, plot: Plot, many: bool) -> str:
 
 
 def _draw(axes: Axes, line: Line, name: str, style: int, mark: int) -> None:
-    """`style` is told by colour and dashes, which differ in grey too; `mark` by markers."""
+    """`style` is shown by colour and dashes, which differ in grey too; `mark` by markers."""
     x, y = (np.atleast_1d(np.asarray(v, np.float64)) for v in (line.x, line.y))
     kept = thinned(x, y)
     x, y = x[kept], y[kept]
@@ -156,7 +156,7 @@ def _draw(axes: Axes, line: Line, name: str, style: int, mark: int) -> None:
     )
 
 
-def _range(line: Line, plot: Plot) -> str:
+def _range(line: Line) -> str:
     there = np.isfinite(line.x) & np.isfinite(line.y)
     if not there.any():
         return "no points"

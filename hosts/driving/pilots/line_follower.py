@@ -26,7 +26,7 @@ class LineFollower:
     -----
     The curvature that is steered for is that of the line less feedback of direction and place of travel, with two equal
     poles at -1/`horizon` for a car that follows its front wheels at once. The sideslip is part of the direction of
-    travel where the car tells it.
+    travel where the car reports it.
     """
 
     def __init__(

@@ -24,7 +24,7 @@ class SpeedHolder:
         without an integral: what the acceleration asks for.
     sliding : float, optional
         Slip of both wheels of an axle from which on the throttle is eased, to none at twice this slip; default: never.
-        A car that does not tell the slips of its wheels is driven as by default.
+        A car that does not report the slips of its wheels is driven as by default.
 
     Notes
     -----

@@ -21,12 +21,14 @@ class SteeringTable:
         self.name = name
         if self.time.ndim != 1 or self.time.shape != self.values.shape or not len(self.time):
             raise HostError(
-                f"A table of {name} has {self.time.size} times and {self.values.size} values; it needs as many of both."
+                f"A table of {name} has {self.time.size} times and {self.values.size} values; it must "
+                "have as many times as values."
             )
         if (np.diff(self.time) < 0.0).any():
             k = int(np.argmax(np.diff(self.time) < 0.0))
             raise HostError(
-                f"A table of {name} goes back from {self.time[k]:g} s to {self.time[k + 1]:g} s; times must not fall."
+                f"A table of {name} goes back from {self.time[k]:g} s to {self.time[k + 1]:g} s; times "
+                "must not decrease."
             )
 
     def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:

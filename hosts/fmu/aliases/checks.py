@@ -1,4 +1,4 @@
-"""Units that an alias file states, held against those that the FMU declares."""
+"""Checks of the units that an alias file states against those that the FMU declares."""
 
 import math
 from typing import Any
@@ -27,7 +27,7 @@ def definition(variable: Variable) -> UnitDefinition | None:
 
 
 def is_si(variable: Variable) -> bool:
-    """Whether a value needs no conversion, as far as the FMU tells."""
+    """Whether a value needs no conversion, as far as the FMU declares."""
     unit = definition(variable)
     return unit is None or (math.isclose(unit.factor, 1.0, rel_tol=_TOLERANCE) and unit.offset == 0.0)
 
@@ -41,9 +41,9 @@ def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
     own = variable.definition if variable is not None and variable.unit == unit else None
     known = own or (known_unit(unit) if isinstance(unit, str) else None)
     if known is None:
-        raise HostError(f"{where}: the unit {brief(unit)} is not known, as m, km/h, deg or rpm are; give a factor.")
+        raise HostError(f"{where}: the unit {brief(unit)} is not known (such as m, km/h, deg or rpm); give a factor.")
     if known.offset:
-        raise HostError(f"{where}: the zero of the unit {brief(unit)} is another than in SI; give factor and offset.")
+        raise HostError(f"{where}: the unit {brief(unit)} has another zero than the SI unit; give factor and offset.")
     if variable is not None:
         there = definition(variable)
         if there is not None and not _same(known, there):

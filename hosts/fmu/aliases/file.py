@@ -1,4 +1,4 @@
-"""Alias files: what stands in them, held against the variables of an FMU."""
+"""Alias files, checked against the variables of an FMU."""
 
 from collections.abc import Collection
 from dataclasses import replace

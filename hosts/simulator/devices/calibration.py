@@ -13,7 +13,7 @@ STILL = 0.05
 LEAST_WAY = 0.3
 """An axis that moved by less was not meant."""
 FIRST_WAY = 0.2
-"""Movement by which the first direction of the steering is told."""
+"""Movement that shows the first direction of the steering."""
 MARGIN = 0.02
 """Share of the way before its ends where the ends of the mapping are, so that they are surely reached."""
 _NEAR_END = 0.25

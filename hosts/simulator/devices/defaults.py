@@ -1,4 +1,4 @@
-"""Mappings of devices that nobody has assigned yet, by the kind that SDL tells."""
+"""Mappings of devices that nobody has assigned yet, by the kind that SDL reports."""
 
 import re
 from collections.abc import Collection

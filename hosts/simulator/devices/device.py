@@ -1,4 +1,4 @@
-"""One device that is plugged in: what it wants of the car."""
+"""One plugged-in device, such as a steering wheel: the values that it asks for at the inputs of the car."""
 
 import math
 from collections.abc import Callable, Collection, Mapping
@@ -14,15 +14,15 @@ from hosts.simulator.devices.steering import Steering
 from hosts.simulator.input_arbiter import LET_GO
 
 TOUCHED = 0.02
-"""Movement of an input from which on the device has a word there; a device that lies untouched moves nothing."""
+"""A device asks for values at an input once the input has moved by this share; one that lies untouched does not."""
 BUTTON_RATES = {"throttle": 2.5, "brake": 4.0, "hand_brake": 8.0}
-"""Largest change per second of a pedal that is a button and goes down, as with keys; up it goes as when let go."""
+"""Largest change per second of a pedal while its button is down, as with keys; after that `LET_GO` applies."""
 
 
 class Device:
     """A device.
 
-    `id`, `label`: for programs and for people; each device has its own; `inputs`: that the car has, in the words of
+    `id`, `label`: its unique names for programs and for people; `inputs`: inputs of the car, by their names in
     mappings.
     """
 
@@ -51,9 +51,9 @@ class Device:
         self._rest(list(mapping.inputs))
 
     def remap(self, mapping: DeviceMapping) -> list[str]:
-        """Another mapping; the inputs whose mapping is another sleep until they are touched.
+        """Take another mapping. Inputs whose mapping changes are not asked for until they are touched.
 
-        Returns inputs that the device drove and now waits to be touched for.
+        Returns those of them that the device asked for until now.
         """
         changed = {
             n for n in {*mapping.inputs, *self.mapping.inputs} if mapping.inputs.get(n) != self.mapping.inputs.get(n)
@@ -62,13 +62,13 @@ class Device:
         return self.sleep(changed)
 
     def sleep(self, names: Collection[str]) -> list[str]:
-        """Inputs that are wanted again when they are touched; those of them that were wanted."""
+        """Ask for these inputs only when they are touched again; returns those that the device asked for until now."""
         awake = [name for name in names if name in self._awake]
         self._rest(names)
         return awake
 
     def _rest(self, names: Collection[str]) -> None:
-        """These inputs are where they lie untouched now."""
+        """Take the present values of these inputs as those of an untouched device."""
         for name in names:
             self._awake.discard(name)
             self._at_rest.pop(name, None)
@@ -79,9 +79,9 @@ class Device:
                 self._at_rest[name] = value
 
     def wants(self, everything: bool) -> dict[str, tuple[float, float]]:
-        """What it wants of the car, by the reading it has: value, and largest change per second.
+        """Inputs of the car that the last reading asks for: value, and largest change per second.
 
-        `everything`: also what has not changed since the last call.
+        `everything`: also those that have not changed since the last call.
         """
         found: dict[str, tuple[float, float]] = {}
         for name, mapping in self.mapping.inputs.items():
@@ -102,14 +102,14 @@ class Device:
         return found
 
     def value(self, name: str, mapping: InputMapping) -> float | None:
-        """Of an input of the car, as the reading has it."""
+        """Value of an input of the car in the last reading; None: its source has none."""
         value = mapping.value(name, self.reading)
         if value is None or name != "steering":
             return value
         return self._steering.share(value, self.mapping.settings.rotation)
 
     def _asked(self, name: str, mapping: InputMapping, want: tuple[float, float]) -> dict[str, tuple[float, float]]:
-        """In the words of the car: it may be steered by an angle."""
+        """A value by the car's name of the input: steering may be an angle there."""
         turn = mapping.value(name, self.reading) if name == "steering" else None
         if turn is None:
             return {name: want}
@@ -122,7 +122,7 @@ class Device:
         return BUTTON_RATES[name] if value else LET_GO[name]
 
     def _selector(self) -> Mapping[str, tuple[float, float]]:
-        """A press moves the selector; a button that stays down does not."""
+        """The position of the selector that a button asks for when it goes down."""
         pressed = self.reading.pressed()
         new, self._pressed = pressed - self._pressed, pressed
         for name, value in SELECTOR.items():
@@ -132,19 +132,19 @@ class Device:
         return {}
 
     def start_force(self, torque: Callable[[], float | None], fail: Callable[[str], None]) -> None:
-        """Begin to move its motor."""
+        """Start force feedback. `torque`: of the steering wheel, N m; `fail`: called with a sentence if it fails."""
         handle, sdl = self.joystick.handle, self.joystick.sdl
         self.force = ForceFeedback(sdl, handle, torque, lambda: self.mapping.settings, fail)
 
     def close(self, timeout: float) -> bool:
-        """Let the motor go and close the device; False if its motor hangs: it is then left open."""
+        """Stop force feedback and close the device; False: the motor still runs after `timeout` s."""
         if self.force is not None and not self.force.stop(timeout):
             return False
         self.joystick.close()
         return True
 
     def state(self) -> dict[str, Any]:
-        """For the page."""
+        """The device as the page shows it."""
         reading: Reading = self.reading
         inputs = {}
         for name, m in self.mapping.inputs.items():

@@ -23,7 +23,7 @@ ASSIGN_TIME = 15.0
 class Devices:
     """Wheels, pedals and gamepads that drive the car; a context manager.
 
-    Without SDL and without a device one sentence is told and everything else goes on.
+    Without SDL and without a device one sentence says so, and everything else works.
 
     Parameters
     ----------

@@ -67,7 +67,7 @@ class Reader:
         self._told_angle = False
 
     def start(self) -> None:
-        """Begin; returns when the devices that are there are known. Without SDL one sentence is told."""
+        """Begin; returns when the devices that are there are known. Without SDL one sentence says so."""
         try:
             self._sdl = sdl_library.load()
         except HostError as error:

@@ -21,7 +21,7 @@ class Steering:
 
     @property
     def says_no_angle(self) -> bool:
-        """Whether the ends of the device are full steering because the car tells no angle."""
+        """Whether the ends of the device are full steering because the car reports no angle."""
         return self.angle_max is None and not self.by_angle
 
     def share(self, turn: float, rotation: float) -> float:

@@ -1,10 +1,7 @@
 """The report of a study: one HTML file, its pictures and its tables."""
 
-from __future__ import annotations
-
 import shlex
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pandas as pd
 from matplotlib import pyplot as plt
@@ -31,22 +28,18 @@ from hosts.study.damaged_files import check_signals
 from hosts.study.folder import ANALYSIS, check_no_link
 from hosts.study.store import read_study, study_record
 
-if TYPE_CHECKING:
-    import pandas as pd
-
 
 def write_report(folder: Path) -> list[Path]:
-    """Write ``report.html``, and its pictures and tables into ``analysis``. `folder`: of a study, done or half done.
+    """Write ``report.html``, and its pictures and tables into ``analysis``. `folder`: of a study, finished or not.
 
     Returns the report, and the folder with its pictures and the table of effects. Raises `HostError`: there is no
     study, no run in it yet, a link in the folder, or a file of rows or signals that is damaged.
     """
-
     frame = read_study(folder)
     check_signals(folder, study_record(folder))
 
     def commands(index: int) -> list[str]:
-        # no run is opened for its commands: a report reads rows; the whole path, as it is read from any folder
+        # the command of one run prints those of its FMU; its path is absolute, as the report is read from any folder
         return [f"{command_name('study')} {shlex.join([str(folder.absolute()), '--run', str(index)])}"]
 
     return report_of(frame, folder, commands)

@@ -55,7 +55,7 @@ class Pattern:
         self.row_ptr, self.row_col = self.array["row_ptr"], self.array["row_col"]
         self._written = set() if turned else set(self.array["axis_signal"])
         self._lean_signals()
-        self.terms, self.quads = self._terms()
+        self.terms = self._terms()
         self.fronts = self._fronts()
         self.place = {f.offset + j * f.size + i: (f.number, i, j) for f in self.fronts for j in range(f.size)
                       for i in range(f.size)}  # fmt: skip
@@ -109,9 +109,8 @@ class Pattern:
         ptr, col, val = (self.array[name] for name in ("mass_ptr", "mass_col", "mass_val"))
         return {i for i in range(self.nq - 2) if self._is_triple(ptr, col, val, i)}
 
-    def _terms(self) -> tuple[list[list[tuple[int, int]]], list[list[tuple[int, int]]]]:
-        """Per entry of Phi_q its terms (place in hess_val, coordinate); per row its products (place in front storage,
-        place in hess_val), in order."""
+    def _terms(self) -> list[list[tuple[int, int]]]:
+        """Terms of each entry of Phi_q in order: place in hess_val, coordinate."""
         a, b, ptr = (self.array[name] for name in ("quad_a", "quad_b", "quad_ptr"))
         of: list[list[tuple[int, int, bool]]] = [[] for _ in self.row_col]  # product, coordinate, whether it is first
         for k in range(self.nc):
@@ -133,7 +132,7 @@ class Pattern:
                 terms.append([(at, c) for at, (_, c, _) in zip(places, of[i], strict=True)])
                 first |= {t: at for at, (t, _, mine) in zip(places, of[i], strict=True) if mine}
         self.quad_place = first
-        return terms, [[] for _ in range(self.nc)]
+        return terms
 
     def _row_in_triples(self, k: int, of: list[list[tuple[int, int, bool]]]) -> bool:
         begin, end = self.row_ptr[k], self.row_ptr[k + 1]

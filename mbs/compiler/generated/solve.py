@@ -1,4 +1,4 @@
-"""Forward and back substitution in the fronts, each sum in the order of the kernel."""
+"""C code of the forward and back substitution in the fronts of one System, with sums in the order of the kernel."""
 
 from collections.abc import Sequence
 
@@ -6,7 +6,7 @@ from mbs.compiler.generated.fronts import Piece, pieces
 from mbs.compiler.generated.pattern import Front, Pattern
 from mbs.compiler.generated.text import follow, function
 
-LARGE, FOUR_SUMS = 12, 16  # coordinates from which on columns are counted in fours, and sums are made of four
+LARGE, FOUR_SUMS = 12, 16  # sizes of a front from which pivots are eliminated in fours, and sums are made in four parts
 
 FORWARD = "APART void forward_{0}(const double *restrict A, double *restrict b)"
 BACK = "APART void back_{0}(const double *restrict A, double *restrict b)"
@@ -14,7 +14,7 @@ SOLVE = "APART void solve(const double *restrict F, double *restrict b)"
 
 
 def solve(pattern: Pattern) -> list[str]:
-    """A function a front for each way, and the one that calls them."""
+    """Functions for the forward and the back substitution in each front, and the function that calls them."""
     lines: list[str] = []
     body = []
     for front in pattern.fronts:
@@ -26,7 +26,7 @@ def solve(pattern: Pattern) -> list[str]:
 
 
 def _gather(front: Front, piece: Piece) -> str:
-    """Unknowns of a piece."""
+    """Expression that reads the unknowns of a piece from b."""
     if not piece.wide:
         return f"b[{front.coordinates[piece.first]}]"
     at = front.coordinates[piece.first : piece.first + 4]
@@ -36,7 +36,7 @@ def _gather(front: Front, piece: Piece) -> str:
 
 
 def _scatter(front: Front, piece: Piece, value: str, first: int) -> list[str]:
-    """What of a piece is no pivot goes back."""
+    """Statements that write the unknowns of a piece from index `first` on back to b."""
     at = front.coordinates
     if not piece.wide:
         return [f"  b[{at[piece.first]}] = {value};"] if piece.first >= first else []
@@ -66,7 +66,7 @@ def _forward(front: Front) -> list[str]:
 
 
 def _scalars(front: Front, parts: Sequence[Piece], p: int, count: int) -> list[str]:
-    """Unknowns of pivots, each less what those before it in the group take."""
+    """Unknowns of `count` pivots from p on, each less the products with the pivots before it in this group."""
 
     def at(i: int) -> str:
         piece = next(x for x in parts if x.first <= i < x.first + (4 if x.wide else 1))
@@ -88,6 +88,7 @@ def _scalars(front: Front, parts: Sequence[Piece], p: int, count: int) -> list[s
 
 
 def _taken(piece: Piece, p: int, count: int, n: int) -> str:
+    """A piece less its products with `count` pivots from p on."""
     x = f"x{piece.first}"
     term = [f"{piece.load(f'(A + {(p + k) * n})')} * y{p + k}" for k in range(count)]
     if count == 1:
@@ -102,7 +103,7 @@ def _back(front: Front) -> list[str]:
 
 
 def _few_back(front: Front) -> list[str]:
-    """Two sums, by turns."""
+    """Each product is added to one of two sums, by turns."""
     n, at = front.size, front.coordinates
     lines = [f"  const double y{i} = b[{at[i]}];" for i in range(front.pivots, n)]
     for p in range(front.pivots - 1, -1, -1):
@@ -116,7 +117,7 @@ def _few_back(front: Front) -> list[str]:
 
 
 def _many_back(front: Front) -> list[str]:
-    """Four sums from the far end; pivots whose fours begin at one entry together."""
+    """Four sums from the last entry back; pivots whose blocks of four begin at the same entry are done together."""
     n, pivots, at = front.size, front.pivots, front.coordinates
     lines = []
     whole = 0  # blocks of four from the end that are known
@@ -138,7 +139,7 @@ def _many_back(front: Front) -> list[str]:
 
 
 def _block(front: Front, first: int) -> list[str]:
-    """Four unknowns that are known, as a vector."""
+    """Four unknowns that are solved already, as a vector."""
     at, rows = front.coordinates, range(first, first + 4)
     if all(i >= front.pivots for i in rows):
         return [f"  const four x{first} = {_gather(front, Piece(first, True))};"]
@@ -147,7 +148,7 @@ def _block(front: Front, first: int) -> list[str]:
 
 
 def _sums(front: Front, p: int, blocks: int) -> list[str]:
-    """Sums of the columns of pivot p and of those before it with as many whole fours."""
+    """Sums for pivot p and for those before it that have as many blocks of four."""
     n = front.size
     columns = [c for c in range(p, -1, -1) if (n - c - 1) // 4 == blocks]
     if blocks == 0:

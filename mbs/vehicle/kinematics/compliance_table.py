@@ -40,40 +40,22 @@ def rows(found: Compliance) -> list[tuple[str, str, str, str, str]]:
         for sense in SENSES:
             for name, kind, meaning in (*_ANGLES, *_SHOWN.get(load, ())):
                 factor, unit = units[kind]
-                values = _of_axles(found, f"{load}.{sense}.{name}", factor)
-                lines.append(
-                    (
-                        f"{_WORDS[load]}, {_SENSE[sense]}",
-                        shown_number(values[0]),
-                        shown_number(values[1]),
-                        unit,
-                        meaning,
-                    )
-                )
+                front, rear = _of_axles(found, f"{load}.{sense}.{name}", factor)
+                lines.append((f"{_WORDS[load]}, {_SENSE[sense]}", front, rear, unit, meaning))
     for name, words in (("wheel_rate", "wheel rate with what gives"), ("roll_wheel_rate", "the same in roll")):
-        values = _of_axles(found, name, 1e-3)
-        lines.append(
-            (
-                words,
-                shown_number(values[0]),
-                shown_number(values[1]),
-                "N/mm",
-                "load per travel, frame or column in series",
-            )
-        )
+        front, rear = _of_axles(found, name, 1e-3)
+        lines.append((words, front, rear, "N/mm", "load per travel, frame or column in series"))
     return lines
 
 
-def _of_axles(found: Compliance, name: str, factor: float) -> list[float]:
-    """A value in front and behind; of an axle without links there is none."""
-    return [factor * found.values.get(axle, {}).get(name, math.nan) for axle in ("front", "rear")]
+def _of_axles(found: Compliance, name: str, factor: float) -> tuple[str, str]:
+    """A value times a factor at the front and the rear axle, as text."""
+    front, rear = (factor * found.values.get(axle, {}).get(name, math.nan) for axle in ("front", "rear"))
+    return shown_number(front), shown_number(rear)
 
 
 def shown_number(value: float) -> str:
-    """Four digits; what round-off leaves of zero is zero, what there is not a dash.
-
-    `value`: in the unit that is shown.
-    """
+    """A value, in the unit that is shown, with four digits; a dash for NaN, and zero for round-off."""
     if math.isnan(value):
         return "-"
     return f"{value:.0f}" if abs(value) >= 1e4 else f"{round(value, 6) + 0.0:.4g}"

@@ -24,14 +24,14 @@ from mbs.vehicle.levels.level_choice import LEFT_OUT, Choice, cheapest, levels, 
 from mbs.vehicle.levels.measure import FINE, measure, systems_of
 
 USUAL = {"path": 1.0, "loads": 3.0}
-"""Tolerances where none are given, percent."""
+"""Tolerances by default, percent."""
 OUTPUTS = {"path": "path", "loads": "load", "moments": "moment"}
-"""Errors of a row by the names of the command."""
+"""Name of an error in the command line: its name in a row."""
 TITLES = {"path": "of the way", "load": "of the wheel loads", "moment": "of the moments in the frame"}
 
 
 def report(options: argparse.Namespace) -> int:
-    """Measure, print, and write what was asked for; gives the exit code."""
+    """Measure the levels, print their table and the cheapest one, write it as JSON if asked; returns the exit code."""
     tolerances, file, speed = asked_of(options.cheapest)
     if options.json:
         check_writable(options.json)
@@ -45,23 +45,12 @@ def report(options: argparse.Namespace) -> int:
     for warning in caught:
         print(f"note: {warning.message}", file=sys.stderr)
     rigid = systems[Fidelity.RIGID]
-    if file is None:
-        drives = own_drives(rigid)
-    else:
-        names = {entry["name"] for entry in rigid.meta["inputs"]}
-        drives = [read_drive(file, speed, names)]
+    names = {entry["name"] for entry in rigid.meta["inputs"]}
+    drives = own_drives(rigid) if file is None else [read_drive(file, speed, names)]
     with progress_for(None) as bar:
         rows = measure(systems, drives, tell=bar.update)
     finest = list(systems)[-1]
-    doing = ", ".join(drive.name for drive in drives)
-    print(
-        f"{car.name}: errors against fidelity {finest.value} with steps of {1e3 * FINE:g} ms, the largest of: {doing}\n"
-    )
-    print("\n".join(table(rows)))
-    for row in rows:
-        if row["failed"]:
-            what = f"{row['manoeuvre']}, fidelity {Fidelity.of(row['fidelity']).value}, {1e3 * row['h_s']:g} ms"
-            print(f"note: {what}: {row['failed']}", file=sys.stderr)
+    _print_rows(f"{car.name}: errors against fidelity {finest.value}", [drive.name for drive in drives], rows)
     try:
         choice = cheapest(rows, tolerances)
     except ValueError:
@@ -81,8 +70,20 @@ def report(options: argparse.Namespace) -> int:
     return 0
 
 
+def _print_rows(title: str, drives: Sequence[str], rows: Sequence[Mapping[str, Any]]) -> None:
+    print(f"{title} with steps of {1e3 * FINE:g} ms, the largest of: {', '.join(drives)}\n")
+    print("\n".join(table(rows)))
+    for row in rows:
+        if row["failed"]:
+            what = f"{row['manoeuvre']}, fidelity {Fidelity.of(row['fidelity']).value}, {1e3 * row['h_s']:g} ms"
+            print(f"note: {what}: {row['failed']}", file=sys.stderr)
+
+
 def asked_of(words: Sequence[tuple[str, str]]) -> tuple[dict[str, float], Path | None, float]:
-    """Tolerances in parts, the file of a drive, its speed at the start in m/s; `UserError` for what is none of them."""
+    """Tolerances (shares, by error), the file of a drive and its initial speed (m/s), from NAME=VALUE of the command.
+
+    Raises `UserError`: a name is not known, or a value cannot be used.
+    """
     given = dict(words)
     numbers = {name: text for name, text in given.items() if name != "drive"}
     unknown = [name for name in numbers if name not in (*OUTPUTS, "speed")]

@@ -1,4 +1,4 @@
-"""Tables of an axle by its curves, made of its links: what `kind = "curves"` reads."""
+"""Computes the curves of an axle from its links, as a table that `kind = "curves"` reads."""
 
 import csv
 from os import PathLike
@@ -14,10 +14,10 @@ from mbs.vehicle.suspensions.curve_table import COLUMNS, OTHER, RACK, TRAVEL
 
 
 def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
-    """Columns of the table of the left wheel, as far as its stops and the rack go, (n,) each, by name, SI units.
+    """Columns of the table of the left wheel over its travel between the stops, (n,) each, by name, SI units.
 
-    `rack_travel`: to each side, m; 0 where the axle is not steered. Raises `NotReachedError`: the links end before the
-    stops.
+    `rack_travel`: to each side, m; 0: the axle is not steered. Raises `NotReachedError`: the links cannot follow as far
+    as the stops.
     """
     coupled = is_coupled(linkage)
     travel = _travels(linkage, coupled)
@@ -36,10 +36,7 @@ def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
 
 
 def write_curve_table(linkage: Linkage, rack_travel: float, file: str | PathLike[str]) -> None:
-    """Write the table of an axle as CSV, SI units in the headings.
-
-    `rack_travel`: as of `curve_rows`; `file`: to be written; one that exists is replaced when the new one is whole.
-    """
+    """Write `curve_rows` as CSV, with units in the heading; an older file is replaced when the new one is whole."""
     columns = curve_rows(linkage, rack_travel)
     with whole_file(Path(file)) as made, made.open("w", newline="", encoding="utf-8") as out:
         writer = csv.writer(out, lineterminator="\n")
@@ -48,7 +45,7 @@ def write_curve_table(linkage: Linkage, rack_travel: float, file: str | PathLike
 
 
 def _travels(linkage: Linkage, coupled: bool) -> Array:
-    """Travels of a wheel whose springs go to their stops and a little beyond, whatever the other wheel does."""
+    """Travels (n,) of a wheel, m, from beyond one stop to beyond the other, whatever the other wheel does."""
     extended, compressed = compression_range(linkage)
     ends = []
     for way, most in ((-1.0, extended), (1.0, compressed)):
@@ -66,7 +63,7 @@ def _compression(linkage: Linkage, q: Array) -> float:
 
 
 def _reached(linkage: Linkage, travel: Array, rack: float) -> Array:
-    """Coordinates at a place, by steps from the drawing as small as it takes."""
+    """Coordinates at a position, solved in 1, 4, 16 or 64 steps from the drawing."""
     for parts in (1, 4, 16, 64):
         at = linkage.drawn
         try:
@@ -80,6 +77,7 @@ def _reached(linkage: Linkage, travel: Array, rack: float) -> Array:
 
 
 def _measures(linkage: Linkage, q: Array) -> dict[str, float]:
+    """Values of the columns of the left wheel at coordinates q, m and rad."""
     C, c = linkage.centre(0)
     (x, y, _), triad = C @ q + c, [A @ q + a for A, a in linkage.triad(0)]
     axis = triad[1]

@@ -1,4 +1,4 @@
-"""A rack or arm by angle that is asked for by a port, has a table or friction, or moves suspensions without links."""
+"""Parts of steerings by angle whose rack is driven: by a port or by a table, with friction of the column."""
 
 from numpy.typing import ArrayLike
 
@@ -13,25 +13,25 @@ from mbs.vehicle.steering.steering_section import COLUMN_STICK
 
 
 def by_port(b: CarBuilder, most: float, text: str) -> Guide:
-    """The travel of the rack, m, that a port asks for; `most`: to each side, m; `text`: what the port is."""
+    """Travel of the rack, m, from a port. `most`: limit to each side, m; `text`: description of the port."""
     port = new_port(b, "steering_rack_demand", -most, most, "m", text)
     return b.m.guide_input("rack", input=port, frequency=b.ports.rack_frequency, unit="m")
 
 
 def by_table(m: Model, held: Guide, rows: ArrayLike) -> Guide:
-    """The travel of the rack, m, by rows of angle, rad, and travel; `held`: the angle of the steering wheel."""
+    """Travel of the rack, m, from the angle `held` of the steering wheel. `rows`: angle, rad, and travel, m, (n, 2)."""
     return m.guide_table("rack", held, rows, unit="m")
 
 
 def column_friction(m: Model, held: Guide, per_radian: float, torque: float) -> None:
-    """Friction at a steering wheel, `torque` in N m, that goes with `held`, which is `per_radian` of its angle."""
+    """Add friction of `torque`, N m, to a steering wheel. `held`: a guide that is `per_radian` times its angle, rad."""
     wheel = m.shaft("steering wheel")
     m.drive("steering column", wheel.affine * per_radian, held)
     m.add(CoordinateFriction(torque, *COLUMN_STICK).record("steering friction", wheel.affine))
 
 
 def travel(m: Model, rack: Guide) -> Coordinate:
-    """The travel of the rack as a coordinate, m."""
+    """A coordinate that is driven to the travel of the rack, m."""
     way = m.travel(RACK)
     m.drive(RACK, way.affine, rack)
     return way

@@ -125,9 +125,9 @@ NAMES = ("vx", "vy", "qw", "Throttle")
         ('sideslip = { from = "sideslip(vx, )" }', "an argument of the formula is empty"),
         ('sideslip = { from = "sideslip(vx, vz)" }', "'vz' is neither an input or output of the FMU nor another name"),
         ('a = { from = "rate(b)" }\nb = { from = "rate(a)" }', "'b' is neither"),
-        ('sideslip = { from = "sideslip(vx, vy)", factor = 2 }', "beside from nothing else can stand"),
-        ('throttle = { name = "Throttle", unit = "furlong" }', "the unit 'furlong' is not known, as m, km/h"),
-        ('throttle = { name = "Throttle", unit = "degC" }', "the zero of the unit 'degC' is another than in SI"),
+        ('sideslip = { from = "sideslip(vx, vy)", factor = 2 }', "'from' must stand alone"),
+        ('throttle = { name = "Throttle", unit = "furlong" }', "the unit 'furlong' is not known (such as m, km/h"),
+        ('throttle = { name = "Throttle", unit = "degC" }', "the unit 'degC' has another zero than the SI unit"),
         ('throttle = { name = "Throttle", factor = "big" }', "factor is 'big'; it must be a number, or a constant"),
         ('extends = "carsin"', "extends is 'carsin': there is neither a file"),
         ("extends = 3", "extends is 3; it must be the name of an alias file"),
@@ -157,5 +157,5 @@ def test_files_that_extend_one_another(tmp_path):
     }
     assert list(aliases.missing) == ["none"]
     (tmp_path / "ring.toml").write_text('extends = "ring.toml"')
-    with pytest.raises(HostError, match="is there a ring among them"):
+    with pytest.raises(HostError, match="does one extend itself"):
         read_aliases(tmp_path / "ring.toml", NAMES)

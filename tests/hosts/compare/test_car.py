@@ -120,9 +120,7 @@ def test_the_same_car_at_another_step_is_the_same(car: Path, tmp_path: Path) -> 
     assert found["chassis.y.rms"] < 0.05
     # Demanded as it was measured, the angle would be late by that of the follower of 10 Hz: 32 ms.
     assert found["chassis.wz.delay"] == pytest.approx(0.0, abs=1e-3)
-    assert any(
-        "turns as measured: the demand leads by what its follower of 10 Hz is late" in n for n in record["notes"]
-    )
+    assert any("turns as measured: the demand leads by the delay of its filter of 10 Hz" in n for n in record["notes"])
 
 
 @pytest.mark.slow

@@ -146,7 +146,7 @@ def test_what_of_a_car_is_recorded(fmus: dict[str, Path], monkeypatch: pytest.Mo
     assert recorded_columns(*given) == {"u": 1, "x": 12, "y": 12, "speed": 48, "q1": 12}
     assert recorded_columns(*given, 0.01) == {"u": 1, "x": 5, "y": 5, "speed": 5, "q1": 5}
     assert recorded_columns(*given[:3], 0.2) == {"u": 1, "x": 1, "y": 1, "speed": 1, "q1": 1}
-    with pytest.raises(HostError, match=r"The interval is 0.003 s, no whole multiple of the step of 0.002 s"):
+    with pytest.raises(HostError, match=r"The interval is 0.003 s, which is not a multiple of the step of 0.002 s"):
         recorded_columns(*given, 0.003)
 
 

@@ -271,7 +271,7 @@ def test_a_port_that_the_user_may_not_have(monkeypatch):
         raise PermissionError(errno.EACCES, "Permission denied")
 
     monkeypatch.setattr(web.socket, "create_server", refuse)
-    with pytest.raises(HostError, match=r"The port 80 may not be used by you; ports from 1024 on may\."):
+    with pytest.raises(HostError, match=r"The system does not allow you to use the port 80; give one from 1024 on\."):
         web.listening_socket("127.0.0.1", 80)
 
 

@@ -131,7 +131,7 @@ def test_new_starts_are_taken_now_and_then_only(car, served):
     with connect(served.url) as page:
         for _ in range(20):
             page.send(json.dumps({"type": "command", "name": "reset"}))
-        assert "passed over" in texts(page, "refused")["text"]
+        assert "ignored" in texts(page, "refused")["text"]
         page.send(json.dumps({"type": "command", "name": "pause"}))
         until(lambda: ("pause", 0.0) in car.orders)
     assert car.orders.count(("reset", 0.0)) == 1

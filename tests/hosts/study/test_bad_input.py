@@ -48,7 +48,8 @@ def test_unknown_signals_and_odd_intervals(told: Callable[..., str]) -> None:
         "study.toml: signals.names: the FMU has no input or output 'bob.w'; did you mean 'bob.y' or 'bob.x'?"
     )
     assert told(more=signals.replace("bob.w", "bob.y").replace("0.05", "0.015")) == (
-        "study.toml: manoeuvres[1]: signals.interval is 0.015 s, no whole multiple of the step of 0.01 s; take 0.02 s."
+        "study.toml: manoeuvres[1]: signals.interval is 0.015 s, which is not a multiple of the step of "
+        "0.01 s; take 0.02 s."
     )
 
 

@@ -95,7 +95,7 @@ def test_what_changes_by_rounding_alone_does_not_change(
 @pytest.mark.parametrize(
     ("options", "by", "words"),
     [
-        (("--target", "lowest=-1.2 deg"), "spring.stiffness", "'deg' is not a unit of what is measured in m"),
+        (("--target", "lowest=-1.2 deg"), "spring.stiffness", "values in 'deg' cannot be converted to m by a factor"),
         (("--target", "lowst=-1.2"), "spring.stiffness", "there is no measure 'lowst'; did you mean 'lowest'?"),
         (("--target", "lowest"), "spring.stiffness", "it must be MEASURE=VALUE"),
         (("--target", "lowest=-1.2"), "spring.stiffnes", "--by: the FMU has no parameter or input"),

@@ -16,7 +16,7 @@ EVERY = 100
 
 @cache
 def run(car, motion):
-    return moved(load(car), **{motion: True})
+    return moved(load(car), motion)
 
 
 @pytest.mark.parametrize(

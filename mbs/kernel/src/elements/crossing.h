@@ -2,7 +2,7 @@
 #ifndef ALI3_CROSSING_H
 #define ALI3_CROSSING_H
 
-/* Of a step, so near to an end of it that nothing is parted there. */
+/* Share of a step: nearer to one of its ends a step is not divided. */
 #define ALI3_AT_END 0.01
 
 /* The first share of a step of size h, from ALI3_AT_END to 1 - ALI3_AT_END, at which the cubic through the gaps at both

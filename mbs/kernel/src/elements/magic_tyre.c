@@ -218,7 +218,7 @@ static const char *check(int32_t nsig, const double *real, int32_t nreal, const 
     if (fabs(real[SIGN + i]) != 1.0) return "a sign of a tyre is neither 1 nor -1";
   for (int i = SLIP_RANGE; i < LARGEST_LOAD; i += 2)
     if (!(real[i] <= 0.0 && real[i + 1] >= 0.0 && real[i] < real[i + 1]))
-      return "a range of slips or camber of a tyre does not hold zero";
+      return "a range of slips or camber of a tyre does not contain zero";
   if (c[ALI3_MF_PCX1] * c[ALI3_MF_LCX] * c[ALI3_MF_PDX1] * c[ALI3_MF_PKX1] == 0.0 ||
       c[ALI3_MF_PCY1] * c[ALI3_MF_LCY] * c[ALI3_MF_PDY1] * c[ALI3_MF_PKY1] * c[ALI3_MF_PKY2] == 0.0)
     return "a tyre lacks shape, friction or slip stiffness";

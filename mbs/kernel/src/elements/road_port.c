@@ -1,15 +1,16 @@
-/* A road that other programs answer for: the plane through the point they were asked for, which they name with the
- * answer, so that it holds whenever it comes. Within a step a wheel goes on over the plane. Of several answers, as for
- * a body between the wheels, the mean over a place, by the inverse squares of the distances to the points asked for;
- * see docs/decisions/0091. */
+/* A road that another program gives through inputs. Each of its answers is a plane: the point that was asked for, the
+ * height and normal there, so that an answer that comes later still holds. Within a step a wheel moves over that plane.
+ * Of several answers, as for a body between the wheels, the road is their mean, weighted by the inverse squares of the
+ * distances to their points; see docs/decisions/0091. */
 #include "road_port.h"
 
 #include "../../include/ali3.h"
 #include "../algebra/small_vectors.h"
 #include "half_space.h"
 
-static const double NEAR = 0.01; /* m: a point asked for that is nearer counts as this near */
-static const double STEEP = 0.2;  /* from this slope against the plane of all answers on, one is its wheel's alone */
+static const double NEAR = 0.01; /* m: shortest distance in the weights */
+static const double STEEP =
+    0.2;  /* an answer that is steeper against the plane of all answers holds at its wheel only */
 static const double UPRIGHT = 0.02; /* least upward component of a normal */
 static const double OFF_UNIT = 0.1; /* of the length of a unit vector */
 
@@ -24,7 +25,7 @@ static const double *answer(const ali3_road *road, int32_t k) {
 
 static int32_t answers(const ali3_road *road) { return (int32_t)road->real[PORT_ANSWERS]; }
 
-/* A unit vector; upwards where the inputs give none, which no step accepts. */
+/* A unit normal; upwards where the inputs give none, which no step accepts. */
 static void normal_of(const double *given, double n[3]) {
   const bool good = ali3_is_road_normal(given) != 0;
   const double size = good ? ali3_norm(given) : 1.0;
@@ -37,7 +38,7 @@ static void slope_of(const double *given, double by[2]) {
   for (int i = 0; i < 2; i++) by[i] = -n[i] / n[2];
 }
 
-/* Slope of the plane that fits the heights of all answers best: a single one's own, of several at one point none. */
+/* Slope of the plane that fits the heights of all answers best; of a single answer its own, of several at one point 0. */
 static void slope_of_all(const ali3_road *road, double by[2]) {
   if (answers(road) == 1) {
     slope_of(answer(road, 0), by);
@@ -55,8 +56,8 @@ static void slope_of_all(const ali3_road *road, double by[2]) {
   by[1] = (xx * yz - xy * xz) / size;
 }
 
-/* The slope by which an answer goes on to a body beside its wheel: its own, or where that is much steeper than the
- * plane of all answers, as at an edge, which ends beside the wheel, the slope of that plane. */
+/* Slope of an answer beside its wheel: its own, which fades to that of the plane of all answers the steeper it is against
+ * this plane, since an edge under a wheel ends beside it. */
 static void slope_beside(const double *given, const double all[2], double by[2]) {
   slope_of(given, by);
   const double away[2] = {by[0] - all[0], by[1] - all[1]};
@@ -104,7 +105,7 @@ int ali3_port_contact(const ali3_road *road, const double centre[3], const doubl
   return 1;
 }
 
-/* The mean of planes is nowhere above the highest of them. */
+/* An upper limit of the height within reach: a mean of planes is nowhere above the highest of them. */
 double ali3_port_top(const ali3_road *road, const double place[3], double reach) {
   double all[2], top = -INFINITY;
   slope_of_all(road, all);

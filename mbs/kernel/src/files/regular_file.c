@@ -108,7 +108,7 @@ ali3_file *ali3_file_open(const char *path, int64_t *size, const char **why) {
     *size = (int64_t)kind.st_size;
     return (ali3_file *)file;
   }
-  *why = "it is no regular file";
+  *why = "it is not a regular file";
   fclose(file);
   return NULL;
 }

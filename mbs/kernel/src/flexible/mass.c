@@ -18,7 +18,6 @@ void ali3_mass_times_both(const ali3_instance *in, const double *x, const double
   if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out_x), ali3_tabled_mass_times(in, y, out_y);
 }
 
-/* a' M b, M of the last q prepared; M b stays in `work` (nq). */
 double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work) {
   double sum = 0.0;
   ali3_mass_times(in, b, work);
@@ -26,7 +25,8 @@ double ali3_mass_product(const ali3_instance *in, const double *a, const double 
   return sum;
 }
 
-/* Four columns at a time, from where the first of them is worked on. */
+/* Copies lower triangles, four columns at a time: all four from the row at which the first begins, for even lengths. What
+ * is copied above the diagonal is not read. */
 ALI3_INLINED void mass_to_fronts(const ali3_instance *in, double *F) {
   const ali3_system *S = in->system;
   for (int32_t f = 0; f < S->size.nf; f++) {

@@ -18,7 +18,7 @@ typedef struct {
   ali3_input_function *function; /* of the caller, or NULL; its context; the control of its processor, 0: the same */
   void *context;
   ali3_float_control host_control;
-  const double *breaks; /* n_breaks, s: times at which steps are parted, ascending */
+  const double *breaks; /* n_breaks, s: times at which steps are divided, ascending */
   int64_t n_breaks;
 } ali3_inputs;
 

@@ -1,4 +1,4 @@
-/* Work memory of force elements, flexible bodies and tabled bodies. */
+/* Work memory of force elements, flexible bodies and lookup-table bodies. */
 #ifndef ALI3_INSTANCE_ELEMENTS_H
 #define ALI3_INSTANCE_ELEMENTS_H
 
@@ -14,7 +14,7 @@ typedef struct {
   double *SB;           /* one element: signals x coordinates */
   unsigned char *idle;  /* ne: 1 where the last ali3_forces met no force and no tangent */
   double *S_made, *ud_at; /* of defect_correction.c: S of the tangent in F; ud of the last ali3_forces */
-  double *y, *out, *potential; /* ny, nout, ne: where nobody keeps them */
+  double *y, *out, *potential; /* ny, nout, ne: for calls whose caller does not keep these results */
 } ali3_element_work;
 
 typedef struct {
@@ -22,7 +22,7 @@ typedef struct {
   double *work;     /* 3 x max_modes: scratch */
 } ali3_flexible_work;
 
-/* At the last q prepared. */
+/* Lookup-table bodies at the last q prepared. */
 typedef struct {
   ali3_tabled_work *item;
   ali3_tabled_base_work *base;
@@ -31,7 +31,7 @@ typedef struct {
   double *extended[3], *force; /* q, qd, qdd and forces on them, with the dependents behind */
 } ali3_tabled_memory;
 
-/* Of elements whose work sensors ask for, see ../state/work.c. */
+/* Elements whose work sensors read, see ../state/work.c. */
 typedef struct {
   double *now;    /* n_work + n_work_force: power, W, and forces of the last ali3_forces */
   double *sum;    /* n_work: of the stages of a step */

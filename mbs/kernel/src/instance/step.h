@@ -1,4 +1,4 @@
-/* Work memory of a step: Newton's iteration and its tangent, what parts the step and what ends it. */
+/* Work memory of a step: Newton's iteration, its tangent, where the step is divided, and the limit of its work. */
 #ifndef ALI3_INSTANCE_STEP_H
 #define ALI3_INSTANCE_STEP_H
 #include <stdbool.h>
@@ -6,7 +6,7 @@
 
 enum { ALI3_STAGES = 12, ALI3_RADAU = 3, ALI3_LOCAL = 12 }; /* of runge_kutta.c, radau.c, fronts.c */
 
-/* A step rule in the increment D: qd = rate D + hat, qdd = (D - d0) / c; element tangents weigh C with wC, K with c. */
+/* A step rule in the increment D: qd = rate D + hat, qdd = (D - d0) / c. The tangents of elements are c K + wC C. */
 typedef struct {
   double c, rate, wC;
 } ali3_rule;
@@ -24,7 +24,7 @@ typedef struct {
   double *drive; /* nc: work of drives by a unit of the multipliers at the end */
 } ali3_iterate;
 
-/* Of the last iteration, see ../methods/accelerate.c. */
+/* Correction and step of the last iteration, from which ../methods/accelerate.c extrapolates. */
 typedef struct {
   double *correction_q, *step_q; /* nq */
   double *correction_lam, *step_lam; /* nc */
@@ -37,19 +37,19 @@ typedef struct {
   double *local; /* ALI3_LOCAL columns of a front */
 } ali3_tangent_work;
 
-/* Where a step is parted, see ../methods/contact_event.c and abrupt_force.c. */
+/* Where a step is divided, see ../methods/contact_event.c and abrupt_force.c. */
 typedef struct {
   double event; /* share of the present part at which a stop is met or left */
-  int32_t events_left; /* at which the present step may still be parted; below 0: it is not parted there at all */
-  double changed; /* largest change of a judged force in the step, of ali3_divides; below 0: not known */
+  int32_t events_left; /* how often the present step may still be divided at events; below 0: never */
+  double changed; /* largest change of a judged force in the step, by ali3_divides; below 0: not known */
 } ali3_parting;
 
-/* What bounds the work of a step and of a call, and what that left. */
+/* Limits of the work of a step and of a call, and the residuals that they left. */
 typedef struct {
   int64_t iterations_before; /* report.iterations where the present step began */
-  int64_t *work_left; /* of the caller's call, see ali3_count_work; or NULL */
-  bool capped; /* the present step ends at settings.step_iterations, */
-  double capped_residual; /* and leaves this, m */
+  int64_t *work_left; /* what the caller's call may still spend, see ali3_count_work; NULL: no limit */
+  bool capped; /* the present step is less accurate because of a limit, as of settings.step_iterations */
+  double capped_residual; /* m: what it then left */
   double call_residual; /* m: the largest of the steps of a call */
 } ali3_work_bound;
 #endif

@@ -1,5 +1,6 @@
-/* Instances of one System that advance together. A number of a group is one of each lane, side by side; sources written
- * in `real` see in it what they see of an instance, by the same names (see real.h and kernels.h). */
+/* Instances of one System that advance together, each in a lane. A `real` of the group holds a number of every lane, side
+ * by side. Sources written in `real` are compiled for instances and for groups: the members have the same names in both
+ * (see real.h and kernels.h). */
 #ifndef ALI3_GROUP_H
 #define ALI3_GROUP_H
 #include "../algebra/real.h"
@@ -22,7 +23,7 @@ typedef struct {
 
 typedef struct ali3_lane_group ali3_lane_group;
 
-/* What is compiled for a number of lanes. */
+/* Functions that are compiled for a number of lanes. */
 typedef struct ali3_lane_code {
   /* A step of the lanes in group->lanes to group->next; group->good has those that converged. */
   void (*step)(struct ali3_lane_group *group);
@@ -71,13 +72,14 @@ struct ali3_lane_group {
   struct {
     real *mean, *follows;
   } guide;
-  real *ways; /* of elements whose work is watched, see ../state/work.c */
+  real *ways; /* displacements of elements whose work is watched, see ../state/work.c */
   real *el_real, *input, *out, *potential;
   ali3_lane_road *road;
   bool *by_law; /* ne: the element is computed in vectors */
   real *mean_a, *newton_lam; /* what a step leaves to the history */
-  double *discarded; /* where numbers of lanes go that did not make the step */
-  /* one each: lanes that make the step, those that the sources count, those that evaluate elements, those that ended */
+  double *discarded; /* takes the numbers of lanes that did not make the step */
+  /* one mask each: lanes that make the step, that count the work, that evaluate elements, that converged, and that met a
+   * singular tangent */
   ali3_mask *lanes, *at_work, *evaluated, *good, *singular;
   ali3_mask *iterations, *worst_row, *worst_coordinate;
   struct {

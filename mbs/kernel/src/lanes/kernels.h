@@ -1,6 +1,6 @@
 /* The sources of a step, compiled for lanes: included once for each width, with ALI3_WIDTH and the instructions that the
- * processor then has. An instance is a group there, and functions that are declared ALI3_PER_WIDTH are of
- * this width alone; what a System without switches never asks for is nothing. */
+ * processor needs for it. ali3_instance means a group of lanes here, and functions declared ALI3_PER_WIDTH have a version
+ * for each width. Systems of lanes have no switches, so their functions are empty. */
 #ifndef ALI3_KERNELS_H
 #define ALI3_KERNELS_H
 #ifdef ALI3_WIDTH

@@ -88,8 +88,8 @@ static ali3_status guide_jump(ali3_instance *in, double time) {
   return ALI3_OK;
 }
 
-/* When a step of h to time t ends or is parted: behind its present time where an input or a guide jumps, else at t;
- * `*guide`: when a guide jumps there, else infinity. */
+/* Time to which the next part of a step of h to time t goes: the next jump of an input or a guide, else t. `*guide`: that
+ * time if a guide jumps then, else infinity. */
 static double part_end(const ali3_instance *in, double t, double h, double *guide) {
   const double inputs = ali3_inputs_until(in, t), near = AT_END * h;
   const double until =
@@ -98,7 +98,7 @@ static double part_end(const ali3_instance *in, double t, double h, double *guid
   return until < t - near ? fmin(until, inputs) : fmin(inputs, t);
 }
 
-/* Whether a step of h to time t is made in parts, or ends at a jump. */
+/* Whether a step of h to time t is divided at a jump, or ends at one of a guide. */
 bool ali3_parted(const ali3_instance *in, double t, double h) {
   double guide;
   return part_end(in, t, h, &guide) < t || guide < HUGE_VAL;

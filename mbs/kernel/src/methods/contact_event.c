@@ -9,7 +9,7 @@
 #include "../elements/element.h"
 #include "abrupt_force.h"
 
-enum { EVENTS = 4 }; /* at which a step is parted at most */
+enum { EVENTS = 4 }; /* at which a step is divided at most */
 
 /* A step as it is asked for begins, whose parts may be halved so deep. Of cars events cost more than they gain:
  * theory.md. */

@@ -5,6 +5,6 @@
 #include "../request.h"
 
 void ali3_events_begin(ali3_instance *in, int32_t depth);
-/* Whether the step from in->now to in->next, both with their outputs, is to be parted at in->parting.event. */
+/* Whether the step from in->now to in->next, both with their outputs, is to be divided at in->parting.event. */
 bool ali3_contact_event(ali3_instance *in, const ali3_request *request);
 #endif

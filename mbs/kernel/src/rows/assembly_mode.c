@@ -146,8 +146,8 @@ ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size) {
   used = put_names(S, r->branch_loop, text, used, size);
   if (r->branch_kind == ALI3_BRANCH_JUMP) {
     snprintf(text + used, size - used,
-             " changed its assembly mode within one step: the same step in parts leaves it otherwise. The motion from "
-             "there on depends on the step; take a shorter one.");
+             " changed its assembly mode within one step: the same step in parts ends in another one. The "
+             "motion from there on depends on the step; take a shorter one.");
     return ALI3_OK;
   }
   n = snprintf(text + used, size - used, " left its assembly mode at ");
@@ -156,7 +156,7 @@ ali3_status ali3_branch_text(const ali3_instance *in, char *text, size_t size) {
   snprintf(
       text + used, size - used,
       ": the bodies there are now on the other side of the position in which they lie in line. What follows is the "
-      "motion of a mechanism assembled otherwise than drawn. End stops would hold it; where the step leapt, a "
-      "shorter one.");
+      "motion of a mechanism assembled otherwise than drawn. End stops would prevent it, or a shorter step if this "
+      "one passed over that position.");
   return ALI3_OK;
 }

@@ -1,6 +1,6 @@
-/* The static equilibrium that a scene starts from, solved again where parameters at the start change it: at the place
- * of the drawing, on the roads of the file, with the inputs' start values and the values that the file has for the
- * search only (a drive that pushes has no equilibrium). The pose is then that of the new equilibrium. */
+/* A scene may start in static equilibrium. Where parameters at the start change that equilibrium, it is solved again here:
+ * at the place of the drawing, on the roads of the file, with the start values of the inputs. Some parameters have other
+ * values during the search, which the file gives (a drive that pushes has no equilibrium). */
 #include <math.h>
 #include <string.h>
 
@@ -11,16 +11,16 @@
 #include "initialise.h"
 
 static const double TOLERANCE = 1e-8; /* N, N m */
-static const double SAME = 1e-9; /* m: of a file that does not say where its equilibrium was sought from */
+static const double SAME = 1e-9; /* m: a smaller move is round-off, where the file lacks the start of its search */
 enum { ITERATIONS = 400 };
 
-/* Start of a scene at q, and how a pose moves it: of a horizontal component the other one turns in. */
+/* Makes q the start of the scene. A pose then turns each horizontal component by pose_cos and pose_sin. */
 static void set_start(ali3_instance *in, const double *q) {
   const ali3_system *S = in->system;
   memcpy(in->start.q, q, (size_t)S->size.nq * sizeof(double));
   for (int32_t i = 0; S->size.has_pose && i < S->size.nq; i++) {
     if (S->pose_partner[i] == 0) {
-      const double moved = S->pose_0[i] + (q[i] - S->q0[i]); /* spins have no place */
+      const double moved = S->pose_0[i] + (q[i] - S->q0[i]); /* pose_0 is not q0 for spins */
       in->start.pose_0[i] = S->pose_0[i] == S->q0[i] ? q[i] : moved; /* the same without round-off */
     } else {
       in->start.pose_cos[i] = q[i];
@@ -44,7 +44,8 @@ static void exchange_roads(ali3_instance *in) {
   in->roads.own = road;
 }
 
-/* Roads of the System, the values for the search, the inputs' start values; the instance's own stay in *_work. */
+/* Puts in what the search needs: roads of the System, its own values of parameters, start values of inputs. The values of
+ * the instance wait in parameters.work and inputs.work. */
 static ali3_status prepare(ali3_instance *in) {
   const ali3_system *S = in->system;
   memcpy(in->parameters.work, in->parameters.value, (size_t)S->size.np * sizeof(double));
@@ -70,8 +71,8 @@ static void put_back(ali3_instance *in) {
   ali3_parameters_switch(in);
 }
 
-/* The equilibrium in in->step.stage (nq), its states in in->now.y, from where that of the file was sought: the same
- * values then give the same bits, whether a file has them or an instance. */
+/* Solves for the equilibrium: coordinates into in->step.stage (nq), states into in->now.y. It starts where the compiler
+ * started, so that the same parameters give the same bits in a file and in an instance. */
 static ali3_status search(ali3_instance *in, double t) {
   const ali3_system *S = in->system;
   ali3_vectors_copy(in, &in->kept.whole, &in->now);

@@ -84,7 +84,7 @@ ali3_status ali3_system_attach(ali3_system *s, const ali3_generated *generated, 
     return ali3_bad(m, "the code was generated for another System, of structure %08x; this one has %08x",
                     (unsigned)generated->structure, (unsigned)ali3_system_structure(s));
   if (generated->avx2 && !s->has_avx2)
-    return ali3_bad(m, "the code was generated for processors with AVX2, which this one has not");
+    return ali3_bad(m, "the code was generated for processors with AVX2, which this one lacks");
   s->generated = *generated;
   if (s->turned != NULL && generated->turned != NULL) s->turned->generated = *generated->turned;
   return ALI3_OK;

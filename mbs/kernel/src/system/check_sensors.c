@@ -1,4 +1,4 @@
-/* Sensors of a System, by the list of their types. */
+/* Checks the sensors of a System file against the list of their types; sensor_types.h explains the letters. */
 #include <string.h>
 
 #include "../rows/guides.h"
@@ -19,12 +19,13 @@ const ali3_sensor_type ali3_sensor_types[ALI3_SENSOR_TYPE_COUNT] = {
 #undef ALI3_SENSOR_TYPE
 };
 
+/* The least value of an integer with this letter. */
 static int64_t least(char letter) {
   if (letter == 'S' || letter == 'G' || letter == 'T') return -1;
   return letter == 'N' ? 1 : (letter == 'P' ? 2 : 0);
 }
 
-/* What the integer at v must be below. */
+/* The value that the integer at v must be below. */
 static int64_t limit(const ali3_system *s, char letter, const int32_t *v) {
   switch (letter) {
   case 's':
@@ -57,6 +58,7 @@ static int64_t limit(const ali3_system *s, char letter, const int32_t *v) {
   }
 }
 
+/* Counts of integers and reals, and the range of each integer: first those before the brackets, then of each item. */
 static ali3_status check_sensor(const ali3_system *s, int32_t i, ali3_message m) {
   const ali3_sensor_type *type = &ali3_sensor_types[s->sen_type[i]];
   const int32_t *v = s->sen_int + s->sen_int_ptr[i];

@@ -24,9 +24,10 @@ ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
   for (int64_t i = 0; i < n; i++) {
     const int32_t *frame = s->tabled_frame + 12 * i, *param = s->tabled_param + 2 * i;
     for (int k = 1; k < 12; k++)
-      if ((frame[k] < 0) != (frame[0] < 0)) return ali3_bad(m, "table %lld has a part of a base", (long long)i);
+      if ((frame[k] < 0) != (frame[0] < 0))
+        return ali3_bad(m, "table %lld names only some coordinates of a base", (long long)i);
     if (param[0] < 0 || (param[1] < 0) != (s->tabled_size[3 * i + 2] == 1))
-      return ali3_bad(m, "table %lld has not the parameters it needs", (long long)i);
+      return ali3_bad(m, "table %lld lacks a parameter", (long long)i);
     if (!(s->tabled_axis[4 * i + 1] > 0.0 && s->tabled_axis[4 * i + 3] > 0.0))
       return ali3_bad(m, "the points of table %lld do not ascend", (long long)i);
     if (!(s->tabled_mass[ALI3_TABLED_MOMENTS * i] >= 0.0))
@@ -41,6 +42,6 @@ ali3_status ali3_check_tabled_sizes(ali3_system *s, ali3_message m) {
 /* What reads coordinates themselves has no dependents. */
 ali3_status ali3_check_independent(const ali3_system *s, int32_t signal, const char *what, ali3_message m) {
   for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++)
-    if (s->sig_col[k] >= s->size.nq) return ali3_bad(m, "%s is on a tabled body", what);
+    if (s->sig_col[k] >= s->size.nq) return ali3_bad(m, "%s is on a lookup-table body", what);
   return ALI3_OK;
 }

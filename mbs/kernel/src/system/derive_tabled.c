@@ -173,7 +173,7 @@ static ali3_status looks_at(const ali3_system *s, int32_t e, ali3_tabled_group *
     for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++)
       room = room && (found[k] < 0 || add_once(of->loc, &of->m, ALI3_TABLED_MOST, found[k]));
   }
-  return room ? ALI3_OK : ali3_bad(m, "element %d is on too many tabled bodies and coordinates", (int)e);
+  return room ? ALI3_OK : ali3_bad(m, "element %d is on too many lookup-table bodies and coordinates", (int)e);
 }
 
 /* Whether an element that looks at `of` can be one of the group, whose coordinates and signals then grow. */

@@ -10,7 +10,7 @@ import { Tyres, wheelsOf } from "./tyres.js";
 /** Least time between two drawings of the small map, s. */
 const MAP_EVERY = 0.1;
 
-/** What stands over the picture of a car; what there is no number for is left out. */
+/** The instruments over the picture of a car; those without a number to show are left out. */
 export class Instruments {
   /**
    * @param {Set<string>} names - Of the numbers that there are.
@@ -28,6 +28,8 @@ export class Instruments {
     const { position, quaternion } = scene.frames?.[scene.focus] ?? {};
     this._place = position ?? ["chassis.x", "chassis.y"];
     this._quaternion = quaternion;
+    this._mapped = -Infinity; // when the small map was drawn, s
+    this._off = false;
   }
 
   /** Whether numbers are those of a car. @param {Set<string>} names */
@@ -54,7 +56,7 @@ export class Instruments {
     this.tyres.show(lookup);
     this.plan.trail.add(car.x, car.y);
     const now = performance.now() / 1000;
-    if (now - (this._mapped ?? -Infinity) < MAP_EVERY || this.inset.element.hidden) return;
+    if (now - this._mapped < MAP_EVERY || this.inset.element.hidden) return;
     this._mapped = now;
     this.inset.show(car);
   }

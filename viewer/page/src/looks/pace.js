@@ -1,4 +1,4 @@
-// How finely a picture is drawn, by the measured time that the machine needs.
+// Chooses the quality of pictures by the measured time that the machine needs for one.
 
 /**
  * From the coarsest. draft: see draft/index.js; low: without shadows of the sun, a world's ground and scenery as coarse
@@ -7,15 +7,15 @@
 export const LEVELS = ["draft", "low", "medium", "high"];
 /** What a person can choose, finest first. */
 export const QUALITIES = ["auto", ...[...LEVELS].reverse()];
-/** Milliseconds that a picture may take before it is drawn more coarsely, and below which a draft is drawn more finely. */
+/** Time of a picture above which the next level is coarser, and below which a draft becomes finer, ms. */
 const [SLOW, QUICK] = [40, 12];
-/** Milliseconds between two pictures of what is driven above which drafts have fewer pixels, and above which it stood still. */
+/** Time between pictures of a driven car above which drafts get fewer pixels, and above which the page stood still, ms. */
 const [SELDOM, STOOD] = [55, 250];
-/** Pictures that are measured; the first ones make programs and textures. */
+/** Pictures that are skipped at first, since they compile shaders and load textures, and pictures that are measured. */
 const [SKIPPED, MEASURED] = [3, 5];
-/** While something is driven, one of so many pictures is measured: elsewhere in a world there is more to draw. */
+/** While a car is driven, one of so many pictures is measured: other places of a world may have more to draw. */
 const EVERY = 20;
-/** The least share of the pixels of a draft by side, and by what it changes. */
+/** Least resolution of a draft, share by side, and the factor by which it changes. */
 const [LEAST_SHARE, COARSER] = [0.5, 0.8];
 
 /** @param {number[]} values */

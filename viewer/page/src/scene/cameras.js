@@ -1,21 +1,21 @@
-// Where one looks from.
+// The cameras of a scene: where each stands, and how it follows the car or another body.
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { across, add, cross, dot, rotate, scale, subtract, unit } from "./math.js";
 import { Trailing } from "./trailing.js";
 
-/** Where a driver's eyes are beside the middle of the steering wheel, in metres: back, up. */
+/** The driver's eyes behind and above the centre of the steering wheel, m. */
 const EYES = [0.48, 0.24];
-/** Least height of the camera behind above the ground, beside the size of the drawing. */
+/** Least height of the chase camera above the ground, over the size of the drawing. */
 const CLEARANCE = 0.14;
 const VIEW_ANGLES = { orbit: 34, chase: 42, driver: 66, wheel: 40, side: 30, top: 40, fixed: 40, trackside: 30 };
-/** The camera that stands still shows what is followed on at least this share of the picture's width. */
+/** Least width of the followed body in the picture of the fixed camera, share of the picture's width. */
 const LEAST_SHARE = 0.1;
-/** It turns so that what is followed stays within this share of the angle from the middle to the upper edge. */
+/** Largest angle of the followed body from the middle of that picture, share of the angle to its upper edge. */
 const TURNS = 0.5;
-/** Half the size of the longest way that is watched from one place, beside the distance that is drawn. */
+/** Half the size of the longest path that has a fixed camera, over the largest distance that is drawn. */
 const WATCHED = 0.3;
-/** Cameras beside the track stand so far apart and aside, beside the size of what is followed. */
+/** Distance between trackside cameras, and from the path, over the size of the followed body. */
 const [POSTS, ASIDE] = [10, 3];
 
 /** The cameras of a view; places are relative to the origin of the picture. */

@@ -5,11 +5,11 @@ import { byUnit, found } from "./series.js";
 
 const LISTED = 300;
 const LOWEST = 130; // pixels of a diagram
-const EVERY = 120; // ms between two drawings of a run that goes on
-/** How much of a run that goes on is shown, s. @type {[number, string][]} */
+const EVERY = 120; // ms between two drawings of a live run
+/** How much of a live run is shown, s. @type {[number, string][]} */
 const SPANS = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [Infinity, "all"]]; // prettier-ignore
 
-/** Signals and diagrams. */
+/** The list of signals and the diagrams of those that are chosen. */
 export class Plots {
   span = SPANS[0][0];
   drawnAt = -Infinity;
@@ -54,7 +54,7 @@ export class Plots {
     this._draw();
   }
 
-  /** Show the time, and what a run that goes on has been. @param {boolean} [all] at once */
+  /** Show the present time, and new values of a live run. @param {boolean} [all] at once, not after `EVERY` */
   now(all = false) {
     if (this.source.grows && (all || performance.now() - this.drawnAt > EVERY)) {
       this.drawnAt = performance.now();

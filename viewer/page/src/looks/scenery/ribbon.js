@@ -5,10 +5,13 @@ import { LIFT } from "../lifted.js";
 /** Linear colours of paint. @type {Record<string, number[]>} */
 export const PAINTS = looks.paints;
 
-/** Longest and shortest steps along a line, and how far it may be off the ground where steps are left out, in metres. */
+/** Longest and shortest steps along a line, and its largest distance from the ground where steps are left out, m. */
 const [LONGEST, SHORTEST, OFF] = [2, 0.1, 1e-3];
-/** The same of a draft, whose ground is not nearer to the heights. */
+/** This distance in a draft, whose ground is no closer to the heights, m. */
 export const ROUGHLY = 1e-2;
+
+/** The point at a share of the way from a to b. */
+const between = (a, b, share) => a.map((value, k) => value + share * (b[k] - value));
 
 /**
  * Stretches of a line that are painted.
@@ -30,7 +33,7 @@ export function dashes(points, dash) {
       const step = Math.min((painted ? dash[0] : period) - phase, length - done);
       done += Math.max(step, 1e-6);
       way += Math.max(step, 1e-6);
-      const at = a.map((value, k) => value + (Math.min(done, length) / length) * (b[k] - value));
+      const at = between(a, b, Math.min(done, length) / length);
       if (painted) open.push(at);
       if (painted && (way + 1e-6) % period >= dash[0] - 1e-9) {
         found.push(open);
@@ -47,7 +50,7 @@ export function dashes(points, dash) {
  * Both edges of a line, on the ground.
  * @param {number[][]} points of its middle @param {number} width
  * @param {{at: (x: number, y: number) => number, stepAt: (x: number, y: number) => number} | null} ground heights as drawn
- * @param {number} [off] of the ground and of its edges where steps are left out, m
+ * @param {number} [off] largest distance of ground and edges where steps are left out, m
  * @returns {number[][][]} pairs of points: right edge, left edge
  */
 export function edges(points, width, ground, off = OFF) {
@@ -62,13 +65,14 @@ export function edges(points, width, ground, off = OFF) {
   return thinned(pairs, off);
 }
 
+/** A line with as many points as the ground needs there. */
 function dense(points, ground) {
   const found = [];
   for (let i = 0; i + 1 < points.length; i++) {
     const [a, b] = [points[i], points[i + 1]];
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
     for (let done = 0; done < length - 1e-6; ) {
-      const at = a.map((value, k) => value + (done / length) * (b[k] - value));
+      const at = between(a, b, done / length);
       found.push(at);
       done += Math.min(LONGEST, Math.max(SHORTEST, ground.stepAt(at[0], at[1])));
     }
@@ -92,7 +96,7 @@ function across(stations, i) {
   return half > 0.2 ? sum.map((value) => value / half) : after;
 }
 
-/** Without pairs that lie on the line between others. */
+/** Leaves out pairs that lie on the straight line between the pairs around them. */
 function thinned(pairs, off) {
   const kept = [pairs[0]];
   let from = 0;
@@ -105,6 +109,7 @@ function thinned(pairs, off) {
   return kept;
 }
 
+/** Whether all pairs between two others are within a distance of the straight lines between these. */
 function fits(pairs, from, to, off) {
   if (to - from > 40) return false; // so that a long line costs no more than its length
   return [0, 1].every((edge) => {
