@@ -16,9 +16,9 @@ from matplotlib import pyplot as plt
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from ali3.chart_words import described, png_metadata
+from ali3.chart_description import described, png_metadata
 from ali3.files import whole_file
-from ali3.words import clean
+from ali3.message_text import clean
 
 _PIXELS = 96  # of CSS, an inch
 _DOTS = 150  # an inch, of what a drawing has as dots

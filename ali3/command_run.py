@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from ali3.confinement import confine
 from ali3.errors import UserError, reason
 from ali3.extras import missing_module
+from ali3.message_text import shortened
 from ali3.processes import is_memory_short
 from ali3.signals import Stopped, stopped_by_signals
-from ali3.words import shortened
 
 GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED, NO_READER = 0, 1, 2, 130, 141
 """Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT; so for others

@@ -20,7 +20,7 @@ _PATIENCE = 20.0  # s
 
 
 def confine() -> None:
-    """From now on the processes of `ali3.isolated` are confined. Raises `UserError`: that is not possible here."""
+    """Processes of `ali3.isolated_processes` started from now on are confined. Raises `UserError`."""
     _bubblewrap()
     os.environ[_SWITCH] = "1"
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ali3.errors import FileError, reason
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 
 
 @contextmanager

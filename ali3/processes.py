@@ -49,7 +49,7 @@ def alive() -> None:
 
 def received() -> Any:
     """What the process that asks sends in the middle of a task; waits for it."""
-    assert _next_word is not None, "a process of `ali3.isolated`"
+    assert _next_word is not None, "a process of `ali3.isolated_processes`"
     return _next_word()
 
 

@@ -15,7 +15,7 @@ from typing import Any, BinaryIO, NoReturn
 
 from ali3.errors import FileError, reason
 from ali3.limits import at_most, raised
-from ali3.words import brief, one_line, place_words
+from ali3.message_text import brief, one_line, place_words
 
 Error = type[Exception]
 

@@ -6,6 +6,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from ali3.columns import some_of
+from ali3.message_text import one_line, value_words
 from ali3.near_names import near_names
 from ali3.typed_paths import (
     all_keys,
@@ -20,7 +21,6 @@ from ali3.typed_paths import (
     title_of,
     words,
 )
-from ali3.words import one_line, value_words
 
 ELSEWHERE = 3  # places of a key that a sentence names
 UNKNOWN, MISSING = "extra_forbidden", "missing"

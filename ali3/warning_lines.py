@@ -5,7 +5,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ali3.words import shortened
+from ali3.message_text import shortened
 
 
 @contextmanager

@@ -18,26 +18,26 @@ from ali3.files import write_text
 from benchmarks.car import (
     accuracy,
     edge_answers,
+    error_limits,
     fidelity,
     frame_tables,
     road_faces,
     sampled_roads,
     scene_instructions,
     tabled_cars,
-    trust,
     variable_tables,
 )
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.car.measures import measure, measure_rows, measure_table
-from benchmarks.methods import honesty, naive, stability, stability_margins
+from benchmarks.methods import honesty, stability, stability_margins, unreduced_models
 from benchmarks.methods.start_values import start_value_table
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
-from benchmarks.pictures.charts_again import charts
+from benchmarks.pictures.chart_commands import charts
+from benchmarks.shared.coarse_runs import wrong_on_purpose
 from benchmarks.shared.command import watched
 from benchmarks.shared.figures import Again, all_differences, between, read, rows_of, written
 from benchmarks.shared.pages import DOCS, table
-from benchmarks.shared.warned import wrong_on_purpose
-from benchmarks.validation import others, tyre_rig
+from benchmarks.validation import published_tests, tyre_rig
 from fmu_src.variables.variables import variable_table
 from mbs.scenes import double_four_bar as four_bar_scene
 from mbs.scenes import prototype_car
@@ -91,7 +91,7 @@ def honest_crank() -> list[Again]:
 def trusted() -> list[Again]:
     """The tables of the page of trust."""
     keys = {"frequency": ("steps in a period",), "kerb": ("speed m s",), "acceleration": ("manoeuvre", "h s")}
-    made = trust.trust_blocks(trust.measure())
+    made = error_limits.trust_blocks(error_limits.measure())
     return [Again("docs/trust.md", made[f"trust {name}"], f"trust {name}", key) for name, key in keys.items()]
 
 
@@ -251,7 +251,7 @@ def crg(whole: bool) -> list[Again]:
 
 def naive_sizes() -> list[Again]:
     """Sizes of models without savings: all of them in a moment."""
-    text = naive.size_table([naive.sizes_of(scene)[0] for scene in naive.SCENES])
+    text = unreduced_models.size_table([unreduced_models.sizes_of(scene)[0] for scene in unreduced_models.SCENES])
     return [Again("docs/flexible_car.md", text, "naive", ("scene",))]
 
 
@@ -268,8 +268,8 @@ def chosen_fidelity() -> list[Again]:
 
 def others_tests() -> list[Again]:
     """CommonRoad's Escort and the tyre of the rig; `benchmarks.validation` writes all."""
-    found = [*others.by_commonroad(list(others.CARS)[:1]), *tyre_rig.compared()]
-    text = table([figure.row(value) for figure, value in found], others.COLUMNS)
+    found = [*published_tests.by_commonroad(list(published_tests.CARS)[:1]), *tyre_rig.compared()]
+    text = table([figure.row(value) for figure, value in found], published_tests.COLUMNS)
     return [Again("docs/validation.md", text, "others", ("test",))]
 
 

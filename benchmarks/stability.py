@@ -13,9 +13,9 @@ from typing import Any
 from benchmarks.methods.stability import SCENES, measure, stability_blocks
 from benchmarks.methods.stability_chart import draw
 from benchmarks.references.cases import CASES
+from benchmarks.shared.coarse_runs import wrong_on_purpose
 from benchmarks.shared.command import Part, run
 from benchmarks.shared.pages import Row
-from benchmarks.shared.warned import wrong_on_purpose
 
 
 @wrong_on_purpose()

@@ -8,7 +8,7 @@ from typing import Any
 from ali3.files import check_writable, whole_file
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import Recording
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from viewer.browser import screenshot
 from viewer.page_file import notes_of, thinned, write_page
 

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ali3.scene.decimation import chosen_times, largest_gap_of_motion
 from ali3.scene.errors import ViewerError
 from ali3.scene.scene import check_scene, plain_scene
 from ali3.scene.scene_columns import drawable, pose_columns
-from ali3.scene.thinning import chosen_times, largest_gap_of_motion
 
 MOST_TIMES = 5001  # 10 s in steps of 2 ms
 _TURN = 2.0 * np.pi

@@ -7,12 +7,12 @@ from typing import Any
 from pydantic import ValidationError
 
 from ali3.json_reading import LARGEST_JSON, json_of
+from ali3.message_text import value_words
 from ali3.reading import read_bytes
 from ali3.scene.errors import SceneError
 from ali3.scene.scene_relations import relation_errors
 from ali3.scene.scene_sentences import sentences
 from ali3.scene.scene_types import Scene
-from ali3.words import value_words
 
 
 def scene_errors(scene: Any) -> list[str]:

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from ali3.columns import some_of
+from ali3.message_text import value_words
 from ali3.scene.base64_numbers import decoded, octets
 from ali3.scene.scene_parts import GROUND, anchors_of, frames_of
 from ali3.scene.scene_sentences import place
-from ali3.words import value_words
 
 _UNIT = 1e-3  # by how much the axes of a shape may miss those of a turn
 

@@ -5,11 +5,11 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from ali3.message_text import brief, place_words, value_words
 from ali3.near_names import near_names
 from ali3.scene import road_types, scenery_types
 from ali3.scene import scene_types as types
 from ali3.scene.scene_values import NAME, UNIT, Part
-from ali3.words import brief, place_words, value_words
 
 UNKNOWN, MISSING = "extra_forbidden", "missing"
 _PATTERNS = {

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.pilots.pilot import SENSES
-from hosts.driving.wild_driver import Target, WildDriver, wild_start
+from hosts.driving.random_driver import Target, WildDriver, wild_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
 
 RUN = 20.0  # s, after which the car starts again

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import mbs
-from ali3.words import range_words
+from ali3.message_text import range_words
 from fmu_src.variables.text_variables import text_table
 from fmu_src.variables.variables import Variable, variable_table
 from hosts.common.wheels import WHEELS

@@ -13,10 +13,10 @@ from typing import Any
 
 import mbs
 from benchmarks.paper import assembly_defect, double_four_bar, kerb, measured_guides, puma
+from benchmarks.shared.coarse_runs import wrong_on_purpose
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
 from benchmarks.shared.tables import plain_table
-from benchmarks.shared.warned import wrong_on_purpose
 from mbs.scenes import kerb_test
 from mbs.scenes import puma as puma_scene
 from mbs.vehicle import Fidelity

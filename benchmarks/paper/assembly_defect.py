@@ -8,9 +8,9 @@ import numpy as np
 
 import mbs
 from benchmarks.references.assembly_defect import COMPONENTS, reference
+from benchmarks.shared.coarse_runs import wrong_on_purpose
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.pages import Row, table
-from benchmarks.shared.warned import wrong_on_purpose
 from mbs.scenes import assembly_defect_four_bar as scene
 
 STEP = 0.01  # s, as the reference is stored

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.car import fidelity, fidelity_runs
-from benchmarks.shared.warned import wrong_on_purpose
+from benchmarks.shared.coarse_runs import wrong_on_purpose
 from mbs import Simulation, Trajectory
 from mbs.scenes import kerb_test
 from mbs.vehicle import Fidelity

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 
-from ali3.chart_words import description_of
+from ali3.chart_description import description_of
 from benchmarks.shared.pages import DOCS, replace
 
 _TABLE = re.compile(r"(?:^\|.*\n?)+", re.MULTILINE)

@@ -12,9 +12,9 @@ import numpy as np
 from benchmarks.shared.command import watched
 from benchmarks.validation.drive import FITTED, JUDGED, LENGTH, Array, Spans
 from benchmarks.validation.multibody import INTERVAL, LATERAL, YAW, in_windows, task_of
+from hosts.compare.segment_fmu import StretchFmu
+from hosts.compare.segments import Stretch
 from hosts.compare.start_values import reference_point
-from hosts.compare.stretch_fmu import StretchFmu
-from hosts.compare.stretches import Stretch
 from hosts.compare.task import Task
 
 BESIDE = 0.5, 0.3, 0.024  # m/s along, m/s across, rad/s: what the car may be off by (docs/validation.md)

@@ -122,7 +122,7 @@ def _add_platforms(options: argparse.Namespace) -> int:
     """More platforms for an FMU that is there."""
     from ali3.files import check_writable
     from fmu_src.build.progress_line import ProgressLine
-    from fmu_src.native.more_platforms import add_platforms
+    from fmu_src.native.added_platforms import add_platforms
     from fmu_src.native.platforms import this_platform
 
     _need("ziglang")

@@ -8,12 +8,12 @@ from typing import Any
 
 import mbs
 from ali3.parameter_set import ParameterSet
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from fmu_src.description.description import Description
 from fmu_src.description.documentation import documentation
 from fmu_src.description.probe import Dependencies
 from fmu_src.native.archive import identity_of, licence, write_zip
-from fmu_src.native.compile import compile_library
+from fmu_src.native.compilation import compile_library
 from fmu_src.native.picture import curves_png
 from fmu_src.native.platforms import SUFFIXES
 from fmu_src.native.reference import ReferenceRun, reference_files

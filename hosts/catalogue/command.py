@@ -92,8 +92,8 @@ def _list() -> int:
 def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     from ali3.files import check_writable
     from hosts.catalogue.cars import cars_of
+    from hosts.catalogue.execution import settings_of_test
     from hosts.catalogue.limits import GivenLimits
-    from hosts.catalogue.perform import settings_of_test
     from hosts.catalogue.record import TestRecord
     from hosts.catalogue.registry import TESTS, standard_test
     from hosts.experiment.store import Kept
@@ -128,9 +128,9 @@ def _do(
     kept: Kept[TestRecord],
 ) -> int:
     """Do the tests that are not kept, and write what is there after each."""
+    from hosts.catalogue.execution import missing_for
     from hosts.catalogue.finished_tests import find
     from hosts.catalogue.output import print_measures, write_measures
-    from hosts.catalogue.perform import missing_for
     from hosts.catalogue.report import write_report
     from hosts.catalogue.task import Task
     from hosts.experiment.store import tell_kept
@@ -189,9 +189,9 @@ def _done(
     tasks: Sequence[Task], jobs: int, outcomes: Mapping[str, dict[str, Outcome]], kept: Kept[TestRecord]
 ) -> Generator[None]:
     """Do all tasks under a progress bar; after each its outcome is among the others, and kept in the folder."""
-    from ali3.isolated import Lost
+    from ali3.isolated_processes import Lost
+    from hosts.catalogue.execution import Reason
     from hosts.catalogue.finished_tests import keep
-    from hosts.catalogue.perform import Reason
     from hosts.catalogue.record import TestRecord
     from hosts.catalogue.task import do, write_runs
     from hosts.experiment.experiment import Experiment

@@ -13,7 +13,7 @@ from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from hosts.measures.filters import phaseless_low_pass
-from hosts.measures.log_echo import relations_echo
+from hosts.measures.log_plausibility import relations_echo
 from hosts.measures.measure import Measure
 from hosts.measures.signal import Signal
 

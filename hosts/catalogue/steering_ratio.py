@@ -11,7 +11,7 @@ from hosts.catalogue.steering import SteeringInput
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.combined_pilot import Together
 from hosts.driving.pilots.speed_holder import SpeedHolder
-from hosts.driving.pilots.steering import SteeringTable
+from hosts.driving.pilots.steering_table import SteeringTable
 
 RATIO = "vehicle.steering_ratio"
 WHEELS = ("wheel_FL.steer", "wheel_FR.steer")

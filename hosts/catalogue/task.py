@@ -12,7 +12,7 @@ from typing import TypeAlias
 from ali3.errors import UserError
 from ali3.files import write_text
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.perform import Reason, perform
+from hosts.catalogue.execution import Reason, perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.run.result_files import write_csv

@@ -17,8 +17,8 @@ from ali3.cores import available_cores
 from ali3.decimal_number import number
 from ali3.extras import command_needs
 from ali3.files import check_writable
+from ali3.message_text import shortened
 from ali3.options import Parser, add_option, assignment, count, given_of
-from ali3.words import shortened
 from hosts.check.junit import Case, write_junit
 from hosts.check.sarif import write_sarif
 from hosts.common.errors import HostError
@@ -202,7 +202,7 @@ def _settings(fmu: Path, given: Wishes) -> Settings:
 
 def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     """The checks in a process of their own; one that a check takes down is replaced for the others."""
-    from ali3.isolated import Lost
+    from ali3.isolated_processes import Lost
     from hosts.check.all_checks import CHECKS, Checker, left_out, lost
     from hosts.check.archive import archive_findings
     from hosts.check.instance import Finding

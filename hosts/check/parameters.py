@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from ali3.columns import in_columns
 from ali3.files import check_writable
+from ali3.message_text import shortened
 from ali3.units import typeset
-from ali3.words import shortened
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.options import Wishes
 from hosts.fmu.fmu import described

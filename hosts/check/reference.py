@@ -25,7 +25,7 @@ from hosts.driving.manoeuvre_table import check_begin, read_table
 from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.driving.run_record import record_of
-from hosts.driving.run_with_bar import Drive, runs_with_bar
+from hosts.driving.runs_with_progress import Drive, runs_with_bar
 from hosts.experiment.run_key import run_key
 from hosts.experiment.store import Kept, tell_kept
 from hosts.fmu.fmu import Fmu

@@ -3,9 +3,9 @@
 import subprocess
 from collections.abc import Callable
 
-from ali3.children import how_ended
+from ali3.child_processes import how_ended
+from ali3.message_text import brief
 from ali3.processes import module_command
-from ali3.words import brief
 from hosts.common.errors import HostError
 
 ERROR = "error: "

@@ -12,7 +12,7 @@ from typing import Any
 from ali3.files import make_folder
 from ali3.json_reading import read_json
 from ali3.reading import is_file, is_folder
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from hosts.common.commands import run_ali3
 from hosts.common.options import ROAD, Wishes, wishes
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from hosts.compare.deviations import rms
-from hosts.compare.stretches import Stretch
+from hosts.compare.segments import Stretch
 from hosts.measures.signal import Signal
 
 Array = NDArray[np.float64]

@@ -12,7 +12,7 @@ from scipy.stats import qmc
 
 from hosts.common.display_units import number_in
 from hosts.common.errors import HostError
-from hosts.compare.correlated import covariance, effective_samples
+from hosts.compare.correlated_residuals import covariance, effective_samples
 from hosts.compare.cross_validation import FEWEST, Parts, clustered_covariance, folds, left_out, without_each
 from hosts.compare.deviations import rms
 from hosts.compare.fit_result import Fit, Found, Start

@@ -5,7 +5,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ali3.words import sentence_of
+from ali3.message_text import sentence_of
 from hosts.common.display_units import shown_number
 from hosts.common.numbers import Value
 from hosts.compare.comparison import Comparison, compare

@@ -13,7 +13,7 @@ from hosts.compare.curve import Curve
 from hosts.compare.deviations import deviations
 from hosts.compare.plausibility import ALIKE, turned
 from hosts.compare.replay import Replay
-from hosts.compare.stretches import Stretch
+from hosts.compare.segments import Stretch
 from hosts.compare.task import Task
 from hosts.measures.relations import SPEEDS
 

@@ -10,10 +10,10 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from ali3.columns import some_of
-from ali3.echo import Echo, Understood, echo_of
+from ali3.message_text import brief
 from ali3.near_names import did_you_mean
+from ali3.plausibility import Echo, Understood, echo_of
 from ali3.units import known_unit
-from ali3.words import brief
 from hosts.common.angles import continuous
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -27,7 +27,7 @@ from hosts.driving.missed_inputs import counted
 from hosts.driving.recorded_rows import ROUND_OFF
 from hosts.driving.run_record import record_of
 from hosts.fmu.named_fmu import NamedFmu
-from hosts.measures.log_echo import log_echo
+from hosts.measures.log_plausibility import log_echo
 from hosts.measures.signal import Signal
 
 FEWEST_SAMPLES = 10

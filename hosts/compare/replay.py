@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.isolated import Lost
-from hosts.common.closing import Closing
+from ali3.isolated_processes import Lost
+from hosts.common.closable import Closing
 from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
-from hosts.compare.follower import demanded
-from hosts.compare.stretch_fmu import StretchFmu, Task
-from hosts.compare.stretches import Stretch, joined
+from hosts.compare.follower_demand import demanded
+from hosts.compare.segment_fmu import StretchFmu, Task
+from hosts.compare.segments import Stretch, joined
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 from hosts.driving.result import Result
 from hosts.experiment.experiment import Experiment, Progress

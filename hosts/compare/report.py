@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 from ali3.charts import Drawing
 from ali3.files import write_text
 from ali3.html_elements import element, picture, table
+from ali3.message_text import sentence_of
 from ali3.units import typeset
-from ali3.words import sentence_of
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
+from hosts.compare.comparison_text import common_sentence, signal_rows
 from hosts.compare.fit_result import Fit
-from hosts.compare.fit_words import FIT_COLUMNS, fit_rows, result_words
+from hosts.compare.fit_text import FIT_COLUMNS, fit_rows, result_words
 from hosts.compare.windows import Bin
-from hosts.compare.words import common_sentence, signal_rows
 from hosts.experiment.report import NOTE, PROBLEM, Section, page, paragraph
 
 if TYPE_CHECKING:

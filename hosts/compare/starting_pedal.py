@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq
 
-from hosts.compare.stretch_fmu import StretchFmu
-from hosts.compare.stretches import Stretch
+from hosts.compare.segment_fmu import StretchFmu
+from hosts.compare.segments import Stretch
 from hosts.fmu.fmu_source import FmuSource
 from hosts.measures.signal import Signal
 

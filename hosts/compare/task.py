@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.echo import Echo
 from ali3.near_names import did_you_mean
+from ali3.plausibility import Echo
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.road import wishes_with_road
@@ -19,9 +19,9 @@ from hosts.compare.log_file import read_log
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import inputs_of
 from hosts.compare.road_wheels import ANGLES, mean_angle, steering_for
+from hosts.compare.segments import GAP, PEDALS, Spans, Stretch, begins, in_spans, one_after_the_other, spans
 from hosts.compare.start_values import measured_start, of_origin, reference_point
 from hosts.compare.starting_pedal import starting_pedals
-from hosts.compare.stretches import GAP, PEDALS, Spans, Stretch, begins, in_spans, one_after_the_other, spans
 from hosts.compare.windows import scales_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.missed_inputs import missed_inputs
@@ -33,7 +33,7 @@ from hosts.fmu.named_fmu import NamedFmu
 from hosts.fmu.settings import settings_of
 from hosts.fmu.steering_ratios import RATIOS
 from hosts.fmu.variables import Variable, default_step
-from hosts.measures.log_echo import log_echo
+from hosts.measures.log_plausibility import log_echo
 from hosts.measures.signal import Signal
 
 _STEERING, _ANGLE, _ANGLE_MAX = "steering", "steering_wheel_angle", "vehicle.steering_wheel_angle_max"

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from hosts.compare.comparison import Comparison
 from hosts.compare.deviations import rms
-from hosts.compare.stretch_fmu import SLIDING
-from hosts.compare.stretches import PEDALS, Stretch
+from hosts.compare.segment_fmu import SLIDING
+from hosts.compare.segments import PEDALS, Stretch
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 

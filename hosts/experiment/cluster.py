@@ -10,8 +10,8 @@ from distributed import Client, KilledWorker, Security
 
 from ali3.archives import LARGEST_ARCHIVE
 from ali3.errors import UserError
+from ali3.message_text import shortened
 from ali3.reading import read_bytes
-from ali3.words import shortened
 from hosts.common.errors import HostError
 from hosts.experiment.cluster_runs import take_back
 from hosts.experiment.cluster_worker import Brought, ExperimentPlugin, why_wrong

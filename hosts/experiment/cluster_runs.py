@@ -11,8 +11,8 @@ from typing import Any, Generic, TypeAlias, TypeVar
 
 from distributed import Client, Future, KilledWorker
 
-from ali3.isolated import Lost
-from hosts.common.closing import Closing
+from ali3.isolated_processes import Lost
+from hosts.common.closable import Closing
 from hosts.experiment.cluster_worker import Brought, WrongWorkerError, run_chunk
 
 WORK = 2.0  # s of a chunk: Dask takes some milliseconds for a task

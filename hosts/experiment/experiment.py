@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
 from ali3.bars import bar as bar_of
-from ali3.isolated import Lost, Tell
-from hosts.common.closing import Closing
+from ali3.isolated_processes import Lost, Tell
+from hosts.common.closable import Closing
 from hosts.experiment.pool import Pool
 from hosts.fmu.own_process import PATIENCE
 

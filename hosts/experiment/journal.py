@@ -9,7 +9,7 @@ from ali3.errors import FileError, reason
 from ali3.files import make_folder, whole_file
 from ali3.frames import FrameError, read_frame, write_frame
 from ali3.reading import read_bytes
-from hosts.common.closing import Closing
+from hosts.common.closable import Closing
 
 _MOST = 8_000_000_000  # bytes
 

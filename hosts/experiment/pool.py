@@ -8,8 +8,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from ali3.isolated import Isolated, Lost, Tell
-from hosts.common.closing import Closing
+from ali3.isolated_processes import Isolated, Lost, Tell
+from hosts.common.closable import Closing
 from hosts.fmu.own_process import PATIENCE
 
 _LOOK = 0.5  # s after which Ctrl-C is noticed where nothing arrives

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
 from ali3.locks import locked
-from hosts.common.closing import Closing
+from hosts.common.closable import Closing
 from hosts.experiment.journal import Journal
 
 JOURNAL = "done"

@@ -15,11 +15,11 @@ from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
 from ali3.errors import reason
+from ali3.message_text import brief, shortened
 from ali3.near_names import did_you_mean
 from ali3.processes import cause_words
-from ali3.temporary import temporary_folder
-from ali3.words import brief, shortened
-from hosts.common.closing import Closing
+from ali3.temporary_folder import temporary_folder
+from hosts.common.closable import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.description_file import opened, read_description

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from ali3.call_mark import marked
 from ali3.limits import at_most, raised
+from ali3.message_text import shortened
 from ali3.processes import path_of_caller
 from ali3.reading import LARGEST_STATE
-from ali3.words import shortened
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.scalars import Place

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ali3.errors import UserError
-from ali3.isolated import Isolated, Lost, Tell
+from ali3.isolated_processes import Isolated, Lost, Tell
 from hosts.common.errors import FailedFmuError, HostError
 from hosts.common.numbers import Value
 from hosts.common.road import tell_starts

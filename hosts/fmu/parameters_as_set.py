@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping
 
+from ali3.message_text import range_words
 from ali3.parameter_set import Entry, ParameterSet, parameter_text
-from ali3.words import range_words
 from hosts.common.numbers import Value
 from hosts.fmu.variables import Variable, Variables
 

@@ -10,11 +10,11 @@ from typing import Any
 from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.decimal_number import parse_number
+from ali3.message_text import brief, range_words
 from ali3.near_names import MOST, did_you_mean
 from ali3.processes import command_name
 from ali3.unit_definition import BASE_UNITS, KINDS, UnitDefinition
 from ali3.units import number_with_unit, typeset
-from ali3.words import brief, range_words
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
 

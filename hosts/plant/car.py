@@ -8,10 +8,10 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ali3.message_text import brief, value_words
 from ali3.near_names import did_you_mean
-from ali3.words import brief, value_words
 from hosts.common.arguments import mapping, positive, texts
-from hosts.common.closing import Closing
+from hosts.common.closable import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
 from hosts.common.road import tell_starts

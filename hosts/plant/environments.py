@@ -8,7 +8,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from ali3.words import brief
+from ali3.message_text import brief
 from hosts.common.arguments import mapping
 from hosts.common.errors import HostError
 from hosts.common.numbers import is_finite

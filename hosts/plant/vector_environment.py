@@ -9,7 +9,7 @@ import gymnasium
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 from ali3.cores import available_cores
-from ali3.words import brief
+from ali3.message_text import brief
 from hosts.common.errors import HostError
 from hosts.plant.environments import AntiLockBraking, Floats, LaneKeeping
 from hosts.plant.lap import ProvingGroundLap

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from ali3.extras import missing_package
 from ali3.files import check_writable, make_folder, whole_file, write_text
-from hosts.common.closing import Closing
+from hosts.common.closable import Closing
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described
 from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, STATES, VERSION, check_new

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.reading import is_file
-from hosts.common.closing import Closing
+from hosts.common.closable import Closing
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.fmu.instance import State

@@ -79,11 +79,11 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import set_in
     from hosts.driving.run_checks import check_columns, communication_step, steps_of
-    from hosts.driving.run_with_bar import run_with_bar
+    from hosts.driving.runs_with_progress import run_with_bar
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
-    from hosts.recordings.asked_manoeuvre import manoeuvre_of
     from hosts.recordings.load_manoeuvre import check_asked
+    from hosts.recordings.manoeuvre_option import manoeuvre_of
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
     from hosts.run.result_plots import plot_page
     from hosts.run.run_summary import energy_balance, pace, summary

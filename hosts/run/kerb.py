@@ -21,7 +21,7 @@ from hosts.common.options import Wishes
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_settings import set_in
 from hosts.driving.run_checks import communication_step
-from hosts.driving.run_with_bar import run_with_bar
+from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.built_fmu import fmu_of_scene
 from hosts.fmu.fmu import Fmu
 from hosts.run.result_files import print_result, result_paths, write_csv, write_record

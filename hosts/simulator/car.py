@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from hosts.common.closing import Closing
+from hosts.common.closable import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described
@@ -15,8 +15,8 @@ from hosts.fmu.steering_ratios import steering_as_set
 from hosts.fmu.variables import Variables
 from hosts.recordings.recorded_columns import recorded_columns
 from hosts.recordings.recording import Recorder, recording_meta
+from hosts.simulator.car_events import CarSettings, Event, Moment
 from hosts.simulator.car_process import COMMANDS, Order
-from hosts.simulator.moments import CarSettings, Event, Moment
 from hosts.simulator.process import Process
 from hosts.simulator.process_messages import Mail, Records
 from hosts.simulator.shared_values import RECORDING, ROW, STOP, SharedValues, Sizes

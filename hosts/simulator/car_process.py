@@ -43,7 +43,7 @@ class Order:
 
 
 def run_car(order: Order, tell: Callable[[str], None]) -> None:
-    """Drive the FMU until the main process says stop; the work of a process, see `ali3.isolated`.
+    """Drive the FMU until the main process says stop; the work of a process, see `ali3.isolated_processes`.
 
     `tell`: called once, with nothing, when the FMU has started. Raises `HostError`: it cannot be started.
     """

@@ -39,7 +39,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 simulator") -
 
 
 def _recorded(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
-    from hosts.recordings.show import replay_recording, save_manoeuvre, show_recording
+    from hosts.recordings.recording_actions import replay_recording, save_manoeuvre, show_recording
 
     given = given_of(parser, options, [name for name in vars(options) if name not in _OF_RECORDINGS])
     if given:
@@ -179,7 +179,7 @@ def _reported(car: Car, options: argparse.Namespace, report: RunReport) -> Itera
 def _alone(options: argparse.Namespace, begin: float) -> int:
     """Without a page; the run ends by itself."""
     from hosts.simulator.aliased_car import AliasedCar
-    from hosts.simulator.headless import headless_driver, manoeuvre_of, run_headless, with_start_of
+    from hosts.simulator.headless_driving import headless_driver, manoeuvre_of, run_headless, with_start_of
     from hosts.simulator.preparation import prepare
     from hosts.simulator.run_report import RunReport
 
@@ -205,13 +205,13 @@ def _with_pages(options: argparse.Namespace, begin: float) -> int:
     """Until Ctrl-C."""
     from concurrent.futures import ThreadPoolExecutor
 
+    from hosts.simulator.access_control import Guard
     from hosts.simulator.aliased_car import AliasedCar
-    from hosts.simulator.guard import Guard
+    from hosts.simulator.page_session import Opened, drive_with_pages
     from hosts.simulator.preparation import prepare
     from hosts.simulator.run_report import RunReport
     from hosts.simulator.server_needs import Content
     from hosts.simulator.web import listening_socket
-    from hosts.simulator.with_page import Opened, drive_with_pages
     from viewer.simulator_page import simulator_html
 
     report = RunReport(begin)

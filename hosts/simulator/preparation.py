@@ -22,7 +22,7 @@ from hosts.fmu.geometry import scene_of
 from hosts.fmu.settings import START_OF, Settings
 from hosts.fmu.variables import Variables, check_co_simulation
 from hosts.recordings.recording import check_folder
-from hosts.simulator.drivable import not_drivable
+from hosts.simulator.drivability import not_drivable
 
 ITERATIONS = "solver.step_iterations"
 _MOST_ITERATIONS = 6

@@ -19,9 +19,9 @@ from websockets.exceptions import ConnectionClosed
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.simulator import protocol
+from hosts.simulator.access_control import Guard
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.connected_page import ConnectedPage
-from hosts.simulator.guard import Guard
 from hosts.simulator.input_arbiter import Hands
 from hosts.simulator.server_needs import Content, ShownDevices
 from hosts.simulator.web import BACKLOG, MOST_PAGES, Web

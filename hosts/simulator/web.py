@@ -17,7 +17,7 @@ from websockets.http11 import Request, Response
 
 from ali3.errors import reason
 from hosts.common.errors import HostError
-from hosts.simulator.guard import Guard
+from hosts.simulator.access_control import Guard
 
 DRIVE = "/drive"
 MOST_STRANGERS = 64

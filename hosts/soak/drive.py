@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hosts.common.numbers import Value
 from hosts.driving.pilots.pilot import SENSES
-from hosts.driving.wild_driver import WildDriver, wild_start
+from hosts.driving.random_driver import WildDriver, wild_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.soak.checks import LARGEST_BALANCE, BadStepError, Counts, Watch
 from hosts.soak.last_seconds import Stretch

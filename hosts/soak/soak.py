@@ -14,7 +14,7 @@ from pathlib import Path
 
 from ali3.cores import available_cores
 from ali3.files import check_writable, make_folder, write_text
-from ali3.isolated import Lost
+from ali3.isolated_processes import Lost
 from hosts.common.errors import HostError
 from hosts.common.options import wishes
 from hosts.experiment.experiment import Experiment

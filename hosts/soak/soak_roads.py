@@ -13,7 +13,7 @@ from ali3.json_reading import read_json
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.road import road_value
-from hosts.driving.wild_driver import Target
+from hosts.driving.random_driver import Target
 
 _SPACING = 0.25  # m, of the points of the road
 _HALF = 80.0  # m, half the side of its square; beyond it is level

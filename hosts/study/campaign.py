@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ali3.columns import some_of
 from ali3.cores import available_cores
 from ali3.errors import FileError
-from ali3.isolated import Lost
+from ali3.isolated_processes import Lost
 from ali3.reading import is_file, is_folder
 from hosts.common.errors import HostError
 from hosts.experiment.experiment import Runner

@@ -17,9 +17,9 @@ from ali3.archives import LARGEST_ARCHIVE
 from ali3.columns import some_of
 from ali3.files import make_folder, whole_file, write_text
 from ali3.json_reading import read_json
+from ali3.message_text import VALUE, one_line
 from ali3.reading import no_file, read_bytes
 from ali3.typed_sentences import Sentences
-from ali3.words import VALUE, one_line
 from hosts.common.errors import HostError
 from hosts.study.study_file import SamplingEntry, Setting, SignalsEntry
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from ali3.columns import some_of
 from ali3.files import whole_file
+from ali3.message_text import one_line
 from ali3.reading import is_file
-from ali3.words import one_line
 from hosts.common.errors import HostError
 from hosts.common.parquet import opened_parquet
 from hosts.study.folder import RUNS, SIGNALS, sync

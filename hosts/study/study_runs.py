@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.isolated import Lost
-from ali3.words import sentence_of
-from hosts.common.closing import Closing
+from ali3.isolated_processes import Lost
+from ali3.message_text import sentence_of
+from hosts.common.closable import Closing
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.road import tell_starts

@@ -8,9 +8,9 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, register_namespace, tostring
 
 from ali3.files import check_writable, whole_file
+from ali3.message_text import brief
 from ali3.parameter_set import Entry, ParameterSet
-from ali3.temporary import temporary_folder
-from ali3.words import brief
+from ali3.temporary_folder import temporary_folder
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value

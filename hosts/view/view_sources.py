@@ -19,12 +19,12 @@ from hosts.driving.manoeuvre import with_names_of
 from hosts.driving.manoeuvre_settings import set_in
 from hosts.driving.pilots.pilot import ACTS, SENSES
 from hosts.driving.run_checks import check_columns, communication_step
-from hosts.driving.run_with_bar import run_with_bar
+from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.fmu import Fmu, described
 from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.fmu.scene_file import scene_from
-from hosts.recordings.asked_manoeuvre import manoeuvre_of
 from hosts.recordings.format import is_recording
+from hosts.recordings.manoeuvre_option import manoeuvre_of
 from hosts.recordings.recorded_view import other_build, recorded_view
 from hosts.view.result_tables import Table, read_table
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager
 
 from mbs.common.checks import flag
-from mbs.common.later import Later
+from mbs.common.lazy_value import Later
 from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.drawing import drawing
 from mbs.compiler.generated.library import library_of

@@ -12,7 +12,7 @@ from mbs.common.errors import ModelError
 from mbs.compiler.front_arrays import Locate
 from mbs.compiler.polynomial import RowTerms
 from mbs.model.model import Model
-from mbs.model.tabled import TabledBody, TabledNumber
+from mbs.model.table_bodies import TabledBody, TabledNumber
 
 NONE = [-1] * 12
 

@@ -9,7 +9,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ali3.echo import Understood
+from ali3.plausibility import Understood
 from mbs.common.checks import array, is_number, not_negative, not_zero, number, one_of, positive, shown, vector, whole
 from mbs.common.errors import ModelError
 from mbs.elements.reals import Check, NotNegative, Number, Positive, Reals, each_real, reals_of

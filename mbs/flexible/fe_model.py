@@ -7,7 +7,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import qr
 
-from ali3.echo import Understood
+from ali3.plausibility import Understood
 from mbs.common.checks import flag, is_finite, shown
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame

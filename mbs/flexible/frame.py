@@ -7,7 +7,7 @@ from mbs.common.checks import flag
 from mbs.flexible.beam_frame import Beam, BeamFrame
 from mbs.flexible.beam_mass import beam_mass_points
 from mbs.flexible.beam_stiffness import shear_parameters
-from mbs.flexible.body_echo import FlexibleWarning, model_echo
+from mbs.flexible.body_plausibility import FlexibleWarning, model_echo
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.fe_model_checks import check_free
 from mbs.flexible.mass_points import MassPoints, nodal_mass_points

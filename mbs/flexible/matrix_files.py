@@ -14,14 +14,14 @@ from ali3.tables import TextTable
 from mbs.common.checks import numbers, positive
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import node_labels
-from mbs.flexible.body_echo import FlexibleWarning, model_echo
+from mbs.flexible.body_plausibility import FlexibleWarning, model_echo
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.fe_model_checks import SYMMETRY, asymmetry, check_definite, check_free, check_symmetric
 from mbs.flexible.foreign_file import read_foreign
-from mbs.flexible.lumping import lumped_masses
+from mbs.flexible.mass_lumping import lumped_masses
 from mbs.flexible.mass_points import check_masses, nodal_mass_points
 from mbs.flexible.matrix_market import read_matrix_market, read_sparse_arrays
-from mbs.flexible.sparse import Sparse
+from mbs.flexible.sparse_matrices import Sparse
 
 
 def external_model(

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ali3.echo import Understood
+from ali3.plausibility import Understood
 from mbs.common.checks import shown
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame

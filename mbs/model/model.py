@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ali3.echo import Echo, Understood, echo_of
+from ali3.plausibility import Echo, Understood, echo_of
 from mbs.common.checks import Vector, is_number, number, positive, shown, vector
 from mbs.common.errors import ModelError
 from mbs.model.air import AirVocabulary
@@ -22,13 +22,13 @@ from mbs.model.forces import ForceVocabulary
 from mbs.model.inputs import InputVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.joint_vocabulary import JointVocabulary
-from mbs.model.more_guides import MoreGuidesVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.orientation_sensors import OrientationSensorVocabulary
 from mbs.model.parameters import ParameterVocabulary
 from mbs.model.point_mass import PointMass
 from mbs.model.road_vocabulary import RoadVocabulary
 from mbs.model.sliding_shapes import SlidingVocabulary
+from mbs.model.special_guides import MoreGuidesVocabulary
 from mbs.model.spin import SpinVocabulary
 from mbs.model.springs import SpringVocabulary
 from mbs.model.table_vocabulary import TableVocabulary

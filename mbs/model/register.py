@@ -11,14 +11,14 @@ from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.elements.road import Road
 from mbs.model.body import Body, Ground
-from mbs.model.carried import Payload, Spin, WrittenAxis, WrittenInertia
+from mbs.model.carried_parts import Payload, Spin, WrittenAxis, WrittenInertia
 from mbs.model.changes import whole_or_not
+from mbs.model.checked_shapes import Shape, Turning
 from mbs.model.coordinates import ModelCoordinates
-from mbs.model.drawn import Shape, Turning
 from mbs.model.joints.joint import Joint
 from mbs.model.records import Ahead, Armature, Constant, Guide, Input, Parameter, RoadFileParameter, Switch
 from mbs.model.sensor import Sensor
-from mbs.model.tabled import TabledBody, TabledNumber
+from mbs.model.table_bodies import TabledBody, TabledNumber
 
 
 class Named(Protocol):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ali3.words import unit_text
+from ali3.message_text import unit_text
 from mbs.kernel.header.enumerations import GuideType
 from mbs.kernel.header.limits import AGREED, WRONG_ERROR
 from mbs.results.comparison import COORDINATES, INSTANTS, Compared

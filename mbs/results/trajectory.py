@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from ali3.columns import some_of
 from ali3.errors import TableError, UserError
 from ali3.files import whole_file
+from ali3.message_text import brief
 from ali3.near_names import did_you_mean
 from ali3.scene.drawer import drawer
 from ali3.scene.recording import Recording
 from ali3.scene.scene import check_scene
 from ali3.tables import TextTable
-from ali3.words import brief
 from mbs.common.checks import flag, shown, whole
 from mbs.elements.road import PortRoad, Road
 from mbs.results.accuracy import Accuracy

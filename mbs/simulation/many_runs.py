@@ -40,8 +40,8 @@ from mbs.simulation.arguments import (
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.fixed_steps import Warned, fixed_step_run
 from mbs.simulation.large_bending import BendingWarning
-from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.march import attached, next_chunk, trajectory_of
+from mbs.simulation.omitted_sensor_run import left_out_of_run
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal

@@ -4,7 +4,7 @@ import warnings
 from collections.abc import Mapping
 from typing import Any
 
-from ali3.words import unit_text
+from ali3.message_text import unit_text
 
 
 class ParameterWarning(UserWarning):

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from ali3.words import unit_text
+from ali3.message_text import unit_text
 from mbs.kernel.binding import KernelError, Status, open_row
 from mbs.kernel.binding.errors import status_cause, status_remedy
 from mbs.kernel.header.enumerations import Cause

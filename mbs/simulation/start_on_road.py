@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 from mbs.kernel.header.enumerations import RoadType
-from mbs.roads.road_echo import QUANTITIES, Place, place_of_file, start_echo
 from mbs.roads.road_file import RoadFile
+from mbs.roads.road_plausibility import QUANTITIES, Place, place_of_file, start_echo
 from mbs.roads.steep_faces import RoadWarning
 from mbs.simulation.state import Pose
 from mbs.system.system import System

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import astuple
 from typing import Any
 
-from ali3.words import unit_text
+from ali3.message_text import unit_text
 from mbs.common.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError, Status
@@ -17,7 +17,7 @@ from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
 from mbs.results.trajectory import Trajectory
-from mbs.roads.shipped import road_path
+from mbs.roads.package_roads import road_path
 from mbs.roads.steep_faces import RoadWarning
 from mbs.settings.control import Tolerance
 from mbs.settings.input_signals import InputSignals, Signal
@@ -40,7 +40,7 @@ from mbs.simulation.arguments import (
     record_times,
 )
 from mbs.simulation.fixed_steps import fixed_step_run
-from mbs.simulation.follower import Readings
+from mbs.simulation.omitted_sensor_system import Readings
 from mbs.simulation.parameter_warning import tell_unworkable
 from mbs.simulation.refusal import refusal
 from mbs.simulation.restored_run import restored

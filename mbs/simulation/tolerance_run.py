@@ -21,12 +21,12 @@ from mbs.settings.settings import Settings
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.controlled_pair import ControlledPair
 from mbs.simulation.controlled_run import ROUND_OFF, ControlledRun, StalledError, Task, signals_of
-from mbs.simulation.left_out_run import left_out_to_tolerance
 from mbs.simulation.method_choice import choose
+from mbs.simulation.omitted_sensor_run import left_out_to_tolerance
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.recorded_trajectory import recorded
 from mbs.simulation.stepped_system import SteppedSystem
-from mbs.simulation.tolerance_words import refused, stalled, warn_of_tolerance
+from mbs.simulation.tolerance_messages import refused, stalled, warn_of_tolerance
 
 Array = NDArray[np.float64]
 COARSE = 20.0

@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike
 
 from ali3.files import whole_file
 from ali3.json_reading import json_of
+from ali3.message_text import brief, one_line
 from ali3.reading import read_bytes
-from ali3.words import brief, one_line
 from mbs.common.checks import instance_of
 from mbs.common.frames import Frames
-from mbs.common.later import Later
+from mbs.common.lazy_value import Later
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.system.compiled_model import (
     BYTES,

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ali3.echo import Understood
+from ali3.plausibility import Understood
 from mbs.common.checks import one_of
 from mbs.elements.magic_tyre import SIGNS, MagicTyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS

@@ -14,9 +14,9 @@ from scipy.spatial.transform import Rotation
 
 from ali3.columns import some_of
 from ali3.decimal_number import parse_number
-from ali3.echo import Echo, Understood, echo_of
 from ali3.extras import missing_module
 from ali3.near_names import did_you_mean
+from ali3.plausibility import Echo, Understood, echo_of
 from ali3.reading import read_bytes
 from mbs.common.checks import direction
 from mbs.common.errors import ModelError
@@ -26,11 +26,11 @@ from mbs.flexible.foreign_file import read_foreign
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.model import Model
-from mbs.model.perpendicular import perpendicular
+from mbs.model.perpendicular_vectors import perpendicular
 from mbs.urdf.crossed_hinges import CrossedHinges, crossed_hinges
 from mbs.urdf.inertias import UrdfWarning, mass_of, pose_of, possible_inertia
-from mbs.urdf.mimic import Follower, followers_of, start_of
-from mbs.urdf.robot_echo import robot_echo
+from mbs.urdf.mimic_joints import Follower, followers_of, start_of
+from mbs.urdf.robot_plausibility import robot_echo
 from mbs.urdf.source import Element, read_source
 
 Pose = NDArray[np.float64]

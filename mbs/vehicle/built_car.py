@@ -9,14 +9,14 @@ from typing import Any, TypeAlias, TypeVar
 
 from pydantic import ValidationError
 
-from ali3.echo import Echo, Understood, echo_of
+from ali3.message_text import one_line
+from ali3.plausibility import Echo, Understood, echo_of
 from ali3.typed_sentences import Sentences
-from ali3.words import one_line
 from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.elements.road import Road, RoadOfFile
-from mbs.model.carried import Spin
-from mbs.model.ends import End
+from mbs.model.carried_parts import Spin
+from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -30,12 +30,12 @@ from mbs.vehicle.checks.equilibrium import Rest, rest_outputs, settled
 from mbs.vehicle.checks.working_ranges import working_ranges
 from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.driver_inputs import driver_inputs
-from mbs.vehicle.echo.car_echo import car_echo
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import OFFERED, Fidelity
 from mbs.vehicle.names import FORMS, NAME_WORDS
 from mbs.vehicle.outputs import car_outputs
+from mbs.vehicle.plausibility.car_plausibility import car_echo
 from mbs.vehicle.port_parts import force_ports, road_ports, torque_ports, wind_port
 from mbs.vehicle.road import level_within
 from mbs.vehicle.schema_version import check_version

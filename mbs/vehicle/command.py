@@ -111,8 +111,8 @@ def _check(car: str, parameters: bool, json_file: Path | None, picture: Path | N
     import sys
     import warnings
 
-    from ali3.echo import summary_of, tables_of
     from ali3.files import whole_file, write_text
+    from ali3.plausibility import summary_of, tables_of
     from mbs.vehicle.built_car import BuiltCar
     from mbs.vehicle.errors import CarWarning
     from mbs.vehicle.read_car import read_car

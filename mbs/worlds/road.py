@@ -7,15 +7,15 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ali3.echo import Echo, tables_of
 from ali3.errors import UserError
 from ali3.files import whole_file, write_text
+from ali3.plausibility import Echo, tables_of
 from ali3.warning_lines import told_warnings
 from mbs.elements.road import GridRoad, PlaneRoad
 from mbs.roads.picture import draw_road
 from mbs.roads.read_road import read_road
-from mbs.roads.road_echo import file_echo, place_of, road_echo
 from mbs.roads.road_file import RoadFile
+from mbs.roads.road_plausibility import file_echo, place_of, road_echo
 from mbs.roads.sampled_road import SampledRoad
 from mbs.roads.scene_part import scene_part
 from mbs.roads.steep_faces import RoadWarning

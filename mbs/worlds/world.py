@@ -10,19 +10,19 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ali3.echo import Echo, echo_of, summary_of, tables_of
 from ali3.errors import UserError
 from ali3.files import write_text
 from ali3.json_reading import read_json
 from ali3.near_names import did_you_mean
+from ali3.plausibility import Echo, echo_of, summary_of, tables_of
 from ali3.reading import is_file
 from ali3.warning_lines import told_warnings
 from mbs.roads import RoadFile
 from mbs.roads.kinds import CRG, MESHES
 from mbs.worlds.make_world import described, make_world
 from mbs.worlds.map_picture import draw_map
-from mbs.worlds.shipped import ROADS, WORLDS, shipped_worlds
-from mbs.worlds.stored import add_file, key_of, world_files
+from mbs.worlds.package_worlds import ROADS, WORLDS, shipped_worlds
+from mbs.worlds.world_cache import add_file, key_of, world_files
 from mbs.worlds.world_file import named_files
 
 

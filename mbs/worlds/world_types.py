@@ -4,8 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from ali3.echo import Understood
 from ali3.iso_3888 import Track
+from ali3.plausibility import Understood
 from ali3.scene.road_types import SurfaceClass
 
 Coordinate = Annotated[float, Field(ge=-1e6, le=1e6)]

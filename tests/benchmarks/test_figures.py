@@ -5,10 +5,10 @@ import re
 import pytest
 from matplotlib.figure import Figure
 
-from ali3.chart_words import description_of
+from ali3.chart_description import description_of
 from ali3.charts import save_picture
 from benchmarks import figures
-from benchmarks.pictures import charts_again
+from benchmarks.pictures import chart_commands
 from benchmarks.shared.figures import Again, between, differences, read, rows_of, same, written
 from benchmarks.shared.pages import DOCS
 from hosts.run.plot_panels import table_of
@@ -91,7 +91,7 @@ def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_told(tmp_path)
     assert said.startswith("docs/images/x.png does not say what it shows; python -m benchmarks.figures --write")
 
 
-@pytest.mark.parametrize("name", charts_again.DRAWN)
+@pytest.mark.parametrize("name", chart_commands.DRAWN)
 def test_charts_that_are_drawn_again_say_what_they_show(name):
     page = f"docs/images/{name}"
     assert len(read(page).splitlines()) > 1

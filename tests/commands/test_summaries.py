@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import mbs
-from ali3.echo import Understood, echo_of
+from ali3.plausibility import Understood, echo_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.model import Model
 from mbs.roads import RoadFile, RoadWarning, read_road, write_road

@@ -18,7 +18,7 @@ from fmu_src.build.build import build_fmu
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.wild_driver import WildDriver, wild_start
+from hosts.driving.random_driver import WildDriver, wild_start
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.scalars import ELEMENTS, element_names
 from mbs import Pose, Simulation

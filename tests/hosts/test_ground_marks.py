@@ -15,13 +15,13 @@ from hosts.driving.course_scenery import things_of, with_marks
 from hosts.driving.courses import course_of
 from hosts.driving.ground_marks import lanes, marks_of_inputs
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.pilots.braking import Braking
+from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
-from hosts.driving.pilots.course_from_here import CourseFromHere
 from hosts.driving.pilots.fixed_steering import FixedSteering
+from hosts.driving.pilots.run_up_pilot import CourseFromHere
 from hosts.driving.result import Result
-from hosts.driving.run_with_bar import run_with_bar
+from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_source import FmuSource
 from hosts.view.view_sources import _with_marks

@@ -6,7 +6,7 @@ import pytest
 from hosts.common.errors import HostError
 from hosts.driving.pilots.combined_pilot import Together
 from hosts.driving.pilots.speed_holder import SpeedHolder
-from hosts.driving.pilots.steering import SteeringTable
+from hosts.driving.pilots.steering_table import SteeringTable
 
 
 def hold(pilot: SpeedHolder, start: float, seconds: float, push: float = 4.0, step: float = 0.01) -> np.ndarray:

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from hosts.driving.courses import course_of
-from hosts.driving.pilots.braking import Braking
-from hosts.driving.pilots.course_from_here import CourseFromHere
+from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.fixed_steering import FixedSteering
 from hosts.driving.pilots.line_follower import LineFollower
+from hosts.driving.pilots.run_up_pilot import CourseFromHere
 from hosts.driving.planned_course import planned
 
 

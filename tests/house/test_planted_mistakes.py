@@ -15,18 +15,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hosts.measures.log_echo import log_echo
+from hosts.measures.log_plausibility import log_echo
 from mbs.elements.road import GridRoad
-from mbs.roads.road_echo import place_of, road_echo, start_echo
+from mbs.roads.road_plausibility import place_of, road_echo, start_echo
 from mbs.tyre_files import read_tyre
-from mbs.tyre_files.tyre_echo import magic_echo
+from mbs.tyre_files.tyre_plausibility import magic_echo
 from mbs.urdf import read_urdf
 from mbs.vehicle import load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changed_content import changed_content
-from mbs.worlds.world_echo import world_echo
+from mbs.worlds.world_plausibility import world_echo
 from mbs.worlds.world_types import WorldDescription
-from tests.hosts.compare.test_log_echo import Drive, drive, frozen, late, scaled, swapped
+from tests.hosts.compare.test_log_plausibility import Drive, drive, frozen, late, scaled, swapped
 from tests.urdf.robots import ROBOTS, write_urdf
 
 ROOT = Path(__file__).parents[2]

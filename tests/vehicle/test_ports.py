@@ -9,7 +9,7 @@ import pytest
 import mbs
 from mbs.vehicle import CarFileError, load
 from mbs.vehicle.car import Car
-from mbs.vehicle.chosen_ports import chosen_ports
+from mbs.vehicle.port_option import chosen_ports
 from tests.elements.harness import Element
 from tests.vehicle.column_car import column_car, rigid_chassis
 

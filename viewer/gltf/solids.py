@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ali3.errors import reason
 from ali3.scene.base64_numbers import decoded
 from ali3.scene.errors import ViewerError
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from viewer.bundle import SOLIDS, bundle
 from viewer.gltf.materials import Look
 from viewer.gltf.motion import Motion, least_twist

@@ -9,7 +9,7 @@ from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.preparation import held, start_at
 from hosts.catalogue.stop_conditions import Ends
 from hosts.common.errors import HostError
-from hosts.driving.pilots.braking import Braking
+from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower
 from hosts.driving.pilots.fixed_steering import FixedSteering
 

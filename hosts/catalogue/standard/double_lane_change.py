@@ -15,9 +15,9 @@ from hosts.common.errors import HostError
 from hosts.driving.course import Course
 from hosts.driving.courses import course_of
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
-from hosts.driving.pilots.course_from_here import CourseFromHere
 from hosts.driving.pilots.line_follower import LineFollower
 from hosts.driving.pilots.pilot import Pilot
+from hosts.driving.pilots.run_up_pilot import CourseFromHere
 from hosts.driving.planned_course import planned
 
 STEP = 0.005  # s, in which the driver holds the steering

@@ -10,10 +10,10 @@ from hosts.catalogue.preparation import RunUp, early_end, held
 from hosts.catalogue.stop_conditions import Ends
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.pilots.braking import Braking
+from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.combined_pilot import Together
 from hosts.driving.pilots.speed_holder import SpeedHolder
-from hosts.driving.pilots.steering import SteeringTable
+from hosts.driving.pilots.steering_table import SteeringTable
 from hosts.driving.result import Result
 
 STEP = 0.005  # s; the pedal rises in a multiple of it

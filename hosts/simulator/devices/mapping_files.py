@@ -10,8 +10,8 @@ from platformdirs import user_config_path
 
 from ali3.errors import FileError, reason
 from ali3.files import whole_file
+from ali3.message_text import brief
 from ali3.reading import LARGEST_TEXT, read_bytes, read_toml
-from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.simulator.devices.mapping import DeviceMapping, read_input, read_settings
 

@@ -12,13 +12,13 @@ from hosts.common.errors import HostError
 from hosts.simulator.devices import sdl as sdl_library
 from hosts.simulator.devices.defaults import default_mapping
 from hosts.simulator.devices.device import Device
+from hosts.simulator.devices.device_text import and_list, came
 from hosts.simulator.devices.identity import Identities
 from hosts.simulator.devices.joysticks import Joystick, Joysticks
 from hosts.simulator.devices.mapping import DeviceMapping
 from hosts.simulator.devices.mapping_files import MappingFiles
 from hosts.simulator.devices.reading import Source
 from hosts.simulator.devices.steering import ANGLE_MAX, Steering
-from hosts.simulator.devices.words import and_list, came
 
 PERIOD = 0.004
 """s between two readings."""

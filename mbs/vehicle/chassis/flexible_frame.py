@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import scipy.sparse as sp
 
-from ali3.echo import Echo
+from ali3.plausibility import Echo
 from mbs.common.errors import ModelError
 from mbs.flexible.attachment_modes import inertia_relief
-from mbs.flexible.body_echo import model_echo
+from mbs.flexible.body_plausibility import model_echo
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mbs.common.errors import ModelError
-from mbs.flexible.body_echo import model_echo
+from mbs.flexible.body_plausibility import model_echo
 from mbs.vehicle.chassis.frames.frame_section import Structure
 from mbs.vehicle.chassis.section import Chassis
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from ali3.errors import TableError
 from ali3.files import whole_file
+from ali3.message_text import brief
 from ali3.tables import TextTable
-from ali3.words import brief
 from mbs.vehicle.kinematics.curves import DIRECTIONS, Curve
 from mbs.vehicle.kinematics.quantities import BY_NAME
 

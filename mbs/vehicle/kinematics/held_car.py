@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from mbs.common.errors import ModelError
 from mbs.elements.road import PlaneRoad
 from mbs.model.body import Body
-from mbs.model.ends import End
+from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT
 from mbs.vehicle.builder import CarBuilder

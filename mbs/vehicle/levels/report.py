@@ -12,10 +12,10 @@ from ali3.columns import in_columns
 from ali3.decimal_number import parse_number
 from ali3.errors import UserError
 from ali3.files import check_writable, write_text
+from ali3.message_text import brief
 from ali3.near_names import did_you_mean
 from ali3.units import number_with_unit
 from ali3.warning_lines import told_warnings
-from ali3.words import brief
 from mbs.common.progress import progress_for
 from mbs.vehicle.car_file import load
 from mbs.vehicle.fidelity import Fidelity

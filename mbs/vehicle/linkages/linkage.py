@@ -19,7 +19,7 @@ from scipy.interpolate import PPoly
 
 from mbs.common.affine import AffineVector
 from mbs.elements.road import PlaneRoad
-from mbs.model.ends import End
+from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.simulation.evaluator import RANK_TOLERANCE
 from mbs.vehicle.builder import CarBuilder

@@ -10,9 +10,9 @@ from ali3.units import known_unit
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.definition import file_of_test
+from hosts.catalogue.execution import settings_of_test
 from hosts.catalogue.finished_tests import keep
 from hosts.catalogue.limits import GivenLimits
-from hosts.catalogue.perform import settings_of_test
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import TESTS, standard_test
 from hosts.catalogue.task import Outcome, Task

@@ -12,7 +12,7 @@ from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.combined_pilot import Together
 from hosts.driving.pilots.speed_holder import SpeedHolder
-from hosts.driving.pilots.steering import SteeringTable
+from hosts.driving.pilots.steering_table import SteeringTable
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.fmu_source import FmuSource

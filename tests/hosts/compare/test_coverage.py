@@ -10,7 +10,7 @@ from pendulum import END, measured, measured_pull, motion
 from hosts.compare.fit import Fit, fit, overlapping
 from hosts.compare.fit_unknowns import Unknown, nuisances
 from hosts.compare.replay import Replay, inputs_of
-from hosts.compare.stretches import Stretch
+from hosts.compare.segments import Stretch
 from hosts.driving.result import Result
 from hosts.fmu.fmu_source import FmuSource
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hosts.compare.plausibility import odd_scale
-from hosts.compare.stretches import Stretch
+from hosts.compare.segments import Stretch
 from hosts.compare.windows import held_words
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result

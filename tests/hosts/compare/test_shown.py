@@ -8,11 +8,11 @@ from matplotlib import pyplot as plt
 
 from hosts.common.display_units import axis_shown, number_in, shown_number, titled
 from hosts.compare.comparison import Comparison, compare
+from hosts.compare.comparison_text import common_sentence, common_words, table
 from hosts.compare.curve import Curve
 from hosts.compare.page import comparison_figure
 from hosts.compare.report import bin_rows
 from hosts.compare.windows import bins
-from hosts.compare.words import common_sentence, common_words, table
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 

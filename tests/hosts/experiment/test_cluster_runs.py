@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from distributed import KilledWorker
 
-from ali3.isolated import Lost
+from ali3.isolated_processes import Lost
 from hosts.experiment.cluster_runs import WORK, ChunkSize, ClusterRuns, SchedulerLostError
 from hosts.experiment.cluster_worker import Brought
 

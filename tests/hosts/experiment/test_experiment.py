@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from ali3.errors import FileError
-from ali3.isolated import Lost
+from ali3.isolated_processes import Lost
 from ali3.processes import store
 from hosts.experiment.experiment import Experiment
 from hosts.experiment.store import Kept, tell_kept

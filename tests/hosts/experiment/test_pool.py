@@ -11,12 +11,12 @@ import psutil
 import pytest
 
 from ali3.errors import UserError
-from ali3.isolated import Lost
+from ali3.isolated_processes import Lost
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.experiment.pool import Pool
 from hosts.fmu.fmu_source import FmuSource
-from tests.commands.test_isolated import Counter
+from tests.commands.test_isolated_processes import Counter
 
 Tell = Callable[[Any], None]
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from hosts.common.errors import HostError
-from hosts.simulator.guard import Guard
+from hosts.simulator.access_control import Guard
 from hosts.simulator.input_arbiter import Hands
 from hosts.simulator.server import Server
 from hosts.simulator.server_needs import Content

@@ -21,7 +21,7 @@ from ali3.scene.scene import scene_errors
 from hosts.common import commands
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
-from hosts.driving.wild_driver import WildDriver
+from hosts.driving.random_driver import WildDriver
 from hosts.fmu import built_fmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import read_aliases
@@ -32,7 +32,7 @@ from hosts.recordings.written_tables import ParquetTable
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.car import Car, CarSettings
 from hosts.simulator.command import main
-from hosts.simulator.headless import headless_driver, run_headless
+from hosts.simulator.headless_driving import headless_driver, run_headless
 from hosts.simulator.preparation import Asked, prepare
 
 TESTS = Path(__file__).parents[2]

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from hosts.fmu.aliases.alias import Alias, Aliases
-from hosts.fmu.aliases.parse_derived import parse_derived
+from hosts.fmu.aliases.derived_entry import parse_derived
 from hosts.fmu.fmu_source import FmuSource
 from hosts.simulator.aliased_car import AliasedCar
-from hosts.simulator.moments import Moment
+from hosts.simulator.car_events import Moment
 
 ALIASES = Aliases(
     (Alias("steering", "StrAng", -540.0), Alias("chassis.x", "X", 1000.0)),

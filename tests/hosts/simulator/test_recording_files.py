@@ -15,12 +15,12 @@ import pytest
 from ali3.processes import module_command
 from hosts.common.errors import HostError
 from hosts.common.options import Wishes
+from hosts.recordings.manoeuvre_export import to_manoeuvre
 from hosts.recordings.recorded_drive import RecordedDrive, read_recording
 from hosts.recordings.recorded_view import recorded_view
 from hosts.recordings.recording import Recorder
 from hosts.recordings.replay import replay
 from hosts.recordings.tables import Rows, joined
-from hosts.recordings.to_manoeuvre import to_manoeuvre
 from hosts.recordings.written_tables import ParquetTable
 from hosts.simulator.command import main
 from hosts.view.view_sources import RunWishes, recordings_of

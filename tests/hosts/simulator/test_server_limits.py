@@ -13,8 +13,8 @@ from websockets.sync.client import connect
 
 from hosts.common.errors import HostError
 from hosts.simulator import connected_page, web
+from hosts.simulator.access_control import Guard
 from hosts.simulator.connected_page import ConnectedPage
-from hosts.simulator.guard import Guard
 from tests.hosts.simulator.pages import read_to_the_end, texts, until
 from tests.hosts.simulator.raw_client import RawClient, request
 from tests.hosts.simulator.served import WORLD, FakeCar, serving

@@ -17,7 +17,7 @@ import { Frames } from "./scene/frames.js";
 import { fromQuaternion, length, rotate, subtract, transpose } from "./scene/math.js";
 import { FrameTubes } from "./shapes/frame_tubes.js";
 import { makeShape } from "./shapes/index.js";
-import { plain } from "./shapes/joined.js";
+import { plain } from "./shapes/merged_meshes.js";
 
 /** Points nearer than this are one, m; what stays so near to a place in a frame, beside the way to it, is fixed there. */
 const [SAME, STILL] = [1e-7, 1e-9];

@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { levelsWithin, ROUGH } from "../src/looks/terrain.js";
-import { thinned, within } from "../src/looks/draft/thinned.js";
-import { nextLevel, nextShare, Pace } from "../src/looks/pace.js";
+import { thinned, within } from "../src/looks/draft/vertex_clustering.js";
+import { nextLevel, nextShare, Pace } from "../src/looks/picture_quality.js";
 import { coilTriangles } from "../src/shapes/coil.js";
 
 /** A closed ball of squares cut in two, with outward normals. */

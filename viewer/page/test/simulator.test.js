@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { Blend, turnsOf } from "../src/sources/blend.js";
-import { Hands } from "../src/live/hands.js";
-import { Trailing } from "../src/scene/trailing.js";
+import { Hands } from "../src/live/input_arbiter.js";
+import { Trailing } from "../src/scene/trailing_direction.js";
 import { Beat, Frames } from "../src/sources/frames.js";
 import { Trail } from "../src/instruments/map.js";
 import { Factor } from "../src/sources/factor.js";
@@ -10,7 +10,7 @@ import { Surfaces, frictionOf } from "../src/instruments/surfaces.js";
 import { useColour, wheelsOf } from "../src/instruments/tyres.js";
 import { besides } from "../src/instruments/map.js";
 import { cameraActs } from "../src/common/views.js";
-import { Wants } from "../src/sources/wants.js";
+import { Wants } from "../src/sources/input_requests.js";
 
 const frame = (time, more = {}) => ({ epoch: 1, running: true, speed: 1, count: Math.round(time / 0.002), time, values: [time], ...more });
 

@@ -1,7 +1,7 @@
 // The terrain and the paint on it, against heights in closed form.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { apronQuads, borderStations, straightened } from "../src/looks/apron.js";
+import { apronQuads, borderStations, straightened } from "../src/looks/terrain_border.js";
 import { HeightField, SURFACES, SurfaceRaster, surfaceOf } from "../src/looks/heights.js";
 import { arrowStrips, dashes, edges } from "../src/looks/scenery/ribbon.js";
 import { squares } from "../src/looks/scenery/index.js";

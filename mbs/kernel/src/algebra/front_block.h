@@ -6,7 +6,7 @@
 #include "../instance.h"
 #include "processor.h"
 #include "real.h"
-#include "stretch.h"
+#include "number_pairs.h"
 
 enum { PANEL = 4 };
 

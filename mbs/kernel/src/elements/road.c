@@ -6,7 +6,7 @@
 #include "disc_on_grid.h"
 #include "plane_and_kerb.h"
 #include "road_port.h"
-#include "way_out_of_grid.h"
+#include "grid_exit.h"
 
 enum { GRID_NX, GRID_NY, GRID_X0, GRID_Y0, GRID_DX, GRID_DY, GRID_FRICTION, GRID_DATA };
 

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../instance.h"
 #include "signals.h"
 

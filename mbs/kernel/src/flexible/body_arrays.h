@@ -5,7 +5,7 @@
 
 #include "../algebra/processor.h"
 #include "../algebra/real.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../instance.h"
 
 enum {

@@ -7,7 +7,7 @@
 
 #include "../algebra/fronts.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../instance.h"
 #include "body_arrays.h"
 #include "flexible_body.h"

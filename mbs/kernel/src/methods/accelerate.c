@@ -4,7 +4,7 @@
  * shrink faster than SLOW and nothing is mixed. */
 #include "../algebra/processor.h"
 #include "../algebra/real.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../instance.h"
 #include "newton.h"
 

@@ -7,7 +7,7 @@
 #include "../algebra/finite.h"
 #include "../algebra/fronts.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../elements/forces.h"
 #include "../flexible/mass.h"
 #include "../instance.h"

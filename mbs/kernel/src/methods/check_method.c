@@ -2,7 +2,7 @@
 #include "check_method.h"
 #include "../elements/element.h"
 #include "../instance.h"
-#include "../system/without_states.h"
+#include "../system/state_coordinates.h"
 
 static bool conservative(const ali3_instance *in, int32_t e) {
   const ali3_element_type *type = in->system->el_kind[e];

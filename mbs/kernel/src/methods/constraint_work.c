@@ -15,7 +15,7 @@
  * lam0 is that before a jump of its acceleration, for which Newton's loop makes up: there the work of drives is that of
  * their rows, the force of the step times its own travel, with what (24) adds; so too where nothing is projected. */
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/constraints.h"

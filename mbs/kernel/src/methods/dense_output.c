@@ -14,7 +14,7 @@
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
-#include "../system/without_states.h"
+#include "../system/state_coordinates.h"
 #include "energy_balance.h"
 #include "error_control.h"
 

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"

@@ -2,7 +2,7 @@
 #include "extrapolation.h"
 
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 
 static const double SMOOTH = 0.25; /* of the change of the accelerations from the last step but one to the last */
 static const double FAR = 2.0;     /* times the last step that the next may be long */

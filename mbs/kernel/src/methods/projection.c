@@ -5,7 +5,7 @@
 
 #include "../algebra/fronts.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
 

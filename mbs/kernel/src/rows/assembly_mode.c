@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../elements/signal.h"
 #include "../instance.h"
 #include "assembly_mode.h"

@@ -4,7 +4,7 @@
 #include "../algebra/elementary.h"
 #include "../algebra/processor.h"
 #include "../algebra/real.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../instance.h"
 #include "constraints.h"
 #include "guide_terms.h"

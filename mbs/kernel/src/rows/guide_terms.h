@@ -2,7 +2,7 @@
 #ifndef ALI3_GUIDE_TERMS_H
 #define ALI3_GUIDE_TERMS_H
 #include "../algebra/real.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../instance.h"
 
 /* 1 where there is no coordinate. */

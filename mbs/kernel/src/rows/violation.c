@@ -4,7 +4,7 @@
 
 #include "../algebra/finite.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../system.h"
 #include "violation.h"
 

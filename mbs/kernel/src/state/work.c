@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../elements/forces.h"
 #include "../instance.h"
 #include "../rows/constraints.h"

@@ -4,7 +4,7 @@
 #include "../elements/road.h"
 #include "../flexible/body_arrays.h"
 #include "../rows/assembly_mode.h"
-#include "../system/without_states.h"
+#include "../system/state_coordinates.h"
 #include "../tabled/tabled.h"
 #include "../tree/tree.h"
 #include "axes.h"

@@ -2,7 +2,7 @@
 import { el, write } from "../common/dom.js";
 import { styled } from "../styles.js";
 import { Gauge } from "./gauges.js";
-import { paceWords } from "./pace.js";
+import { paceWords } from "./real_time_factor.js";
 import style from "./style.css";
 
 const micro = (seconds) => (seconds < 9.995e-4 ? `${(1e6 * seconds).toFixed(0)} µs` : `${(1e3 * seconds).toFixed(seconds < 0.01 ? 2 : 0)} ms`);

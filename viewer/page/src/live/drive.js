@@ -4,7 +4,7 @@ import { DRIVING_WORDS } from "../common/key_table.js";
 import { instead } from "../common/notices.js";
 import { Shell } from "../shell/shell.js";
 import { decoded } from "../sources/decode.js";
-import { Hands } from "./hands.js";
+import { Hands } from "./input_arbiter.js";
 import { inputPanel, parameterPanel } from "./panel.js";
 import { Session } from "../sources/fmu.js";
 import { Stage } from "./stage.js";

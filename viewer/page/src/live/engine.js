@@ -1,6 +1,6 @@
 // FMUs of one page, stepped side by side with the same inputs; saved states to go back to. Knows no page.
 import { place } from "../sources/sampler.js";
-import { Hand } from "./hand.js";
+import { Hand } from "./input_rates.js";
 
 /** Simulated time between saved states, s. */
 const SAVE_EVERY = 0.25;

@@ -1,7 +1,7 @@
 // The FMUs run here, in a thread of their own, so that drawing does not hold them up. `Desk` is the other side.
 import { loadFmu } from "../wasm/fmu.js";
 import { Engine } from "./engine.js";
-import { Pacer } from "./pacer.js";
+import { Pacer } from "./real_time_clock.js";
 
 /** Work between two looks at the messages of the page, s of the clock. */
 const SLICE = 0.012;

@@ -1,7 +1,7 @@
 // The ground as a surface fixed to the earth: its pattern stands still while the picture's origin moves with the focus.
 import * as THREE from "three";
 import { across, cross, dot, modulo } from "../scene/math.js";
-import { prelit } from "./draft/prelit.js";
+import { prelit } from "./draft/vertex_lighting.js";
 import { oneLevel } from "./noise.js";
 import { SKYLIGHT } from "./skylight.js";
 import { atEachPixel, atEachPoint, onTheEarth } from "./vertex_code.js";

@@ -2,7 +2,7 @@
 import { board } from "./board.js";
 import { outdoors } from "./outdoors.js";
 import { studio } from "./studio.js";
-import { Pace } from "./pace.js";
+import { Pace } from "./picture_quality.js";
 
 const LOOKS = { board, outdoors, studio };
 

@@ -1,8 +1,8 @@
 // Materials of a world: asphalt, grass, wet, gravel, concrete, ice and paint, drawn by noise at several scales.
 import * as THREE from "three";
 import { dot, modulo } from "../scene/math.js";
-import { prelit } from "./draft/prelit.js";
-import { lift, PAINT, widen } from "./lifted.js";
+import { prelit } from "./draft/vertex_lighting.js";
+import { lift, PAINT, widen } from "./ground_offset.js";
 import { oneLevel, tonesTexture } from "./noise.js";
 import { COLOURS, CREASE, DRAFT, DRAFT_HEAD, DRAFT_PLACES, DRAFT_POINT_HEAD, GLOSS, HEAD, MIRROR, NOISE, RELIEF, TONES } from "./surface_code.js";
 import { atEachPixel, atEachPoint, onTheEarth } from "./vertex_code.js";

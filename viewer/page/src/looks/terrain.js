@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { dot, fromColumns } from "../scene/math.js";
 import { turn } from "../shapes/place.js";
-import { apron } from "./apron.js";
+import { apron } from "./terrain_border.js";
 import { bundles, coarsest, parts, pieceParts } from "./terrain_mesh.js";
 
 /**

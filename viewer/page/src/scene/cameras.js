@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { across, add, cross, dot, rotate, scale, subtract, unit } from "./math.js";
-import { Trailing } from "./trailing.js";
+import { Trailing } from "./trailing_direction.js";
 
 /** Where a driver's eyes are beside the middle of the steering wheel, in metres: back, up. */
 const EYES = [0.48, 0.24];

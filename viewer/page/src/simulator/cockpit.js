@@ -1,7 +1,7 @@
 // Everything that one car's page shows and takes: picture, instruments, hands, what the program says.
 import { el, short } from "../common/dom.js";
-import { Effects } from "../effects/driven.js";
-import { Hands } from "../live/hands.js";
+import { Effects } from "../effects/car_effects.js";
+import { Hands } from "../live/input_arbiter.js";
 import { section } from "../live/panel.js";
 import { levers } from "../live/touch.js";
 import { Instruments } from "../instruments/index.js";

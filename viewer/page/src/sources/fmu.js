@@ -2,7 +2,7 @@
 import { Desk } from "../live/desk.js";
 import { heldVariables, outputNames } from "../live/engine.js";
 import { between, Record } from "../live/record.js";
-import { paceActs, unitsOf } from "./acts.js";
+import { paceActs, unitsOf } from "./source_actions.js";
 import { Blend, turnsOf } from "./blend.js";
 import { clock } from "../live/worker.js";
 

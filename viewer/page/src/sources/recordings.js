@@ -1,5 +1,5 @@
 // Runs that were recorded, as a source of a page; see `Source` in shell/shell.js.
-import { paceActs, unitsOf } from "./acts.js";
+import { paceActs, unitsOf } from "./source_actions.js";
 import { Sampler } from "./sampler.js";
 
 /** Speeds that can be chosen. */

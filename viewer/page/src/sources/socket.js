@@ -1,8 +1,8 @@
 // A car that another program drives, as a source of a page (see `Source` in shell/shell.js): its frames come by a socket.
-import { paceActs, unitsOf } from "./acts.js";
+import { paceActs, unitsOf } from "./source_actions.js";
 import { Blend, turnsOf } from "./blend.js";
 import { Frames } from "./frames.js";
-import { Wants } from "./wants.js";
+import { Wants } from "./input_requests.js";
 
 /** Numbers of the frames that diagrams have, in all, and points of a curve. */
 const [KEPT, MOST_POINTS] = [1e7, 1000];
