@@ -17,7 +17,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from ali3.chart_description import described, png_metadata
-from ali3.files import whole_file
+from ali3.files import atomic_file
 from ali3.message_text import clean
 
 _PIXELS = 96  # of CSS, an inch
@@ -38,7 +38,7 @@ class Drawing:
 
     def write(self, file: Path) -> Path:
         """Write it; gives the file."""
-        with whole_file(file) as made:
+        with atomic_file(file) as made:
             made.write_bytes(self.svg)
         return file
 
@@ -76,6 +76,6 @@ def drawing(figure: Figure, words: str) -> Drawing:
 
 def save_picture(figure: Figure, file: Path) -> None:
     """Write a figure as PNG, with what it shows in words, and close it; the same figure gives the same bytes."""
-    with whole_file(file) as made, _however_long():
+    with atomic_file(file) as made, _however_long():
         figure.savefig(made, dpi=110, metadata=png_metadata(figure))
     plt.close(figure)

@@ -56,7 +56,7 @@ def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | 
         return "The system starts no more threads for this user; close other programs, or raise the limit (ulimit -u)."
     if isinstance(error, (UserError, *errors)):
         return str(error)
-    return _os_words(error) if isinstance(error, OSError) else None
+    return _os_text(error) if isinstance(error, OSError) else None
 
 
 def _may_lack_memory(error: Exception) -> bool:
@@ -71,7 +71,7 @@ def _end(line: str, status: int) -> int:
     return status
 
 
-def _os_words(error: OSError) -> str:
+def _os_text(error: OSError) -> str:
     if error.filename is None or error.strerror is None:
         return str(error)
     return f"{error.filename}: {reason(error)}."

@@ -13,7 +13,7 @@ from ali3.temporary_folder import temporary_folder
 
 
 @contextmanager
-def whole_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
+def atomic_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
     """A folder to fill; when the block ends without an error it becomes `folder` at once.
 
     `folder`: one that does not exist. If another program makes it meanwhile, its folder stays. Raises `FileError` with

@@ -26,7 +26,7 @@ def clean(text: str) -> str:
     return _FORBIDDEN.sub("\ufffd", text)
 
 
-def value_words(value: object) -> str:
+def value_text(value: object) -> str:
     """A value of a file in a sentence: tables and lists of lists not at all, for they may be deep."""
     if isinstance(value, Mapping):
         return "a table"
@@ -62,7 +62,7 @@ def sentence_of(words: str) -> str:
     return f"{words[0].upper()}{words[1:]}." if words else ""
 
 
-def place_words(path: Iterable[int | str]) -> str:
+def place_text(path: Iterable[int | str]) -> str:
     """Keys and places from 0 in lists as a path, such as ``shapes[3].radius`` or ``frames['wheel FL'].axis``."""
     text = ""
     for part in path:
@@ -80,7 +80,7 @@ def unit_text(unit: str) -> str:
     return "" if unit in ("", "1") else f" {unit}"
 
 
-def range_words(low: float, high: float, unit: str) -> str:
+def range_text(low: float, high: float, unit: str) -> str:
     """A range for a person, empty where both ends are open.
 
     `low`, `high`: infinite where open; `unit`: "1" where there is none.

@@ -19,7 +19,7 @@ _SUBREAPER, _PARENT_DEATH = 36, 1  # of prctl
 _PATIENCE = 5.0  # s until processes are gone that were killed
 
 
-def begin_guard(life: int, folder: Path) -> None:
+def begin_supervisor(life: int, folder: Path) -> None:
     """Go on in a new process; the old one stays as its guard, ends with it, and as it did.
 
     `life`: a pipe that says a word, or ends, when the process is to end; `folder`: of the process, which goes where

@@ -9,7 +9,7 @@ from ali3.message_text import shortened
 
 
 @contextmanager
-def told_warnings() -> Iterator[list[str]]:
+def warning_lines() -> Iterator[list[str]]:
     """A context in which warnings for a user are lines like errors are, without the place in the source.
 
     Gives the list of what was told so far.

@@ -12,7 +12,7 @@ import traceback
 from pathlib import Path
 from typing import IO, Any
 
-from ali3.process_supervisor import begin_guard
+from ali3.process_supervisor import begin_supervisor
 
 _SHARE = 0.75  # of the memory of the machine that a process may take
 
@@ -74,7 +74,7 @@ def _fail() -> None:
 
 if __name__ == "__main__":
     _folder = Path(sys.argv[1])
-    begin_guard(int(sys.argv[2]), _folder)
+    begin_supervisor(int(sys.argv[2]), _folder)
     try:
         from ali3.child_processes import ignore_stopping
 

@@ -11,14 +11,14 @@ from benchmarks import peers
 from benchmarks.methods import dissipative, error_control, free_runs, unreduced_models, work_precision
 from benchmarks.methods.work_precision_chart import LOST, draw
 from benchmarks.references.cases import CASES, SLOW, size_of, store
-from benchmarks.shared.coarse_runs import wrong_on_purpose
+from benchmarks.shared.coarse_runs import expected_errors
 from benchmarks.shared.command import Part, run, say_missing, watched
 from benchmarks.shared.pages import Row
 from benchmarks.shared.tables import plain_table
 from mbs.settings.methods import METHOD_TABLE
 
 
-@wrong_on_purpose()
+@expected_errors()
 def _charts(options: Namespace) -> list[dict[str, Any]]:
     engines, missing = peers.available()
     for name in missing:
@@ -45,7 +45,7 @@ def _control(options: Namespace) -> list[dict[str, Any]]:
     return rows
 
 
-@wrong_on_purpose()
+@expected_errors()
 def _dissipative(options: Namespace) -> list[dict[str, Any]]:
     scenes = dissipative.QUICK if options.quick else options.only
     methods = ("ali3p",) if options.quick else dissipative.METHODS

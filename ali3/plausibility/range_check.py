@@ -69,7 +69,7 @@ class Mistake:
 
 
 @dataclass(frozen=True)
-class Echo:
+class Plausibility:
     """What was understood of a file.
 
     `values` in the order in which they are shown; `mistakes` with the commonest first.

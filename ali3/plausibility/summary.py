@@ -6,11 +6,11 @@ from functools import singledispatch
 from typing import Any
 
 from ali3.plausibility.quantity import Quantity
-from ali3.plausibility.range_check import Echo
+from ali3.plausibility.range_check import Plausibility
 
 
 @singledispatch
-def echo_of(thing: Any) -> Sequence[Echo]:
+def plausibility_of(thing: Any) -> Sequence[Plausibility]:
     """What was understood of a thing; each room registers this for what its readers return.
 
     Raises `TypeError`: the room that reads such things was not imported.
@@ -18,7 +18,7 @@ def echo_of(thing: Any) -> Sequence[Echo]:
     raise TypeError(f"There is no summary for a {type(thing).__name__}; import the package that reads such files.")
 
 
-class Understood:
+class Summarised:
     """Something that a reader returns."""
 
     def summary(self) -> str:
@@ -29,26 +29,30 @@ class Understood:
         str
             A table of text, or several; what lies outside is marked.
         """
-        return summary_of(echo_of(self))
+        return summary_of(plausibility_of(self))
 
 
-def summary_of(echoes: Sequence[Echo]) -> str:
+def summary_of(plausibilities: Sequence[Plausibility]) -> str:
     """Tables of text, each below its title; those of the same quantities are columns of one."""
-    alike: dict[frozenset[Quantity], list[Echo]] = {}
-    for echo in echoes:
-        if echo.values:
-            alike.setdefault(frozenset(v.quantity for v in echo.values), []).append(echo)
+    alike: dict[frozenset[Quantity], list[Plausibility]] = {}
+    for plausibility in plausibilities:
+        if plausibility.values:
+            alike.setdefault(frozenset(v.quantity for v in plausibility.values), []).append(plausibility)
     return "\n\n".join(f"{one.title}\n{one.text()}".lstrip("\n") for one in map(_beside, alike.values()))
 
 
-def _beside(echoes: Sequence[Echo]) -> Echo:
-    first, *others = echoes
+def _beside(plausibilities: Sequence[Plausibility]) -> Plausibility:
+    first, *others = plausibilities
     if not others:
         return first
-    values = [replace(v, of=f"{echo.title} {v.of}".strip()) for echo in echoes for v in echo.values]
-    return Echo("", values, kind=first.kind, columns=[echo.title for echo in echoes])
+    values = [
+        replace(v, of=f"{plausibility.title} {v.of}".strip())
+        for plausibility in plausibilities
+        for v in plausibility.values
+    ]
+    return Plausibility("", values, kind=first.kind, columns=[plausibility.title for plausibility in plausibilities])
 
 
-def tables_of(echoes: Sequence[Echo]) -> dict[str, list[dict[str, Any]]]:
+def tables_of(plausibilities: Sequence[Plausibility]) -> dict[str, list[dict[str, Any]]]:
     """The same for JSON: records by title, its blanks as underscores."""
-    return {echo.title.replace(" ", "_"): echo.to_json() for echo in echoes}
+    return {plausibility.title.replace(" ", "_"): plausibility.to_json() for plausibility in plausibilities}

@@ -5,7 +5,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from ali3.message_text import brief, place_words, value_words
+from ali3.message_text import brief, place_text, value_text
 from ali3.near_names import near_names
 from ali3.scene import road_types, scenery_types
 from ali3.scene import scene_types as types
@@ -75,7 +75,7 @@ def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
 
 def place(path: Sequence[str | int]) -> str:
     """A place in a scene, such as ``shapes[3].radius`` or ``frames['wheel FL'].axis``."""
-    return place_words(path) or "the scene"
+    return place_text(path) or "the scene"
 
 
 def _sentence(
@@ -88,19 +88,19 @@ def _sentence(
     if path[:1] in _CHOICES and kind == "union_tag_not_found":
         given = item["input"]
         if not isinstance(given, Mapping):
-            return f"{place(path)} is {value_words(given)}; it must be a table."
+            return f"{place(path)} is {value_text(given)}; it must be a table."
         unknown = [f"{brief(str(key))} is not known" for key in given if key not in ("name", "unit", "start")]
         hint = f" ({unknown[0]})" if unknown else ""
         return f"{place(path)} must have {_CHOICES[path[:1]]}{hint}."
     if kind in ("union_tag_invalid", "union_tag_not_found"):
         known = item.get("ctx", {}).get("expected_tags") or ", ".join(repr(k) for k in _kinds_at(path))
         if not isinstance(item["input"], Mapping):
-            return f"{place(path)} is {value_words(item['input'])}; it must be a table with a key 'kind'."
+            return f"{place(path)} is {value_text(item['input'])}; it must be a table with a key 'kind'."
         if "kind" not in item["input"]:
             near = _near("kind", list(map(str, item["input"])))
             hint = f" ('{near}' is not known)" if near else ""
             return f"{place((*path, 'kind'))} is missing{hint}; it is one of {known}."
-        return f"{place((*path, 'kind'))} is {value_words(item['input']['kind'])}; it must be one of {known}."
+        return f"{place((*path, 'kind'))} is {value_text(item['input']['kind'])}; it must be one of {known}."
     value = item["input"]
     if kind in ("missing", "too_short", "too_long"):  # of a list
         path = path[:-1] if kind == MISSING else path
@@ -112,11 +112,11 @@ def _sentence(
     if kind == "string_pattern_mismatch":
         words = _PATTERNS.get(item["ctx"]["pattern"], "a colour such as '#3366cc'")
         if item["loc"][-1] == "[key]":
-            return f"{place(path[:-1])} has the key {value_words(value)}; it must be {words}."
-        return f"{place(path)} is {value_words(value)}; it must be {words}."
+            return f"{place(path[:-1])} has the key {value_text(value)}; it must be {words}."
+        return f"{place(path)} is {value_text(value)}; it must be {words}."
     if path and "[key]" in item["loc"]:
         known = message.replace("Input should be ", "") if kind == "literal_error" else "a text that is not empty"
-        return f"{place(path[:-1])} has the key {value_words(value)}; it must be {known}."
+        return f"{place(path[:-1])} has the key {value_text(value)}; it must be {known}."
     wanted = message.replace("Input should be ", "").replace("greater than or equal to", "at least")
     wanted = wanted.replace("less than or equal to", "at most").replace("greater than", "above")
     wanted = wanted.replace("a valid dictionary or instance of ", "a table ").replace("a valid dictionary", "a table")
@@ -126,7 +126,7 @@ def _sentence(
     wanted = wanted.replace("a boolean", "true or false")
     for name in _MODELS:
         wanted = wanted.replace(f"a table {name}", "a table")
-    return f"{place(path)} is {value_words(value)}; it must be {wanted}."
+    return f"{place(path)} is {value_text(value)}; it must be {wanted}."
 
 
 def _at(scene: Any, path: Sequence[str | int]) -> Any:

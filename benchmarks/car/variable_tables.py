@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import mbs
-from ali3.message_text import range_words
+from ali3.message_text import range_text
 from fmu_src.variables.text_variables import text_table
 from fmu_src.variables.variables import Variable, variable_table
 from hosts.common.wheels import WHEELS
@@ -77,7 +77,7 @@ def blocks(found: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
                     _short(s.names),
                     "" if v.unit == "1" else v.unit,
                     *values,
-                    *([range_words(low, high, "1"), v.variability] if ranged else []),
+                    *([range_text(low, high, "1"), v.variability] if ranged else []),
                     _plain(s),
                 ]
             )

@@ -21,7 +21,7 @@ from mbs.vehicle.environment import GRAVITY
 METHODS = [method for method in KERNEL if method not in (*CONSERVATIVE_ONLY, *TREE_ONLY)]
 QUICK = ("spinning_beam", "car_at_rest_100s")
 SPIN_UP = Path(__file__).parents[2] / "tests" / "data" / "reference" / "spin_up_beam.csv"
-Found = tuple[float, mbs.Trajectory]
+CaseRun = tuple[float, mbs.Trajectory]
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Scene:
     """What is run, and from which error on a run is wrong."""
 
     quantity: str
-    run: Callable[[mbs.Settings, float], Found]
+    run: Callable[[mbs.Settings, float], CaseRun]
     limit: float
     steps: tuple[float, ...]
 
@@ -44,7 +44,7 @@ def _system(name: str) -> mbs.System:
     return mbs.compile(builders[name]())
 
 
-def beam(settings: mbs.Settings, h: float) -> Found:
+def beam(settings: mbs.Settings, h: float) -> CaseRun:
     """Deflection of the tip against geometrically exact beams."""
     t = mbs.simulate(
         _system("beam"),
@@ -60,7 +60,7 @@ def beam(settings: mbs.Settings, h: float) -> Found:
     return float(np.abs(np.interp(time_ref, t.t, found) - expected).max() / np.abs(expected).max()), t
 
 
-def four_bar(settings: mbs.Settings, h: float) -> Found:
+def four_bar(settings: mbs.Settings, h: float) -> CaseRun:
     """Moments in the coupler against geometrically exact beams."""
     end, every = assembly_defect_four_bar.DURATION, round(STEP / h)
     t = mbs.simulate(_system("four-bar"), end, h, settings=settings, every=every, progress=False, estimate_error=False)
@@ -69,7 +69,7 @@ def four_bar(settings: mbs.Settings, h: float) -> Found:
     return float(gap / max(np.abs(expected[c]).max() for c in COMPONENTS)), t
 
 
-def rest(settings: mbs.Settings, h: float) -> Found:
+def rest(settings: mbs.Settings, h: float) -> CaseRun:
     """How far the braked car moves in 100 s."""
     t = mbs.simulate(
         _system("car"),
@@ -85,13 +85,13 @@ def rest(settings: mbs.Settings, h: float) -> Found:
     return float(np.linalg.norm(place - place[:, :1], axis=0).max()), t
 
 
-def kerb(settings: mbs.Settings, h: float) -> Found:
+def kerb(settings: mbs.Settings, h: float) -> CaseRun:
     """Moments of the flexible frame, after the low-pass, against much smaller steps."""
     t = fidelity_runs.run("kerb_test", 3, h, settings)
     return fidelity_runs.errors(fidelity_runs.sampled(t, h), fidelity_runs.read_reference("kerb_test"))["moment"], t
 
 
-def drive(settings: mbs.Settings, h: float) -> Found:
+def drive(settings: mbs.Settings, h: float) -> CaseRun:
     """Wheel loads, mean over 1000 s of gentle bends under power, against the weight."""
     when = np.arange(0.0, 1001.0, 1.0)
     inputs = {"throttle": 0.2, "steering": (when, 0.02 * np.sin(2.0 * np.pi * when / 40.0))}

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
-from benchmarks.methods.families import FAMILIES, Case, Found
+from benchmarks.methods.families import FAMILIES, Case, CaseRun
 from benchmarks.references.newton_euler import NoReferenceError
 from benchmarks.shared.pages import Row, table
 from mbs.kernel.header.limits import WRONG_ERROR
@@ -95,7 +95,7 @@ def judged(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
 
 
 def _verdict(
-    asked: str, run: Callable[[], Found], error_of: Callable[[Mapping[str, Array]], float], most: float
+    asked: str, run: Callable[[], CaseRun], error_of: Callable[[Mapping[str, Array]], float], most: float
 ) -> dict[str, Any]:
     row: dict[str, Any] = {"asked": asked, "verdict": "refused", "error": None, "told": None, "warnings": []}
     begin = time.process_time()

@@ -14,7 +14,7 @@ from pathlib import Path
 from ali3.chart_description import description_of
 from ali3.charts import save_picture
 from benchmarks.car.frame_pictures import draw_gauges
-from benchmarks.shared.figures import Again
+from benchmarks.shared.figures import RemadeTable
 from benchmarks.shared.pages import DOCS
 from hosts.compare.command import main as compare
 from hosts.fmu.built_fmu import fmu_of_scene
@@ -25,7 +25,7 @@ from mbs.vehicle.kinematics.plots import travel_figure
 from mbs.worlds.command import main as draw_world
 
 
-def charts(_: bool) -> list[Again]:
+def charts(_: bool) -> list[RemadeTable]:
     """All charts of `DRAWN`, as they are drawn now."""
     made = []
     with tempfile.TemporaryDirectory() as folder:
@@ -33,7 +33,7 @@ def charts(_: bool) -> list[Again]:
             file = Path(folder, name)
             with redirect_stdout(StringIO()):
                 draw(file)
-            made.append(Again(f"docs/images/{name}", description_of(file), picture=file.read_bytes()))
+            made.append(RemadeTable(f"docs/images/{name}", description_of(file), picture=file.read_bytes()))
     return made
 
 

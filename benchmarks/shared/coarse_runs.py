@@ -8,7 +8,7 @@ import mbs
 
 
 @contextmanager
-def wrong_on_purpose() -> Iterator[None]:
+def expected_errors() -> Iterator[None]:
     """Runs whose steps or models are too coarse, or values unworkable, on purpose: what they say is known."""
     with warnings.catch_warnings():
         for category in (mbs.AccuracyWarning, mbs.BendingWarning, mbs.BranchWarning, mbs.ParameterWarning):

@@ -21,7 +21,7 @@ from benchmarks.validation.fitting import SCALES, Windows, begins, fit
 from benchmarks.validation.multibody import LATERAL, YAW, task_of
 from benchmarks.validation.refit import sought_in
 from hosts.compare.cross_validation import Parts, left_out
-from hosts.compare.fitted_parameters import wanted_parameters
+from hosts.compare.fitted_parameters import fitted_parameters
 from hosts.compare.replay import Replay
 from hosts.compare.residuals import Residuals
 from hosts.compare.segments import GAP
@@ -113,10 +113,10 @@ def of_car(
     """A row of `COLUMNS` of the multibody car: by the numbers that `refit` seeks, from those of its file."""
     ranges = sought_in(bounds)
     task = task_of(car, log, aliases, settings, _all(drive))
-    unknowns = wanted_parameters([f"{n}={span}" for n, span in ranges.items()], task.parameters, task.set_values)
+    unknowns = fitted_parameters([f"{n}={span}" for n, span in ranges.items()], task.parameters, task.set_values)
     outputs = {name: task.outputs[name] for name in (YAW, LATERAL)}
     steps = np.array([_DIFFERENCE * (u.high - u.low) for u in unknowns])
-    with Replay(task.fmu, task.stretches, task.step) as replay:
+    with Replay(task.fmu, task.segments, task.step) as replay:
 
         def simulate(values: Mapping[str, float]) -> Result | str:
             return replay.run(dict(values))

@@ -19,7 +19,7 @@ from fmu_src.build.progress_line import watched
 from fmu_src.description.nominal_values import drive_sizes, with_nominal
 from fmu_src.description.probe import probe
 from fmu_src.geometry.geometry import geometry, geometry_file
-from fmu_src.geometry.renamed_columns import with_other_columns
+from fmu_src.geometry.renamed_columns import with_renamed_columns
 from fmu_src.native.early_compilation import compiled_ahead
 from fmu_src.native.fmi_versions import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
@@ -178,7 +178,7 @@ class FmuBuilder:
         self.renamed = Renamed(table, {}) if names is None else renamed(table, names)
         table = self.renamed.table
         if scene is not None and names is not None:
-            scene = with_other_columns(scene, self.renamed.named)
+            scene = with_renamed_columns(scene, self.renamed.named)
         self._contents = NativeContents(
             "", description, version, systems, table, reach, fidelity, followers, *rights, origin or {}
         )

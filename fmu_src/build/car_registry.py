@@ -94,7 +94,7 @@ def grip_of(car: Car) -> dict[str, str]:
     return dict(grip_row(car, axle) for axle in ("front", "rear"))
 
 
-def car_words(car: str) -> str:
+def car_text(car: str) -> str:
     """What is going to be built, for a person: a car of the package and a folder here may have one name.
 
     `car`: as for `build_car`.

@@ -8,7 +8,7 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from ali3.files import whole_file
+from ali3.files import atomic_file
 from fmu_src.native.archive import identity_of
 from fmu_src.native.sources import DETOUR, HERE, shell_files
 from fmu_src.native.universal_binary import universal
@@ -86,7 +86,7 @@ def _files(face: str, table: Path) -> tuple[list[Path], list[Path]]:
         copies[compiled[-1]] = data
     for copy, data in copies.items():
         if not copy.is_file():
-            with whole_file(copy) as written:
+            with atomic_file(copy) as written:
                 written.write_bytes(data)
     return compiled, [place / name for name in _INCLUDE]
 

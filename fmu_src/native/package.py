@@ -124,7 +124,7 @@ class NativeContents:
         return systems | road_resources(self.system.meta) | dict(self.origin) | scene
 
     @property
-    def origin_words(self) -> list[str]:
+    def origin_text(self) -> list[str]:
         """A paragraph of the documentation about `origin`; none where there is nothing."""
         if not self.origin:
             return []
@@ -204,7 +204,7 @@ def pack_native(
         **{f"sources/{path}": data for path, data in sources.items()},
         **contents.resources,
         "documentation/licenses/license.txt": licence("ali3"),
-        "documentation/index.html": _page(contents, [*contents.origin_words, *face.words]),
+        "documentation/index.html": _page(contents, [*contents.origin_text, *face.words]),
         face.picture: _picture(runs[0]),
     } | reference_files(name, runs, contents.stop_time, contents.step_size, contents.parameters)
     with temporary_folder() as temporary:

@@ -75,7 +75,7 @@ def pack_python(
             contents.step_size,
             contents.table,
             [
-                *contents.origin_words,
+                *contents.origin_text,
                 "FMI 2.0 co-simulation through Python: the host's machine needs Python 3.10 or newer, and no package. "
                 "The calls pass a class in Python; the slave in C answers them as it does in the native FMU.",
             ],

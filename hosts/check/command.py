@@ -23,7 +23,7 @@ from hosts.check.junit import Case, write_junit
 from hosts.check.sarif import write_sarif
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.options import Wishes, add_fmu, add_setting_options, wishes
+from hosts.common.options import FmuOptions, add_fmu, add_setting_options, fmu_options
 from hosts.fmu.fmu_file import fmu_file
 
 if TYPE_CHECKING:
@@ -163,7 +163,7 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     if table:
         from hosts.check.parameters import parameters
 
-        return parameters(fmu, wishes(options), options.save_parameters, options.diff, options.show_parameters)
+        return parameters(fmu, fmu_options(options), options.save_parameters, options.diff, options.show_parameters)
     cases: list[Case] = []
     try:
         if reference:
@@ -187,12 +187,12 @@ def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
         raise HostError("--fidelity is given twice; a reference is of one.")
     fidelity = options.fidelity[0] if options.fidelity else None
     jobs = options.jobs or available_cores()
-    driven = options.manoeuvre, options.step, fidelity, wishes(options), jobs
+    driven = options.manoeuvre, options.step, fidelity, fmu_options(options), jobs
     kept = options.out or OUT, options.again
     return check_references(fmu, options.reference, cases, options.bound, *driven, *kept)
 
 
-def _settings(fmu: Path, given: Wishes) -> Settings:
+def _settings(fmu: Path, given: FmuOptions) -> Settings:
     from hosts.fmu.fmu import described
     from hosts.fmu.settings import settings_of
     from hosts.fmu.variables import Variables
@@ -215,7 +215,7 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
             cases.append(Case(fmu.stem, finding.check, "bad" if finding.verdict == "bad" else "good", finding.words))
         raise HostError(f"{fmu} is not unpacked: nothing else in it was checked.")
     start: Mapping[str, Value] = {}
-    if given := wishes(options):
+    if given := fmu_options(options):
         settings = _settings(fmu, given)
         start = settings.start
         for name, words in settings.rows():

@@ -17,7 +17,7 @@ from ali3.tables import TextTable
 from hosts.check.deviations import BOUND, Deviation, deviations, remedies
 from hosts.check.junit import Case
 from hosts.common.errors import HostError
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, digest, with_names_of
 from hosts.driving.manoeuvre_settings import set_in
@@ -27,7 +27,7 @@ from hosts.driving.run_checks import check_columns
 from hosts.driving.run_record import record_of
 from hosts.driving.runs_with_progress import Drive, runs_with_bar
 from hosts.experiment.run_key import run_key
-from hosts.experiment.store import Kept, tell_kept
+from hosts.experiment.store import ResultStore, report_resumed
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.own_process import files_of
 from hosts.fmu.settings import Settings
@@ -73,7 +73,7 @@ def check_references(
     manoeuvre: str | None,
     step: float | None,
     fidelity: float | None,
-    wishes: Wishes,
+    fmu_options: FmuOptions,
     jobs: int,
     out: Path,
     again: bool = False,
@@ -133,11 +133,15 @@ def check_references(
 
     with ExitStack() as held:
         fmu = held.enter_context(Fmu(path))
-        kept = held.enter_context(Kept[_Compared](out, _Compared, "checks an FMU", again)) if place.is_dir() else None
+        kept = (
+            held.enter_context(ResultStore[_Compared](out, _Compared, "checks an FMU", again))
+            if place.is_dir()
+            else None
+        )
         references = []
         for file in files:
             try:
-                references.append(_reference(fmu, file, manoeuvre, step, fidelity, wishes))
+                references.append(_reference(fmu, file, manoeuvre, step, fidelity, fmu_options))
             except UserError as error:
                 fails(file, error)
         compared = held.enter_context(closing(_done(fmu, references, kept, bounds, manoeuvre is None, jobs)))
@@ -161,7 +165,7 @@ def check_references(
 def _done(
     fmu: Fmu,
     references: Sequence[_Reference],
-    kept: Kept[_Compared] | None,
+    kept: ResultStore[_Compared] | None,
     bounds: Sequence[tuple[str, float]],
     by_table: bool,
     jobs: int,
@@ -171,7 +175,7 @@ def _done(
     names = [reference.file.name for reference in references]
     before = [None if kept is None else kept.find(*name_and_key) for name_and_key in zip(names, keys, strict=True)]
     there = [(number, found) for number, found in enumerate(before) if found is not None]
-    tell_kept(len(there), len(keys), "tables")
+    report_resumed(len(there), len(keys), "tables")
     yield from there
     left = [number for number, found in enumerate(before) if found is None]
     with closing(runs_with_bar(fmu, [references[number].drive for number in left], jobs)) as results:
@@ -203,13 +207,13 @@ def in_order(results: Iterable[tuple[int, T]]) -> Iterator[T]:
 
 
 def _reference(
-    fmu: Fmu, file: Path, manoeuvre: str | None, step: float | None, fidelity: float | None, wishes: Wishes
+    fmu: Fmu, file: Path, manoeuvre: str | None, step: float | None, fidelity: float | None, fmu_options: FmuOptions
 ) -> _Reference:
     driven, times, columns, left = _read(fmu, file, manoeuvre)
     driven = with_names_of(driven, fmu.variables)
     check_columns(fmu, driven)
     driver = driver_of(fmu, driven)
-    driven, settings = set_in(fmu, driven, wishes, fidelity)
+    driven, settings = set_in(fmu, driven, fmu_options, fidelity)
     driven = replace(driven, stop_time=float(times[-1]))
     step = _step(fmu, driven, times) if step is None else step
     _check_times(times, step, file)

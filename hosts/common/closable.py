@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from typing import Self
 
 
-class Closing(ABC):
+class Closable(ABC):
     """Base of what holds a process, an instance or a file."""
 
     def __reduce_ex__(self, protocol: object) -> NoReturn:

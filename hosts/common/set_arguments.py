@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from hosts.common.numbers import Value, text_of
 
 
-def set_words(values: Mapping[str, Value]) -> list[str]:
+def set_arguments(values: Mapping[str, Value]) -> list[str]:
     """Words of a command line that set these values by ``--set``."""
     texts = {name: value if isinstance(value, str) else text_of(value) for name, value in values.items()}
     return [word for name, text in texts.items() for word in ("--set", f"{name}={text}")]

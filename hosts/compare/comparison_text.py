@@ -38,7 +38,7 @@ def table(comparison: Comparison) -> str:
     return "\n".join(in_columns([_HEADINGS, *rows]))
 
 
-def common_words(comparison: Comparison) -> list[str]:
+def common_text(comparison: Comparison) -> list[str]:
     """Sentences on delays, drift and what could not be computed."""
     lines = []
     for name, s in comparison.signals.items():

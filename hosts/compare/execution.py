@@ -8,7 +8,7 @@ from ali3.cores import available_cores
 from ali3.message_text import sentence_of
 from hosts.common.errors import FailedFmuError, HostError
 from hosts.compare.comparison import Comparison, compare
-from hosts.compare.comparison_text import common_words, table
+from hosts.compare.comparison_text import common_text, table
 from hosts.compare.curve import Curve
 from hosts.compare.fit_text import fit_notes, fit_problems, fit_table
 from hosts.compare.input_mistakes import misread_speed, turned_input, turned_signals
@@ -17,7 +17,7 @@ from hosts.compare.plausibility import odd_scale
 from hosts.compare.replay import Replay
 from hosts.compare.results import Outcome, paths_of, write_outcome
 from hosts.compare.task import Task, prepare
-from hosts.compare.windows import held_words, window_words, windows
+from hosts.compare.windows import held_text, window_text, windows
 from hosts.measures.log_plausibility import consistent
 
 _WORTH_PROCESSES = 60.0  # s of all windows: less is driven sooner than other processes start
@@ -35,14 +35,14 @@ def perform(options: argparse.Namespace) -> int:
         wanted = fitting.wanted(options, task)
     for note in task.notes:
         print(f"note: {note}", flush=True)
-    long = sum(s.end for s in task.stretches) > _WORTH_PROCESSES
+    long = sum(s.end for s in task.segments) > _WORTH_PROCESSES
     jobs = (available_cores() if long else 1) if options.jobs is None else options.jobs
-    with Replay(task.fmu, task.stretches, task.step, jobs) as replay:
+    with Replay(task.fmu, task.segments, task.step, jobs) as replay:
         before, problems = _first(options, task, replay)
         print(table(before))
         if task.windowed:
-            print(window_words(windows(before, task.stretches)))
-        for line in [*common_words(before), *problems]:
+            print(window_text(windows(before, task.segments)))
+        for line in [*common_text(before), *problems]:
             print(line, flush=True)
         found, after = None, None
         for message in replay.said:
@@ -60,7 +60,7 @@ def perform(options: argparse.Namespace) -> int:
         print("with the fitted parameters" + (" and sensors:" if wanted.nuisances else ":"))
         print(table(after))
         if task.windowed:
-            print(window_words(windows(after, task.stretches)))
+            print(window_text(windows(after, task.segments)))
         print(fit_table(found))
         problems, more = problems + fit_problems(found), fit_notes(found)
         notes += more
@@ -89,7 +89,7 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
     result = replay.run()
     problems, noted = [], len(task.notes)
     if result.refusal:
-        end = task.stretches[0].end
+        end = task.segments[0].end
         problems.append(f"{sentence_of(result.refusal)} Of {end:.4g} s only what lies before is compared.")
     if wrong := result.not_finite():
         problems.append(wrong)
@@ -102,17 +102,17 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
     for name in task.outputs:
         if name not in enough:
             problems.append(f"'{name}' is not compared: it is not finite, or has too few samples.")
-    task.notes.extend(held_words(result, task.stretches))
+    task.notes.extend(held_text(result, task.segments))
     for note in task.notes[noted:]:
         print(f"note: {note}", flush=True)
     compared = compare(enough, {n: Curve(result, n) for n in enough}, options.longest_delay, options.skip)
     opposite = turned_signals(compared)
     cause = turned_input(task, compared, opposite)
     told = {n: s for n, s in compared.signals.items() if not (cause and len(opposite) > 1 and n in opposite)}
-    right = consistent(task.echo)  # a factor in one of these would break what holds among them
+    right = consistent(task.plausibility)  # a factor in one of these would break what holds among them
     too_fast = misread_speed(task, compared, right)
     odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for n, s in told.items() if n not in right]
-    return compared, problems + [line for line in (*task.echo.warnings(), too_fast, *odd, cause) if line]
+    return compared, problems + [line for line in (*task.plausibility.warnings(), too_fast, *odd, cause) if line]
 
 
 def _refuse_odd(problems: list[str], options: argparse.Namespace) -> None:

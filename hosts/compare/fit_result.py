@@ -10,7 +10,7 @@ from hosts.compare.fit_unknowns import Unknown
 
 
 @dataclass(frozen=True)
-class Found:
+class FittedUnknown:
     """An unknown that was sought."""
 
     unknown: Unknown
@@ -41,7 +41,7 @@ class Start:
 class Fit:
     """What was found."""
 
-    found: list[Found]
+    found: list[FittedUnknown]
     correlation: NDArray[np.float64]
     """Shape (p, p): of the errors of the unknowns."""
     before: float

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from ali3.columns import in_columns
 from ali3.units import typeset
 from hosts.common.display_units import number_in, shown_number
-from hosts.compare.fit_result import Fit, Found
+from hosts.compare.fit_result import Fit, FittedUnknown
 
 _WIDE = 0.5  # of the range, of half an interval that says little
 _TOGETHER = 0.95
@@ -36,7 +36,7 @@ def fit_rows(fit: Fit) -> list[tuple[str, ...]]:
     ]
 
 
-def _value(found: Found) -> tuple[str, str]:
+def _value(found: FittedUnknown) -> tuple[str, str]:
     if not math.isfinite(found.half_width):
         return f"{found.value:.4g}", "not determined"
     digits = 2 if found.half_width <= 0.0 else 1 - math.floor(math.log10(found.half_width))
@@ -46,19 +46,19 @@ def _value(found: Found) -> tuple[str, str]:
 
 def fit_table(fit: Fit) -> str:
     """The fit for the terminal."""
-    return "\n".join([*in_columns([FIT_COLUMNS, *fit_rows(fit)]), *result_words(fit)])
+    return "\n".join([*in_columns([FIT_COLUMNS, *fit_rows(fit)]), *result_text(fit)])
 
 
-def result_words(fit: Fit) -> list[str]:
+def result_text(fit: Fit) -> list[str]:
     """How good the fit is, and what led to it, a line each."""
     residuals = (
         f"residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; "
         f"{fit.samples} samples count as {fit.effective:.0f} uncorrelated ones; criterion of Bayes {fit.criterion:.1f}"
     )
-    return [residuals, *_left_out_words(fit), *_start_words(fit)]
+    return [residuals, *_omitted_text(fit), *_start_text(fit)]
 
 
-def _left_out_words(fit: Fit) -> list[str]:
+def _omitted_text(fit: Fit) -> list[str]:
     """What is left of seconds that were left out of the fit, in a sentence; none where the log is too short for it."""
     told = [
         f"{name} {shown_number(left, fit.units[name], name)} "
@@ -69,7 +69,7 @@ def _left_out_words(fit: Fit) -> list[str]:
     return [f"left of parts of the log that are left out in turn, to first order: {', '.join(told)}"] if told else []
 
 
-def _start_words(fit: Fit) -> list[str]:
+def _start_text(fit: Fit) -> list[str]:
     """Where each of several searches began and led, a line each."""
     if len(fit.starts) < 2:
         return []
@@ -99,7 +99,7 @@ def fit_problems(fit: Fit) -> list[str]:
     return problems
 
 
-def _of(found: Found) -> list[str]:
+def _of(found: FittedUnknown) -> list[str]:
     u, lines = found.unknown, []
     if found.bound:
         limit = u.low if found.bound == "lower" else u.high

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ali3.columns import some_of
 from ali3.message_text import brief
 from ali3.near_names import did_you_mean
-from ali3.plausibility import Echo, Understood, echo_of
+from ali3.plausibility import Plausibility, Summarised, plausibility_of
 from ali3.units import known_unit
 from hosts.common.angles import continuous
 from hosts.common.errors import HostError
@@ -22,12 +22,12 @@ from hosts.compare.csv_dialect import CLOCK_TIME, unit_behind
 from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
 from hosts.compare.log_file import RawLog
 from hosts.compare.repeated_samples import rows_of_a_value
-from hosts.compare.spikes import spike_words, spikes
+from hosts.compare.spikes import spike_text, spikes
 from hosts.driving.missed_inputs import counted
 from hosts.driving.recorded_rows import ROUND_OFF
 from hosts.driving.run_record import record_of
 from hosts.fmu.named_fmu import NamedFmu
-from hosts.measures.log_plausibility import log_echo
+from hosts.measures.log_plausibility import log_plausibility
 from hosts.measures.signal import Signal
 
 FEWEST_SAMPLES = 10
@@ -38,7 +38,7 @@ _SLOWEST = 0.5  # s between samples of a test drive, unless the user has named t
 
 
 @dataclass(frozen=True)
-class Log(Understood):
+class Log(Summarised):
     """Signals by our names."""
 
     inputs: dict[str, Signal]
@@ -305,7 +305,7 @@ def _without_spikes(fmu: NamedFmu, signal: Signal, notes: list[str]) -> Signal:
     if fmu.variables[signal.name].type != "Real" or not wrong.any():
         return signal
     what = f"'{signal.source}' ({signal.name})"
-    notes.append(spike_words(what, signal.unit, signal.time[wrong], signal.values[wrong]))
+    notes.append(spike_text(what, signal.unit, signal.time[wrong], signal.values[wrong]))
     return replace(signal, time=signal.time[~wrong], values=signal.values[~wrong])
 
 
@@ -313,6 +313,6 @@ def _near(name: str, names: Collection[str]) -> str:
     return did_you_mean(name, names, f"it has {some_of(names)}")
 
 
-@echo_of.register
-def _echo_of_log(log: Log) -> list[Echo]:
-    return [log_echo("", log.outputs)]
+@plausibility_of.register
+def _plausibility_of_log(log: Log) -> list[Plausibility]:
+    return [log_plausibility("", log.outputs)]

@@ -15,7 +15,7 @@ from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
 from hosts.compare.comparison_text import common_sentence, signal_rows
 from hosts.compare.fit_result import Fit
-from hosts.compare.fit_text import FIT_COLUMNS, fit_rows, result_words
+from hosts.compare.fit_text import FIT_COLUMNS, fit_rows, result_text
 from hosts.compare.windows import Bin
 from hosts.experiment.report import NOTE, PROBLEM, Section, page, paragraph
 
@@ -57,7 +57,7 @@ def write_report(
         names = [f.unknown.name for f in fit.found]
         rows = [(n, *(f"{c:.2f}" for c in row)) for n, row in zip(names, fit.correlation.tolist(), strict=True)]
         parts = [table("", FIT_COLUMNS, fit_rows(fit), "numbers")]
-        parts += [paragraph(sentence_of(line)) for line in result_words(fit)]
+        parts += [paragraph(sentence_of(line)) for line in result_text(fit)]
         parts += [element("h3", "Correlation of the errors"), table("", ("", *names), rows, "numbers")]
         sections.append(Section("Fit", parts))
     if told:

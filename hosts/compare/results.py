@@ -77,14 +77,14 @@ def write_outcome(
 def _record(outcome: Outcome, task: Task) -> dict[str, Any]:
     record: dict[str, Any] = {
         "step_s": task.step,
-        "start": task.stretches[0].manoeuvre.start,
+        "start": task.segments[0].manoeuvre.start,
         "notes": outcome.notes,
         "problems": outcome.problems,
         "measures": measure_records(measures(outcome.before)),
         "bins": [asdict(b) for b in bins(outcome.best, task.scales)],
     }
     if task.windowed:
-        record["windows"] = [asdict(w) for w in windows(outcome.best, task.stretches)]
+        record["windows"] = [asdict(w) for w in windows(outcome.best, task.segments)]
     if outcome.fit is not None and outcome.after is not None:
         f = outcome.fit
         record["fitted_measures"] = measure_records(measures(outcome.after))

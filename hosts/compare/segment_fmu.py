@@ -8,7 +8,7 @@ import numpy as np
 from scipy.signal import savgol_filter
 
 from hosts.common.numbers import Value
-from hosts.compare.segments import Stretch
+from hosts.compare.segments import Segment
 from hosts.driving.co_simulation import run
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.result import Result
@@ -54,19 +54,19 @@ def _holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
 
 
 Task: TypeAlias = tuple[int, dict[str, Value], bool | None]
-"""Number of a stretch, start values by our names, and `StretchFmu.can_reset`."""
+"""Number of a stretch, start values by our names, and `SegmentFmu.can_reset`."""
 
 
-class StretchFmu(LoadedFmu):
+class SegmentFmu(LoadedFmu):
     """An FMU that drives stretches of a log.
 
-    `step`: communication step, s; `stretches`: those of the numbers of tasks. `can_reset`: whether it repeats itself
+    `step`: communication step, s; `segments`: those of the numbers of tasks. `can_reset`: whether it repeats itself
     after a reset; else it is loaded again for each drive. None: not known.
     """
 
-    def __init__(self, source: FmuSource, step: float, stretches: Sequence[Stretch] = ()) -> None:
+    def __init__(self, source: FmuSource, step: float, segments: Sequence[Segment] = ()) -> None:
         super().__init__(source)
-        self._step, self._stretches = step, list(stretches)
+        self._step, self._stretches = step, list(segments)
         self.can_reset: bool | None = None
 
     def __call__(self, task: Task, tell: Callable[[Any], None]) -> Result | str:
@@ -80,14 +80,14 @@ class StretchFmu(LoadedFmu):
 
     def drive(
         self,
-        stretch: Stretch,
+        segment: Segment,
         values: Mapping[str, Value] | None = None,
         progress: Callable[[int], None] = lambda done: None,
     ) -> Result:
         """Drive one stretch. `values`: start values by our names, in place of those of the stretch."""
         if self.can_reset is False:
             self.close()
-        manoeuvre = replace(stretch.manoeuvre, start={**stretch.manoeuvre.start, **(values or {})})
+        manoeuvre = replace(segment.manoeuvre, start={**segment.manoeuvre.start, **(values or {})})
         # A pilot has a memory: each run has its own.
-        driver = None if stretch.speed is None else _holder(stretch.speed, stretch.pedal, self._step)
+        driver = None if segment.speed is None else _holder(segment.speed, segment.pedal, self._step)
         return run(self.fresh(), manoeuvre, self._step, driver, progress)

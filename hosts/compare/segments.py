@@ -17,7 +17,7 @@ Spans = tuple[tuple[float, float], ...]
 
 
 @dataclass(frozen=True)
-class Stretch:
+class Segment:
     """A part of a log that is driven."""
 
     manoeuvre: Manoeuvre
@@ -67,32 +67,32 @@ def in_spans(signal: Signal, wanted: Spans | None) -> Signal:
     return replace(signal, time=signal.time[inside], values=signal.values[inside])
 
 
-def one_after_the_other(signals: Mapping[str, Signal], stretches: Sequence[Stretch]) -> dict[str, Signal]:
+def one_after_the_other(signals: Mapping[str, Signal], segments: Sequence[Segment]) -> dict[str, Signal]:
     """Signals of a log at the places of its stretches."""
     made = {}
     for name, signal in signals.items():
-        parts = [signal.between(s.begin, s.begin + s.end) for s in stretches]
-        times = [p.time - s.begin + s.place for p, s in zip(parts, stretches, strict=True)]
+        parts = [signal.between(s.begin, s.begin + s.end) for s in segments]
+        times = [p.time - s.begin + s.place for p, s in zip(parts, segments, strict=True)]
         made[name] = replace(signal, time=np.concatenate(times), values=np.concatenate([p.values for p in parts]))
     return made
 
 
-def joined(results: Sequence[Result], stretches: Sequence[Stretch]) -> Result:
+def joined(results: Sequence[Result], segments: Sequence[Segment]) -> Result:
     """Runs of stretches as one; one that was refused keeps its last outputs to its end.
 
     Result: without refused steps; `starts` are the rows at which the stretches begin.
     """
     times, values, starts, rows = [], [], [], 0
-    for result, stretch in zip(results, stretches, strict=True):
+    for result, segment in zip(results, segments, strict=True):
         time, value = result.time, result.values
         if result.failed_steps:
-            time, value = np.append(time, stretch.end), np.vstack([value, value[-1:]])
-        times.append(time + stretch.place)
+            time, value = np.append(time, segment.end), np.vstack([value, value[-1:]])
+        times.append(time + segment.place)
         values.append(value)
         starts.append(rows)
         rows += len(time)
     messages = [m for r in results for m in r.messages]
-    last = stretches[-1].place + stretches[-1].end
+    last = segments[-1].place + segments[-1].end
     return replace(
         results[0],
         time=np.concatenate(times),

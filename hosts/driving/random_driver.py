@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from hosts.common.numbers import Value
-from hosts.driving.pilots.pilot import SENSES
+from hosts.driving.pilots.pilot import OBSERVED
 
 TOP_SPEED = 40.0
 """m/s, above which the throttle is let go and the brake is touched."""
@@ -31,7 +31,7 @@ class Target:
     """Direction in which it is to be met, rad."""
 
 
-class WildDriver:
+class RandomDriver:
     """Inputs of a car over time, at random.
 
     Parameters
@@ -67,28 +67,28 @@ class WildDriver:
         """Say that the car starts again at `time`, so that the next deed begins there."""
         self._until = time
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         """Inputs for the step that begins at `time`.
 
-        `time`: in s; `senses`: of `SENSES` those that the FMU has. Result: values of those of the five controls
+        `time`: in s; `observation`: of `OBSERVED` those that the FMU has. Result: values of those of the five controls
         that the FMU has, within their ranges.
         """
         if time >= self._until:
-            self._choose(time, senses)
+            self._choose(time, observation)
         wanted = {"steering": 0.0, "throttle": 0.0, "brake": 0.0, "hand_brake": 0.0, "selector": 1.0}
-        wanted |= self._deed(time - self._begin, senses)
-        if senses.get("speed", 0.0) > TOP_SPEED:
+        wanted |= self._deed(time - self._begin, observation)
+        if observation.get("speed", 0.0) > TOP_SPEED:
             wanted |= {"throttle": 0.0, "brake": max(wanted["brake"], 0.1)}
         if "steering" not in self._inputs and _STEERING in self._inputs:
             wanted[_STEERING] = _LOCK * wanted["steering"]
         return {name: value for name, value in wanted.items() if name in self._inputs}
 
-    def _choose(self, time: float, senses: Mapping[str, float]) -> None:
+    def _choose(self, time: float, observation: Mapping[str, float]) -> None:
         """The next deed, its numbers and how long it lasts."""
         draw = self._random.random
         self._begin = time
         self._numbers = [draw() for _ in range(6)]
-        aims = self._targets and set(SENSES) <= set(senses) and draw() < 0.4
+        aims = self._targets and set(OBSERVED) <= set(observation) and draw() < 0.4
         if aims:
             self._target = self._targets[int(draw() * len(self._targets))]
             self._deed = self._aim
@@ -97,57 +97,57 @@ class WildDriver:
         self._deed = self._deeds[int(draw() * len(self._deeds))]
         self._until = time + 0.3 + 3.7 * draw() ** 2
 
-    def _roll(self, t: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def _roll(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
         return {}
 
-    def _step(self, t: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def _step(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
         """Steps of steering and one pedal."""
         a, b, c = self._numbers[:3]
         pedal = {"throttle": b} if c < 0.7 else {"brake": b}
         return {"steering": 2.0 * a - 1.0, **pedal}
 
-    def _sine(self, t: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def _sine(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
         """Steering, throttle and brake in sines of 0.2 to 5 Hz."""
         a, b, c, d, _, _ = self._numbers
         phase = 2.0 * math.pi * (0.2 + 4.8 * b * b) * t
         push = math.sin(2.0 * math.pi * (0.2 + 3.0 * d) * t)
         return {"steering": a * math.sin(phase), "throttle": max(c * push, 0.0), "brake": max(-c * push, 0.0)}
 
-    def _flick(self, t: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def _flick(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
         """Turn the wheel from lock to lock at once."""
         a, b, c = self._numbers[:3]
         side = 1.0 if a < 0.5 else -1.0
         return {"steering": side if t < 0.2 + 0.8 * b else -side, "throttle": c}
 
-    def _slam(self, t: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def _slam(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
         """Full brake, straight or not."""
         a, b = self._numbers[:2]
         return {"steering": (2.0 * a - 1.0) if b < 0.5 else 0.0, "brake": 1.0}
 
-    def _spin(self, t: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def _spin(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
         """Hand brake in a turn, then full throttle."""
         a, b = self._numbers[:2]
         pulled = t < 0.4 + b
         return {"steering": 1.0 if a < 0.5 else -1.0, "hand_brake": float(pulled), "throttle": float(not pulled)}
 
-    def _shift(self, t: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def _shift(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
         """Selector to reverse, neutral, drive, whatever the car does."""
         a, b, c, d = self._numbers[:4]
         first, then = int(3.0 * a) - 1, int(3.0 * b) - 1
         return {"selector": float(first if t < 1.0 else then), "throttle": c, "steering": d - 0.5}
 
-    def _noise(self, t: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def _noise(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
         """Other values in every step."""
         draw = self._random.random
         return {"steering": 2.0 * draw() - 1.0, "throttle": draw(), "brake": draw(), "hand_brake": draw()}
 
-    def _rush(self, t: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def _rush(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
         """Full throttle, almost straight."""
         return {"throttle": 1.0, "steering": 0.2 * (self._numbers[0] - 0.5)}
 
-    def _aim(self, t: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def _aim(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
         """Full throttle along the line through the target; from where that cannot be met, first to a point before."""
-        x, y, yaw, speed = (senses[name] for name in SENSES)
+        x, y, yaw, speed = (observation[name] for name in OBSERVED)
         ahead = math.cos(self._target.yaw), math.sin(self._target.yaw)
         along = (x - self._target.x) * ahead[0] + (y - self._target.y) * ahead[1]
         across = (y - self._target.y) * ahead[0] - (x - self._target.x) * ahead[1]

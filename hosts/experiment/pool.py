@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from ali3.isolated_processes import Isolated, Lost, Tell
-from hosts.common.closable import Closing
+from hosts.common.closable import Closable
 from hosts.fmu.own_process import PATIENCE
 
 _LOOK = 0.5  # s after which Ctrl-C is noticed where nothing arrives
@@ -20,7 +20,7 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 
-class Pool(Closing, Generic[T, R]):
+class Pool(Closable, Generic[T, R]):
     """Processes that make runs, one at a time each; one that a run takes down is replaced.
 
     `work`, `answer`, `reads`: see `Isolated`; `jobs`: how many; `limit`, `in_all`: after which the process of a run is

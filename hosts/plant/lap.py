@@ -140,6 +140,6 @@ class LapDriver:
         """The action for an observation."""
         offset, heading, speed = (float(value) for value in seen[:3])
         place = (self.environment.lane.way, offset, heading, speed)
-        senses = dict(zip(("chassis.x", "chassis.y", "chassis.yaw", "speed"), place, strict=True))
-        acts = self.driver.act(self.environment.car.time, senses)
+        observation = dict(zip(("chassis.x", "chassis.y", "chassis.yaw", "speed"), place, strict=True))
+        acts = self.driver.act(self.environment.car.time, observation)
         return np.array([acts["steering"], acts["throttle"] - acts["brake"]], np.float32)

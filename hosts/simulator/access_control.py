@@ -13,7 +13,7 @@ _LOCAL_NAMES = ("localhost",)
 
 
 @dataclass(frozen=True)
-class Guard:
+class AccessControl:
     """What a request must bring."""
 
     address: str
@@ -22,7 +22,7 @@ class Guard:
     """Other users of this machine reach its ports too."""
 
     @classmethod
-    def of(cls, address: str) -> Guard:
+    def of(cls, address: str) -> AccessControl:
         """The guard of an address, with a new token."""
         return cls(address, secrets.token_urlsafe(24))
 

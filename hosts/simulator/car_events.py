@@ -36,7 +36,7 @@ class CarSettings:
 
 
 @dataclass(frozen=True)
-class Moment:
+class CarState:
     """The car after a step."""
 
     count: int
@@ -67,12 +67,12 @@ class Moment:
     """Shape (n,): one for each of `Car.names`, in the units of the model description."""
 
     @staticmethod
-    def of(record: NDArray[np.float64]) -> Moment:
+    def of(record: NDArray[np.float64]) -> CarState:
         """From the shared memory."""
         known = dict(zip(MOMENT, record.tolist(), strict=False))
         whole = {name: int(known[name]) for name in ("count", "epoch", "missed")}
         flags = {name: bool(known[name]) for name in ("running", "refused", "behind")}
-        return Moment(**(known | whole | flags), values=record[len(MOMENT) :])
+        return CarState(**(known | whole | flags), values=record[len(MOMENT) :])
 
 
 @dataclass(frozen=True)

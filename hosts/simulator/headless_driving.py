@@ -10,11 +10,11 @@ from ali3.bars import bar
 from hosts.common.errors import HostError
 from hosts.driving.driver import Driver, check_drivable, make_driver
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
-from hosts.driving.pilots.pilot import ACTS, SENSES
-from hosts.driving.random_driver import WildDriver
+from hosts.driving.pilots.pilot import ACTS, OBSERVED
+from hosts.driving.random_driver import RandomDriver
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 from hosts.simulator.aliased_car import AliasedCar
-from hosts.simulator.preparation import Asked
+from hosts.simulator.preparation import DriveRequest
 
 _PERIOD = 0.005
 _BAR = "{n:.1f} of {total:.1f} s simulated |{bar}| {elapsed}<{remaining}"
@@ -24,14 +24,14 @@ _STILL = 10.0  # s: a car that computes no step for so long is given up
 class HeadlessDriver(Protocol):
     """Who moves the inputs."""
 
-    def act(self, time: float, senses: Mapping[str, float]) -> Mapping[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> Mapping[str, float]:
         """Values of inputs at a time, s."""
 
 
 class Held:
     """Inputs stay as the FMU starts with them."""
 
-    def act(self, time: float, senses: Mapping[str, float]) -> Mapping[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> Mapping[str, float]:
         return {}
 
 
@@ -58,9 +58,9 @@ class OfManoeuvre:
             check_drivable(car.inputs, car.names, "this FMU")
             self._driver = make_driver(manoeuvre.driver, car.constants)
 
-    def act(self, time: float, senses: Mapping[str, float]) -> Mapping[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> Mapping[str, float]:
         found = self._manoeuvre.at(time)
-        return found if self._driver is None else {**found, **self._driver.act(time, senses)}
+        return found if self._driver is None else {**found, **self._driver.act(time, observation)}
 
 
 def manoeuvre_of(given: str | None, tell: Callable[[str], None]) -> Manoeuvre | None:
@@ -71,7 +71,7 @@ def manoeuvre_of(given: str | None, tell: Callable[[str], None]) -> Manoeuvre | 
     return manoeuvre
 
 
-def with_start_of(asked: Asked, manoeuvre: Manoeuvre | None) -> Asked:
+def with_start_of(asked: DriveRequest, manoeuvre: Manoeuvre | None) -> DriveRequest:
     """What is asked for, with the start values of a manoeuvre, if there is one."""
     if manoeuvre is None:
         return asked
@@ -82,7 +82,7 @@ def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, wild: int | No
     """Who moves the inputs of a car. `wild`: seed of a driver at random."""
     if manoeuvre is not None:
         return OfManoeuvre(manoeuvre, car)
-    return Held() if wild is None else WildDriver(wild, car.inputs)
+    return Held() if wild is None else RandomDriver(wild, car.inputs)
 
 
 def run_headless(car: AliasedCar, driver: HeadlessDriver, seconds: float, tell: Callable[[str, str], None]) -> bool:
@@ -102,7 +102,7 @@ def run_headless(car: AliasedCar, driver: HeadlessDriver, seconds: float, tell: 
     HostError
         The car computes no steps any more.
     """
-    places = [(name, car.names.index(name)) for name in SENSES if name in car.names]
+    places = [(name, car.names.index(name)) for name in OBSERVED if name in car.names]
     _act(car, driver, places)
     car.command("step", max(1, round(seconds / car.step)))
     last, since = -1, time.monotonic()

@@ -15,9 +15,9 @@ from ali3.extras import missing_module
 from ali3.signals import handled, heeded
 from ali3.temporary_folder import temporary_folder
 from hosts.common.errors import HostError
-from hosts.simulator.access_control import Guard
+from hosts.simulator.access_control import AccessControl
 from hosts.simulator.aliased_car import AliasedCar
-from hosts.simulator.input_arbiter import Hands
+from hosts.simulator.input_arbiter import InputArbiter
 from hosts.simulator.server import Server
 from hosts.simulator.server_needs import Content
 from viewer.open_browser import open_secretly
@@ -36,7 +36,7 @@ class Opened:
     """Where pages come from."""
 
     listening: socket.socket
-    guard: Guard
+    access: AccessControl
     browser: bool
     """Whether to open one."""
     devices: bool
@@ -49,7 +49,7 @@ class Opened:
         if host in _EVERYWHERE:
             host = socket.gethostname()
         name = f"[{host}]" if ":" in host else host
-        return f"http://{name}:{port}/?token={self.guard.token}"
+        return f"http://{name}:{port}/?token={self.access.token}"
 
 
 def drive_with_pages(
@@ -62,13 +62,13 @@ def drive_with_pages(
 
     Raises `HostError`: the car has ended.
     """
-    hands = Hands(car.want, car.inputs)
-    server = Server(car, hands, content, opened.guard, report.event)
+    arbiter = InputArbiter(car.want, car.inputs)
+    server = Server(car, arbiter, content, opened.access, report.event)
 
     def told_ready() -> None:
         report.ready()
         report.tell(f"Drive at {opened.address}")
-        if not opened.guard.is_local:
+        if not opened.access.is_local:
             report.tell("Whoever has this address can drive; its traffic is not encrypted.")
         if opened.browser and not open_secretly(opened.address, folder):
             report.tell("No browser could be opened from here; open the address in one, on this machine.")
@@ -86,11 +86,11 @@ def drive_with_pages(
     with ExitStack() as stack:
         folder = stack.enter_context(temporary_folder())
         if opened.devices:
-            _add_devices(stack, server, hands, car)
+            _add_devices(stack, server, arbiter, car)
         asyncio.run(work())
 
 
-def _add_devices(stack: ExitStack, server: Server, hands: Hands, car: AliasedCar) -> None:
+def _add_devices(stack: ExitStack, server: Server, arbiter: InputArbiter, car: AliasedCar) -> None:
     """Wheels and gamepads, where their packages are installed."""
     try:
         from hosts.simulator.devices import Devices, configuration_folder
@@ -99,7 +99,7 @@ def _add_devices(stack: ExitStack, server: Server, hands: Hands, car: AliasedCar
         return
     torque = _torque(car) if _TORQUE in car.names else None
     devices: ShownDevices = stack.enter_context(
-        Devices(hands, car.inputs, car.constants, server.say, configuration_folder(), torque)
+        Devices(arbiter, car.inputs, car.constants, server.say, configuration_folder(), torque)
     )
     server.devices = devices
 

@@ -30,7 +30,7 @@ class Records(Protocol):
     def close(self, progress: Callable[[float], object] = ...) -> None: ...
 
 
-class Mail:
+class ProcessMessages:
     """Collects events, and hands rows and events to a recording in a thread of its own."""
 
     def __init__(self, shared: SharedValues, recorder: Records | None) -> None:

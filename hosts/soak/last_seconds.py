@@ -26,7 +26,7 @@ class _Part(NamedTuple):
     rows: list[_Row]
 
 
-class Stretch:
+class RecentSteps:
     """Keeps what led to the present state. `step`: s."""
 
     def __init__(self, fmu: Fmu, names: Sequence[str], inputs: Sequence[str], step: float) -> None:

@@ -77,9 +77,9 @@ def _keeps_limits(folder: Path) -> bool:
     from hosts.study.folder import read_record
 
     if (read_record(folder) or {}).get("limits"):
-        from hosts.study.limits import tell_limits
+        from hosts.study.limits import report_limits
 
-        return tell_limits(folder)
+        return report_limits(folder)
     for name in ("limits.csv", "limits.json"):  # of limits that are not asked for any more
         (folder / name).unlink(missing_ok=True)
     return True

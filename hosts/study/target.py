@@ -32,7 +32,7 @@ from hosts.study.jobs import Job
 from hosts.study.plan import Plan, make_plan
 from hosts.study.study_file import ParameterEntry, SamplingEntry, StudyFile, read_study_file
 from hosts.study.study_runs import OneProcess
-from hosts.study.target_search import TOLERANCE, Found, Run, seek
+from hosts.study.target_search import TOLERANCE, Run, SearchResult, seek
 from hosts.study.worker_data import Outcome
 from hosts.study.worker_data import Run as StudyRun
 
@@ -197,7 +197,7 @@ class _Search:
         self.unit, self.wanted = unit, factor * self.target.value
         self.shown = Shown(given, 1.0 / factor) if given else shown_in(unit, self.column)
 
-    def found(self, start: float) -> Found:
+    def found(self, start: float) -> SearchResult:
         low, high, log = self.parameter.low, self.parameter.high, self.parameter.log
         if self.job.manoeuvre is None:
             self._first(low)
@@ -234,7 +234,7 @@ class _Search:
     def y_words(self, y: float) -> str:
         return number_in(self.shown.factor * y, self.shown.unit, ".5g")
 
-    def words(self, found: Found) -> list[str]:
+    def words(self, found: SearchResult) -> list[str]:
         """What was found, in sentences."""
         by, name, failed = self.target.by, self.column, [r for r in found.runs if r.reason]
         lines = []
@@ -257,7 +257,7 @@ class _Search:
         lines.append(f"{len(found.runs)} runs of {self.job.label}.")
         return lines
 
-    def _not_met(self, found: Found, best: Run) -> list[str]:
+    def _not_met(self, found: SearchResult, best: Run) -> list[str]:
         ys = [run.y for run in found.runs if not run.reason]
         low, high = self.y_words(min(ys)), self.y_words(max(ys))
         ends = " to ".join(self.x_words(x) for x in (self.parameter.low, self.parameter.high))
@@ -288,12 +288,12 @@ class _Search:
         )
         return lines
 
-    def _is_flat(self, found: Found) -> bool:
+    def _is_flat(self, found: SearchResult) -> bool:
         """Whether the measure differs by rounding alone."""
         ys = np.array([run.y for run in found.runs if not run.reason])
         return len(ys) > 1 and not np.ptp(without_round_off(ys, self.unit))
 
-    def _around(self, found: Found) -> tuple[Run, Run]:
+    def _around(self, found: SearchResult) -> tuple[Run, Run]:
         """The nearest two runs on different sides of what is wanted."""
         known = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)
         sides = [(a, b) for a, b in pairwise(known) if (a.y - self.wanted) * (b.y - self.wanted) <= 0.0]
@@ -304,7 +304,7 @@ class _Search:
         return variables[self.target.by] if self.target.by in variables.names else None
 
 
-def _record(search: _Search, found: Found, lines: list[str], file: Path) -> Path:
+def _record(search: _Search, found: SearchResult, lines: list[str], file: Path) -> Path:
     """All of the search in the units of the measure and of the FMU."""
     record = {
         "measure": search.column,
@@ -341,7 +341,7 @@ def _parameter_set(plan: Plan, study: StudyFile, by: str, value: float, file: Pa
     return [f"{name}={value}" for name, value in values.items() if name not in {entry.name for entry in entries}]
 
 
-def _figure(search: _Search, found: Found) -> Figure:
+def _figure(search: _Search, found: SearchResult) -> Figure:
     """The measure over the parameter in all runs."""
     factor, unit = search.shown.factor, search.shown.unit
     known = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)

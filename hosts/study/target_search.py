@@ -30,7 +30,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Found:
+class SearchResult:
     """What a search has come to."""
 
     runs: tuple[Run, ...]
@@ -70,7 +70,7 @@ def seek(
     log: bool = False,
     start: float = math.nan,
     most: int = MOST,
-) -> Found:
+) -> SearchResult:
     """Seek a value of a parameter.
 
     The ends of the range come first. Where the wanted value lies between theirs, Brent's method follows; else the
@@ -114,7 +114,7 @@ class _Search:
         self._tolerance = TOLERANCE * abs(wanted)
         self._start = self._place(start) if math.isfinite(start) and (start > 0.0 or not log) else 0.5
 
-    def found(self) -> Found:
+    def found(self) -> SearchResult:
         with contextlib.suppress(_End):
             self._from_the_ends()
         if (best := self._best()) is None or abs(best.y - self._wanted) > self._tolerance:
@@ -206,14 +206,14 @@ class _Search:
         yielded = [run for run in reversed(self._runs.values()) if math.isfinite(run.y)]
         return min(yielded, key=lambda run: abs(run.y - self._wanted), default=None)
 
-    def _result(self, near: Sequence[Run]) -> Found:
+    def _result(self, near: Sequence[Run]) -> SearchResult:
         """`near`: two runs that tell the slope, or fewer."""
         known = [run for _, run in sorted(self._runs.items()) if math.isfinite(run.y)]
         changes = [b.y - a.y for a, b in itertools.pairwise(known)]
         largest = max((abs(run.y) for run in known), default=0.0)
         least, best = min(self._tolerance, TOLERANCE * largest), self._best()  # what is wanted may be far off
         x, y = [run.x for run in near], [run.y for run in near]
-        return Found(
+        return SearchResult(
             tuple(self._runs.values()),
             best,
             best is not None and abs(best.y - self._wanted) <= self._tolerance,

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ali3.message_text import brief
 from ali3.near_names import did_you_mean
 from hosts.common.arguments import positive, texts
-from hosts.common.closable import Closing
+from hosts.common.closable import Closable
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
 from hosts.fmu.fmu import Fmu, StepRefusedError
@@ -43,7 +43,7 @@ class _Part:
     told: set[str] = field(default_factory=set)
 
 
-class CoupledFmus(Closing):
+class CoupledFmus(Closable):
     """A system of FMUs that exchange values at communication points.
 
     Parameters

@@ -10,13 +10,13 @@ from pathlib import Path
 from threading import Timer
 from typing import TYPE_CHECKING, Any
 
-from ali3.files import check_writable, whole_file
+from ali3.files import atomic_file, check_writable
 from ali3.temporary_folder import temporary_folder
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
-from hosts.common.options import ROAD, Wishes
+from hosts.common.options import ROAD, FmuOptions
 from hosts.common.package_names import check_world
-from hosts.common.road import tell_starts, wishes_with_road
+from hosts.common.road import options_with_road, report_starts
 from hosts.common.world_files import make_world
 from hosts.driving.manoeuvre import with_names_of
 from hosts.fmu.fmu_file import fmu_file
@@ -26,7 +26,7 @@ from hosts.recordings.load_manoeuvre import check_asked, load_manoeuvre
 from hosts.view.open_page import open_page
 from hosts.view.page_parts import PLATFORM, build_line, fmu_parts
 from hosts.view.page_text import Page, script_of
-from hosts.view.view_sources import RunWishes, recordings_of
+from hosts.view.view_sources import ViewRunOptions, recordings_of
 
 if TYPE_CHECKING:
     from ali3.scene.recording import Recording
@@ -43,10 +43,10 @@ _MOST_PICTURES = 4
 def live(options: argparse.Namespace) -> int:
     """Write one HTML file that runs FMUs of this program in any browser, and open it; gives the exit code."""
     with temporary_folder() as folder:
-        return _written(options, wishes_with_road(options, folder))
+        return _written(options, options_with_road(options, folder))
 
 
-def _written(options: argparse.Namespace, given: Wishes) -> int:
+def _written(options: argparse.Namespace, given: FmuOptions) -> int:
     if len(options.what) > _MOST_PICTURES:
         raise HostError(f"{len(options.what)} pictures are too many for a page; it shows at most {_MOST_PICTURES}.")
     results = [path for path in options.what if path.suffix.lower() in (".csv", ".json") or is_recording(path)]
@@ -67,17 +67,17 @@ def _written(options: argparse.Namespace, given: Wishes) -> int:
     places = {} if world is None else _places(world, fmus[0])
     first = next(iter(places.values()), {})
     start = {**first, **({} if manoeuvre is None else manoeuvre.start), **_start(fmus, given)}
-    tell_starts([start])
+    report_starts([start])
     if fmus[0].own_road is not None:
         start[ROAD] = fmus[0].own_road.name
     wanted = {"name": name, **_page_options(fmus, options), "start": start, **({"places": places} if places else {})}
     recordings = _beside(results, fmus[0])
     ends = [f"The recording ends at {float(recording.t[-1]):.4g} s." for recording in recordings]
     with_binaries = [with_binary(fmu) for fmu in fmus]
-    with told_when_long("making the page"):
+    with reported_when_long("making the page"):
         page = Page(with_binaries, names, wanted, manoeuvre, recordings, ends)
         text = page.text(options.title if options.title is not None else ", ".join(names))
-    with whole_file(file) as made:
+    with atomic_file(file) as made:
         made.write_text(text, encoding="utf-8", newline="\n")
     for fmu in fmus:
         for item in fmu.scene.get("missing", []):
@@ -135,7 +135,7 @@ def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
     """Results that are drawn beside the first FMU, with its drawing where they have none."""
     if not results:
         return []
-    recordings, told, _ = recordings_of(results, fmu.path, RunWishes(None, None, None, Wishes([], [])))
+    recordings, told, _ = recordings_of(results, fmu.path, ViewRunOptions(None, None, None, FmuOptions([], [])))
     for line in told:
         print(line)
     undrawn = next((r.name for r in recordings if r.scene is None), None)
@@ -175,7 +175,7 @@ def _plottable(fmu: FmuParts, name: str) -> bool:
     return name in fmu.variables.names and fmu.variables[name].causality in ("input", "output")
 
 
-def _start(fmus: Sequence[FmuParts], wanted: Wishes) -> dict[str, Value]:
+def _start(fmus: Sequence[FmuParts], wanted: FmuOptions) -> dict[str, Value]:
     """Start values that the first FMU must have; the others take those that they have too."""
     settings = Settings(fmus[0].variables)
     for file in wanted.sets:
@@ -197,7 +197,7 @@ def with_binary(fmu: FmuParts) -> FmuParts:
     """
     if fmu.wasm is not None:
         return fmu
-    with temporary_folder() as folder, told_when_long(f"compiling {fmu.path.name} for WebAssembly"):
+    with temporary_folder() as folder, reported_when_long(f"compiling {fmu.path.name} for WebAssembly"):
         arguments = ("build", "--fmu", str(fmu.path.absolute()), "--platforms", PLATFORM, "--out", str(folder))
         try:
             run_ali3(*arguments)
@@ -211,7 +211,7 @@ def with_binary(fmu: FmuParts) -> FmuParts:
 
 
 @contextmanager
-def told_when_long(what: str) -> Iterator[None]:
+def reported_when_long(what: str) -> Iterator[None]:
     """A context that prints a line if its work takes longer than two seconds."""
     timer = Timer(_PATIENCE, lambda: print(f"{what} ...", flush=True))
     timer.daemon = True

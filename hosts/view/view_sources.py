@@ -11,13 +11,13 @@ from ali3.processes import command_name
 from ali3.reading import is_file, is_folder, no_file
 from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.driving.course_scenery import with_course, with_marks
 from hosts.driving.courses import TRACKS, course_of
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import with_names_of
 from hosts.driving.manoeuvre_settings import set_in
-from hosts.driving.pilots.pilot import ACTS, SENSES
+from hosts.driving.pilots.pilot import ACTS, OBSERVED
 from hosts.driving.run_checks import check_columns, communication_step
 from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.fmu import Fmu, described
@@ -35,7 +35,7 @@ _ON_THE_GROUND = "what the manoeuvre has on the ground"
 
 
 @dataclass(frozen=True)
-class RunWishes:
+class ViewRunOptions:
     """How an FMU is run that is to be shown."""
 
     manoeuvre: str | None
@@ -43,14 +43,14 @@ class RunWishes:
     stop_time: float | None
     step: float | None
     """`stop_time`, `step`: s."""
-    wishes: Wishes
+    fmu_options: FmuOptions
 
     def __bool__(self) -> bool:
-        return bool(self.wishes) or any(x is not None for x in (self.manoeuvre, self.stop_time, self.step))
+        return bool(self.fmu_options) or any(x is not None for x in (self.manoeuvre, self.stop_time, self.step))
 
 
 def recordings_of(
-    paths: Sequence[Path], geometry: Path | None, run: RunWishes
+    paths: Sequence[Path], geometry: Path | None, run: ViewRunOptions
 ) -> tuple[list[Recording], list[str], bool]:
     """Recordings of all that the user named.
 
@@ -87,11 +87,11 @@ def recordings_of(
         told += words
     if run and not any(path.suffix.lower() == ".fmu" for path in paths):
         raise HostError("Manoeuvre, times and values are set for an FMU that is run; results are shown as they are.")
-    _tell_other_grounds(made)
+    _report_other_grounds(made)
     return made, told, good
 
 
-def _tell_other_grounds(recordings: Sequence[Recording]) -> None:
+def _report_other_grounds(recordings: Sequence[Recording]) -> None:
     """Note of each run that is a ghost on the ground of the first but ran on another."""
     grounds = [(one, one.scene.get("roads", [])) for one in recordings if one.scene is not None]
     for ghost, ground in grounds[1:]:
@@ -245,19 +245,19 @@ def _foreign(path: Path) -> str:
     )
 
 
-def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[str], bool]:
+def _of_fmu(path: Path, name: str, wanted: ViewRunOptions) -> tuple[Recording, list[str], bool]:
     """Run an FMU: through a manoeuvre, or for its default experiment; whether the run is good."""
     told = []
     with Fmu(path) as fmu:
         given = wanted.manoeuvre
-        car = set(ACTS) <= set(fmu.names("input")) and set(SENSES) <= set(fmu.names("output"))
+        car = set(ACTS) <= set(fmu.names("input")) and set(OBSERVED) <= set(fmu.names("output"))
         if given is None and car and wanted.stop_time is None:
             given = _CAR_MANOEUVRE
             told.append(f"{path} is driven through {given}; --manoeuvre names another.")
         manoeuvre = with_names_of(manoeuvre_of(fmu, given, wanted.stop_time), fmu.variables)
         check_columns(fmu, manoeuvre)
         driver = driver_of(fmu, manoeuvre)
-        manoeuvre, settings = set_in(fmu, manoeuvre, wanted.wishes)
+        manoeuvre, settings = set_in(fmu, manoeuvre, wanted.fmu_options)
         scene = scene_of(path, settings.start)
         result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, wanted.step), driver)
     if scene is None:

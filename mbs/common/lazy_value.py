@@ -8,7 +8,7 @@ T = TypeVar("T")
 _ONE_AT_A_TIME = threading.RLock()
 
 
-class Later(Generic[T]):
+class LazyValue(Generic[T]):
     """A value that takes time and is not always wanted: the first call makes it, later ones return it.
 
     `make`: makes the value; called once, or again where it has raised.

@@ -25,7 +25,7 @@ CLOSED = 1e-7
 
 
 @dataclass(frozen=True)
-class Way:
+class BlockMotion:
     """Once around: sines and cosines of the angles, shape (steps + 1, angles), turns in each step, shape (steps,
     angles), rad, and whether a branch crosses.
     """
@@ -47,7 +47,7 @@ def sine_cosine(vectors: Array, turned: NDArray[np.bool_]) -> tuple[Array, Array
     return np.where(turned, cosine, sine), np.where(turned, -sine, cosine)
 
 
-def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_], x: Array) -> Way | None:
+def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_], x: Array) -> BlockMotion | None:
     """Follow the motion from x until it comes back; None if it has not one freedom or does not come back.
 
     `offset`, `slope`: the vectors of the angles, ``offset + slope x``; `turned`: angles from the perpendicular of their
@@ -90,7 +90,7 @@ def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_
         passes = travelled > 2.0 * length and 0.0 <= along <= 1.0 and t @ t_first > 0.0
         if passes and np.linalg.norm(first - x - along * went) < 0.3 * length:
             crossed = bool(np.min(seconds) < NEAR * np.median(seconds))
-            return Way(np.array(sines), np.array(cosines), np.array(steps), crossed)
+            return BlockMotion(np.array(sines), np.array(cosines), np.array(steps), crossed)
         travelled += length
         x, t, sine, cosine = y, new[0], s, c
         step *= min(1.5, max(0.5, 0.8 * TURN / max(largest, 1e-6)))

@@ -41,13 +41,13 @@ from mbs.compiler.tabled_bodies import (
     base_coordinates,
     carried_mass,
     columns_of,
+    distinguish,
     locator_of,
     refuse_joint,
     spread,
     tabled_arrays,
     tabled_cliques,
     tabled_coordinates,
-    tell_apart,
 )
 from mbs.compiler.tables import Signals, channel_arrays, element_arrays, element_cliques, sensor_arrays
 from mbs.kernel.header.arrays import ARRAYS
@@ -131,7 +131,7 @@ def _reduced(model: Model, closed: Corrections) -> _Reduced:
     length, size = model_length(model), drawn_length(model)
     stay = flexible_coordinates(model) | base_coordinates(model)
     natural, remaining, full, of_z, redundant, left = reduce_coordinates(model, natural, linear, stay, size)
-    known = tell_apart(model, remaining, full, of_z, left)
+    known = distinguish(model, remaining, full, of_z, left)
     error = max((max(distance / size, angle) for distance, angle in closed.values()), default=0.0)
     candidates = [row_terms(e, j, k, known.seen, size, error) for j, k, e in others]
     for row in candidates:

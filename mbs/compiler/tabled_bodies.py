@@ -56,7 +56,7 @@ def carried_mass(model: Model) -> NDArray[np.float64]:
     return mass
 
 
-def tell_apart(
+def distinguish(
     model: Model, remaining: list[int], full: list[Affine], of_z: list[Affine], left: list[RowTerms]
 ) -> Dependents:
     """Number the dependents behind z."""

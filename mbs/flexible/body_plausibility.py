@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import eigh, null_space
 from scipy.spatial import ConvexHull
 
-from ali3.plausibility import Echo, Mistake, Value, echo_of, quantities_of
+from ali3.plausibility import Mistake, Plausibility, Value, plausibility_of, quantities_of
 from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.frequencies import natural_modes
@@ -46,10 +46,10 @@ UNDONE = (
 """The commonest first. Units that are consistent change no frequency."""
 
 
-@echo_of.register
-def model_echo(
+@plausibility_of.register
+def model_plausibility(
     model: FiniteElementModel, what: str = "", modes: bool = True, beside: float = 0.0, held: ArrayLike = ()
-) -> list[Echo]:
+) -> list[Plausibility]:
     """What was understood of a finite-element model.
 
     `what`: the file; `modes`: whether its frequencies are sought; `beside`: mass that is given beside it, kg; 0: none;
@@ -60,22 +60,22 @@ def model_echo(
     supported = _lowest(model, 0, held) if modes and np.size(held) else None
     moment, hull = masses @ model.mass.positions, _hull(x)
     values = partial(_values, x, hull, masses, moment, free, supported, model.given, beside)
-    return [_echo(what, values, alone=not modes)]
+    return [_plausibility(what, values, alone=not modes)]
 
 
-@echo_of.register
-def reduced_echo(body: ReducedBody) -> list[Echo]:
+@plausibility_of.register
+def reduced_plausibility(body: ReducedBody) -> list[Plausibility]:
     """What was understood of a reduced body, from its reference node; its frequencies are those of its modes."""
     x, moment = body.node_positions, body.masses @ body.mass_positions
     values = partial(_values, x, _hull(x), body.masses, moment, _free(body), _supported(body), {}, 0.0)
-    return [_echo("", values)]
+    return [_plausibility("", values)]
 
 
-def _echo(what: str, values: partial[list[Value]], alone: bool = False) -> Echo:
+def _plausibility(what: str, values: partial[list[Value]], alone: bool = False) -> Plausibility:
     """`alone`: whether the stiffness has its units from elsewhere."""
     changed = [(words, frozenset(_changed(units)), units) for words, units in UNDONE]
     mistakes = [Mistake(w, keys, partial(values, units)) for w, keys, units in changed if not alone or len(keys) == 1]
-    return Echo(what, values(Units()), mistakes)
+    return Plausibility(what, values(Units()), mistakes)
 
 
 def _changed(units: Units) -> Iterator[str]:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from scipy.ndimage import distance_transform_edt
 
-from ali3.plausibility import Echo, Mistake, Value, echo_of, far_values, quantities_of
+from ali3.plausibility import Mistake, Plausibility, Value, far_values, plausibility_of, quantities_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import TEXTS, RoadFile
@@ -65,10 +65,10 @@ def place_of(road: GridRoad) -> Place:
     return Place(origin, spacing, np.shape(road.heights))
 
 
-def road_echo(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | None = None) -> Echo:
+def road_plausibility(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | None = None) -> Plausibility:
     """What was understood of a road. `what`: the file; `start`: x and y where a drive begins, m."""
     if not isinstance(road, GridRoad):
-        return Echo(what, _plain_values(road), title=TITLE)
+        return Plausibility(what, _plain_values(road), title=TITLE)
     place, z = place_of(road), np.asarray(road.heights, float)
     mistakes, values = [], road_values(road, place, z, start)
     usual = any(v.quantity is QUANTITIES["slope"] and v.mended() for v in values)
@@ -88,15 +88,15 @@ def road_echo(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | N
     mistakes.append(Mistake("percent in place of a ratio in frictions", frozenset({"frictions"}), parts))
     if start is not None:
         mistakes += start_mistakes(place, start)
-    return Echo(what, values, mistakes, title=TITLE)
+    return Plausibility(what, values, mistakes, title=TITLE)
 
 
-def start_echo(what: str, place: Place, start: Start) -> Echo:
+def start_plausibility(what: str, place: Place, start: Start) -> Plausibility:
     """Whether a drive begins on a grid. `place`: of the grid; `start`: x and y where it begins, m."""
     mistakes, small = start_mistakes(place, start), place.scaled(1e-3)
     if min(small.extent) > 1.0:
         mistakes.insert(0, Mistake("mm in place of m in coordinates", KEYS, partial(_placed, small, start)))
-    return Echo(what, _placed(place, start), mistakes, title=TITLE)
+    return Plausibility(what, _placed(place, start), mistakes, title=TITLE)
 
 
 def _placed(place: Place, start: Start) -> list[Value]:
@@ -106,11 +106,11 @@ def _placed(place: Place, start: Start) -> list[Value]:
 def start_mistakes(place: Place, start: Start) -> list[Mistake]:
     """Common mistakes by which a grid is not where a drive begins."""
     middle = [o + 0.5 * side for o, side in zip(place.origin, place.extent, strict=True)]
-    map_words = f"coordinates of a map or another origin, of which {middle[0]:.0f}, {middle[1]:.0f} is to be taken"
+    map_text = f"coordinates of a map or another origin, of which {middle[0]:.0f}, {middle[1]:.0f} is to be taken"
     at_start = tuple(s - 0.5 * side for s, side in zip(start, place.extent, strict=True))
     return [
         Mistake(words, frozenset({"origin"}), partial(_away, replace(place, origin=origin), start))
-        for words, origin in (("x and y exchanged in the origin", place.origin[::-1]), (map_words, at_start))
+        for words, origin in (("x and y exchanged in the origin", place.origin[::-1]), (map_text, at_start))
     ]
 
 
@@ -185,15 +185,15 @@ def filled_up(z: np.ndarray, none: np.ndarray) -> np.ndarray:
     return np.asarray(z[tuple(nearest)])
 
 
-@echo_of.register(PlaneRoad)
-@echo_of.register(KerbRoad)
-@echo_of.register(GridRoad)
-def _echo_of_road(road: PlaneRoad | KerbRoad | GridRoad) -> list[Echo]:
-    return [road_echo("", road)]
+@plausibility_of.register(PlaneRoad)
+@plausibility_of.register(KerbRoad)
+@plausibility_of.register(GridRoad)
+def _plausibility_of_road(road: PlaneRoad | KerbRoad | GridRoad) -> list[Plausibility]:
+    return [road_plausibility("", road)]
 
 
-@echo_of.register
-def file_echo(road: RoadFile, start: Start = (0.0, 0.0), most: float = MOST_POINTS) -> list[Echo]:
+@plausibility_of.register
+def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), most: float = MOST_POINTS) -> list[Plausibility]:
     """What was understood of a road of a file, and whether a drive begins on it.
 
     `start`: x and y, m; `most`: points; of a file with more its place alone is looked at.
@@ -201,8 +201,8 @@ def file_echo(road: RoadFile, start: Start = (0.0, 0.0), most: float = MOST_POIN
     made = read_road(road.path) if _is_text(road) else None
     place = _place_of_header(road) if made is None else place_of(made) if isinstance(made, GridRoad) else None
     if place is not None and math.prod(place.shape) > most:
-        return [start_echo(str(road.path), place, start)]
-    return [road_echo(str(road.path), road.read() if made is None else made, start)]
+        return [start_plausibility(str(road.path), place, start)]
+    return [road_plausibility(str(road.path), road.read() if made is None else made, start)]
 
 
 def place_of_file(road: RoadFile) -> Place | None:

@@ -6,9 +6,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.results.omitted_sensors import LeftOut
+from mbs.results.omitted_sensors import OmittedSensors
 from mbs.settings.input_signals import InputSignals, Signal
-from mbs.simulation.omitted_sensor_system import NO_PORTS, Follower, names_left_out
+from mbs.simulation.omitted_sensor_system import NO_PORTS, OmittedSensorSystem, omitted_names
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.restored_run import restored
 from mbs.simulation.stepped_system import SteppedSystem
@@ -21,29 +21,29 @@ TO_TOLERANCE = (
 )
 
 
-def left_out_to_tolerance(system: System) -> LeftOut | None:
+def omitted_to_tolerance(system: System) -> OmittedSensors | None:
     """Sensors that a run to a tolerance left out."""
-    names = names_left_out(system)
-    return LeftOut(names, None, TO_TOLERANCE) if names else None
+    names = omitted_names(system)
+    return OmittedSensors(names, None, TO_TOLERANCE) if names else None
 
 
-def left_out_of_run(
+def omitted_of_run(
     simulation: SteppedSystem, inputs: Mapping[str, Signal], h: float, every: int
-) -> Callable[[int], LeftOut | None]:
+) -> Callable[[int], OmittedSensors | None]:
     """What makes of the number of samples the sensors that a run leaves out; made at its start.
 
     `every`: steps from one sample to the next.
     """
-    names = names_left_out(simulation.system)
+    names = omitted_names(simulation.system)
     if not names:
         return lambda samples: None
     system, settings, roads = simulation.system, simulation.settings, dict(simulation.road_paths)
     if system.ported is None:
-        return lambda samples: LeftOut(names, None, NO_PORTS)
+        return lambda samples: OmittedSensors(names, None, NO_PORTS)
     state = simulation.instance.save()
 
     def compute(samples: int, stride: int) -> dict[str, Array]:
-        follower, again = Follower(system), restored(system, settings, roads, state)
+        follower, again = OmittedSensorSystem(system), restored(system, settings, roads, state)
         rows, t0 = [follower.values(again.instance)], again.time
         signals = InputSignals(inputs, prepared(system)[1]["inputs"])
         signals.attach_to_steps(again.instance, t0, t0 + (samples - 1) * every * h, h)
@@ -52,4 +52,4 @@ def left_out_of_run(
             rows.append(follower.values(again.instance))
         return dict(zip(names, np.array(rows).T, strict=True))
 
-    return lambda samples: LeftOut(names, partial(compute, samples))
+    return lambda samples: OmittedSensors(names, partial(compute, samples))

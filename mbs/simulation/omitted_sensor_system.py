@@ -14,7 +14,7 @@ _PORTED: WeakKeyDictionary[System, tuple[LoadedSystem, dict[str, int]] | None] =
 NO_PORTS = "there is no model with ports that follows it. Compile one that computes it; of a car, fidelity=1, 2 or 3"
 
 
-def names_left_out(system: System) -> list[str]:
+def omitted_names(system: System) -> list[str]:
     """Names of the sensors that the System does not compute."""
     return [s["name"] for s in prepared(system)[1]["sensors"] if not s.get("computed", True)]
 
@@ -25,18 +25,18 @@ def _ported(system: System) -> tuple[LoadedSystem, dict[str, int]] | None:
         made = system.ported(system) if system.ported is not None else None
         place = {} if made is None else {s["name"]: k for k, s in enumerate(made.meta["sensors"])}
         loaded = None if made is None else (LoadedSystem(made.kernel_bytes()), place)
-        _PORTED[system] = loaded if loaded is not None and set(names_left_out(system)) <= set(place) else None
+        _PORTED[system] = loaded if loaded is not None and set(omitted_names(system)) <= set(place) else None
     return _PORTED[system]
 
 
-class Follower:
+class OmittedSensorSystem:
     """A second System with ports that is moved to the states of a simulation.
 
     `asked`: name of the requested sensor. Raises `KeyError`: there is none; the sentence names the sensor.
     """
 
     def __init__(self, system: System, asked: str = "") -> None:
-        found, self._names = _ported(system), names_left_out(system)
+        found, self._names = _ported(system), omitted_names(system)
         if found is None:
             raise KeyError(refused(asked or self._names[0], NO_PORTS))
         self._instance = Instance(found[0])
@@ -67,9 +67,9 @@ class Readings(dict[str, float]):
         self._system, self._instance, self._state = system, instance, instance.snapshot()
 
     def __missing__(self, name: str) -> float:
-        names = names_left_out(self._system)
+        names = omitted_names(self._system)
         if name not in names:
             raise KeyError(name)
         with self._instance.at(self._state):
-            self.update(zip(names, Follower(self._system, name).values(self._instance), strict=True))
+            self.update(zip(names, OmittedSensorSystem(self._system, name).values(self._instance), strict=True))
         return self[name]

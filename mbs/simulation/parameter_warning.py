@@ -11,7 +11,7 @@ class ParameterWarning(UserWarning):
     """A parameter has a value outside the range in which such models work."""
 
 
-def tell_unworkable(entry: Mapping[str, Any], value: float, stacklevel: int) -> None:
+def warn_of_unworkable(entry: Mapping[str, Any], value: float, stacklevel: int) -> None:
     """Warn of a value that is not between those of the entry of the parameter in `System.meta`."""
     least, most = entry.get("works", (value, value))
     if not least <= value <= most:

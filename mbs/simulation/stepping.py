@@ -41,10 +41,10 @@ from mbs.simulation.arguments import (
 )
 from mbs.simulation.fixed_steps import fixed_step_run
 from mbs.simulation.omitted_sensor_system import Readings
-from mbs.simulation.parameter_warning import tell_unworkable
+from mbs.simulation.parameter_warning import warn_of_unworkable
 from mbs.simulation.refusal import refusal
 from mbs.simulation.restored_run import restored
-from mbs.simulation.start_on_road import tell_start
+from mbs.simulation.start_on_road import report_start
 from mbs.simulation.state import Pose
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.simulation.tolerance_run import to_tolerance
@@ -109,7 +109,7 @@ class Simulation(SteppedSystem):
         if (placed := check_pose(pose, self._meta)) is not None:
             self._call(f"The starting {placed} was refused", lambda: self.instance.set_pose(*astuple(placed)))
         if self._meta["floating"]:
-            tell_start(system, self.road_paths, pose, 2)
+            report_start(system, self.road_paths, pose, 2)
         self._call("The start could not be made consistent", lambda: self.instance.initialise(start))
         self._started = True
 
@@ -178,7 +178,7 @@ class Simulation(SteppedSystem):
                 f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}, which the model cannot take "
                 "beside its other values."
             ) from None
-        tell_unworkable(entry, x, stacklevel=2 if self._started else 3)
+        warn_of_unworkable(entry, x, stacklevel=2 if self._started else 3)
         self._also(lambda run: run.set_parameter(index, x))
 
     def _also(self, act: Callable[[Instance], object]) -> None:

@@ -22,7 +22,7 @@ from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.controlled_pair import ControlledPair
 from mbs.simulation.controlled_run import ROUND_OFF, ControlledRun, StalledError, Task, signals_of
 from mbs.simulation.method_choice import choose
-from mbs.simulation.omitted_sensor_run import left_out_to_tolerance
+from mbs.simulation.omitted_sensor_run import omitted_to_tolerance
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.recorded_trajectory import recorded
 from mbs.simulation.stepped_system import SteppedSystem
@@ -64,7 +64,7 @@ def to_tolerance(
     if t_end <= t0:
         values = np.array([list(first.instance.sensors())])
         record = PositionRecord(first.system, first.state.q, 1)
-        return recorded(first, times, values, settings, 0.0, record, left_out_to_tolerance(first.system)), first
+        return recorded(first, times, values, settings, 0.0, record, omitted_to_tolerance(first.system)), first
     grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, INSTANTS + 1) / INSTANTS)
     grid[-1] = t_end
     task = Task(t0, t_end, grid, signals_of(inputs, first))
@@ -201,7 +201,7 @@ def _recorded(
     values = np.vstack([list(first.instance.sensors()), run.values[at]])
     record = PositionRecord(first.system, first.state.q, len(times))
     record.fill(np.vstack([first.state.q, run.positions[at]]))
-    left_out = left_out_to_tolerance(first.system)
+    left_out = omitted_to_tolerance(first.system)
     return recorded(run.simulation, times, values, run.settings, wall, record, left_out, control=control)
 
 

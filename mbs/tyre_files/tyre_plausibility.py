@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.plausibility import Echo, Mistake, Value, echo_of, quantities_of
+from ali3.plausibility import Mistake, Plausibility, Value, plausibility_of, quantities_of
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.tyre import Tyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
@@ -108,7 +108,9 @@ class _Curve:
     """Over the load, with shifts."""
 
 
-def magic_echo(what: str, tyre: MagicTyre, numbers: Mapping[str, float], kind: str = "", prefix: str = "") -> Echo:
+def magic_plausibility(
+    what: str, tyre: MagicTyre, numbers: Mapping[str, float], kind: str = "", prefix: str = ""
+) -> Plausibility:
     """What was understood of a Magic Formula tyre.
 
     `what`: the file; `numbers`: of the file, SI units; `kind`: of the vehicle, else the widest range; `prefix`: of its
@@ -128,10 +130,10 @@ def magic_echo(what: str, tyre: MagicTyre, numbers: Mapping[str, float], kind: s
         undone = replace(tyre, coefficients={**tyre.coefficients, **own}, **ends)
         undo = partial(values, undone, numbers={**numbers, **changed})
         mistakes.append(Mistake(f"{words} {' and '.join(keys)}", frozenset(prefix + key for key in keys), undo))
-    return Echo(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
+    return Plausibility(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
 
 
-def tmeasy_echo(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Echo:
+def tmeasy_plausibility(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Plausibility:
     """The same of a TMeasy tyre."""
     mistakes = []
     for name, per in (("lateral", "degree"), ("longitudinal", "percent")):
@@ -145,7 +147,7 @@ def tmeasy_echo(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Echo
             keys = frozenset(f"{prefix}{name}.{f}" for f in fields)
             mistakes.append(Mistake(words, keys, partial(_tmeasy_values, replace(tyre, **{name: changed}), prefix)))
     values = partial(_tmeasy_values, prefix=prefix)
-    return Echo(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
+    return Plausibility(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
 
 
 def cornering(tyre: MagicTyre | Tyre, load: float) -> float:
@@ -311,7 +313,7 @@ def _vertical(tyre: AnyTyre, prefix: str) -> Iterator[Value]:
             yield Value(QUANTITIES[name], value, {names[f]: getattr(tyre, f) for f in fields})
 
 
-@echo_of.register
-def _file_echo(file: TyreFile) -> list[Echo]:
+@plausibility_of.register
+def _file_plausibility(file: TyreFile) -> list[Plausibility]:
     signs = "adapted_sae" if file.values["coefficients"]["PKY1"] > 0.0 else "iso"
-    return [magic_echo(file.name, file.tyre(signs=signs), file.numbers)]
+    return [magic_plausibility(file.name, file.tyre(signs=signs), file.numbers)]

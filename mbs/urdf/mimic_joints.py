@@ -8,7 +8,7 @@ from mbs.common.errors import ModelError
 
 
 @dataclass(frozen=True)
-class Follower:
+class MimicJoint:
     """A joint whose value is `multiplier` times that of its leader plus `offset`; rad or m."""
 
     name: str
@@ -17,13 +17,13 @@ class Follower:
     offset: float
 
 
-def followers_of(joints: Mapping[str, Any], given: Collection[str], what: str) -> dict[str, Follower]:
+def mimic_joints_of(joints: Mapping[str, Any], given: Collection[str], what: str) -> dict[str, MimicJoint]:
     """The joints that follow others, by their names, each after those that it follows.
 
     `given`: joints that the user places or moves; `what`: the robot, for messages. Raises `ModelError`: one follows a
     joint that does not move or is not there, or itself; its multiplier is zero; it is given.
     """
-    left: dict[str, Follower] = {}
+    left: dict[str, MimicJoint] = {}
     for name, joint in joints.items():
         mimic = joint.mimic
         if mimic is None:
@@ -36,8 +36,8 @@ def followers_of(joints: Mapping[str, Any], given: Collection[str], what: str) -
         multiplier = 1.0 if mimic.multiplier is None else float(mimic.multiplier)
         if multiplier == 0.0:
             raise ModelError(f"{says} with a multiplier of 0; make it a fixed joint.")
-        left[name] = Follower(name, mimic.joint, multiplier, float(mimic.offset or 0.0))
-    ordered: dict[str, Follower] = {}
+        left[name] = MimicJoint(name, mimic.joint, multiplier, float(mimic.offset or 0.0))
+    ordered: dict[str, MimicJoint] = {}
     while left:
         ready = {n: f for n, f in left.items() if f.leader not in left}
         if not ready:
@@ -47,7 +47,7 @@ def followers_of(joints: Mapping[str, Any], given: Collection[str], what: str) -
     return ordered
 
 
-def start_of(followers: Mapping[str, Follower], at: Mapping[str, float]) -> dict[str, float]:
+def start_of(followers: Mapping[str, MimicJoint], at: Mapping[str, float]) -> dict[str, float]:
     """Values of the joints that follow others, rad or m. `at`: values of joints by name; those left out are 0."""
     values = dict(at)
     for name, f in followers.items():

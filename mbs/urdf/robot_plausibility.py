@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.plausibility import Echo, Mistake, Value, quantities_of
+from ali3.plausibility import Mistake, Plausibility, Value, quantities_of
 from mbs.urdf.source import INERTIA, Element
 
 SMALLEST = 1e-4  # m
@@ -39,7 +39,7 @@ QUANTITIES = quantities_of("robot")
 Pose: TypeAlias = NDArray[np.float64]
 
 
-class Given(NamedTuple):
+class Factors(NamedTuple):
     """Factors on groups of numbers of the file, by which a mistake is undone."""
 
     lengths: float = 1.0
@@ -56,46 +56,49 @@ class Given(NamedTuple):
     only: str = ""
     """The only link that is affected; empty: all."""
 
-    def of(self, name: str) -> Given:
+    def of(self, name: str) -> Factors:
         """The factors for one link."""
-        return self if self.only in ("", name) else Given()
+        return self if self.only in ("", name) else Factors()
 
 
 UNDONE = (  # words, beginnings of keys, what undoes it
-    ("degrees in place of radians in the limits", ("limit",), Given(limits=DEG)),
-    ("degrees in place of radians in rpy", ("rpy",), Given(angles=DEG)),
-    ("degrees per second in place of rad/s in velocities", ("velocity",), Given(speeds=DEG)),
-    ("1/min in place of rad/s in velocities", ("velocity",), Given(speeds=math.pi / 30.0)),
-    ("N mm in place of N m in efforts", ("effort",), Given(efforts=1e-3)),
-    ("kN m in place of N m in efforts", ("effort",), Given(efforts=1e3)),
-    *((f"{unit} in place of kilograms in masses", ("mass",), Given(masses=size)) for unit, size in MASSES.items()),
-    *((f"{unit} in place of m in all lengths", ("xyz",), Given(lengths=size)) for unit, size in LENGTHS.items()),
-    *((f"{unit} in place of m in centres of mass", ("centre",), Given(centres=size)) for unit, size in LENGTHS.items()),
-    ("moments of 1, 0.1, ... kg m2 in place of those of the parts", ("inertia",), Given(solid=True)),
-    *((f"inertias in {unit} in place of kg m2", ("inertia",), Given(inertias=of)) for unit, of in MOMENTS.items()),
-    ("grams in masses and g mm2 in inertias", ("mass", "inertia"), Given(masses=1e-3, inertias=1e-9)),
-    ("mm in lengths and kg mm2 in inertias", ("xyz", "inertia"), Given(lengths=1e-3, inertias=1e-6)),
+    ("degrees in place of radians in the limits", ("limit",), Factors(limits=DEG)),
+    ("degrees in place of radians in rpy", ("rpy",), Factors(angles=DEG)),
+    ("degrees per second in place of rad/s in velocities", ("velocity",), Factors(speeds=DEG)),
+    ("1/min in place of rad/s in velocities", ("velocity",), Factors(speeds=math.pi / 30.0)),
+    ("N mm in place of N m in efforts", ("effort",), Factors(efforts=1e-3)),
+    ("kN m in place of N m in efforts", ("effort",), Factors(efforts=1e3)),
+    *((f"{unit} in place of kilograms in masses", ("mass",), Factors(masses=size)) for unit, size in MASSES.items()),
+    *((f"{unit} in place of m in all lengths", ("xyz",), Factors(lengths=size)) for unit, size in LENGTHS.items()),
+    *(
+        (f"{unit} in place of m in centres of mass", ("centre",), Factors(centres=size))
+        for unit, size in LENGTHS.items()
+    ),
+    ("moments of 1, 0.1, ... kg m2 in place of those of the parts", ("inertia",), Factors(solid=True)),
+    *((f"inertias in {unit} in place of kg m2", ("inertia",), Factors(inertias=of)) for unit, of in MOMENTS.items()),
+    ("grams in masses and g mm2 in inertias", ("mass", "inertia"), Factors(masses=1e-3, inertias=1e-9)),
+    ("mm in lengths and kg mm2 in inertias", ("xyz", "inertia"), Factors(lengths=1e-3, inertias=1e-6)),
 )
 ALONE = ("mass", "inertia", "centre")
 """Quantities that may be wrong in a few links alone."""
-EVERYWHERE = (Given(masses=MASSES["pounds"]),)
+EVERYWHERE = (Factors(masses=MASSES["pounds"]),)
 """Factors smaller than the scatter between links, which only show in all links together."""
 
 
-def robot_echo(
+def robot_plausibility(
     what: str,
     root: Element,
     poses: Mapping[str, NDArray[np.float64]],
     at: Mapping[str, float],
     turning: Container[str],
-) -> Echo:
+) -> Plausibility:
     """The quantities of a robot and the mistakes that would explain unusual ones.
 
     `what`: the file; `root`: its elements; `poses`: of the frames of links, shape (4, 4), m; `at`: values of joints;
     `turning`: links whose inertia has an effect.
     """
     values = partial(_values, root, poses, at, turning)
-    found = values(Given())
+    found = values(Factors())
     keys = {key for v in found if not v.inside() for key in v.keys}
     mistakes = []
     for words, names, given in UNDONE:
@@ -107,7 +110,7 @@ def robot_echo(
         for name in sorted(single) if few else ():
             alone = frozenset(key for key in own if f"'{name}'" in key)
             mistakes.append(Mistake(f"{words} of '{name}'", alone, partial(values, given._replace(only=name))))
-    return Echo(what, found, mistakes)
+    return Plausibility(what, found, mistakes)
 
 
 class Part(NamedTuple):
@@ -137,7 +140,7 @@ class Part(NamedTuple):
 
 @np.errstate(divide="ignore")  # of an inertia so small that its ellipsoid has no volume
 def _values(
-    root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], turning: Container[str], given: Given
+    root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], turning: Container[str], given: Factors
 ) -> list[Value]:
     frames = np.array([pose[:3, 3] for pose in poses.values()]) * given.lengths
     links = {link.attributes.get("name", ""): link for link in root.all("link")}
@@ -191,7 +194,7 @@ def _densities(parts: Mapping[str, Part], masses: Mapping[str, Any]) -> list[Val
     return found
 
 
-def _reaches(root: Element, parts: Mapping[str, Part], given: Given) -> list[Value]:
+def _reaches(root: Element, parts: Mapping[str, Part], given: Factors) -> list[Value]:
     """Centres of mass and the places of joints, over what is beside them."""
     ends: dict[str, list[float]] = {}
     offsets = {}
@@ -214,7 +217,7 @@ def _reaches(root: Element, parts: Mapping[str, Part], given: Given) -> list[Val
     return found
 
 
-def _pairs(parts: Mapping[str, Part], poses: Mapping[str, Pose], scale: float, given: Given) -> list[Value]:
+def _pairs(parts: Mapping[str, Part], poses: Mapping[str, Pose], scale: float, given: Factors) -> list[Value]:
     """Links of a left and a right side, one over the other, and how far their centres are from each other's image."""
     pairs = [(a, b) for a in parts if (b := other_side(a)) != a and b in parts]
     found = []
@@ -250,7 +253,7 @@ def _ratio(a: float, b: float) -> float:
     return max(a, b) / min(a, b)
 
 
-def _part(link: Element, given: Given) -> Part:
+def _part(link: Element, given: Factors) -> Part:
     inertial = link.first("inertial")
     if inertial is None:
         return Part(0.0, np.zeros(3), np.zeros((3, 3)), link.line)
@@ -267,7 +270,7 @@ def _part(link: Element, given: Given) -> Part:
     return Part(heavy, centre, tensor, inertial.line)
 
 
-def _joints(root: Element, at: Mapping[str, float], given: Given) -> Iterator[Value]:
+def _joints(root: Element, at: Mapping[str, float], given: Factors) -> Iterator[Value]:
     for joint in root.all("joint"):
         name, kind = joint.attributes.get("name", ""), joint.attributes.get("type", "")
         of, limit, origin = f"joint '{name}',", joint.first("limit"), joint.first("origin")

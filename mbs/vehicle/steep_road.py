@@ -11,7 +11,7 @@ from mbs.roads.steep_faces import RoadWarning, steep_face
 MOST_LOOKED_AT = 4e6
 
 
-def tell_steep_face(road: Road | RoadOfFile, radius: float) -> None:
+def warn_of_steep_face(road: Road | RoadOfFile, radius: float) -> None:
     """Warn of a grid with a wall for a wheel.
 
     Parameters

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ali3.cache import cache_folder
-from ali3.files import make_folder, whole_file
-from ali3.folders import forget_oldest, whole_folder
+from ali3.files import atomic_file, make_folder
+from ali3.folders import atomic_folder, forget_oldest
 from ali3.reading import read_bytes
 from ali3.temporary_folder import temporary_folder
 from mbs.roads.grid_files import MOST_BYTES
@@ -71,7 +71,7 @@ def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list
 def _copied(folder: Path, out: Path) -> list[Path]:
     names = sorted(path.name for path in folder.iterdir() if path.suffix in (".road", ".json"))
     for name in names:
-        with whole_file(out / name) as target:
+        with atomic_file(out / name) as target:
             shutil.copyfile(folder / name, target)
     return [out / name for name in names]
 
@@ -79,7 +79,7 @@ def _copied(folder: Path, out: Path) -> list[Path]:
 def _keep(made: Path, home: Path, entry: Path) -> None:
     """Copy what was made into the cache, whole or not at all; without one it is made again next time."""
     try:
-        with whole_folder(entry) as place:
+        with atomic_folder(entry) as place:
             for path in made.iterdir():
                 shutil.copyfile(path, place / path.name)
             (place / MADE).touch()
@@ -92,11 +92,11 @@ def add_file(key: str, name: str, make: Callable[[Path], None], out: Path) -> No
     """One more file of a world that is kept, such as its map; `make` writes it where there is none."""
     entry = cache_folder("worlds") / key
     stored: Any = entry / name
-    with whole_file(out) as target:
+    with atomic_file(out) as target:
         if stored.is_file():
             shutil.copyfile(stored, target)
         else:
             make(target)
             if entry.is_dir():
-                with whole_file(stored) as copy:
+                with atomic_file(stored) as copy:
                     shutil.copyfile(target, copy)

@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.plausibility import Echo, Mistake, Value, echo_of, quantities_of
+from ali3.plausibility import Mistake, Plausibility, Value, plausibility_of, quantities_of
 from mbs.roads.road_header import RoadFileError
 from mbs.worlds.centre_line import of_segments
 from mbs.worlds.layers import AreaLayer
@@ -34,12 +34,12 @@ MOVED: dict[str, Callable[[float, float], tuple[float, float]]] = {
 """Common mistakes of places, and what undoes each."""
 
 
-@echo_of.register
-def _echo_of_world(world: WorldDescription) -> list[Echo]:
-    return [world_echo("", world)]
+@plausibility_of.register
+def _plausibility_of_world(world: WorldDescription) -> list[Plausibility]:
+    return [world_plausibility("", world)]
 
 
-def world_echo(what: str, world: WorldDescription) -> Echo:
+def world_plausibility(what: str, world: WorldDescription) -> Plausibility:
     """What was understood of a world. `what`: its file."""
     values, mistakes = _values(world), []
     outside = {v.of for v in values if not v.inside()}
@@ -53,7 +53,7 @@ def world_echo(what: str, world: WorldDescription) -> Echo:
             mistakes.append(Mistake(f"{words} in {key}", frozenset({key}), partial(_replaced, values, elsewhere)))
     finer = world.model_copy(update={"spacing": (0.01 * world.spacing[0], 0.01 * world.spacing[1])})
     mistakes.append(Mistake("cm in place of m in spacing", frozenset({"spacing"}), partial(_values, finer)))
-    return Echo(what, values, mistakes, title="world")
+    return Plausibility(what, values, mistakes, title="world")
 
 
 def _values(world: WorldDescription) -> list[Value]:

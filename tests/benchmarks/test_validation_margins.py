@@ -8,24 +8,24 @@ import pytest
 from benchmarks.validation import margins, omitted_seconds, refit
 from benchmarks.validation.drive import Drive
 from benchmarks.validation.fitting import SCALES
-from hosts.compare.segments import Stretch
+from hosts.compare.segments import Segment
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.measures.signal import Signal
 
 STEP = 0.01
 
 
-def stretch() -> Stretch:
+def segment() -> Segment:
     time = np.array([0.0, 1.0])
     start = {"initial.speed": 20.0, "initial.lateral_speed": 0.5, "initial.yaw_rate": 0.3}
     speed = Signal("speed", "speed", "m/s", time, np.array([20.0, 24.0]))
-    return Stretch(Manoeuvre("drive", time, {"steering": 0.1 + 0.0 * time}, 1.0, start), speed)
+    return Segment(Manoeuvre("drive", time, {"steering": 0.1 + 0.0 * time}, 1.0, start), speed)
 
 
 def test_a_start_beside_the_state_is_that_of_the_reference_point() -> None:
     """The velocity of a rigid body at a point is that of the origin and the yaw rate times the lever."""
     point = -1.33, 0.02
-    one, other = (s.manoeuvre.start for s in (stretch(), margins.moved(stretch(), 0.5, -0.3, 0.024, point)))
+    one, other = (s.manoeuvre.start for s in (segment(), margins.moved(segment(), 0.5, -0.3, 0.024, point)))
 
     def at_point(start) -> list[float]:
         rate = start["initial.yaw_rate"]
@@ -35,7 +35,7 @@ def test_a_start_beside_the_state_is_that_of_the_reference_point() -> None:
 
 
 def test_a_faster_stretch_holds_and_starts_with_more_speed_at_the_same_steering() -> None:
-    faster = margins.quickened(stretch(), 1.1)
+    faster = margins.quickened(segment(), 1.1)
     assert faster.manoeuvre.start["initial.speed"] == pytest.approx(22.0)
     assert faster.speed is not None
     assert faster.speed.values.tolist() == pytest.approx([22.0, 26.4])

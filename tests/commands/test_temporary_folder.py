@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from ali3.files import write_text
-from ali3.folders import whole_folder
+from ali3.folders import atomic_folder
 from ali3.temporary_folder import PREFIX, temporary_folder
 
 _HELD = """
 import sys
-from ali3.files import whole_file
-with whole_file(sys.argv[1]) as made:
+from ali3.files import atomic_file
+with atomic_file(sys.argv[1]) as made:
     made.write_text("half")
     print("held", flush=True)
     sys.stdin.read()
@@ -59,7 +59,7 @@ def test_what_a_kill_leaves_goes_with_the_next_file(tmp_path: Path, monkeypatch:
 
 def test_a_folder_goes_with_its_block(tmp_path: Path) -> None:
     def work() -> None:
-        with temporary_folder(tmp_path) as folder, whole_folder(tmp_path / "made") as made:
+        with temporary_folder(tmp_path) as folder, atomic_folder(tmp_path / "made") as made:
             (folder / "a").write_text("x")
             (made / "b").write_text("x")
             assert len(left(tmp_path)) == 2

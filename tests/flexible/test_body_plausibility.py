@@ -12,7 +12,7 @@ import pytest
 import scipy.io
 import scipy.sparse as sp
 
-from ali3.plausibility import echo_of
+from ali3.plausibility import plausibility_of
 from mbs.common.errors import ModelError
 from mbs.flexible import craig_bampton, external_model, read_model
 from mbs.flexible.body_plausibility import FlexibleWarning
@@ -165,7 +165,7 @@ def test_all_orders_and_axes_of_a_bar_of_solids_are_told_apart() -> None:
 def test_the_summary_has_the_frequencies(tmp_path: Path) -> None:
     model = portal().finite_element_model()
     body = craig_bampton(model, "N0", ["N3", "N7"], 20)
-    shown = {v.quantity.name: v.value for (echo,) in (echo_of(body),) for v in echo.values}
+    shown = {v.quantity.name: v.value for (plausibility,) in (plausibility_of(body),) for v in plausibility.values}
     assert shown["first supported frequency"] == pytest.approx(body.frequencies[0])
     assert shown["first free frequency"] == pytest.approx(natural_modes(model, 7)[0][-1], rel=1e-3)
     scipy.io.mmwrite(tmp_path / "K.mtx", sp.coo_matrix(model.K))

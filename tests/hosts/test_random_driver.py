@@ -5,15 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from hosts.driving.pilots.pilot import SENSES
-from hosts.driving.random_driver import TOP_SPEED, Target, WildDriver, wild_start
+from hosts.driving.pilots.pilot import OBSERVED
+from hosts.driving.random_driver import TOP_SPEED, RandomDriver, Target, wild_start
 
 CONTROLS = ("steering", "throttle", "brake", "hand_brake", "selector")
 STEP = 0.01
 
 
 def drive(seed: int, speed: float = 10.0, seconds: float = 200.0) -> np.ndarray:
-    driver = WildDriver(seed, CONTROLS)
+    driver = RandomDriver(seed, CONTROLS)
     acts = [driver.act(k * STEP, {"speed": speed}) for k in range(round(seconds / STEP))]
     return np.array([[act[name] for name in CONTROLS] for act in acts])
 
@@ -43,8 +43,8 @@ def test_above_the_top_speed_the_throttle_is_let_go() -> None:
 
 
 def test_inputs_that_there_are_not_are_left_out() -> None:
-    assert set(WildDriver(1, ["throttle", "torque"]).act(0.0, {})) == {"throttle"}
-    driver = WildDriver(1, ["steering_wheel_angle_demand"])
+    assert set(RandomDriver(1, ["throttle", "torque"]).act(0.0, {})) == {"throttle"}
+    driver = RandomDriver(1, ["steering_wheel_angle_demand"])
     angles = [driver.act(k * STEP, {})["steering_wheel_angle_demand"] for k in range(5000)]
     assert np.ptp(angles) > 10.0
 
@@ -54,11 +54,11 @@ def test_the_driver_crosses_the_target_in_its_direction() -> None:
     target, step = Target(20.0, -10.0, 0.5), 0.01
     met = []
     for seed in range(40):
-        driver = WildDriver(seed, CONTROLS, [target])
+        driver = RandomDriver(seed, CONTROLS, [target])
         x, y, yaw = -10.0, 30.0, 2.0
         for k in range(2000):
-            senses = dict(zip(SENSES, (x, y, yaw, 10.0), strict=True))
-            yaw += step * 10.0 / 5.0 * driver.act(k * step, senses)["steering"]
+            observation = dict(zip(OBSERVED, (x, y, yaw, 10.0), strict=True))
+            yaw += step * 10.0 / 5.0 * driver.act(k * step, observation)["steering"]
             x, y = x + step * 10.0 * math.cos(yaw), y + step * 10.0 * math.sin(yaw)
             if math.hypot(x - target.x, y - target.y) < 1.5:
                 met.append(math.remainder(yaw - target.yaw, 2.0 * math.pi))

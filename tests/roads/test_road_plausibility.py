@@ -10,9 +10,9 @@ import pytest
 
 from mbs.elements.road import GridRoad
 from mbs.roads import RoadFileError, read_road
-from mbs.roads.road_plausibility import Place, road_echo, start_echo
+from mbs.roads.road_plausibility import Place, road_plausibility, start_plausibility
 from mbs.worlds.make_world import read_world
-from mbs.worlds.world_plausibility import world_echo
+from mbs.worlds.world_plausibility import world_plausibility
 from mbs.worlds.world_types import WorldDescription
 
 ROADS = Path(__file__).parents[2] / "mbs" / "roads" / "files"
@@ -30,8 +30,8 @@ def test_roads_of_the_package_have_nothing_odd() -> None:
     for file in sorted(ROADS.glob("*.toml")):
         road = read_road(file)
         if isinstance(road, GridRoad):
-            assert road_echo(file.name, road).warnings() == []
-    assert world_echo("world", read_world(WORLD)).warnings() == []
+            assert road_plausibility(file.name, road).warnings() == []
+    assert world_plausibility("world", read_world(WORLD)).warnings() == []
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def test_roads_of_the_package_have_nothing_odd() -> None:
     ],
 )
 def test_a_road_in_another_unit(road: GridRoad, words: str) -> None:
-    (sentence,) = road_echo("odd.csv", road).warnings()[:1]
+    (sentence,) = road_plausibility("odd.csv", road).warnings()[:1]
     assert sentence.startswith("odd.csv: ")
     assert words in sentence
 
@@ -64,21 +64,21 @@ def with_hole(road: GridRoad, value: float) -> GridRoad:
 
 def test_a_wall_is_told_without_a_cause() -> None:
     """Heights in another unit would be steep everywhere."""
-    (sentence,) = road_echo("wall.csv", with_wall(waves(), 2.5)).warnings()
+    (sentence,) = road_plausibility("wall.csv", with_wall(waves(), 2.5)).warnings()
     assert "rise from point to point" in sentence
     assert "would explain" not in sentence
 
 
 @pytest.mark.parametrize("value", [-9999.0, -99.0, 9999.0])
 def test_no_value_is_the_one_cause(value: float) -> None:
-    sentence = road_echo("holes.csv", with_hole(waves(), value)).warnings()[0]
+    sentence = road_plausibility("holes.csv", with_hole(waves(), value)).warnings()[0]
     assert f"; {value:g} in the place of no value in heights would explain it" in sentence
 
 
 def test_a_road_drawn_with_few_heights_has_no_coarse_number_type() -> None:
     """The straight of OpenCRG's samples has steps of 1/90 m."""
     z = np.outer(np.array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 5.0, 4.0, 3.0]), np.ones(4)) / 90.0
-    assert road_echo("drawn.crg", GridRoad((0.0, 0.0), (1.0, 0.5), z)).warnings() == []
+    assert road_plausibility("drawn.crg", GridRoad((0.0, 0.0), (1.0, 0.5), z)).warnings() == []
 
 
 @pytest.mark.parametrize(
@@ -92,9 +92,9 @@ def test_a_road_drawn_with_few_heights_has_no_coarse_number_type() -> None:
 )
 def test_a_start_beside_its_road(origin: tuple[float, float], spacing: float, words: str) -> None:
     place = Place(origin, (spacing, spacing), (101, 21))
-    (sentence,) = start_echo("far.road", place, (0.0, 0.0)).warnings()
+    (sentence,) = start_plausibility("far.road", place, (0.0, 0.0)).warnings()
     assert words in sentence
-    inside = start_echo("far.road", place, (origin[0] + spacing, origin[1] + spacing))
+    inside = start_plausibility("far.road", place, (origin[0] + spacing, origin[1] + spacing))
     assert "start" not in " ".join(inside.warnings())
 
 
@@ -167,7 +167,7 @@ ODD_THINGS = {
 def test_what_stands_as_nothing_does_is_told(case: str) -> None:
     more, words = ODD_THINGS[case]
     plain = {"kind": "world", "name": "w", "bounds": [-5.0, -10.0, 50.0, 10.0], "courses": [STRAIGHT]}
-    (sentence,) = world_echo("w.toml", WorldDescription.model_validate(plain | more)).warnings()
+    (sentence,) = world_plausibility("w.toml", WorldDescription.model_validate(plain | more)).warnings()
     assert words in sentence
 
 
@@ -176,7 +176,7 @@ def test_what_is_in_no_world_is_named(case: str) -> None:
     more, words = THINGS[case]
     bounds = [-5.0, -10.0, 50.0, 10.0]
     world = WorldDescription.model_validate({"kind": "world", "name": "w", "bounds": bounds} | more)
-    (sentence,) = world_echo("w.toml", world).warnings()
+    (sentence,) = world_plausibility("w.toml", world).warnings()
     assert words in sentence
 
 
@@ -186,4 +186,4 @@ def test_what_is_there_is_not_told() -> None:
     )
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert world_echo("w.toml", world).warnings() == []
+        assert world_plausibility("w.toml", world).warnings() == []

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from ali3.plausibility import echo_of
+from ali3.plausibility import plausibility_of
 from mbs.tyre_files import read_tyre
 
 FILES = sorted((Path(__file__).with_name("data")).rglob("*.tir"))
@@ -14,7 +14,7 @@ Factors = dict[str, float]
 
 
 def lines_of(file: Path) -> list[str]:
-    return echo_of(read_tyre(file))[0].warnings()
+    return plausibility_of(read_tyre(file))[0].warnings()
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)

@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from ali3.plausibility import Echo, Mistake, Quantity, Value
+from ali3.plausibility import Mistake, Plausibility, Quantity, Value
 from mbs.model.model import Model
-from mbs.tyre_files.tyre_plausibility import tmeasy_echo
+from mbs.tyre_files.tyre_plausibility import tmeasy_plausibility
 from mbs.vehicle import built_car, car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.car_content import CarContent
@@ -79,8 +79,8 @@ def test_a_mistake_of_a_car_is_told(case: str) -> None:
 @pytest.mark.parametrize("name", car_names())
 def test_cars_of_the_package_lie_inside(name: str) -> None:
     for kind in ("", "racing_car" if name in ("prototype", "ferrari_250_lm") else "passenger_car"):
-        for echo in load(name).echo(name):
-            assert replace(echo, kind=kind).warnings() == []
+        for plausibility in load(name).plausibility(name):
+            assert replace(plausibility, kind=kind).warnings() == []
 
 
 def test_the_kind_of_a_car_narrows_its_ranges() -> None:
@@ -115,7 +115,11 @@ def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
     for ports in ({}, {"ports.tyre": "hub"}):
         car = load("hatchback").changed(ports)
         found.clear()
-        told[len(ports)] = [summary(car), car.summary(), [echo.to_json() for echo in car.echo()]]
+        told[len(ports)] = [
+            summary(car),
+            car.summary(),
+            [plausibility.to_json() for plausibility in car.plausibility()],
+        ]
         assert len(found) == 1, "its rest is found once for all of them"
     assert told[1] == told[0]
 
@@ -133,7 +137,7 @@ def test_a_mistake_of_tmeasy_is_told(curve: str, field: str, factor: float, word
     t = load("hatchback").front.tyre.tyre()
     fields = [field, "slide_slip"] if field == "max_slip" else [field]
     made = {f: tuple(factor * v for v in getattr(getattr(t, curve), f)) for f in fields}
-    lines = tmeasy_echo("t", replace(t, **{curve: replace(getattr(t, curve), **made)})).warnings()
+    lines = tmeasy_plausibility("t", replace(t, **{curve: replace(getattr(t, curve), **made)})).warnings()
     assert any(words in line for line in lines), lines
 
 
@@ -141,13 +145,13 @@ def test_a_mistake_is_named_only_where_undoing_it_mends() -> None:
     length = Quantity("length", "l", "m", "", {"small": (0.0, 1.0), "large": (1.0, 10.0)}, "")
     values = [Value(length, 5e3, {"a": 5e3}, "first"), Value(length, 2.0, {"b": 2.0}, "second")]
 
-    def echo(undone: list[float] | None) -> Echo:
+    def plausibility(undone: list[float] | None) -> Plausibility:
         made = None if undone is None else [replace(v, value=x) for v, x in zip(values, undone, strict=True)]
-        return Echo("f", values, [Mistake("mm in place of m", frozenset({"a"}), lambda: made)], "")
+        return Plausibility("f", values, [Mistake("mm in place of m", frozenset({"a"}), lambda: made)], "")
 
-    assert "mm in place of m would explain it: without that it is 5 m" in echo([5.0, 2.0]).warnings()[0]
+    assert "mm in place of m would explain it: without that it is 5 m" in plausibility([5.0, 2.0]).warnings()[0]
     for undone in (None, [500.0, 2.0], [5.0, 200.0]):  # none, not enough, another one outside
-        (sentence,) = echo(undone).warnings()
+        (sentence,) = plausibility(undone).warnings()
         assert sentence == "f: first length is 5000 m; usual is 0 to 10 m. It follows from a = 5000."
 
 
@@ -157,13 +161,13 @@ def test_the_table_is_one_screen_with_a_column_for_each_axle() -> None:
     assert len(table.splitlines()) < 50
     (row,) = (line.split() for line in table.splitlines() if line.startswith("bounce frequency"))
     assert (row[3], row[5]) == ("Hz", "Hz")
-    echo = load("prototype").echo()[0]
-    values = {v.of: v.value for v in echo.values if v.quantity.name == "bounce frequency"}
+    plausibility = load("prototype").plausibility()[0]
+    values = {v.of: v.value for v in plausibility.values if v.quantity.name == "bounce frequency"}
     assert [f"{values[side]:.4g}" for side in ("front", "rear")] == [row[2], row[4]]
-    hidden = next(v for v in echo.values if v.quantity.name == "point outside of the outline")
+    hidden = next(v for v in plausibility.values if v.quantity.name == "point outside of the outline")
     assert hidden.quantity.name not in table
     far = replace(hidden, value=5.0)
-    shown = replace(echo, values=[far if v is hidden else v for v in echo.values]).text()
+    shown = replace(plausibility, values=[far if v is hidden else v for v in plausibility.values]).text()
     (line,) = (line for line in shown.splitlines() if line.startswith(hidden.quantity.name))
     assert line.endswith("<- outside")
 
@@ -177,7 +181,7 @@ def test_a_car_that_lies_on_its_body_has_its_mass() -> None:
         warnings.simplefilter("always", CarWarning)
         car = car_from(changed_content(whole._data, low, "x"), whole.folder, "x", warn=True)
     assert any("ground clearance is -0.6 m" in str(w.message) for w in caught)
-    mass, own = (c.echo()[0].values[0] for c in (car, whole))
+    mass, own = (c.plausibility()[0].values[0] for c in (car, whole))
     assert mass.quantity.name == "mass"
     assert mass.value == own.value == pytest.approx(597.0, abs=0.1)
     assert "0 N, 0.0%" in summary(car)

@@ -54,7 +54,7 @@ class Document:
             ordered = numbers[[1, 2, 3, 0]] if path == "rotation" else numbers
             setattr(self._gltf.nodes[node], path, ordered.astype(float).tolist())
 
-    def tell_origin(self, node: int, origin: NDArray[np.float64]) -> None:
+    def report_origin(self, node: int, origin: NDArray[np.float64]) -> None:
         """Put what was taken from all places into the extras of the scene and of a node: earth axes, m."""
         for holder in (self._gltf.scenes[0], self._gltf.nodes[node]):
             holder.extras = {"origin": origin.tolist()}

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.extras import missing_module
-from ali3.files import check_writable, whole_file
+from ali3.files import atomic_file, check_writable
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import Recording
 from ali3.scene.written_file import WrittenGltf
@@ -96,7 +96,7 @@ def write_gltf(
     if road:
         writer.add_roads()
     writer.write_nodes()
-    with whole_file(path) as made:
+    with atomic_file(path) as made:
         writer.document.save(made)
         size = made.stat().st_size
     notes = list(recording.notes)
@@ -169,7 +169,7 @@ class _Writer:
         self._begin = float(recording.t[0])
         self._origin = self._middle()
         if self._origin.any():
-            self.document.tell_origin(self._root, self._origin)
+            self.document.report_origin(self._root, self._origin)
 
     def _middle(self) -> Vectors:
         """What is taken from all places in earth axes, m: whole metres, and 0 near the origin."""

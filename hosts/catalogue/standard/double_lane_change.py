@@ -10,7 +10,7 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.passage import Passage
 from hosts.catalogue.preparation import RunUp, held
-from hosts.catalogue.stop_conditions import Ends
+from hosts.catalogue.stop_conditions import StopConditions
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
 from hosts.driving.courses import course_of
@@ -158,7 +158,7 @@ def drive_through(car: TestedCar, layout: _Layout, speed: float, driver: str) ->
         course.gates[0].x_start + layout.release - 0.5 * length,
     )
     way = course.gates[-1].x_end + length
-    ends = Ends(stands=0.3 * wanted)
+    ends = StopConditions(stands=0.3 * wanted)
 
     def over(time: float, outputs: Mapping[str, float]) -> bool:
         if math.isnan(pilot.start):

@@ -52,15 +52,15 @@ class Braking:
         """A line where braking begins, beside what the other pilot drives by."""
         return marks_of(self.before) + ([] if self._place is None else [line_across(*self._place)])
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         step, self._last = time - self._last, time
         if math.isnan(self.onset):
-            if not self._held or not self.begins(time, senses):
-                self._held = dict(self.before.act(time, senses))
+            if not self._held or not self.begins(time, observation):
+                self._held = dict(self.before.act(time, observation))
                 return {"brake": 0.0, **self._held, **{name: values[0] for name, values in self.gear.items()}}
             self.onset = time
-            if {"chassis.x", "chassis.y", "chassis.yaw"} <= set(senses):
-                self._place = senses["chassis.x"], senses["chassis.y"], senses["chassis.yaw"]
+            if {"chassis.x", "chassis.y", "chassis.yaw"} <= set(observation):
+                self._place = observation["chassis.x"], observation["chassis.y"], observation["chassis.yaw"]
         # The input holds through the coming step: its middle gives the same pedal whatever the step.
         share = (time + 0.5 * step - self.onset) / self.rise_time if self.rise_time > 0.0 else 1.0
         pedals = {"throttle": 0.0, "brake": self.pedal * min(share, 1.0)}

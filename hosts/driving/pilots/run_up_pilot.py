@@ -58,25 +58,25 @@ class CourseFromHere:
             else [lanes([astuple(gate) for gate in course.gates], self.pose)]
         )
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        pedals = {"brake": 0.0, **self._speed_holder.act(time, senses)}
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
+        pedals = {"brake": 0.0, **self._speed_holder.act(time, observation)}
         if math.isnan(self.start):
-            if not self.begins(time, senses):
+            if not self.begins(time, observation):
                 return {"steering": 0.0, **pedals}
             self.start = time
-            self.pose = (senses["chassis.x"], senses["chassis.y"], senses["chassis.yaw"])
-        x, y, yaw = self.seen(senses)
+            self.pose = (observation["chassis.x"], observation["chassis.y"], observation["chassis.yaw"])
+        x, y, yaw = self.seen(observation)
         self.released = self.released or x >= self.release_at
         if self.released:
             pedals = {"throttle": 0.0, "brake": 0.0}
-        here = ChainMap({"chassis.x": x, "chassis.y": y, "chassis.yaw": yaw}, senses)  # type: ignore[arg-type]
+        here = ChainMap({"chassis.x": x, "chassis.y": y, "chassis.yaw": yaw}, observation)  # type: ignore[arg-type]
         return {**self.steering.act(time, here), **pedals}
 
-    def seen(self, senses: Mapping[str, float]) -> tuple[float, float, float]:
+    def seen(self, observation: Mapping[str, float]) -> tuple[float, float, float]:
         """Place and heading of the car in the axes of the course, m and rad."""
         x0, y0, yaw0 = self.pose
-        dx, dy = senses["chassis.x"] - x0, senses["chassis.y"] - y0
-        turned = math.remainder(senses["chassis.yaw"] - yaw0, 2.0 * math.pi)
+        dx, dy = observation["chassis.x"] - x0, observation["chassis.y"] - y0
+        turned = math.remainder(observation["chassis.yaw"] - yaw0, 2.0 * math.pi)
         return (
             math.cos(yaw0) * dx + math.sin(yaw0) * dy,
             math.cos(yaw0) * dy - math.sin(yaw0) * dx,

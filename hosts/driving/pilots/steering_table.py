@@ -29,6 +29,6 @@ class SteeringTable:
                 f"A table of {name} goes back from {self.time[k]:g} s to {self.time[k + 1]:g} s; times must not fall."
             )
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         # Times add up with rounding errors; a step must not be missed for them.
         return {self.name: float(np.interp(time + 1e-9, self.time, self.values))}

@@ -10,7 +10,7 @@ def and_list(names: Sequence[str]) -> str:
     return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
-def number_said(names: Sequence[str]) -> str:
+def number_text(names: Sequence[str]) -> str:
     """Which inputs a device can drive."""
     return f"a device can drive {and_list(names)}" if names else "a device can drive none of its inputs"
 

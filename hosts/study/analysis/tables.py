@@ -41,7 +41,7 @@ def statistics(response: Response) -> dict[str, float]:
     return dict(zip(_STATISTICS, told.tolist(), strict=True))
 
 
-def told_statistics(data: StudyData) -> tuple[list[str], str]:
+def reported_statistics(data: StudyData) -> tuple[list[str], str]:
     """Names of the `statistics` that can be told of all measures, and why not the others; "" for all of them."""
     why = next(filter(None, (no_distribution(data, response) for response in data.responses)), "")
     return [name for name in _STATISTICS if not (why and name in _OF_SAMPLES)], why

@@ -9,7 +9,7 @@ from typing import Any
 
 from ali3.errors import UserError
 from ali3.files import check_writable, write_text
-from ali3.warning_lines import told_warnings
+from ali3.warning_lines import warning_lines
 from mbs.common.progress import progress_for
 from mbs.vehicle.car_file import load
 from mbs.vehicle.kinematics.axle_compliance import compliance, fidelity_of
@@ -38,7 +38,7 @@ def report(options: argparse.Namespace) -> int:
             f"--travel goes from {travel[0]:g} to {travel[1]:g} mm; it is in mm and must span "
             f"{1e3 * LEAST_RANGE:g} mm or more."
         )
-    with told_warnings():
+    with warning_lines():
         car = load(options.car)
     asked = options.fidelity
     fidelity = fidelity_of(car, int(asked) if asked is not None and asked == asked // 1 else asked)

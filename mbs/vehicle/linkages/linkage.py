@@ -88,7 +88,7 @@ class Linkage(StandingModel):
         b.chassis = _held(m, car)
         ramp = PPoly(np.array([[1.0], [-FARTHEST]]), np.array([-FARTHEST, FARTHEST]))  # the rack's travel is the time
         rack = m.guide_time("rack", ramp, unit="m")
-        steered = car.steering.ends(b, rack, car.rack_way) if axle == "front" else rack_ends(b, rack)
+        steered = car.steering.ends(b, rack, car.rack_direction) if axle == "front" else rack_ends(b, rack)
         rods: list[str] = []
 
         def end(side: Side, point: Point) -> End:

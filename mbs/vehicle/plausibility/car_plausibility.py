@@ -8,8 +8,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ali3.plausibility import Echo, Mistake, Value
-from mbs.tyre_files.tyre_plausibility import cornering, magic_echo, tmeasy_echo
+from ali3.plausibility import Mistake, Plausibility, Value
+from mbs.tyre_files.tyre_plausibility import cornering, magic_plausibility, tmeasy_plausibility
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.equilibrium import Rest
@@ -32,8 +32,8 @@ POUNDS = (
 )
 
 
-def car_echo(what: str, car: CarContent, rest: Rest, data: Data, remake: Remake) -> list[Echo]:
-    """Echo of the car, then of the tyres of each axle.
+def car_plausibility(what: str, car: CarContent, rest: Rest, data: Data, remake: Remake) -> list[Plausibility]:
+    """Plausibility of the car, then of the tyres of each axle.
 
     `what`: the file; `rest`: the car at rest; `data`: content of the file.
     """
@@ -41,17 +41,17 @@ def car_echo(what: str, car: CarContent, rest: Rest, data: Data, remake: Remake)
     mistakes = [
         Mistake(words, frozenset(keys), partial(_undone, undo, data, remake)) for words, keys, undo in _mistakes(car)
     ]
-    whole = Echo(what, car_values(car, rest), mistakes, kind, columns=tuple(car.axles))
-    return [whole, *(tyre_echo(what, a, kind) for a in car.axles.values())]
+    whole = Plausibility(what, car_values(car, rest), mistakes, kind, columns=tuple(car.axles))
+    return [whole, *(tyre_plausibility(what, a, kind) for a in car.axles.values())]
 
 
-def tyre_echo(what: str, axle: Axle, kind: str) -> Echo:
-    """Echo of the tyres of an axle, with the factors of the car's file."""
+def tyre_plausibility(what: str, axle: Axle, kind: str) -> Plausibility:
+    """Plausibility of the tyres of an axle, with the factors of the car's file."""
     tyre = axle.tyre
     if isinstance(tyre, MagicFormula):
         prefix = f"{tyre.key('UNLOADED_RADIUS').split(' of ', 1)[1]}: "
-        return magic_echo(what, tyre.tyre("left"), tyre.file_numbers, kind, prefix)
-    return tmeasy_echo(what, tyre.tyre("left"), kind, f"{tyre.path}.")
+        return magic_plausibility(what, tyre.tyre("left"), tyre.file_numbers, kind, prefix)
+    return tmeasy_plausibility(what, tyre.tyre("left"), kind, f"{tyre.path}.")
 
 
 def car_values(car: CarContent, rest: Rest) -> list[Value]:

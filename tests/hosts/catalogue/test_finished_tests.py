@@ -13,14 +13,14 @@ from hosts.catalogue.output import measures_csv
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.task import Task, do, write_runs
-from hosts.experiment.store import Kept
+from hosts.experiment.store import ResultStore
 from hosts.fmu.fmu_source import FmuSource
 
 SETTINGS = {"height": 0.05, "duration": 4.0}
 
 
 def kept(task: Task, out: Path) -> TestRecord | None:
-    with Kept[TestRecord](out, TestRecord, "does tests") as there:
+    with ResultStore[TestRecord](out, TestRecord, "does tests") as there:
         return find(there, task)
 
 
@@ -36,7 +36,7 @@ def test_what_is_kept_is_what_was_done(
     record = do(task, lambda part: None)
     assert isinstance(record, TestRecord)
     write_runs(task, record)
-    with Kept[TestRecord](tmp_path, TestRecord, "does tests") as there:
+    with ResultStore[TestRecord](tmp_path, TestRecord, "does tests") as there:
         keep(there, task, record)
     again = kept(task, tmp_path)
     assert again is not None

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hosts.measures.log_plausibility import consistent, log_echo
+from hosts.measures.log_plausibility import consistent, log_plausibility
 from hosts.measures.signal import Signal
 
 Drive = dict[str, Signal]
@@ -125,29 +125,29 @@ PLANTED = {
 @pytest.mark.parametrize("case", PLANTED)
 def test_a_mistake_is_told_with_what_would_mend_it(case: str) -> None:
     change, words = PLANTED[case]
-    told = log_echo("log.csv", change(drive(len(case)))).warnings()
+    told = log_plausibility("log.csv", change(drive(len(case)))).warnings()
     assert any(words in sentence for sentence in told), told
 
 
 @pytest.mark.parametrize("seed", range(8))
 def test_a_right_drive_has_nothing_odd(seed: int) -> None:
     log = drive(seed)
-    echo = log_echo("log.csv", log)
-    assert echo.warnings() == []
-    assert consistent(echo) >= {"speed", "chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw"}
+    plausibility = log_plausibility("log.csv", log)
+    assert plausibility.warnings() == []
+    assert consistent(plausibility) >= {"speed", "chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw"}
     coarse = {n: replace(s, values=np.round(s.values, 1 if "omega" in n else 2)) for n, s in log.items()}
-    assert log_echo("log.csv", coarse).warnings() == []
+    assert log_plausibility("log.csv", coarse).warnings() == []
 
 
 @pytest.mark.parametrize("name", ["chassis.ax", "chassis.ay", "chassis.wz", "chassis.yaw"])
 def test_a_signal_of_the_other_sign_is_not_consistent(name: str) -> None:
-    assert name not in consistent(log_echo("log.csv", scaled(name, -1.0)(drive())))
+    assert name not in consistent(log_plausibility("log.csv", scaled(name, -1.0)(drive())))
 
 
 @pytest.mark.parametrize("factor", [0.5, 2.0, 1.8])
 def test_a_factor_without_a_name_is_told_with_its_interval(factor: float) -> None:
     """A hint names a signal only if correcting it alone mends all relations it is in."""
-    (sentence,) = log_echo("log.csv", scaled("chassis.wz", factor)(drive())).warnings()
+    (sentence,) = log_plausibility("log.csv", scaled("chassis.wz", factor)(drive())).warnings()
     found = re.search(r"a factor of (\S+) \((\S+) to (\S+)\) of 'wz' \(chassis\.wz\) would explain", sentence)
     assert found is not None, sentence
     middle, low, high = map(float, found.groups())
@@ -164,7 +164,7 @@ def test_a_car_that_stands_at_lights_has_no_frozen_sensors() -> None:
     for name in ("chassis.x", "chassis.y"):
         level[name] = np.full(len(t), log[name].values[stands][0])
     still = {n: replace(log[n], values=np.where(stands, v, log[n].values)) for n, v in level.items()}
-    told = log_echo("log.csv", log | still).warnings()
+    told = log_plausibility("log.csv", log | still).warnings()
     assert not any("longest time without a change" in sentence for sentence in told), told
 
 
@@ -174,11 +174,11 @@ def test_a_speed_of_0_is_told_unless_all_others_stand_too() -> None:
     dead = moving | {"speed": replace(moving["speed"], values=0.0 * moving["speed"].values)}
     still = {n: replace(s, values=1e-3 * s.values) for n, s in dead.items()}
     words = "largest speed is 0 m/s"
-    assert not any(words in sentence for sentence in log_echo("log.csv", still).warnings())
+    assert not any(words in sentence for sentence in log_plausibility("log.csv", still).warnings())
     for name in UNITS.keys() - {"speed", "chassis.yaw"}:
-        told = log_echo("log.csv", still | {name: dead[name]}).warnings()
+        told = log_plausibility("log.csv", still | {name: dead[name]}).warnings()
         assert any(words in sentence for sentence in told), name
-    assert any(words in sentence for sentence in log_echo("log.csv", {"speed": dead["speed"]}).warnings())
+    assert any(words in sentence for sentence in log_plausibility("log.csv", {"speed": dead["speed"]}).warnings())
 
 
 @pytest.mark.parametrize("step", [0.2, 0.1, 0.02, 0.01])
@@ -194,11 +194,11 @@ def test_peaks_that_are_rounded_are_no_range_that_a_sensor_reaches(step: float) 
             ("chassis.ay", "m/s2", np.asarray(step * np.round(4.2 * wave / step), dtype=np.float64)),
         )
     }
-    assert log_echo("log.csv", made).warnings() == []
+    assert log_plausibility("log.csv", made).warnings() == []
     for round_to in (step, 1e-9):
         ay = np.clip(round_to * np.round(4.2 * wave / round_to), -3.8, 3.8)
         clipped = replace(made["chassis.ay"], values=ay)
-        (told,) = log_echo("log.csv", made | {clipped.name: clipped}).warnings()
+        (told,) = log_plausibility("log.csv", made | {clipped.name: clipped}).warnings()
         assert "'chassis.ay', samples at both ends of a range" in told
         assert "offset" not in told, "it would make the ends unlike, and mend nothing"
 
@@ -207,10 +207,12 @@ def test_the_steering_wheel_tells_the_sign_of_the_yaw_rate_and_no_factor() -> No
     made = {n: s for n, s in drive().items() if n in ("speed", "chassis.wz")}
     wz = made["chassis.wz"]
     turn = replace(wz, name="steering_wheel_angle", source="wheel", unit="rad", values=12.0 * wz.values)
-    echo = log_echo("log.csv", made | {turn.name: turn})
-    assert (echo.warnings(), consistent(echo)) == ([], set())
-    (told,) = log_echo("log.csv", made | {turn.name: replace(turn, values=-turn.values)}).warnings()
+    plausibility = log_plausibility("log.csv", made | {turn.name: turn})
+    assert (plausibility.warnings(), consistent(plausibility)) == ([], set())
+    (told,) = log_plausibility("log.csv", made | {turn.name: replace(turn, values=-turn.values)}).warnings()
     assert "the other sign of 'wheel' (steering_wheel_angle)" in told
     alike = np.tile(np.sin(np.linspace(0.0, 2.0 * np.pi, 250, endpoint=False)), len(wz.time) // 250)
     robot = replace(turn, values=alike)
-    assert not any("come again" in sentence for sentence in log_echo("log.csv", made | {turn.name: robot}).warnings())
+    assert not any(
+        "come again" in sentence for sentence in log_plausibility("log.csv", made | {turn.name: robot}).warnings()
+    )

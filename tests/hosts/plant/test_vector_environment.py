@@ -13,7 +13,7 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 import hosts.plant.environments  # noqa: F401, registers them
 from hosts.common.errors import HostError
 from hosts.plant.environments import LaneKeeping
-from hosts.plant.vector_environment import Together
+from hosts.plant.vector_environment import VectorEnvironment
 
 LANE, BRAKES, LAP = (f"ali3/{name}-v0" for name in ("LaneKeeping", "AntiLockBraking", "ProvingGroundLap"))
 MANY, STEPS = 5, 24
@@ -31,7 +31,7 @@ def named(request: pytest.FixtureRequest) -> tuple[str, dict[str, Any]]:
 def test_they_are_single_ones_to_the_last_bit(named: tuple[str, dict[str, Any]]) -> None:
     name, options = named
     several = gymnasium.make_vec(name, MANY, threads=3, **options)
-    assert isinstance(several, Together)
+    assert isinstance(several, VectorEnvironment)
     singles = [gymnasium.make(name, **options) for _ in range(MANY)]
     several.action_space.seed(1)
     seen = several.reset(seed=7)[0]
@@ -64,7 +64,7 @@ def test_new_starts_are_those_of_gymnasium(rigid_fmu: Path, mode: AutoresetMode)
         return LaneKeeping(str(rigid_fmu), seconds=0.1)
 
     rows: list[list[Any]] = []
-    for kind, more in ((SyncVectorEnv, {}), (Together, {"threads": 2})):
+    for kind, more in ((SyncVectorEnv, {}), (VectorEnvironment, {"threads": 2})):
         made = kind([make] * 3, autoreset_mode=mode, **more)
         made.action_space.seed(1)
         mine: list[Any] = [made.reset(seed=[3, 1, 4])]
@@ -82,7 +82,7 @@ def test_new_starts_are_those_of_gymnasium(rigid_fmu: Path, mode: AutoresetMode)
 def test_steps_are_under_way_at_once(rigid_fmu: Path) -> None:
     """Steps that wait for another one end, so two are made at once; what one raises is raised, and all go on."""
     made = gymnasium.make_vec(LANE, 4, threads=2, car=str(rigid_fmu))
-    assert isinstance(made, Together)
+    assert isinstance(made, VectorEnvironment)
     made.reset(seed=0)
     meeting = threading.Barrier(2, timeout=20.0)
     for env in made.envs:
@@ -102,7 +102,7 @@ def test_threads_that_are_none_are_a_sentence(rigid_fmu: Path) -> None:
             gymnasium.make_vec(LANE, 2, threads=threads, car=str(rigid_fmu))
     for functions in ([], None, [5]):
         with pytest.raises(HostError, match="they must be a list of functions, each makes one"):
-            Together(functions)  # type: ignore[arg-type]
+            VectorEnvironment(functions)  # type: ignore[arg-type]
     with pytest.raises(HostError, match="number of environments is 0; it must be a whole number from 1"):
         gymnasium.make_vec(LANE, 0, car=str(rigid_fmu))
     made = gymnasium.make_vec(LANE, 2, car=str(rigid_fmu))

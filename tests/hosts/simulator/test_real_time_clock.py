@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hosts.simulator.late_causes import CAUSES
-from hosts.simulator.real_time_clock import MOST_LATE, Pace
+from hosts.simulator.real_time_clock import MOST_LATE, RealTimeClock
 from hosts.simulator.step_times import TIMES_SIZE, TimesRecord
 
 H = 0.002
@@ -19,7 +19,7 @@ class Drive:
 
     def __init__(self, clock: Any, paced: bool = True) -> None:
         self.clock, self.times = clock, TimesRecord(np.zeros(TIMES_SIZE))
-        self.pace = Pace(clock, H, self.times, paced)
+        self.pace = RealTimeClock(clock, H, self.times, paced)
         self.begins: list[float] = []
         self.said: list[str] = []
 
@@ -117,7 +117,7 @@ def test_slow_motion_stretches_the_schedule_and_is_not_late(drive: Drive) -> Non
 
 
 def test_long_waits_come_back_so_that_commands_are_heard(clock: Any) -> None:
-    pace = Pace(clock, 1.0, TimesRecord(np.zeros(TIMES_SIZE)))
+    pace = RealTimeClock(clock, 1.0, TimesRecord(np.zeros(TIMES_SIZE)))
     assert pace.wait()
     pace.done()
     begin, calls = clock.time, 1
