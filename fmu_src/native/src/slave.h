@@ -332,7 +332,7 @@ slave_status slave_set_asked(slave *s, const uint32_t *reference, size_t n, cons
 ali3_status slave_asked_steps(slave *s, int64_t *n, double h, double *left);
 void slave_asked_taken(slave *s);
 
-/* Turn of unit normals: sums of ground and edge stay below it, see docs/decisions/0184. */
+/* Turn of unit normals: sums of ground and edge stay below it, see docs/decisions/0091. */
 static const double SLAVE_EDGE = 0.3;
 
 /* road_ramps.c: answers on the road for the end of a step go there from the last ones */
