@@ -116,7 +116,7 @@ class Plausibility:
         return "\n".join(in_columns(whole + parts))
 
     def to_json(self) -> list[dict[str, Any]]:
-        """A record for each value: name, of, symbol, unit, value, range, inside, follows, keys, source."""
+        """A record for each value: name, of, symbol, unit, value, range (None: open), inside, follows, keys, source."""
         return [
             {
                 "name": v.quantity.name,
@@ -124,7 +124,7 @@ class Plausibility:
                 "symbol": v.quantity.symbol,
                 "unit": v.quantity.unit,
                 "value": float(v.value) if math.isfinite(v.value) else None,
-                "range": v.quantity.range(self.kind),
+                "range": _ends(v.quantity.range(self.kind)),
                 "inside": v.inside(self.kind),
                 "follows": v.quantity.follows,
                 "keys": {
@@ -237,6 +237,10 @@ def _cell(values: Sequence[Value], column: str = "") -> str:
         ends = (pick(values, key=lambda v: v.value) for pick in (min, max))
         return f"{' to '.join(f'{v.value:.4g}{unit} ({v.of})' for v in ends)} of {len(values)}"
     return ", ".join(f"{v.of.removeprefix(column).strip()} {v.value:.4g}".strip() for v in values) + unit
+
+
+def _ends(limits: Range | None) -> list[float | None] | None:
+    return None if limits is None else [end if math.isfinite(end) else None for end in limits]
 
 
 def _range(quantity: Quantity, kind: str) -> str:

@@ -5,7 +5,6 @@ roll-overs, resets and rewinds, all in one process. The same seed gives the same
 """
 
 import argparse
-import json
 import math
 from collections.abc import Generator, Sequence
 from contextlib import closing
@@ -13,7 +12,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from ali3.cores import available_cores
-from ali3.files import check_writable, make_folder, write_text
+from ali3.files import check_writable, make_folder, write_json
 from ali3.isolated_processes import Lost
 from hosts.common.errors import HostError
 from hosts.common.options import fmu_options
@@ -75,7 +74,7 @@ def soak(options: argparse.Namespace, prog: str) -> int:
             print_outcomes(tasks, outcomes, f"{prog} --soak", options.world)
             if options.json is not None:
                 record = {"tasks": [asdict(task) for task in tasks], "outcomes": [asdict(made) for made in outcomes]}
-                write_text(options.json, json.dumps(record, indent=1) + "\n")
+                write_json(options.json, record)
                 print(f"written: {options.json}", flush=True)
     return 0 if all(map(is_good, outcomes)) else 1
 

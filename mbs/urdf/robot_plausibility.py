@@ -6,13 +6,15 @@ import math
 import re
 from collections.abc import Container, Iterator, Mapping
 from functools import partial
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ali3.plausibility import Mistake, Plausibility, Value, quantities_of
-from mbs.urdf.source import INERTIA, Element
+from mbs.urdf.link_mass import Factors, LinkMass, link_mass
+from mbs.urdf.link_pairs import pair_values
+from mbs.urdf.source import Element
 
 SMALLEST = 1e-4  # m
 GRAVITY = 9.81  # m/s2
@@ -23,42 +25,13 @@ LEAST_SHARE = 0.02
 """Share of the mass: lighter links are often frames with a placeholder mass,
 unless they have more than `LARGE_SHARE` of the moments of inertia."""
 LARGE_SHARE = 0.1
-THIN = 0.01
-"""Lower bound of the ratio of the second moments of mass: a plate has a thickness."""
-SOLID = 1000.0  # kg/m3
 FEW = 3
 """Largest number of links to which a mistake may be confined."""
-SAME = 0.01
-"""Share of the size: largest distance of a link from the mirror image of its counterpart in a symmetric drawing."""
 LENGTHS = {"mm": 1e-3, "cm": 1e-2, "inches": 0.0254}
 MOMENTS = {"kg mm2": 1e-6, "g mm2": 1e-9, "g cm2": 1e-7, "kg cm2": 1e-4, "lb in2": 2.9264e-4}
 MASSES = {"grams": 1e-3, "tonnes": 1e3, "pounds": 0.45359237}
-SIDE = re.compile(r"(left|Left|LEFT)|(?<![A-Za-z])([FHBRfhbr]?)([Ll])(?=(?:[FHBfhb]|leg|arm|LEG|ARM)?(?![A-Za-z]))")
-OTHER = {"left": "right", "Left": "Right", "LEFT": "RIGHT", "L": "R", "l": "r"}
 QUANTITIES = quantities_of("robot")
 Pose: TypeAlias = NDArray[np.float64]
-
-
-class Factors(NamedTuple):
-    """Factors on groups of numbers of the file, by which a mistake is undone."""
-
-    lengths: float = 1.0
-    masses: float = 1.0
-    inertias: float = 1.0
-    limits: float = 1.0
-    angles: float = 1.0
-    centres: float = 1.0
-    """On origins of inertias alone."""
-    efforts: float = 1.0
-    speeds: float = 1.0
-    solid: bool = False
-    """Moments of a ball of density `SOLID` in place of 1, 0.1, ... kg m2 about all axes, which are placeholders."""
-    only: str = ""
-    """The only link that is affected; empty: all."""
-
-    def of(self, name: str) -> Factors:
-        """The factors for one link."""
-        return self if self.only in ("", name) else Factors()
 
 
 UNDONE = (  # words, beginnings of keys, what undoes it
@@ -113,38 +86,13 @@ def robot_plausibility(
     return Plausibility(what, found, mistakes)
 
 
-class Part(NamedTuple):
-    """Mass properties of a link."""
-
-    mass: float
-    centre: NDArray[np.float64]
-    """In the frame of the link, m."""
-    inertia: NDArray[np.float64]
-    """Shape (3, 3), kg m2."""
-    line: int
-
-    @property
-    def moment(self) -> float:
-        """The largest principal one, kg m2."""
-        return float(np.linalg.eigvalsh(self.inertia)[-1])
-
-    @property
-    def density(self) -> float:
-        """That of the ellipsoid with this mass and inertia, kg/m3; 0 without inertia."""
-        seconds = 0.5 * np.trace(self.inertia) - np.linalg.eigvalsh(self.inertia)
-        if not max(seconds) > 0.0:
-            return 0.0
-        axes = np.sqrt(5.0 * np.maximum(seconds, THIN * max(seconds)) / self.mass)
-        return float(self.mass / (4.0 / 3.0 * math.pi * np.prod(axes)))
-
-
 @np.errstate(divide="ignore")  # of an inertia so small that its ellipsoid has no volume
 def _values(
     root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], turning: Container[str], given: Factors
 ) -> list[Value]:
     frames = np.array([pose[:3, 3] for pose in poses.values()]) * given.lengths
     links = {link.attributes.get("name", ""): link for link in root.all("link")}
-    parts = {name: part for name, link in links.items() if (part := _part(link, given.of(name))).mass > 0.0}
+    parts = {name: part for name, link in links.items() if (part := link_mass(link, given.of(name))).mass > 0.0}
     total, far = sum(p.mass for p in parts.values()), [float(np.linalg.norm(p.centre)) for p in parts.values()]
     scale = max(_spread(frames), float(np.median(far or [0.0])))
     size = max(scale, 2.0 * max(far, default=0.0))
@@ -163,7 +111,7 @@ def _values(
     least, most = LEAST_SHARE * total, LARGE_SHARE * sum(p.moment for p in parts.values())
     own = {n: p for n, p in parts.items() if (p.mass >= least or p.moment >= most) and p.density > 0.0}
     found += _densities({n: p for n, p in own.items() if n in turning}, masses)
-    found += _reaches(root, own, given) + _pairs(own, poses, scale, given)
+    found += _reaches(root, own, given) + pair_values(own, poses, scale, given)
     efforts = {
         (joint.attributes.get("name", ""), limit.line): given.efforts * limit.numbers("effort")[0]
         for joint in root.all("joint")
@@ -183,7 +131,7 @@ def _known(limit: float) -> bool:
     return limit < 100.0 or abs(math.log10(limit) % 1.0) > SMALLEST
 
 
-def _densities(parts: Mapping[str, Part], masses: Mapping[str, Any]) -> list[Value]:
+def _densities(parts: Mapping[str, LinkMass], masses: Mapping[str, Any]) -> list[Value]:
     found = []
     for name, p in parts.items():
         keys = {f"inertia of '{name}' in line {p.line}": p.moment, f"mass of '{name}'": p.mass}
@@ -194,7 +142,7 @@ def _densities(parts: Mapping[str, Part], masses: Mapping[str, Any]) -> list[Val
     return found
 
 
-def _reaches(root: Element, parts: Mapping[str, Part], given: Factors) -> list[Value]:
+def _reaches(root: Element, parts: Mapping[str, LinkMass], given: Factors) -> list[Value]:
     """Centres of mass and the places of joints, over what is beside them."""
     ends: dict[str, list[float]] = {}
     offsets = {}
@@ -215,59 +163,6 @@ def _reaches(root: Element, parts: Mapping[str, Part], given: Factors) -> list[V
         key = max(offsets, key=offsets.__getitem__)
         found.append(Value(QUANTITIES["longest"], offsets[key] / others, {key: offsets[key]}))
     return found
-
-
-def _pairs(parts: Mapping[str, Part], poses: Mapping[str, Pose], scale: float, given: Factors) -> list[Value]:
-    """Links of a left and a right side, one over the other, and how far their centres are from each other's image."""
-    pairs = [(a, b) for a in parts if (b := other_side(a)) != a and b in parts]
-    found = []
-    for a, b in pairs:
-        left, right = parts[a], parts[b]
-        of = f"links '{a}' and '{b}',"
-        keys = {f"mass of '{n}' in line {parts[n].line}": parts[n].mass for n in (a, b)}
-        found.append(Value(QUANTITIES["sides"], _ratio(left.mass, right.mass), keys, of))
-        keys = {f"inertia of '{n}' in line {parts[n].line}": parts[n].moment for n in (a, b)}
-        found.append(Value(QUANTITIES["moments"], _ratio(left.moment, right.moment), keys, of))
-    if len(pairs) < FEW or scale <= SMALLEST:
-        return found
-    centres = {n: given.lengths * poses[n][:3, 3] + poses[n][:3, :3] @ parts[n].centre for pair in pairs for n in pair}
-    sums = np.array([centres[a] + centres[b] for a, b in pairs])
-    gaps = np.array([centres[a] - centres[b] for a, b in pairs])
-    off = np.stack([np.where(np.eye(3)[k] > 0.0, sums - np.median(sums, axis=0), gaps) for k in range(3)])
-    far = np.linalg.norm(off, axis=2) / scale
-    plane = far[int(np.argmin(np.median(far, axis=1)))]
-    if np.quantile(plane, 0.4) < SAME:  # drawn as each other's image
-        for (a, b), value in zip(pairs, plane, strict=True):
-            keys = {f"place of '{n}' in line {parts[n].line}": centres[n].tolist() for n in (a, b)}
-            found.append(Value(QUANTITIES["image"], float(value), keys, f"links '{a}' and '{b}',"))
-    return found
-
-
-def other_side(name: str) -> str:
-    """The name with right in place of left."""
-    return SIDE.sub(lambda m: f"{m[2] or ''}{OTHER[m[1] or m[3]]}", name, count=1)
-
-
-def _ratio(a: float, b: float) -> float:
-    """The larger over the smaller."""
-    return max(a, b) / min(a, b)
-
-
-def _part(link: Element, given: Factors) -> Part:
-    inertial = link.first("inertial")
-    if inertial is None:
-        return Part(0.0, np.zeros(3), np.zeros((3, 3)), link.line)
-    mass, origin, inertia = (inertial.first(tag) for tag in ("mass", "origin", "inertia"))
-    centre = np.zeros(3) if origin is None else given.lengths * given.centres * np.array(origin.numbers("xyz"))
-    heavy = 0.0 if mass is None else given.masses * mass.numbers("value")[0]
-    upper = np.zeros((3, 3))
-    if inertia is not None:
-        upper[np.triu_indices(3)] = [given.inertias * inertia.numbers(name)[0] for name in INERTIA]
-    tensor = upper + np.triu(upper, 1).T
-    least = tensor[0, 0]
-    if given.solid and least > 0.0 and abs(math.log10(least) % 1.0) < 1e-9 and np.all(tensor == least * np.eye(3)):
-        tensor = 0.4 * heavy * (heavy / (4.0 / 3.0 * math.pi * SOLID)) ** (2.0 / 3.0) * np.eye(3)
-    return Part(heavy, centre, tensor, inertial.line)
 
 
 def _joints(root: Element, at: Mapping[str, float], given: Factors) -> Iterator[Value]:

@@ -107,11 +107,10 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _check(car: str, parameters: bool, json_file: Path | None, picture: Path | None) -> int:
-    import json
     import sys
     import warnings
 
-    from ali3.files import atomic_file, write_text
+    from ali3.files import atomic_file, write_json
     from ali3.plausibility import summary_of, tables_of
     from mbs.vehicle.built_car import BuiltCar
     from mbs.vehicle.errors import CarWarning
@@ -124,7 +123,7 @@ def _check(car: str, parameters: bool, json_file: Path | None, picture: Path | N
     plausibilities = loaded.plausibility()
     print(f"{summary(loaded)}\n\n{summary_of(plausibilities)}")
     if json_file is not None:
-        write_text(json_file, json.dumps(tables_of(plausibilities), indent=1) + "\n")
+        write_json(json_file, tables_of(plausibilities))
     if picture is not None:
         from mbs.vehicle.picture import draw_car
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ali3.errors import UserError
-from ali3.files import atomic_file, write_text
+from ali3.files import atomic_file, write_json, write_text
 from ali3.plausibility import Plausibility, tables_of
 from ali3.warning_lines import warning_lines
 from mbs.elements.road import GridRoad, PlaneRoad
@@ -72,7 +72,7 @@ def make_road(options: argparse.Namespace) -> int:
 
 def _write_table(file: Path | None, plausibility: Plausibility) -> None:
     if file is not None:
-        write_text(file, json.dumps(tables_of([plausibility]), indent=1) + "\n")
+        write_json(file, tables_of([plausibility]))
 
 
 def _starts(options: argparse.Namespace) -> dict[str, tuple[float, float]]:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ali3.errors import UserError
-from ali3.files import write_text
+from ali3.files import write_json
 from ali3.json_reading import read_json
 from ali3.near_names import did_you_mean
 from ali3.plausibility import Plausibility, plausibility_of, summary_of, tables_of
@@ -47,7 +47,7 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False, table
     plausibilities = _plausibilities(file, out / f"{name}.road")
     print(summary_of(plausibilities))
     if table is not None:
-        write_text(table, json.dumps(tables_of(plausibilities), indent=1) + "\n")
+        write_json(table, tables_of(plausibilities))
         made.append(table)
     for path in made:
         print(f"written: {path} ({path.stat().st_size / 1e6:.3g} MB)")

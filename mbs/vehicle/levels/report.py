@@ -1,7 +1,6 @@
 """Prints the table of the levels of a car and the cheapest that meets tolerances: ``ali3 car CAR --cheapest``."""
 
 import argparse
-import json
 import sys
 import warnings
 from collections.abc import Mapping, Sequence
@@ -11,7 +10,7 @@ from typing import Any
 from ali3.columns import in_columns
 from ali3.decimal_number import parse_number
 from ali3.errors import UserError
-from ali3.files import check_writable, write_text
+from ali3.files import check_writable, write_json
 from ali3.message_text import brief
 from ali3.near_names import did_you_mean
 from ali3.units import number_with_unit
@@ -74,7 +73,7 @@ def report(options: argparse.Namespace) -> int:
             "cheapest": None if choice is None else {"fidelity": choice.fidelity.value, "h_s": choice.h},
             "rows": [row | {"fidelity": Fidelity.of(row["fidelity"]).value} for row in rows],
         }
-        write_text(options.json, json.dumps(content, indent=1) + "\n")
+        write_json(options.json, content)
     if choice is None:
         raise UserError(_none(rows, tolerances))
     print("\n" + _sentence(choice, tolerances))

@@ -8,7 +8,7 @@ const SLOW = 0.97;
  * What the machine does, in words; a warning where it is slower than asked for.
  * @param {{running: boolean, speed: number, factor: number | null}} pace `factor`: simulated seconds per second of the clock
  */
-export function paceWords({ running, speed, factor }) {
+export function realTimeText({ running, speed, factor }) {
   const wanted = speed === 1 ? "real time" : speed < 1 ? `slow motion × ${short(speed)}` : `fast × ${short(speed)}`;
   if (!running) return { text: "paused", warn: "" };
   const late = factor !== null && factor < SLOW * speed;

@@ -3,10 +3,10 @@ import { Keyboard, RATES } from "./keyboard.js";
 import { Gamepad } from "./gamepad.js";
 
 /** Hands are asked by a clock of their own, ms: a picture that takes long holds no pedal. */
-export const HANDS_MS = 16;
+export const ARBITER_MS = 16;
 
 /** Keys and gamepad of a page. */
-export class Hands {
+export class InputArbiter {
   /**
    * @param {object} options
    * @param {string[]} options.inputs - Of the FMU; what is not an input is not asked for.

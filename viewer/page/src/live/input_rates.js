@@ -1,7 +1,7 @@
 // Inputs as a hand moves them: a wanted value is approached at a limited rate of the simulated time.
 
 /** The values of inputs, step by step. */
-export class Hand {
+export class LimitedInputs {
   /** @param {number[]} start - A value for each input. */
   constructor(start) {
     this.values = Float64Array.from(start);

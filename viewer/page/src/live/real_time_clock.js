@@ -5,7 +5,7 @@ import { Factor } from "../sources/factor.js";
 const LAG_MOST = 0.25;
 
 /** Steps that are due by a clock. */
-export class Pacer {
+export class RealTimeClock {
   /** @param {number} step - Communication step, s. */
   constructor(step) {
     this.step = step;

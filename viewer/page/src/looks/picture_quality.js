@@ -22,7 +22,7 @@ const [LEAST_SHARE, COARSER] = [0.5, 0.8];
 const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
 
 /** Chooses between the levels. */
-export class Pace {
+export class PictureQuality {
   /**
    * @param {import("three").WebGLRenderer} renderer
    * @param {string} quality

@@ -42,7 +42,7 @@ export function straightened(places, height, off) {
 }
 
 /** Four sides and four corners, as corner points x, y, z of rectangles. @param {number[]} centre x and y of the focus */
-export function apronQuads(field, stations, centre) {
+export function borderQuads(field, stations, centre) {
   const { low, high } = field;
   const quads = [];
   const add = (x0, x1, y0, y1, heights) => {
@@ -73,7 +73,7 @@ export function apronQuads(field, stations, centre) {
 }
 
 /** @param {import("./heights.js").HeightField} field @param {THREE.Material} material @param {number} off m that its heights may be off */
-export function apron(field, material, off) {
+export function terrainBorder(field, material, off) {
   const heights = [0, 1].map((k) => [field.low[k], field.high[k]].map((side) => (/** @type {number} */ place) => (k === 0 ? field.at(side, place) : field.at(place, side))));
   const stations = borderStations(field).map((sides, k) => sides.map((places, end) => straightened(places, heights[k][end], off)));
   const mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
@@ -84,7 +84,7 @@ export function apron(field, material, off) {
     const near = [0, 1].map((k) => STEP * Math.round(origin[k] / STEP));
     if (built === null || near[0] !== built[0] || near[1] !== built[1]) {
       built = near;
-      fill(mesh.geometry, apronQuads(field, stations, built), built);
+      fill(mesh.geometry, borderQuads(field, stations, built), built);
     }
     mesh.position.set(built[0] - origin[0], built[1] - origin[1], -origin[2]);
   };

@@ -5,7 +5,7 @@ import { add, dot, scale, subtract, unit } from "./math.js";
 const PAUSE = 1;
 
 /** A level direction with a lag. */
-export class Trailing {
+export class TrailingDirection {
   /** @param {number} lag - Time constant, s; 0: none. @param {() => number} [clock] - s. */
   constructor(lag, clock = () => performance.now() / 1000) {
     this.lag = lag;

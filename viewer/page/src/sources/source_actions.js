@@ -7,7 +7,7 @@ const REWINDS = [2, 10]; // s, without and with Shift
  * Acts on the pace of a run, by the names of the table of keys.
  * @param {{speed: number}} source @param {{speed: (wish: number) => unknown, back: (seconds: number) => unknown}} means
  */
-export const paceActs = (source, { speed, back }) => ({
+export const speedActions = (source, { speed, back }) => ({
   speed,
   slow: () => speed(source.speed < 1 ? 1 : SLOW),
   rewind: (/** @type {Data} */ event) => back(REWINDS[event?.shiftKey ? 1 : 0]),

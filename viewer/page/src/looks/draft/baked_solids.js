@@ -1,6 +1,6 @@
 // The solid parts of a scene in one call: fewer triangles, colours at their points.
 import * as THREE from "three";
-import { prelit } from "./vertex_lighting.js";
+import { vertexLit } from "./vertex_lighting.js";
 import { within } from "./vertex_clustering.js";
 import { growing, prisms } from "./tubes.js";
 
@@ -89,16 +89,16 @@ export function baked(parts, light, extent) {
   const drawn = solid.map((mover, k) => ({ ...mover, surface: surfaces[k], tubes: tubes[k] })).filter(({ surface, tubes: { index } }) => surface.index.length + index.length > 0);
   const [points, corners] = ["positions", "index"].map((name) => sumOf(surfaces, name) + sumOf(tubes, name));
   const grown = (shader) => growing(shader, light.aLeast);
-  const material = prelit(light, { vertexColors: true, side: THREE.DoubleSide }, "baked", grown);
+  const material = vertexLit(light, { vertexColors: true, side: THREE.DoubleSide }, "baked", grown);
   const batch = new THREE.BatchedMesh(Math.max(1, drawn.length), Math.max(3, points / 3), Math.max(3, corners), material);
   Object.assign(batch, { frustumCulled: false, perObjectFrustumCulled: false, sortObjects: false });
   for (const mover of drawn) mover.id = batch.addInstance(batch.addGeometry(geometryOf(mover.surface, mover.tubes)));
   const twins = new Map();
   for (const own of new Set(single.values())) {
     const { color, opacity, side, transparent, depthWrite } = own;
-    twins.set(own, prelit(light, { color, opacity, side, transparent, depthWrite }, `single ${transparent}`));
+    twins.set(own, vertexLit(light, { color, opacity, side, transparent, depthWrite }, `single ${transparent}`));
   }
-  const steel = new Map(parts.flexible.map((body) => [body, prelit(light, { color: body.plain.color }, "steel", grown)]));
+  const steel = new Map(parts.flexible.map((body) => [body, vertexLit(light, { color: body.plain.color }, "steel", grown)]));
   return {
     mesh: batch,
     /** Draw this in place of the parts, or the parts again. @param {boolean} on */

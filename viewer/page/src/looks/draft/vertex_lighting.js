@@ -34,7 +34,7 @@ export function lightOf(sun, up) {
  * @param {string} key of the program, another one where `more` is another one
  * @param {(shader: Data) => void} [more] further changes of the shader
  */
-export function prelit(light, look, key, more = () => {}) {
+export function vertexLit(light, look, key, more = () => {}) {
   const material = new THREE.MeshBasicMaterial(look);
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, light);
@@ -43,6 +43,6 @@ export function prelit(light, look, key, more = () => {}) {
     shader.fragmentShader = shader.fragmentShader.replace("#include <colorspace_fragment>", SRGB);
     more(shader);
   };
-  material.customProgramCacheKey = () => `ali3-prelit-${key}`;
+  material.customProgramCacheKey = () => `ali3-vertex-lit-${key}`;
   return material;
 }
