@@ -59,7 +59,7 @@ def drawing(figure: Figure, words: str) -> Drawing:
     """
     content = io.BytesIO()
     shown = described(figure)
-    title, told = (escape(clean(text)) for text in (words or shown.partition("\n")[0], shown))
+    title, description = (escape(clean(text)) for text in (words or shown.partition("\n")[0], shown))
     figure.set_dpi(_DOTS)
     with plt.rc_context({"svg.hashsalt": "ali3"}), _however_long():
         # once: savefig draws a figure and its layout twice
@@ -70,7 +70,7 @@ def drawing(figure: Figure, words: str) -> Drawing:
     # matplotlib writes a title, but no description, and screen readers read neither of a drawing without a role.
     before, root, rest = content.getvalue().partition(b"<svg ")
     tag, _, content_of_it = rest.partition(b">")
-    named = f' role="img">\n <title>{title}</title>\n <desc>{told}</desc>'.encode()
+    named = f' role="img">\n <title>{title}</title>\n <desc>{description}</desc>'.encode()
     return Drawing(before + root + tag + named + content_of_it, words, (width, height))
 
 

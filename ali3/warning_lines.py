@@ -14,13 +14,13 @@ def warning_lines() -> Iterator[list[str]]:
 
     Gives the list of what was told so far.
     """
-    told: list[str] = []
+    lines: list[str] = []
 
     def show(message: Warning | str, *_: object) -> None:
-        told.append(shortened(str(message)))
-        print(f"warning: {told[-1]}", file=sys.stderr, flush=True)
+        lines.append(shortened(str(message)))
+        print(f"warning: {lines[-1]}", file=sys.stderr, flush=True)
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", UserWarning)
         warnings.showwarning = show  # type: ignore[assignment]
-        yield told
+        yield lines

@@ -142,7 +142,7 @@ class Plausibility:
         outside; of several the one that mends most, and of those that mend the same at most two. What no mistake
         explains is told once for what shares a key.
         """
-        left, told = self.outside, []
+        left, sentences = self.outside, []
         undone = _undone(self.mistakes, left)
         while left:
             names = {v.name for v in left}
@@ -156,11 +156,11 @@ class Plausibility:
             first = next(v for v in left if v.name in best)
             value = next(v for v in after if v.name == first.name)
             cause = f"{' or '.join(causes)} would explain it: without that it is {value.quantity.shown(value.value)}"
-            told.append(self._sentence([v for v in left if v.name in best], cause))
+            sentences.append(self._sentence([v for v in left if v.name in best], cause))
             left = [v for v in left if v.name not in best]
         for group in _sharing(left):  # what follows from the fewest names says most of the cause
-            told.append(self._sentence(sorted(group, key=lambda v: len(v.keys)), ""))
-        return told
+            sentences.append(self._sentence(sorted(group, key=lambda v: len(v.keys)), ""))
+        return sentences
 
     def warn(self, category: type[Warning], stacklevel: int = 2) -> None:
         """Warn with each of the sentences. `stacklevel`: 1 is who calls this."""

@@ -80,12 +80,12 @@ def largest_gap_of_motion(
         else:
             continue
         turned, turns = (angle, name) if angle > turned else (turned, turns)
-    said = []
+    notes = []
     if far > _FAR * scene["extent"]:
-        said.append(f"the place of {moves!r} by up to {far:.2g} m")
+        notes.append(f"the place of {moves!r} by up to {far:.2g} m")
     if turned > _TURNED:
-        said.append(f"the direction of {turns!r} by up to {np.degrees(turned):.2g} deg")
-    return f" Between them the drawing differs from the record: {', '.join(said)}." if said else ""
+        notes.append(f"the direction of {turns!r} by up to {np.degrees(turned):.2g} deg")
+    return f" Between them the drawing differs from the record: {', '.join(notes)}." if notes else ""
 
 
 def _turn_off(

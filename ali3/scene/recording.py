@@ -146,9 +146,9 @@ class Recording:
 
     def __repr__(self) -> str:
         span = f"{len(self.t)} times from {self.t[0]:g} s to {self.t[-1]:g} s"
-        told = "".join(f"\n  {note}" for note in self.notes)
-        told += "".join(f"\n  not drawn: {item['name']}: {item['why']}" for item in self.missing)
-        return f"Recording({self.name!r}, {span}, {len(self.columns)} columns){told}"
+        notes_text = "".join(f"\n  {note}" for note in self.notes)
+        notes_text += "".join(f"\n  not drawn: {item['name']}: {item['why']}" for item in self.missing)
+        return f"Recording({self.name!r}, {span}, {len(self.columns)} columns){notes_text}"
 
     def _take(self, scene: dict[str, Any]) -> None:
         """Take out of the scene what the columns do not move, and say so."""

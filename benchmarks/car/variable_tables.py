@@ -49,8 +49,8 @@ def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
         for v in table:
             family = _alike(v) if v.causality == "parameter" and alike[_alike(v)] > 1 else _family(v, present)
             one_of_its_own = v.causality == "output" and not _WHEEL.search(v.name)
-            told = v.description if one_of_its_own else ""  # cars differ: driven wheels, gear
-            key = (v.causality, family, told)
+            description = v.description if one_of_its_own else ""  # cars differ: driven wheels, gear
+            key = (v.causality, family, description)
             one = merged.setdefault(key, Shown(v.name, [], v, {}))
             starts = {**one.starts, car: [*one.starts.get(car, []), *([] if v.start is None else [v.start])]}
             merged[key] = replace(one, names=list(dict.fromkeys([*one.names, v.name])), starts=starts)

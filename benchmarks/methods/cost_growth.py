@@ -93,11 +93,11 @@ def growth_blocks(rows: Sequence[Row]) -> dict[str, str]:
     columns = {"N": "d", "method": "", "us_per_step": ".3g", "iterations": ".2f", "factor_nonzeros": "d"}
     of_frame = dict.fromkeys(("dynamic_modes", "modes"), "d") | SHOWN | dict.fromkeys(TIMES, ".0f")
     slopes = ", ".join(f"{key.replace('_', ' ')} {value:.2f}" for key, value in exponents(frames, "modes").items())
-    said = f"Steps of {CHASSIS_STEP:g} s. Exponents b of cost = a n^b in all modes n: {slopes}."
+    caption = f"Steps of {CHASSIS_STEP:g} s. Exponents b of cost = a n^b in all modes n: {slopes}."
     return {
         "growth": table(four_bars, columns | {"system_bytes": "d"}),
         "exponents": table(fitted, {"method": ""} | dict.fromkeys(EXPONENTS, ".2f")),
-        "chassis growth": f"{table(frames, of_frame)}\n\n{said}",
+        "chassis growth": f"{table(frames, of_frame)}\n\n{caption}",
     }
 
 

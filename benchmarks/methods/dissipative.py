@@ -140,8 +140,8 @@ def dissipative_blocks(rows: Sequence[Row]) -> dict[str, str]:
         part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
         line = {"scene": scene, "method": method, "error": part[0]["quantity"], "wrong from": f"{part[0]['limit']:g}"}
         for r in sorted(part, key=lambda r: -r["h_s"]):
-            said = r["outcome"] if r["error"] is None else f"{r['outcome']}, {r['error']:.1e}"
-            line["by step, s"] = "; ".join(filter(None, (line.get("by step, s"), f"{r['h_s']:g}: {said}")))
+            cell_text = r["outcome"] if r["error"] is None else f"{r['outcome']}, {r['error']:.1e}"
+            line["by step, s"] = "; ".join(filter(None, (line.get("by step, s"), f"{r['h_s']:g}: {cell_text}")))
         line["first stop"] = next((r["reason"].partition(". Worst")[0] for r in part if r["reason"]), "-")
         lines.append(line)
     return {"dissipative": table(lines, dict.fromkeys(lines[0], ""))}

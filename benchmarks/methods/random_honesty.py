@@ -107,15 +107,15 @@ def _verdict(
         return row | {"cpu_s": time.process_time() - begin, "reason": str(refused)}
     row["cpu_s"] = time.process_time() - begin
     error = error_of(found.values)
-    wrong, said = not error <= most, [f"{w.category.__name__}: {w.message}" for w in caught if w.category in ERRORS]
-    verdict = VERDICTS[(3 if said else 4) if wrong else (1 if said else 0)]
+    wrong, messages = not error <= most, [f"{w.category.__name__}: {w.message}" for w in caught if w.category in ERRORS]
+    verdict = VERDICTS[(3 if messages else 4) if wrong else (1 if messages else 0)]
     if most == WRONG_ERROR and NEAR[0] * most <= error <= NEAR[1] * most:
         verdict = "near"
     return row | {
         "verdict": verdict,
         "error": error,
         "told": found.told,
-        "warnings": said,
+        "warnings": messages,
         "method": found.method,
         "steps": found.cost,
     }

@@ -27,8 +27,8 @@ def by_commonroad(cars: Sequence[str] = CARS) -> list[tuple[Published, float]]:
     for car in cars:
         for manoeuvre, quantity, unit, text in _ASKED:
             both = commonroad.compared(car, manoeuvre)
-            told = float(both.reference[quantity][-1])
-            figure = Published(f"{car}, {text}", unit, {_SOURCE: told}, _STORED * abs(told))
+            published = float(both.reference[quantity][-1])
+            figure = Published(f"{car}, {text}", unit, {_SOURCE: published}, _STORED * abs(published))
             found.append((figure, float(both.found[quantity][-1])))
     return found
 

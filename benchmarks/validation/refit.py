@@ -47,10 +47,10 @@ def refit(car: str, log: Path, aliases: Path, bounds: Path) -> list[dict[str, An
         arguments += ["--window-every", f"{EVERY:g}", "--seconds", text_of(FITTED), "--jobs", "1"]
         arguments += [part for name, span in ranges.items() for part in ("--fit", f"{name}={span}")]
         compare([*arguments, "--out", folder, "--json", str(record)])
-        told = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
-    if "fit" not in told:
+        record_content = json.loads(record.read_text(encoding="utf-8")) if record.exists() else {}
+    if "fit" not in record_content:
         raise UserError("Nothing was fitted; the command has said why.")
-    return [row_of(f, *map(float, ranges[f["name"]].split(":"))) for f in told["fit"]["found"]]
+    return [row_of(f, *map(float, ranges[f["name"]].split(":"))) for f in record_content["fit"]["found"]]
 
 
 def row_of(found: dict[str, Any], low: float, high: float) -> dict[str, Any]:

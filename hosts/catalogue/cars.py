@@ -94,9 +94,9 @@ def _ours(start: Mapping[str, Value], source: FmuSource) -> dict[str, Value]:
 def _distinguished(cars: Sequence[TestedCar]) -> list[TestedCar]:
     """The cars with labels of which none stands twice."""
     seen: dict[str, int] = {}
-    told = []
+    labelled = []
     for car in cars:
         seen[car.label] = seen.get(car.label, 0) + 1
         count = seen[car.label]
-        told.append(car if count == 1 else replace(car, label=f"{car.label} ({count})"))
-    return told
+        labelled.append(car if count == 1 else replace(car, label=f"{car.label} ({count})"))
+    return labelled

@@ -119,12 +119,12 @@ def drive_circle(
     stop = _APPROACH + (min(most, 300.0) if math.isfinite(most) else 300.0)
     expected = 0.2 * most * rate if steady else math.sqrt(_USUAL * radius) - first
     name = f"circle to the {'left' if side > 0.0 else 'right'}"
-    told = 0.0
+    reported_time = 0.0
 
     def ends(time: float, observation: Mapping[str, float]) -> bool:
-        nonlocal told
-        if time - told > 1.0:
-            told = time
+        nonlocal reported_time
+        if time - reported_time > 1.0:
+            reported_time = time
             progress(min(watch.risen(time) / expected, 1.0))
         return watch.ends(time, observation)
 

@@ -41,9 +41,9 @@ def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float
     if not missing:
         return test.why_not(car, settings)
     words = " and no ".join(" or ".join(_names(need)) for need in missing)
-    told = [car.fmu.why_missing(name) for need in missing for name in _names(need)]
+    reasons = [car.fmu.why_missing(name) for need in missing for name in _names(need)]
     hint = "where it has another name, an alias file says which (--aliases)."
-    return f"The FMU {car.path.name} has no {words}; {' '.join(dict.fromkeys(filter(None, told))) or hint}"
+    return f"The FMU {car.path.name} has no {words}; {' '.join(dict.fromkeys(filter(None, reasons))) or hint}"
 
 
 def lacking(test: StandardTest, there: Set[str]) -> list[str]:
@@ -82,11 +82,11 @@ def _said(record: TestRecord) -> list[str]:
     for name, result in record.runs.items():
         for message in dict.fromkeys(" ".join(m.split()) for m in result.messages):
             runs.setdefault(message, []).append(name)
-    said = []
+    messages = []
     for message, names in list(runs.items())[:_MOST_MESSAGES]:
         where = "every run" if len(names) == len(record.runs) > 1 else some_of(names, _MOST_NAMES)
         words = message if len(message) <= _LONGEST else f"{message[:_LONGEST]}..."
-        said.append(f"The FMU reported in {where}: {words}")
+        messages.append(f"The FMU reported in {where}: {words}")
     if len(runs) > _MOST_MESSAGES:
-        said.append(f"The FMU reported {len(runs) - _MOST_MESSAGES} other messages.")
-    return said
+        messages.append(f"The FMU reported {len(runs) - _MOST_MESSAGES} other messages.")
+    return messages

@@ -15,8 +15,8 @@ from hosts.fmu.own_process import files_of
 def digest(task: Task) -> str:
     """A hash of all that the outcome of a task depends on."""
     car = task.car
-    told = task.test, car.fmu.digest, sorted(car.start.items()), car.step, sorted(task.settings.items())
-    return run_key(car.path, *told, files=files_of(car.start))
+    key_parts = task.test, car.fmu.digest, sorted(car.start.items()), car.step, sorted(task.settings.items())
+    return run_key(car.path, *key_parts, files=files_of(car.start))
 
 
 def find(kept: ResultStore[TestRecord], task: Task) -> TestRecord | None:

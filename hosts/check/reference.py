@@ -192,8 +192,8 @@ def _done(
 
 def _key(fmu: Fmu, reference: _Reference, bounds: Sequence[tuple[str, float]]) -> str:
     drive = reference.drive
-    told = digest(drive.manoeuvre), drive.step, bounds
-    return run_key(fmu.path, *told, files=[reference.file, *files_of(drive.manoeuvre.start)])
+    key_parts = digest(drive.manoeuvre), drive.step, bounds
+    return run_key(fmu.path, *key_parts, files=[reference.file, *files_of(drive.manoeuvre.start)])
 
 
 def in_order(results: Iterable[tuple[int, T]]) -> Iterator[T]:

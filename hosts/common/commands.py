@@ -36,10 +36,10 @@ def run_ali3(*arguments: str, hear: Callable[[str], None] = lambda line: None) -
         except BaseException:  # SIGTERM for this process alone: the other one would be waited for
             process.terminate()
             raise
-    said = "".join(lines)
+    output = "".join(lines)
     if process.returncode != 0:
-        last = said.strip().splitlines()[-1:]
+        last = output.strip().splitlines()[-1:]
         if last and last[0].startswith(ERROR):
             raise HostError(last[0].removeprefix(ERROR))
-        raise HostError(f"The process of ali3 {how_ended(process.returncode, said)}.")
-    return said
+        raise HostError(f"The process of ali3 {how_ended(process.returncode, output)}.")
+    return output

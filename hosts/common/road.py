@@ -42,8 +42,8 @@ def road_value(given: str, out: Path) -> str:
     if path.suffix.lower() not in MADE_OF:
         return str(path.absolute()) if is_file(path) or is_folder(path) else given
     made = make_folder(out) / f"{path.stem}.road"
-    said = run_ali3("road", str(path), str(made))
-    print(said, end="", file=sys.stderr)  # what is odd about the road
+    output = run_ali3("road", str(path), str(made))
+    print(output, end="", file=sys.stderr)  # what is odd about the road
     return str(made.absolute())
 
 

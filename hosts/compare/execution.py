@@ -108,10 +108,10 @@ def _first(options: argparse.Namespace, task: Task, replay: Replay) -> tuple[Com
     compared = compare(enough, {n: Curve(result, n) for n in enough}, options.longest_delay, options.skip)
     opposite = turned_signals(compared)
     cause = turned_input(task, compared, opposite)
-    told = {n: s for n, s in compared.signals.items() if not (cause and len(opposite) > 1 and n in opposite)}
+    named_signals = {n: s for n, s in compared.signals.items() if not (cause and len(opposite) > 1 and n in opposite)}
     right = consistent(task.plausibility)  # a factor in one of these would break what holds among them
     too_fast = misread_speed(task, compared, right)
-    odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for n, s in told.items() if n not in right]
+    odd = [odd_scale(s.measured, s.simulated, s.alignment.delay) for n, s in named_signals.items() if n not in right]
     return compared, problems + [line for line in (*task.plausibility.warnings(), too_fast, *odd, cause) if line]
 
 

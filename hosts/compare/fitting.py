@@ -72,10 +72,10 @@ def fitted(
         best = replay.run(dict(found.parameters))
     if wanted.coarse:
         apart = replay.run(wanted.coarse | found.parameters)
-        told = [f"{n} by {shown_number(rms(apart[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
+        changes = [f"{n} by {shown_number(rms(apart[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
         task.notes.append(
             f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
-            f"the fitted FMU differ on the root mean square: {', '.join(told)}."
+            f"the fitted FMU differ on the root mean square: {', '.join(changes)}."
         )
         print(f"note: {task.notes[-1]}")
     curves = {n: SensedCurve(Curve(best, n), *found.sensor(n)) for n in outputs}

@@ -58,12 +58,14 @@ def write_outcome(
     """Write all files of a comparison; gives those that were written."""
     title = f"{options.fmu.stem} and {options.log.name}"
     write_signals(outcome.before, outcome.after, paths[".csv"])
-    told = bins(outcome.best, task.scales)
+    error_bins = bins(outcome.best, task.scales)
     shown = (
         f"{title}: {', '.join(outcome.before.signals)}, measured and simulated, over time, and what remains of each."
     )
     drawn = drawing(comparison_figure(outcome.before, outcome.after, title, task.inputs), shown)
-    write_report(title, outcome.before, outcome.after, outcome.fit, told, outcome.notes, outcome.problems, paths, drawn)
+    write_report(
+        title, outcome.before, outcome.after, outcome.fit, error_bins, outcome.notes, outcome.problems, paths, drawn
+    )
     if outcome.fit is not None:
         values = task.fmu.names.values(dict(task.set_values) | outcome.fit.parameters)
         description = described(options.fmu)

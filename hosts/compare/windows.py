@@ -130,8 +130,14 @@ def held_text(result: Result, segments: Sequence[Segment]) -> list[str]:
 def _sliding(result: Result) -> NDArray[np.bool_]:
     """Where both wheels of an axle slip by more than a driver holds the speed against."""
     slips = [[f"wheel_{axle}{side}.slip" for side in "LR"] for axle in "FR"]
-    told = [np.minimum(result[left], result[right]) for left, right in slips if left in result and right in result]
-    return np.any([slip > SLIDING for slip in told], axis=0) if told else np.zeros(len(result.time), dtype=np.bool_)
+    smaller_slips = [
+        np.minimum(result[left], result[right]) for left, right in slips if left in result and right in result
+    ]
+    return (
+        np.any([slip > SLIDING for slip in smaller_slips], axis=0)
+        if smaller_slips
+        else np.zeros(len(result.time), dtype=np.bool_)
+    )
 
 
 def _axle(result: Result, axle: str) -> NDArray[np.float64] | None:

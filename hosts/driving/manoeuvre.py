@@ -96,8 +96,13 @@ def _between(one: float, other: float, part: float) -> float:
 def digest(manoeuvre: Manoeuvre) -> str:
     """A hash of the content of a manoeuvre, its table and its state included, without its name."""
     m = manoeuvre
-    told = m.stop_time, m.start, m.driver, m.state_time, m.find_throttle, sorted(m.held), list(m.inputs)
-    parts = repr(told).encode(), m.time.tobytes(), m.state or b"", *(values.tobytes() for values in m.inputs.values())
+    key_parts = m.stop_time, m.start, m.driver, m.state_time, m.find_throttle, sorted(m.held), list(m.inputs)
+    parts = (
+        repr(key_parts).encode(),
+        m.time.tobytes(),
+        m.state or b"",
+        *(values.tobytes() for values in m.inputs.values()),
+    )
     return hashlib.sha256(b"\n".join(parts)).hexdigest()
 
 

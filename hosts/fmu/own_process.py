@@ -46,9 +46,9 @@ def in_own_process(
         try:
             done = process.do(task, tell, PATIENCE)
         except UserError as error:
-            told = HostError(str(error))
-            told.status = error.status
-            raise told from None
+            reported = HostError(str(error))
+            reported.status = error.status
+            raise reported from None
     if isinstance(done, Lost):
         raise FailedFmuError(f"The process of the FMU {done.how}.")
     return done

@@ -105,8 +105,8 @@ class Variable:
         """
         if self.kind == "String" or isinstance(value, str):
             if self.kind != "String" or not isinstance(value, str):
-                told = self.text(value) if is_finite(value) or isinstance(value, (bool, str)) else brief(value)
-                raise HostError(f"{source}: '{self.name}' is {told}; it must be {kind_text(self.kind)}.")
+                value_text = self.text(value) if is_finite(value) or isinstance(value, (bool, str)) else brief(value)
+                raise HostError(f"{source}: '{self.name}' is {value_text}; it must be {kind_text(self.kind)}.")
             return value
         if not isinstance(value, bool) and not is_finite(value):
             raise HostError(f"{source}: '{self.name}' is {brief(value)}; only finite numbers can be used.")

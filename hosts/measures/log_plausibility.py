@@ -60,9 +60,9 @@ def _plausibility(
 
 def consistent(plausibility: Plausibility) -> set[str]:
     """Names of signals that are in a ratio, and all relations of which hold: no factor, no sign is wrong."""
-    told = [v for v in plausibility.values if v.quantity in (*_RATIOS, *_ALIKE)]
-    wrong = {name for v in told if not v.inside(plausibility.kind) for name in v.keys}
-    return {name for v in told if v.quantity in _RATIOS for name in v.keys} - wrong
+    ratios = [v for v in plausibility.values if v.quantity in (*_RATIOS, *_ALIKE)]
+    wrong = {name for v in ratios if not v.inside(plausibility.kind) for name in v.keys}
+    return {name for v in ratios if v.quantity in _RATIOS for name in v.keys} - wrong
 
 
 _RATIOS, _ALIKE = ([QUANTITIES[key + part] for key in RELATIONS if key + part in QUANTITIES] for part in ("", "_alike"))

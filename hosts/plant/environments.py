@@ -226,8 +226,8 @@ class AntiLockBraking(CarEnvironment):
         speed, yaw = self._now[0], self._now[11]
         reward = -float(speed) * self.car.step_length - float(yaw) ** 2
         ended = speed < self.STANDING or abs(yaw) > 0.5
-        told = {"refused": refused} if refused else {}
-        return self._observed(), reward, bool(ended or refused), self._steps >= self._most, told
+        info = {"refused": refused} if refused else {}
+        return self._observed(), reward, bool(ended or refused), self._steps >= self._most, info
 
     def _observed(self) -> Floats:
         return self._within(self._now[:11])

@@ -54,17 +54,17 @@ class Notices:
         if not (worth or self._messages) or self._clock.now() < self._next:
             return []
         self._next = self._clock.now() + _EVERY
-        told = []
+        messages = []
         if worth:
             residual = f"; it left up to {1e3 * self._largest:.3g} mm" if self._residual >= 0 else ""
             stopped = _number(self._steps, "inner step")
-            told.append(Notice("capped", f"The solver stopped {stopped} at the limit of iterations{residual}."))
+            messages.append(Notice("capped", f"The solver stopped {stopped} at the limit of iterations{residual}."))
             self._steps, self._largest = 0.0, 0.0
         if self._messages:
             more = f" (and {_number(self._messages - 1, 'message')} before it)" if self._messages > 1 else ""
-            told.append(Notice("told", f"{self._message}{more}"))
+            messages.append(Notice("told", f"{self._message}{more}"))
             self._messages = 0
-        return told
+        return messages
 
     def _count(self, car: DrivenFmu) -> None:
         count = float(car.values[self._capped])

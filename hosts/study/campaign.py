@@ -90,8 +90,8 @@ def run_study(
         if before is not None and kept is not None:
             from hosts.study.damaged_files import sound_runs
 
-            done, told = sound_runs(folder, before)
-            for line in told:
+            done, notes = sound_runs(folder, before)
+            for line in notes:
                 print(f"note: {line}", file=sys.stderr)
             if not again and done.all():
                 kept.clear()  # a kill between a table and its journal leaves both

@@ -92,8 +92,8 @@ def _target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int
     if others:
         raise HostError(f"{others[0]} cannot be combined with --target, which makes its own runs.")
     if len(options.target) > 1:
-        told = " and ".join(options.target)
-        raise HostError(f"--target is given {len(options.target)} times, {told}; one parameter meets one value.")
+        targets = " and ".join(options.target)
+        raise HostError(f"--target is given {len(options.target)} times, {targets}; one parameter meets one value.")
     if options.by is None:
         raise HostError("--target needs --by, the name of a parameter.")
     if options.study.is_dir():

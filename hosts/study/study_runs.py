@@ -122,7 +122,7 @@ def sampled(result: Result, names: Sequence[str], job: Job) -> NDArray[np.float6
 
 def _of_result(result: Result, job: Job) -> Outcome:
     """Whether the run reached its end with numbers."""
-    missed = [": ".join(told).replace("--step ", "step = ") for told in result.missed]
+    missed = [": ".join(parts).replace("--step ", "step = ") for parts in result.missed]
     end = Outcome(simulated=result.simulated, messages=said(missed + result.messages))
     if what := result.not_finite():
         end.status, end.reason = FAILED, what

@@ -135,8 +135,8 @@ def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
     """Results that are drawn beside the first FMU, with its drawing where they have none."""
     if not results:
         return []
-    recordings, told, _ = recordings_of(results, fmu.path, ViewRunOptions(None, None, None, FmuOptions([], [])))
-    for line in told:
+    recordings, notes, _ = recordings_of(results, fmu.path, ViewRunOptions(None, None, None, FmuOptions([], [])))
+    for line in notes:
         print(line)
     undrawn = next((r.name for r in recordings if r.scene is None), None)
     if undrawn is not None:

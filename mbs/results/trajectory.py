@@ -246,9 +246,9 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
     def __repr__(self) -> str:
         known = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
-        told = "".join(f" {text}" for text in (*self.notices, self.branch_change) if text)
+        notices_text = "".join(f" {text}" for text in (*self.notices, self.branch_change) if text)
         samples = f"{len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s"
-        text = f"Trajectory({samples}, {len(self)} sensors{known}){told}"
+        text = f"Trajectory({samples}, {len(self)} sensors{known}){notices_text}"
         return text if self.control is None else f"{text}\n  {self.control}"
 
     def to_csv(self, path: str | PathLike[str], poses: bool = False) -> None:

@@ -53,8 +53,8 @@ def write_road(
             _write_shared(road, out, file, tolerance)
         else:
             _write(road, out, file)
-    if isinstance(road, GridRoad) and (told := steep_face(road, file)):
-        warnings.warn(told, RoadWarning, stacklevel=2)
+    if isinstance(road, GridRoad) and (warning := steep_face(road, file)):
+        warnings.warn(warning, RoadWarning, stacklevel=2)
 
 
 def _write_shared(road: GridRoad, out: BinaryIO, name: object, tolerance: float) -> None:

@@ -481,9 +481,9 @@ class Simulation(SteppedSystem):
 
     def _warn_once(self, right: bool = False) -> None:
         """The part of `simulate`'s check that costs nothing; `right`: a refined run shows it despite the balance."""
-        if not self._rim_told and (told := self.road_text):
+        if not self._rim_told and (warning := self.road_text):
             self._rim_told = True
-            warnings.warn(told, RoadWarning, stacklevel=3)
+            warnings.warn(warning, RoadWarning, stacklevel=3)
         if self._warned or right or not self.instance.balance_wrong():
             return
         driven = len(self.system.arrays["gterm_row"]) > 0

@@ -169,11 +169,11 @@ def _by(
         before = run
         aim = max(ROUND_OFF, aim * min(AGREED if unsure else 1.0 / FINER, wanted / max(guess, wanted)))
     assert run is not None
-    c, told = run.fields, 0.0
+    c, reported_error = run.fields, 0.0
     if error > 0.0:  # smaller guesses are too small; what stands still errs by no more than it moves
-        told = max(error, min(AGREED * wanted, run.moved / run.length))
+        reported_error = max(error, min(AGREED * wanted, run.moved / run.length))
     control = Control(
-        wanted, run.length, settings.method, reason, told, None, c.accepted, c.rejected, c.failed, c.forced,
+        wanted, run.length, settings.method, reason, reported_error, None, c.accepted, c.rejected, c.failed, c.forced,
         c.smallest, c.largest, c.side_steps, runs, run.moved, ControlledPair(run, before, tolerance).errors,
     )  # fmt: skip
     return _Ended(run, before, control, error, wall)

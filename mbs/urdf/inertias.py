@@ -83,5 +83,5 @@ def possible_inertia(inertia: Array, what: str) -> tuple[Array, str]:
                 f"{says} are {nearest}, {100.0 * change:.2g} % of the largest away. Correct the file, for example to "
                 f"those; up to {100.0 * SLIGHT:g} % are corrected here with a warning."
             ) from error
-        told = f"{says}, {nearest}, are taken: {100.0 * change:.2g} % of the largest away."
-        return np.asarray((axes * near) @ axes.T), told
+        warning = f"{says}, {nearest}, are taken: {100.0 * change:.2g} % of the largest away."
+        return np.asarray((axes * near) @ axes.T), warning

@@ -366,10 +366,10 @@ def _report_omitted(joints: Collection[Any], crossed: Iterable[CrossedHinges], w
             left.append(f"damping of '{joint.name}', {damping:g} {'N s/m' if joint.type == 'prismatic' else 'N m s'}")
     free = [j.name for j in joints if j.type in ("revolute", "prismatic") and not (j.limit and j.limit.effort)]
     if free:
-        told = (
+        warning = (
             f"{what}: the limit of {some_of(map(repr, free), _MOST)} has no effort, or 0; {FREE:g} N m or N is taken."
         )
-        warnings.warn(told, UrdfWarning, stacklevel=3)
+        warnings.warn(warning, UrdfWarning, stacklevel=3)
     if left:
         text = f"{what}: the model is without {some_of(left, _MOST, '; ')}. Add elements of mbs.elements for them."
         warnings.warn(text, UrdfWarning, stacklevel=3)

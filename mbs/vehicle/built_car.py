@@ -322,12 +322,12 @@ def checked_car(
         raise CarFileError(_told(what, [f"as drawn it is not a valid car. {error}"])) from error
     if warn:
         misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
-        told = [
+        lines = [
             sentence
             for plausibility in car_plausibility("", car, rest, car._data, car._remade)
             for sentence in plausibility.warnings()
         ]
-        for sentence in (*misfit, *car_oddities(car, rest), *told):
+        for sentence in (*misfit, *car_oddities(car, rest), *lines):
             warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=stacklevel)
     return car
 
@@ -338,7 +338,7 @@ def _on_own_tyres(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _told(what: str, faults: Sequence[str]) -> str:
-    told = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
+    lines = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
     if len(faults) > MOST_FAULTS:
-        told.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")
-    return "\n".join(told)
+        lines.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")
+    return "\n".join(lines)

@@ -37,8 +37,8 @@ def no_distribution(data: StudyData, response: Response) -> str:
 
 def statistics(response: Response) -> dict[str, float]:
     """Count, mean, standard deviation and percentiles, in the unit of the measure."""
-    told = pd.Series(response.values).describe(percentiles=[0.05, 0.5, 0.95])
-    return dict(zip(_STATISTICS, told.tolist(), strict=True))
+    summary = pd.Series(response.values).describe(percentiles=[0.05, 0.5, 0.95])
+    return dict(zip(_STATISTICS, summary.tolist(), strict=True))
 
 
 def reported_statistics(data: StudyData) -> tuple[list[str], str]:
