@@ -12,7 +12,7 @@ from hosts.compare.comparison_text import common_text, table
 from hosts.compare.curve import Curve
 from hosts.compare.fit_text import fit_notes, fit_problems, fit_table
 from hosts.compare.input_mistakes import misread_speed, turned_input, turned_signals
-from hosts.compare.log import FEWEST_SAMPLES
+from hosts.compare.log_times import FEWEST_SAMPLES
 from hosts.compare.plausibility import odd_scale
 from hosts.compare.replay import Replay
 from hosts.compare.results import Outcome, paths_of, write_outcome

@@ -13,9 +13,10 @@ from ali3.plausibility import Plausibility
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.road import options_with_road
-from hosts.compare.log import FEWEST_SAMPLES, Log, log_for
+from hosts.compare.log import Log, log_for
 from hosts.compare.log_aliases import LogAliases, read_log_aliases, refuse_log_aliases
 from hosts.compare.log_file import read_log
+from hosts.compare.log_times import FEWEST_SAMPLES
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import inputs_of
 from hosts.compare.road_wheels import ANGLES, mean_angle, steering_for

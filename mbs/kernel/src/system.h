@@ -88,7 +88,8 @@ struct ali3_system {
   bool has_avx2; /* the processor, see algebra/processor.h */
   /* derived at load, in one block */
   void *derived;
-  ali3_system *turned; /* parametric_axes.c: with room for all directions of axes that parameters write; NULL: there are none */
+  ali3_system
+      *turned; /* parametric_axes.c: with room for all directions of axes that parameters write; NULL: there are none */
   void *lean; /* the arrays of this one, which has none */
   int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q; of a row of
                                    points the terms of three entries in turn */

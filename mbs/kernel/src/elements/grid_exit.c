@@ -41,7 +41,7 @@ static double crossing_at(const ali3_grid *g, ali3_cell *cell, const double poin
   return crossing(g, cell, point, way, step, reach);
 }
 
-int ali3_way_out_of_grid(const ali3_grid *g, const double point[3], double reach, double foot[2]) {
+int ali3_grid_exit(const ali3_grid *g, const double point[3], double reach, double foot[2]) {
   const double step = fmax(0.5 * fmin(g->dx, g->dy), reach / MOST), between = 2.0 * 3.14159265358979323846 / RAYS;
   double nearest = reach, best = 0.0;
   ali3_cell cell = {0};

@@ -5,5 +5,5 @@
 
 /* Writes the place of the face, x and y, that is nearest at the height of the point and nearer than `reach`, m; returns
  * whether there is one. */
-int ali3_way_out_of_grid(const ali3_grid *g, const double point[3], double reach, double foot[2]);
+int ali3_grid_exit(const ali3_grid *g, const double point[3], double reach, double foot[2]);
 #endif

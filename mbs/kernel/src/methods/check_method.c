@@ -23,5 +23,5 @@ bool ali3_conservative(const ali3_instance *in) {
 
 /* ALI3_WRONG_METHOD where stages inside a step need more than q, qd and the time. */
 ali3_status ali3_needs_no_states(const ali3_instance *in) {
-  return ali3_without_states(in->system) ? ALI3_OK : ALI3_WRONG_METHOD;
+  return ali3_states_are_coordinates(in->system) ? ALI3_OK : ALI3_WRONG_METHOD;
 }

@@ -4,7 +4,7 @@
 #include "../instance.h"
 #include "parameters.h"
 
-void ali3_start_of_file(ali3_instance *in) {
+void ali3_file_start(ali3_instance *in) {
   const ali3_system *S = in->system;
   const size_t n = S->size.has_pose ? (size_t)S->size.nq * sizeof(double) : 0;
   memcpy(in->start.q, S->q0, (size_t)S->size.nq * sizeof(double));

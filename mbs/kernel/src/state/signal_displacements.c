@@ -1,10 +1,10 @@
-/* Ways of the signals whose elements' work a sensor asks for. */
-#include "../algebra/processor.h"
+/* Displacements of the signals whose elements' work a sensor asks for. */
 #include "../algebra/number_pairs.h"
+#include "../algebra/processor.h"
 #include "../tabled/tabled.h"
 #include "work.h"
 
-ALI3_INLINED void work_ways(const ali3_instance *in, real *ways) {
+ALI3_INLINED void signal_displacements(const ali3_instance *in, real *ways) {
   const ali3_system *S = in->system;
   const real *D = in->step.D;
   if (S->n_tabled > 0) {
@@ -29,4 +29,4 @@ ALI3_INLINED void work_ways(const ali3_instance *in, real *ways) {
   }
 }
 
-ALI3_BY_PROCESSOR(in->system, void, work_ways, (const ali3_instance *in, real *ways), (in, ways))
+ALI3_BY_PROCESSOR(in->system, void, signal_displacements, (const ali3_instance *in, real *ways), (in, ways))

@@ -3,5 +3,5 @@
 #define ALI3_STATE_COORDINATES_H
 #include "../system.h"
 
-bool ali3_without_states(const ali3_system *S);
+bool ali3_states_are_coordinates(const ali3_system *S);
 #endif
