@@ -17,8 +17,8 @@ from typing import BinaryIO
 
 from ali3.errors import FileError, reason
 from ali3.limits import at_most, raised
+from ali3.message_text import brief, one_line
 from ali3.reading import Error, is_file, open_file
-from ali3.words import brief, one_line
 
 LARGEST_ARCHIVE = 2_000_000_000
 """Bytes of the file."""

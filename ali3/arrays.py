@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ali3.archives import Archive
 from ali3.errors import FileError
-from ali3.reader_stops import reader_stops
+from ali3.library_errors import reader_stops
 from ali3.reading import Error, open_file
 from ali3.unpacked_size import MOST_MEMORY, check_memory
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import platformdirs
 
 from ali3.errors import FileError, reason
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 
 VARIABLE = "ALI3_CACHE"
 

@@ -16,9 +16,9 @@ from matplotlib import pyplot as plt
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from ali3.chart_words import described, png_metadata
-from ali3.files import whole_file
-from ali3.words import clean
+from ali3.chart_description import described, png_metadata
+from ali3.files import atomic_file
+from ali3.message_text import clean
 
 _PIXELS = 96  # of CSS, an inch
 _DOTS = 150  # an inch, of what a drawing has as dots
@@ -38,7 +38,7 @@ class Drawing:
 
     def write(self, file: Path) -> Path:
         """Write it; gives the file."""
-        with whole_file(file) as made:
+        with atomic_file(file) as made:
             made.write_bytes(self.svg)
         return file
 
@@ -59,7 +59,7 @@ def drawing(figure: Figure, words: str) -> Drawing:
     """
     content = io.BytesIO()
     shown = described(figure)
-    title, told = (escape(clean(text)) for text in (words or shown.partition("\n")[0], shown))
+    title, description = (escape(clean(text)) for text in (words or shown.partition("\n")[0], shown))
     figure.set_dpi(_DOTS)
     with plt.rc_context({"svg.hashsalt": "ali3"}), _however_long():
         # once: savefig draws a figure and its layout twice
@@ -70,12 +70,12 @@ def drawing(figure: Figure, words: str) -> Drawing:
     # matplotlib writes a title, but no description, and screen readers read neither of a drawing without a role.
     before, root, rest = content.getvalue().partition(b"<svg ")
     tag, _, content_of_it = rest.partition(b">")
-    named = f' role="img">\n <title>{title}</title>\n <desc>{told}</desc>'.encode()
+    named = f' role="img">\n <title>{title}</title>\n <desc>{description}</desc>'.encode()
     return Drawing(before + root + tag + named + content_of_it, words, (width, height))
 
 
 def save_picture(figure: Figure, file: Path) -> None:
     """Write a figure as PNG, with what it shows in words, and close it; the same figure gives the same bytes."""
-    with whole_file(file) as made, _however_long():
+    with atomic_file(file) as made, _however_long():
         figure.savefig(made, dpi=110, metadata=png_metadata(figure))
     plt.close(figure)

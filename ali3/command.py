@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from ali3.command_run import WRONG_USE, run_command
 from ali3.commands import COMMANDS, Command
 from ali3.extras import command_needs
+from ali3.message_text import brief
 from ali3.near_names import did_you_mean
 from ali3.options import Parser
 from ali3.processes import typed_as
 from ali3.search_path import forget_current_folder
-from ali3.words import brief
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:

@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from ali3.confinement import confine
 from ali3.errors import UserError, reason
 from ali3.extras import missing_module
+from ali3.message_text import shortened
 from ali3.processes import is_memory_short
 from ali3.signals import Stopped, stopped_by_signals
-from ali3.words import shortened
 
 GOOD, NOT_GOOD, WRONG_USE, INTERRUPTED, NO_READER = 0, 1, 2, 130, 141
 """Exit codes: done; done, and what was found is not good; an error of the user's; Ctrl-C (128 + SIGINT; so for others
@@ -56,7 +56,7 @@ def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | 
         return "The system starts no more threads for this user; close other programs, or raise the limit (ulimit -u)."
     if isinstance(error, (UserError, *errors)):
         return str(error)
-    return _os_words(error) if isinstance(error, OSError) else None
+    return _os_text(error) if isinstance(error, OSError) else None
 
 
 def _may_lack_memory(error: Exception) -> bool:
@@ -71,7 +71,7 @@ def _end(line: str, status: int) -> int:
     return status
 
 
-def _os_words(error: OSError) -> str:
+def _os_text(error: OSError) -> str:
     if error.filename is None or error.strerror is None:
         return str(error)
     return f"{error.filename}: {reason(error)}."

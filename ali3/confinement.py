@@ -20,7 +20,7 @@ _PATIENCE = 20.0  # s
 
 
 def confine() -> None:
-    """From now on the processes of `ali3.isolated` are confined. Raises `UserError`: that is not possible here."""
+    """Processes of `ali3.isolated_processes` started from now on are confined. Raises `UserError`."""
     _bubblewrap()
     os.environ[_SWITCH] = "1"
 
@@ -58,7 +58,7 @@ def _bubblewrap() -> tuple[str, ...]:
         why = "install bubblewrap (bwrap)" if sys.platform == "linux" else "it needs Linux"
         raise UserError(f"--confined is not possible here, and nothing was run: {why}.")
     system = tuple(word for place in _SYSTEM for word in ("--ro-bind-try", place, place))
-    said = ""
+    errors_text = ""
     for more in ((), ("--unshare-user",)):
         start = (program, *_APART, *more, *system)
         tried = [*start, "--proc", "/proc", "--dev", "/dev", "--", "/usr/bin/env", "true"]
@@ -68,8 +68,8 @@ def _bubblewrap() -> tuple[str, ...]:
             raise UserError(f"--confined is not possible here, and nothing was run: {error}.") from None
         if done.returncode == 0:
             return start
-        said = (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
-    raise UserError(f"--confined is not possible here, and nothing was run: {program} says: {said}.")
+        errors_text = (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+    raise UserError(f"--confined is not possible here, and nothing was run: {program} says: {errors_text}.")
 
 
 @cache

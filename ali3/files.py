@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from ali3.errors import FileError, reason
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 
 
 @contextmanager
-def whole_file(file: str | os.PathLike[str], make_parents: bool = True) -> Iterator[Path]:
+def atomic_file(file: str | os.PathLike[str], make_parents: bool = True) -> Iterator[Path]:
     """A path to write to; when the block ends without an error, the file there replaces `file` at once.
 
     `file`: a device or pipe is written to directly; `make_parents`: whether its folder is made if it is not there.
@@ -40,13 +40,13 @@ def whole_file(file: str | os.PathLike[str], make_parents: bool = True) -> Itera
 
 
 def write_text(file: str | os.PathLike[str], text: str) -> None:
-    """Write a whole text file in UTF-8; see `whole_file`."""
-    with whole_file(file) as made:
+    """Write a whole text file in UTF-8; see `atomic_file`."""
+    with atomic_file(file) as made:
         made.write_text(text, encoding="utf-8")
 
 
 def write_json(file: str | os.PathLike[str], content: Any) -> None:
-    """Write a whole JSON file in UTF-8, whose numbers are finite; see `whole_file`."""
+    """Write a whole JSON file in UTF-8, whose numbers are finite; see `atomic_file`."""
     write_text(file, json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
 
 

@@ -9,11 +9,11 @@ from pathlib import Path
 
 from ali3.errors import FileError, reason
 from ali3.files import make_folder
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 
 
 @contextmanager
-def whole_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
+def atomic_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
     """A folder to fill; when the block ends without an error it becomes `folder` at once.
 
     `folder`: one that does not exist. If another program makes it meanwhile, its folder stays. Raises `FileError` with

@@ -10,7 +10,7 @@ import lxml.html
 from lxml.html import builder
 
 from ali3 import html
-from ali3.words import clean
+from ali3.message_text import clean
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement

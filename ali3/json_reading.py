@@ -8,8 +8,8 @@ from typing import Any
 
 from ali3.errors import FileError
 from ali3.limits import at_most, raised
+from ali3.message_text import brief, one_line
 from ali3.reading import Error, check_content, file_text, read_bytes, too_deep
-from ali3.words import brief, one_line
 
 LARGEST_JSON = 100_000_000
 MOST_ENTRIES = 3_000_000

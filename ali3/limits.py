@@ -6,7 +6,7 @@ from contextlib import suppress
 
 from ali3.decimal_number import parse_number
 from ali3.errors import UserError
-from ali3.words import brief
+from ali3.message_text import brief
 
 VARIABLE = "ALI3_LIMITS"
 

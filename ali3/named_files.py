@@ -4,8 +4,8 @@ import os
 from pathlib import Path
 
 from ali3.limits import factor, raised
+from ali3.message_text import brief
 from ali3.reading import Error, check_file
-from ali3.words import brief
 
 MOST_FILES = 1000
 """That one file names, those that are named by them included."""

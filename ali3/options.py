@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any, NamedTuple, NoReturn
 
 from ali3.decimal_number import DECIMAL, number, short
+from ali3.message_text import brief, shortened
 from ali3.near_names import near_names
 from ali3.units import quantity
-from ali3.words import brief, shortened
 
 
 class Parser(argparse.ArgumentParser):

@@ -23,7 +23,7 @@ def is_memory_short() -> bool:
     return False
 
 
-def cause_words(error: Exception) -> str:
+def cause_text(error: Exception) -> str:
     """What is known of the cause of an error beside its words, to be put after them; else empty."""
     if is_memory_short():
         return "; this process gets no more memory (close other programs, or raise the limit, ulimit -v)"
@@ -49,7 +49,7 @@ def alive() -> None:
 
 def received() -> Any:
     """What the process that asks sends in the middle of a task; waits for it."""
-    assert _next_word is not None, "a process of `ali3.isolated`"
+    assert _next_word is not None, "a process of `ali3.isolated_processes`"
     return _next_word()
 
 

@@ -15,7 +15,7 @@ from typing import Any, BinaryIO, NoReturn
 
 from ali3.errors import FileError, reason
 from ali3.limits import at_most, raised
-from ali3.words import brief, one_line, place_words
+from ali3.message_text import brief, one_line, place_text
 
 Error = type[Exception]
 
@@ -194,4 +194,4 @@ def _words(place: tuple[Any, ...]) -> str:
     while place:
         place, key = place
         parts.append(key)
-    return one_line(place_words(parts[-2::-1])) or "the content"  # without the list around it
+    return one_line(place_text(parts[-2::-1])) or "the content"  # without the list around it

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.errors import FileError, reason
+from ali3.message_text import brief
 from ali3.reading import LONGEST_LINE, Error, open_file, other_encoding
-from ali3.words import brief
 
 LARGEST = 4_000_000_000
 """Bytes of a table that is read as a stream."""

@@ -140,18 +140,18 @@ def words(annotation: Any) -> str:
     if origin is Annotated:
         limits = [item for item in inner[1:] if not isinstance(item, FieldInfo)]
         limits += [m for item in inner[1:] if isinstance(item, FieldInfo) for m in item.metadata]
-        return words(inner[0]) + _limit_words(limits)
+        return words(inner[0]) + _limit_text(limits)
     if origin in (Union, types.UnionType):
         whole = {int} if float in inner else set()  # a whole number is a number
         return " or ".join(dict.fromkeys(words(item) for item in inner if item is not NOTHING and item not in whole))
     if origin is Literal:
         return " or ".join(map(repr, inner))
     if origin in (tuple, list):
-        return _list_words((*inner, Ellipsis) if origin is list else inner)
+        return _list_text((*inner, Ellipsis) if origin is list else inner)
     return {str: "text", int: "a whole number", float: "a number", bool: "true or false"}.get(annotation, "a value")
 
 
-def _limit_words(limits: Sequence[Any]) -> str:
+def _limit_text(limits: Sequence[Any]) -> str:
     """The ends of a range."""
     names = {"ge": "from", "gt": "above", "le": "up to", "lt": "below"}
     ends = {name: getattr(item, name) for item in limits for name in names if isinstance(item, Ge | Gt | Le | Lt)
@@ -162,7 +162,7 @@ def _limit_words(limits: Sequence[Any]) -> str:
     return "".join(f" {words} {shown[name]}" for name, words in names.items() if name in shown)
 
 
-def _list_words(inner: tuple[Any, ...]) -> str:
+def _list_text(inner: tuple[Any, ...]) -> str:
     if inner[-1] is not Ellipsis and any(item != inner[0] for item in inner):
         return f"a list of {' and '.join(words(item) for item in inner)}"
     each = words(inner[0])

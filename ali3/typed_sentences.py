@@ -6,6 +6,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from ali3.columns import some_of
+from ali3.message_text import one_line, value_text
 from ali3.near_names import near_names
 from ali3.typed_paths import (
     all_keys,
@@ -20,7 +21,6 @@ from ali3.typed_paths import (
     title_of,
     words,
 )
-from ali3.words import one_line, value_words
 
 ELSEWHERE = 3  # places of a key that a sentence names
 UNKNOWN, MISSING = "extra_forbidden", "missing"
@@ -85,7 +85,7 @@ class Sentences:
         if loc and loc[-1] == "[key]":
             right = words(key_of(annotation_at(self.top, path[:-1], self.data)))
             right = self.names if right == "text" else right
-            return f"{self.place(path[:-1])} has the name {value_words(path[-1])}; a name is {right}."
+            return f"{self.place(path[:-1])} has the name {value_text(path[-1])}; a name is {right}."
         if kind == MISSING and isinstance(loc[-1], str):
             return self._missing(path)
         if kind == "value_error":  # of a rule between several keys
@@ -95,20 +95,20 @@ class Sentences:
             known = ", ".join(repr(name) for table in tables for name in kinds_of(table))
             if kind == "union_tag_not_found":
                 return f"{self.place([*path, 'kind'])} is missing; it must be one of {known}."
-            return f"{self.place([*path, 'kind'])} is {value_words(_tag(item))}; it must be one of {known}."
+            return f"{self.place([*path, 'kind'])} is {value_text(_tag(item))}; it must be one of {known}."
         if kind == "quantity":
-            return f"{self._coordinate(path)} is {value_words(item['input'])}; it must be {item['ctx']['range']}."
+            return f"{self._coordinate(path)} is {value_text(item['input'])}; it must be {item['ctx']['range']}."
         if kind == MISSING:  # an element of a list that is too short
             path = path[:-1]
         if kind == "string_pattern_mismatch":
-            return f"{self.place(path)} is {value_words(item['input'])}; it must be {self._form(item)}."
+            return f"{self.place(path)} is {value_text(item['input'])}; it must be {self._form(item)}."
         annotation = annotation_at(self.top, path, self.data)
         value: Any = self.data
         for key in path:
             value = item_of(value, key)
         right = "right" if annotation is None else words(annotation)
         limits = "" if title_of(annotation) else _limits(item)
-        return f"{self._coordinate(path)} is {value_words(value)}; it must be {right}{limits}."
+        return f"{self._coordinate(path)} is {value_text(value)}; it must be {right}{limits}."
 
     def _form(self, item: Any) -> str:
         """What a text with a pattern must be."""
@@ -133,7 +133,7 @@ class Sentences:
             return f"{self.place(path)} is not known; '{path[-1]}' stands at {some_of(places, ELSEWHERE)}."
         table = table_at(self.top, path[:-1], self.data)
         known = ", ".join(keys_of(table)) if table else "none"
-        why = f"belongs to another kind than {value_words(self._kind(path))}" if places else "is not known"
+        why = f"belongs to another kind than {value_text(self._kind(path))}" if places else "is not known"
         return f"{self.place(path)} {why}; the keys of {self.place(path[:-1])} are {known}."
 
     def _places(self, path: Sequence[str]) -> list[str]:

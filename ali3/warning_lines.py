@@ -5,22 +5,22 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ali3.words import shortened
+from ali3.message_text import shortened
 
 
 @contextmanager
-def told_warnings() -> Iterator[list[str]]:
+def warning_lines() -> Iterator[list[str]]:
     """A context in which warnings for a user are lines like errors are, without the place in the source.
 
     Gives the list of what was told so far.
     """
-    told: list[str] = []
+    lines: list[str] = []
 
     def show(message: Warning | str, *_: object) -> None:
-        told.append(shortened(str(message)))
-        print(f"warning: {told[-1]}", file=sys.stderr, flush=True)
+        lines.append(shortened(str(message)))
+        print(f"warning: {lines[-1]}", file=sys.stderr, flush=True)
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", UserWarning)
         warnings.showwarning = show  # type: ignore[assignment]
-        yield told
+        yield lines

@@ -1,4 +1,4 @@
-"""The life of a process of `ali3.isolated`: work, then tasks, as pickles; results as frames.
+"""The life of a process of `ali3.isolated_processes`: work, then tasks, as pickles; results as frames.
 
 When its input is closed, because who asked has ended, it ends in the middle of a task too.
 """
@@ -12,7 +12,7 @@ import traceback
 from pathlib import Path
 from typing import IO, Any
 
-from ali3.guard import begin_guard
+from ali3.process_supervisor import begin_supervisor
 
 _SHARE = 0.75  # of the memory of the machine that a process may take
 
@@ -21,7 +21,7 @@ def _serve(folder: Path) -> None:
     from ali3.call_mark import begin_marks
     from ali3.command_run import WRONG_USE, sentence
     from ali3.frames import write_frame
-    from ali3.isolated import ALIVE, DONE, ERROR, READY, TOLD
+    from ali3.isolated_processes import ALIVE, DONE, ERROR, READY, TOLD
     from ali3.processes import begin_for
 
     begin_marks(folder)
@@ -74,9 +74,9 @@ def _fail() -> None:
 
 if __name__ == "__main__":
     _folder = Path(sys.argv[1])
-    begin_guard(int(sys.argv[2]), _folder)
+    begin_supervisor(int(sys.argv[2]), _folder)
     try:
-        from ali3.children import ignore_stopping
+        from ali3.child_processes import ignore_stopping
 
         ignore_stopping()
         _limit_memory()

@@ -4,7 +4,7 @@ import os
 from importlib.metadata import version
 
 from ali3.errors import UserError
-from ali3.files import whole_file
+from ali3.files import atomic_file
 from ali3.parameter_set import ParameterSet
 from ali3.read_parameter_set import read_parameter_set
 
@@ -27,7 +27,7 @@ def write_parameter_set(parameters: ParameterSet, file: str | os.PathLike[str], 
         It cannot be written.
     """
     data = parameter_set_bytes(parameters, as_built)
-    with whole_file(file) as made:
+    with atomic_file(file) as made:
         made.write_bytes(data)
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.car import against_checkout, generated_code, lanes, real_time, scene_instructions
-from benchmarks.methods import growth
+from benchmarks.methods import cost_growth
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
 
@@ -41,10 +41,12 @@ def _generated(options: Namespace) -> list[dict[str, Any]]:
 
 
 def _growth(options: Namespace) -> list[dict[str, Any]]:
-    windows, modes = (growth.WINDOWS[:5], growth.MODES[:2]) if options.quick else (growth.WINDOWS, growth.MODES)
+    windows, modes = (
+        (cost_growth.WINDOWS[:5], cost_growth.MODES[:2]) if options.quick else (cost_growth.WINDOWS, cost_growth.MODES)
+    )
     repeats = 1 if options.quick else options.repeats
-    rows = [{"table": "windows", **row} for row in growth.measure(windows, repeats)]
-    return rows + [{"table": "chassis", **row} for row in growth.chassis(modes, repeats)]
+    rows = [{"table": "windows", **row} for row in cost_growth.measure(windows, repeats)]
+    return rows + [{"table": "chassis", **row} for row in cost_growth.chassis(modes, repeats)]
 
 
 def _throughput(options: Namespace) -> list[dict[str, Any]]:
@@ -87,10 +89,10 @@ PARTS = {
     "growth": Part(
         "time, memory and non-zeros of the N-four-bar by N and of the car's frame by its modes, with exponents",
         _growth,
-        options={"quick": (False, "N up to 20, one repeat"), "repeats": (growth.REPEATS, "timed runs of a row")},
+        options={"quick": (False, "N up to 20, one repeat"), "repeats": (cost_growth.REPEATS, "timed runs of a row")},
         pages=("speed_and_accuracy.md",),
-        blocks=growth.growth_blocks,
-        chart=growth.draw,
+        blocks=cost_growth.growth_blocks,
+        chart=cost_growth.draw,
     ),
     "real-time": Part(
         "worst steps of wild driving by fidelity and step, without and with a limit of their iterations",

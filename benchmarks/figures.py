@@ -18,26 +18,26 @@ from ali3.files import write_text
 from benchmarks.car import (
     accuracy,
     edge_answers,
+    error_limits,
     fidelity,
     frame_tables,
     road_faces,
     sampled_roads,
     scene_instructions,
     tabled_cars,
-    trust,
     variable_tables,
 )
 from benchmarks.car.frame_stiffness import stiffness
 from benchmarks.car.measures import measure, measure_rows, measure_table
-from benchmarks.methods import honesty, naive, stability, stability_margins
+from benchmarks.methods import honesty, stability, stability_margins, unreduced_models
 from benchmarks.methods.start_values import start_value_table
 from benchmarks.paper import assembly_defect, double_four_bar, flexible_tables, puma
-from benchmarks.pictures.charts_again import charts
+from benchmarks.pictures.chart_commands import charts
+from benchmarks.shared.coarse_runs import expected_errors
 from benchmarks.shared.command import watched
-from benchmarks.shared.figures import Again, all_differences, between, read, rows_of, written
+from benchmarks.shared.figures import RemadeTable, all_differences, between, read, rows_of, written
 from benchmarks.shared.pages import DOCS, table
-from benchmarks.shared.warned import wrong_on_purpose
-from benchmarks.validation import others, tyre_rig
+from benchmarks.validation import published_tests, tyre_rig
 from fmu_src.variables.variables import variable_table
 from mbs.scenes import double_four_bar as four_bar_scene
 from mbs.scenes import prototype_car
@@ -49,22 +49,22 @@ from mbs.vehicle.kinematics.table import TITLED, rows
 SPEED, PAPER, STABILITY = "docs/speed.md", "docs/speed_and_accuracy.md", "docs/stability.md"
 
 
-def paper_table_1() -> list[Again]:
+def paper_table_1() -> list[RemadeTable]:
     """Energy, iterations and position errors of the double four-bar at four of its steps."""
     system = mbs.compile(four_bar_scene.build(2))
     rows = [double_four_bar.measure(system, 2, "ALi3-P", h) for h in (0.05, 0.03, 0.01, 0.005)]
-    return [Again(PAPER, double_four_bar.four_bar_blocks(rows)["table 1"], "table 1", ("h s",), ("ours ms",))]
+    return [RemadeTable(PAPER, double_four_bar.four_bar_blocks(rows)["table 1"], "table 1", ("h s",), ("ours ms",))]
 
 
-def paper_table_2() -> list[Again]:
+def paper_table_2() -> list[RemadeTable]:
     """Errors of the PUMA with the default and the two most exact methods."""
     system = mbs.compile(puma_scene.build())
     runs = [(method, h) for method in ("ali3p", "energy_momentum_4", "radau_5") for h in (0.1, 0.05, 0.01)]
     block = puma.puma_blocks([puma.measure(system, method, h, 1) for method, h in runs])["table 2"]
-    return [Again(PAPER, block, "table 2", ("method", "h s"), ("jump open J", "jump close J"))]
+    return [RemadeTable(PAPER, block, "table 2", ("method", "h s"), ("jump open J", "jump close J"))]
 
 
-def stability_map() -> list[Again]:
+def stability_map() -> list[RemadeTable]:
     """The distance of two methods from failure on the double four-bar, whole maps."""
     eps: list[float | None] = [None, *map(float, stability.EPS)]
     steps = stability.steps_of("double_four_bar", 10.0 / 0.0009)
@@ -72,10 +72,10 @@ def stability_map() -> list[Again]:
     rows = [stability.kernel_point("double_four_bar", *point) for point in points]
     text = stability_margins.margin_table(stability_margins.margins(rows))
     below = ("smallest fine h s", "decades below", "decades above")  # of the smaller steps, too
-    return [Again(STABILITY, text, "margins", ("scene", "method"), below)]
+    return [RemadeTable(STABILITY, text, "margins", ("scene", "method"), below)]
 
 
-def honest_crank() -> list[Again]:
+def honest_crank() -> list[RemadeTable]:
     """The crank-slider of the modelling page: verdicts at its two largest steps, where the last bits of a step decide
     how far off a run ends, and the figures of its smallest.
     """
@@ -83,19 +83,19 @@ def honest_crank() -> list[Again]:
     coarse = [honesty.measure("printed_crank_slider", "ali3p", h) for h in (0.002, 0.001)]
     fine = [honesty.measure("printed_crank_slider", "ali3p", 2e-5)]
     return [
-        Again(page, honesty.crank_table(coarse), "honesty crank", key, chaotic),
-        Again(page, honesty.crank_table(fine), "honesty crank", key),
+        RemadeTable(page, honesty.crank_table(coarse), "honesty crank", key, chaotic),
+        RemadeTable(page, honesty.crank_table(fine), "honesty crank", key),
     ]
 
 
-def trusted() -> list[Again]:
+def trusted() -> list[RemadeTable]:
     """The tables of the page of trust."""
     keys = {"frequency": ("steps in a period",), "kerb": ("speed m s",), "acceleration": ("manoeuvre", "h s")}
-    made = trust.trust_blocks(trust.measure())
-    return [Again("docs/trust.md", made[f"trust {name}"], f"trust {name}", key) for name, key in keys.items()]
+    made = error_limits.trust_blocks(error_limits.measure())
+    return [RemadeTable("docs/trust.md", made[f"trust {name}"], f"trust {name}", key) for name, key in keys.items()]
 
 
-def car() -> list[Again]:
+def car() -> list[RemadeTable]:
     """Errors of three manoeuvres of the prototype in the kernel, and of two of the hatchback."""
     rows = [
         accuracy.measure(name, 0.01, None, 1)
@@ -106,18 +106,18 @@ def car() -> list[Again]:
     ]
     keys = ("manoeuvre", "h, ms")
     return [
-        Again(SPEED, accuracy.car_blocks(rows)["car"], "car", keys, accuracy.HELD),
-        Again("docs/cars.md", accuracy.error_table(hatchback), "hatchback", keys, accuracy.TIMES),
+        RemadeTable(SPEED, accuracy.car_blocks(rows)["car"], "car", keys, accuracy.HELD),
+        RemadeTable("docs/cars.md", accuracy.error_table(hatchback), "hatchback", keys, accuracy.TIMES),
     ]
 
 
-def handled() -> list[Again]:
+def handled() -> list[RemadeTable]:
     """Ride, understeer and performance of two cars."""
     measured = {name: measure(load(name)) for name in ("hatchback", "prototype")}
-    return [Again("docs/cars.md", measure_table(measure_rows(measured)), "handling", ("measure",))]
+    return [RemadeTable("docs/cars.md", measure_table(measure_rows(measured)), "handling", ("measure",))]
 
 
-def drawn() -> list[Again]:
+def drawn() -> list[RemadeTable]:
     """Linkages of the hatchback as drawn, and frames of two cars."""
     titles = ("bump steer", "roll centre height", "motion ratio of the spring", "wheel rate")
     found = {title: (front, rear) for title, front, rear, *_ in rows(kinematics(load("hatchback"), (-0.01, 0.01), 3))}
@@ -127,56 +127,56 @@ def drawn() -> list[Again]:
     torsion = " | ".join(f"{f.torsion / 1e3:.3g}" for f in frames)
     hertz = " | ".join(", ".join(f"{x:.1f}" for x in f.frequencies) for f in frames)
     return [
-        *(Again("docs/kinematics.md", sentence) for sentence in said),
-        Again("docs/cars.md", f"| torsion, kN m/deg | {torsion} |"),
-        Again("docs/cars.md", f"| first frequencies, free, with all masses, Hz | {hertz} |"),
+        *(RemadeTable("docs/kinematics.md", sentence) for sentence in said),
+        RemadeTable("docs/cars.md", f"| torsion, kN m/deg | {torsion} |"),
+        RemadeTable("docs/cars.md", f"| first frequencies, free, with all masses, Hz | {hertz} |"),
     ]
 
 
-def tabled() -> list[Again]:
+def tabled() -> list[RemadeTable]:
     """Errors of cars by tables in a part of their manoeuvres."""
     names = "step_steer_given_throttle", "double_lane_change_replay", "kerb_lock_brake"
     todo = ((car, name) for car in tabled_cars.CARS for name in names)
     text = tabled_cars.table_of([tabled_cars.compare(car, name, tabled_cars.STEP) for car, name in todo])
-    return [Again("docs/cars.md", text, "tables", ("car", "manoeuvre"), ("us a step, tables, links",))]
+    return [RemadeTable("docs/cars.md", text, "tables", ("car", "manoeuvre"), ("us a step, tables, links",))]
 
 
-def flexible() -> list[Again]:
+def flexible() -> list[RemadeTable]:
     """Sizes of the prototype, and counts and peaks of its kerb test."""
     page = "docs/flexible_car.md"
     return [
-        Again(page, flexible_tables.size_table(), "sizes", ("`fidelity`",)),
-        Again(page, flexible_tables.kerb_table(), "kerb", ("",)),
+        RemadeTable(page, flexible_tables.size_table(), "sizes", ("`fidelity`",)),
+        RemadeTable(page, flexible_tables.kerb_table(), "kerb", ("",)),
     ]
 
 
-def roads() -> list[Again]:
+def roads() -> list[RemadeTable]:
     """Loads of a wheel at steps of a road and of answers on it."""
     loads = road_faces.face_table([road_faces.measure("hatchback", height) for height in road_faces.HEIGHTS])
     answers = edge_answers.edge_table([edge_answers.measure(car, edge) for car, edge in edge_answers.EDGES])
     return [
-        Again("docs/roads.md", loads, "faces", ("height, m",)),
-        Again("docs/fmu.md", answers, "edges", ("car", "edge, m")),
+        RemadeTable("docs/roads.md", loads, "faces", ("height, m",)),
+        RemadeTable("docs/fmu.md", answers, "edges", ("car", "edge, m")),
     ]
 
 
-def instructions() -> list[Again]:
+def instructions() -> list[RemadeTable]:
     """The table of instructions is that of the file that `benchmarks.cost` compares steps with."""
     rows = json.loads(scene_instructions.STORED.read_text(encoding="utf-8"))["rows"]
     block = scene_instructions.instruction_blocks(rows)["instructions"]
     step = next(row["instructions"] for row in rows_of(block) if row["scene"] == "double four-bar")
-    said = Again(PAPER, f"A step at 0.03 s takes {step} instructions")
-    return [Again(SPEED, block, "instructions", ("scene", "step, ms")), said]
+    said = RemadeTable(PAPER, f"A step at 0.03 s takes {step} instructions")
+    return [RemadeTable(SPEED, block, "instructions", ("scene", "step, ms")), said]
 
 
-def outputs() -> list[Again]:
+def outputs() -> list[RemadeTable]:
     """How many outputs the rigid car's FMU has, of which the page of FMUs tells the cost."""
     table = variable_table(mbs.compile(prototype_car.build()).meta, pose=True, step_size=0.002)
     count = sum(v.causality == "output" for v in table)
-    return [Again("docs/fmu.md", f"The rigid car has {count} outputs")]
+    return [RemadeTable("docs/fmu.md", f"The rigid car has {count} outputs")]
 
 
-def trust_page() -> list[Again]:
+def trust_page() -> list[RemadeTable]:
     """Sentences of the page of trust are those of its tables and of the tables of other pages."""
     page, column = "docs/trust.md", "10 ms"
     kerb, hard, period = (
@@ -201,10 +201,10 @@ def trust_page() -> list[Again]:
         f"at {column} the path to {late}, loads to {loads}",
         f"kerb, full lock and brake at once: {worst[1]} of the load",
     )
-    return [Again(page, sentence.replace("%", " %").replace("  %", " %")) for sentence in said]
+    return [RemadeTable(page, sentence.replace("%", " %").replace("  %", " %")) for sentence in said]
 
 
-def readme() -> list[Again]:
+def readme() -> list[RemadeTable]:
     """Sentences of README.md are those of the tables of its pages."""
     ratios = [1.0 / float(row["ratio"]) for row in rows_of(between(read(PAPER), "ratios")) if row["ratio"] != "–"]
     most = float(f"{max(ratios):.2g}")
@@ -217,63 +217,67 @@ def readme() -> list[Again]:
         f"and {time['fidelity 1']} s with a rigid frame",
         f"{steps['slalom', '5']} instructions a step of 5 ms",
     )
-    return [Again("README.md", sentence) for sentence in said]
+    return [RemadeTable("README.md", sentence) for sentence in said]
 
 
-def elements(whole: bool) -> list[Again]:
+def elements(whole: bool) -> list[RemadeTable]:
     """Mass models and modes of the prototype's frame, and CalculiX beside two theories of beams."""
     page, frame = "docs/finite_elements.md", frame_tables
     made = [
-        Again(page, frame.mass_table(), "masses", ("mass, no rotary inertia",)),
-        Again(page, frame.modes_table(), "modes", ("modes",)),
+        RemadeTable(page, frame.mass_table(), "masses", ("mass, no rotary inertia",)),
+        RemadeTable(page, frame.modes_table(), "modes", ("modes",)),
     ]
-    return [*made, Again(page, frame.calculix_table(), "calculix", ("quantity",))] if whole else made
+    return [*made, RemadeTable(page, frame.calculix_table(), "calculix", ("quantity",))] if whole else made
 
 
-def bending() -> list[Again]:
+def bending() -> list[RemadeTable]:
     """Errors of the four-bar with assembly defect by bodies a bar; `benchmarks.paper` writes all."""
     rows = [{"table": "bars", **assembly_defect.measure(case)[0]} for case in assembly_defect.CASES[:3]]
     text = assembly_defect.defect_blocks(rows)["defect"]
-    return [Again("docs/flexible.md", text, "defect", ("bodies per bar", "elements, modes of each"))]
+    return [RemadeTable("docs/flexible.md", text, "defect", ("bodies per bar", "elements, modes of each"))]
 
 
-def flexible_hatchback(whole: bool) -> list[Again]:
+def flexible_hatchback(whole: bool) -> list[RemadeTable]:
     """Peaks of the hatchback at the kerb, by fidelity and step."""
     cases = flexible_tables.HATCHBACK[: None if whole else len(flexible_tables.KERB)]
-    return [Again("docs/cars.md", flexible_tables.hatchback_kerb_table(cases), "hatchback kerb", ("fidelity", "h, ms"))]
+    return [
+        RemadeTable(
+            "docs/cars.md", flexible_tables.hatchback_kerb_table(cases), "hatchback kerb", ("fidelity", "h, ms")
+        )
+    ]
 
 
-def crg(whole: bool) -> list[Again]:
+def crg(whole: bool) -> list[RemadeTable]:
     """Grids of OpenCRG files."""
     spacings = sampled_roads.SPACINGS[: None if whole else 2]
-    return [Again("docs/roads.md", sampled_roads.sampled_table(spacings), "crg", ("file", "spacing, m"))]
+    return [RemadeTable("docs/roads.md", sampled_roads.sampled_table(spacings), "crg", ("file", "spacing, m"))]
 
 
-def naive_sizes() -> list[Again]:
+def naive_sizes() -> list[RemadeTable]:
     """Sizes of models without savings: all of them in a moment."""
-    text = naive.size_table([naive.sizes_of(scene)[0] for scene in naive.SCENES])
-    return [Again("docs/flexible_car.md", text, "naive", ("scene",))]
+    text = unreduced_models.size_table([unreduced_models.sizes_of(scene)[0] for scene in unreduced_models.SCENES])
+    return [RemadeTable("docs/flexible_car.md", text, "naive", ("scene",))]
 
 
-def start_values(_: bool) -> list[Again]:
+def start_values(_: bool) -> list[RemadeTable]:
     """Iterations by start value: all of them in a moment."""
-    return [Again("docs/theory.md", start_value_table(), "start value", ("scene", "h, s"))]
+    return [RemadeTable("docs/theory.md", start_value_table(), "start value", ("scene", "h, s"))]
 
 
-def chosen_fidelity() -> list[Again]:
+def chosen_fidelity() -> list[RemadeTable]:
     """Errors of the fidelities that the page of the flexible car chooses; `benchmarks.car` writes them."""
     page = "docs/flexible_car.md"
-    return [Again(page, fidelity.choice_again(read(page)), "cheapest", ("required",))]
+    return [RemadeTable(page, fidelity.choice_again(read(page)), "cheapest", ("required",))]
 
 
-def others_tests() -> list[Again]:
+def others_tests() -> list[RemadeTable]:
     """CommonRoad's Escort and the tyre of the rig; `benchmarks.validation` writes all."""
-    found = [*others.by_commonroad(list(others.CARS)[:1]), *tyre_rig.compared()]
-    text = table([figure.row(value) for figure, value in found], others.COLUMNS)
-    return [Again("docs/validation.md", text, "others", ("test",))]
+    found = [*published_tests.by_commonroad(list(published_tests.CARS)[:1]), *tyre_rig.compared()]
+    text = table([figure.row(value) for figure, value in found], published_tests.COLUMNS)
+    return [RemadeTable("docs/validation.md", text, "others", ("test",))]
 
 
-WRITTEN: dict[str, Callable[[bool], list[Again]]] = {
+WRITTEN: dict[str, Callable[[bool], list[RemadeTable]]] = {
     "charts": charts,
     "elements": elements,
     "flexible hatchback": flexible_hatchback,
@@ -281,7 +285,7 @@ WRITTEN: dict[str, Callable[[bool], list[Again]]] = {
     "start values": start_values,
 }
 """Charts, and tables that no other command writes; in whole with ``--write``, else a quick part of them."""
-MADE: dict[str, Callable[[], list[Again]]] = {
+MADE: dict[str, Callable[[], list[RemadeTable]]] = {
     "bending": bending,
     "naive": naive_sizes,
     "Table 1": paper_table_1,
@@ -304,7 +308,7 @@ MADE: dict[str, Callable[[], list[Again]]] = {
 }
 
 
-@wrong_on_purpose()
+@expected_errors()
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run ``python -m benchmarks.figures``: make figures of the pages again, and compare or write them."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.figures", description=__doc__)

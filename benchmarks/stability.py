@@ -13,12 +13,12 @@ from typing import Any
 from benchmarks.methods.stability import SCENES, measure, stability_blocks
 from benchmarks.methods.stability_chart import draw
 from benchmarks.references.cases import CASES
+from benchmarks.shared.coarse_runs import expected_errors
 from benchmarks.shared.command import Part, run
 from benchmarks.shared.pages import Row
-from benchmarks.shared.warned import wrong_on_purpose
 
 
-@wrong_on_purpose()
+@expected_errors()
 def _maps(options: Namespace) -> list[dict[str, Any]]:
     return [row for scene in options.only for row in measure(scene, options.quick)]
 

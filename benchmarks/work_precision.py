@@ -8,17 +8,17 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks import peers
-from benchmarks.methods import dissipative, error_control, free_runs, naive, work_precision
+from benchmarks.methods import dissipative, error_control, free_runs, unreduced_models, work_precision
 from benchmarks.methods.work_precision_chart import LOST, draw
 from benchmarks.references.cases import CASES, SLOW, size_of, store
+from benchmarks.shared.coarse_runs import expected_errors
 from benchmarks.shared.command import Part, run, say_missing, watched
 from benchmarks.shared.pages import Row
 from benchmarks.shared.tables import plain_table
-from benchmarks.shared.warned import wrong_on_purpose
 from mbs.settings.methods import METHOD_TABLE
 
 
-@wrong_on_purpose()
+@expected_errors()
 def _charts(options: Namespace) -> list[dict[str, Any]]:
     engines, missing = peers.available()
     for name in missing:
@@ -45,7 +45,7 @@ def _control(options: Namespace) -> list[dict[str, Any]]:
     return rows
 
 
-@wrong_on_purpose()
+@expected_errors()
 def _dissipative(options: Namespace) -> list[dict[str, Any]]:
     scenes = dissipative.QUICK if options.quick else options.only
     methods = ("ali3p",) if options.quick else dissipative.METHODS
@@ -114,10 +114,12 @@ PARTS = {
     ),
     "naive": Part(
         "what models without savings cost: twelve coordinates a body, a row for every equation of a joint",
-        lambda options: [naive.measure(scene, options.repeats) for scene in watched(list(naive.SCENES))],
+        lambda options: [
+            unreduced_models.measure(scene, options.repeats) for scene in watched(list(unreduced_models.SCENES))
+        ],
         options={"repeats": (3, "timed runs of a row")},
         pages=("flexible_car.md",),
-        blocks=lambda rows: {"naive": naive.size_table(rows)},
+        blocks=lambda rows: {"naive": unreduced_models.size_table(rows)},
         words=plain_table,
     ),
 }

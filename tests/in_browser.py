@@ -102,7 +102,7 @@ def wait_for(page: Any, holds: Callable[[], Any], what: object, timeout: float =
     return value
 
 
-def wait_words(page: Any, element: str, words: str) -> None:
+def wait_text(page: Any, element: str, words: str) -> None:
     """An element, by its name for programs, has these words: a picture comes later than what it shows."""
     text = page.locator(f'[data-a3="{element}"]').first.text_content
     wait_for(page, lambda: words in text(), lambda: f"'{words}' in '{element}', which says '{text()}'")

@@ -25,7 +25,7 @@ TESTS = [
     *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "tests" / "kernel").glob("test_*.py")),
     "tests/flexible_engine/test_loader.py",
     "tests/model/test_payloads.py",
-    "tests/model/test_written_axes.py",
+    "tests/model/test_parametric_axes.py",
     "tests/roads/test_road_file.py",
     "tests/roads/test_road_table.py",
     "tests/roads/test_shared_tiles.py",

@@ -37,9 +37,9 @@ def html_of(
         raise ViewerError(f"The height of the frame is {height!r}; it must be a whole number of pixels, 200 to 4000.")
     shown = thinned(recordings)
     page = page_html(shown, None, options)
-    told = [f"This animation takes {1e-6 * len(page.encode('utf-8')):.1f} MB of the notebook.", *notes_of(shown)]
+    notes = [f"This animation takes {1e-6 * len(page.encode('utf-8')):.1f} MB of the notebook.", *notes_of(shown)]
     return (
         f'<iframe srcdoc="{html.escape(page, quote=True)}" style="width:100%;height:{height}px;border:0" '
         'allow="fullscreen" sandbox="allow-scripts allow-downloads"></iframe>'
-        f'<div style="font-size:smaller;opacity:0.7">{html.escape(" ".join(told))}</div>'
+        f'<div style="font-size:smaller;opacity:0.7">{html.escape(" ".join(notes))}</div>'
     )

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ali3.locks import locked
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from viewer.errors import REMEDY
 
 

@@ -5,7 +5,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from ali3.files import check_writable, whole_file
+from ali3.files import atomic_file, check_writable
 from ali3.near_names import near_names
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import MOST_TIMES, Recording
@@ -52,7 +52,7 @@ def write_page(
     check_writable(path)
     shown = thinned(recordings, most)
     text = page_html(shown, title, options)
-    with whole_file(path) as made:
+    with atomic_file(path) as made:
         made.write_text(text, encoding="utf-8", newline="\n")
     return WrittenPage(Path(path), len(text.encode("utf-8")), notes_of(shown))
 

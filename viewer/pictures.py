@@ -5,10 +5,10 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from ali3.files import check_writable, whole_file
+from ali3.files import atomic_file, check_writable
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import Recording
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from viewer.browser import screenshot
 from viewer.page_file import notes_of, thinned, write_page
 
@@ -94,6 +94,6 @@ def write_picture(
     if not begin <= time <= end:
         raise ViewerError(f"There is no picture at {time:g} s; it was recorded from {begin:g} s to {end:g} s.")
     (picture,) = pictures(shown, [time], size, camera, options)
-    with whole_file(path) as made:
+    with atomic_file(path) as made:
         made.write_bytes(picture)
     return notes_of(shown)

@@ -17,11 +17,11 @@ import numpy as np
 from ali3.bars import bar as bar_of
 from ali3.errors import UserError
 from ali3.extras import missing_package
-from ali3.files import check_writable, whole_file
+from ali3.files import atomic_file, check_writable
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import Recording
 from ali3.scene.written_file import WrittenFilm
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from viewer.browser import screenshot
 from viewer.page_file import notes_of, thinned, write_page
 
@@ -106,7 +106,7 @@ def write_mp4(
         chosen = {**(options or {}), "controls": False, "play": False}
         write_page(page, shown, options=chosen)
         pictures = _told(screenshot(page, times, size, camera), len(times), progress)
-        with closing(pictures), whole_file(path) as made:
+        with closing(pictures), atomic_file(path) as made:
             encode(made, pictures)
             written = made.stat().st_size
     return WrittenFilm(target, written, len(times), len(times) / fps, notes_of(shown))

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.json_reading import json_of
+from ali3.library_errors import read_by_library
 from ali3.named_files import NamedFiles
-from ali3.reader_stops import read_by_library
 from ali3.reading import read_bytes
 from ali3.scene.errors import ViewerError
 from ali3.unpacked_size import check_memory

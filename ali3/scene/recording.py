@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ali3.scene.decimation import chosen_times, largest_gap_of_motion
 from ali3.scene.errors import ViewerError
 from ali3.scene.scene import check_scene, plain_scene
 from ali3.scene.scene_columns import drawable, pose_columns
-from ali3.scene.thinning import chosen_times, largest_gap_of_motion
 
 MOST_TIMES = 5001  # 10 s in steps of 2 ms
 _TURN = 2.0 * np.pi
@@ -146,9 +146,9 @@ class Recording:
 
     def __repr__(self) -> str:
         span = f"{len(self.t)} times from {self.t[0]:g} s to {self.t[-1]:g} s"
-        told = "".join(f"\n  {note}" for note in self.notes)
-        told += "".join(f"\n  not drawn: {item['name']}: {item['why']}" for item in self.missing)
-        return f"Recording({self.name!r}, {span}, {len(self.columns)} columns){told}"
+        notes_text = "".join(f"\n  {note}" for note in self.notes)
+        notes_text += "".join(f"\n  not drawn: {item['name']}: {item['why']}" for item in self.missing)
+        return f"Recording({self.name!r}, {span}, {len(self.columns)} columns){notes_text}"
 
     def _take(self, scene: dict[str, Any]) -> None:
         """Take out of the scene what the columns do not move, and say so."""

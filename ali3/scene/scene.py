@@ -7,12 +7,12 @@ from typing import Any
 from pydantic import ValidationError
 
 from ali3.json_reading import LARGEST_JSON, json_of
+from ali3.message_text import value_text
 from ali3.reading import read_bytes
 from ali3.scene.errors import SceneError
 from ali3.scene.scene_relations import relation_errors
 from ali3.scene.scene_sentences import sentences
 from ali3.scene.scene_types import Scene
-from ali3.words import value_words
 
 
 def scene_errors(scene: Any) -> list[str]:
@@ -23,9 +23,9 @@ def scene_errors(scene: Any) -> list[str]:
     if not isinstance(scene, Mapping):
         return ["A scene is a table with the keys format, version, name, extent, frames and shapes."]
     if "format" in scene and scene["format"] != "ALi3 scene":
-        return [f"format is {value_words(scene['format'])}; it must be 'ALi3 scene'."]
+        return [f"format is {value_text(scene['format'])}; it must be 'ALi3 scene'."]
     if "version" in scene and scene["version"] != 1:
-        return [f"version is {value_words(scene['version'])}; this viewer reads version 1."]
+        return [f"version is {value_text(scene['version'])}; this viewer reads version 1."]
     plain = plain_scene(scene)
     try:
         Scene.model_validate(plain)

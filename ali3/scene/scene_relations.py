@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from ali3.columns import some_of
+from ali3.message_text import value_text
 from ali3.scene.base64_numbers import decoded, octets
 from ali3.scene.scene_parts import GROUND, anchors_of, frames_of
 from ali3.scene.scene_sentences import place
-from ali3.words import value_words
 
 _UNIT = 1e-3  # by how much the axes of a shape may miss those of a turn
 
@@ -44,7 +44,7 @@ def _known(scene: Mapping[str, Any]) -> list[str]:
 
 def _no_frame(scene: Mapping[str, Any], path: tuple[str | int, ...], name: str) -> str:
     known = some_of(map(repr, _known(scene)), 8)
-    return f"{place(path)} is {value_words(name)}, which is not a frame; there are {known}."
+    return f"{place(path)} is {value_text(name)}, which is not a frame; there are {known}."
 
 
 def _frames(scene: Mapping[str, Any]) -> Iterator[str]:
@@ -92,7 +92,7 @@ def _length(found: int, right: int, path: tuple[str | int, ...], each: str) -> I
 
 def _direction(vector: Any, path: tuple[str | int, ...]) -> Iterator[str]:
     if not math.hypot(*vector) > 0.0:
-        yield f"{place(path)} is {value_words(vector)}; it must not be zero."
+        yield f"{place(path)} is {value_text(vector)}; it must not be zero."
 
 
 def _users(scene: Mapping[str, Any], part: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
@@ -110,7 +110,7 @@ def _shape(scene: Mapping[str, Any], shape: Mapping[str, Any], path: tuple[str |
     yield from _users(scene, shape, path)
     if shape["kind"] == "mesh" and shape["mesh"] not in (scene.get("meshes") or {}):
         names = ", ".join(map(repr, scene.get("meshes") or {})) or "none"
-        yield f"{place((*path, 'mesh'))} is {value_words(shape['mesh'])}, which is not a mesh; there are {names}."
+        yield f"{place((*path, 'mesh'))} is {value_text(shape['mesh'])}, which is not a mesh; there are {names}."
     if shape.get("axes") is not None:
         axes = np.array(shape["axes"], float)
         if not np.abs(axes @ axes.T - np.eye(3)).max() <= _UNIT or np.linalg.det(axes) < 0.0:

@@ -6,11 +6,11 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from ali3.message_text import brief, place_text, value_text
 from ali3.near_names import near_names
 from ali3.scene import road_types, scenery_types
 from ali3.scene import scene_types as types
 from ali3.scene.scene_values import NAME, UNIT, Part
-from ali3.words import brief, place_words, value_words
 
 UNKNOWN, MISSING = "extra_forbidden", "missing"
 _PATTERNS = {
@@ -90,7 +90,7 @@ def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
 
 def place(path: Sequence[str | int]) -> str:
     """A place in a scene, such as ``shapes[3].radius`` or ``frames['wheel FL'].axis``."""
-    return place_words(path) or "the scene"
+    return place_text(path) or "the scene"
 
 
 def _sentence(
@@ -115,8 +115,8 @@ def _sentence(
         for theirs, ours in _REPLACEMENTS:
             wanted = re.sub(theirs, ours, wanted)
     if key:
-        return f"{place(path[:-1])} has the key {value_words(value)}; it must be {wanted}."
-    return f"{place(path)} is {value_words(value)}; it must be {wanted}."
+        return f"{place(path[:-1])} has the key {value_text(value)}; it must be {wanted}."
+    return f"{place(path)} is {value_text(value)}; it must be {wanted}."
 
 
 def _choice_sentence(item: Any, path: tuple[str | int, ...]) -> str:
@@ -125,7 +125,7 @@ def _choice_sentence(item: Any, path: tuple[str | int, ...]) -> str:
     by_keys = path[:1] in _CHOICES and item["type"] == "union_tag_not_found"
     if not isinstance(given, Mapping):
         table = "a table" if by_keys else "a table with a key 'kind'"
-        return f"{place(path)} is {value_words(given)}; it must be {table}."
+        return f"{place(path)} is {value_text(given)}; it must be {table}."
     if by_keys:
         unknown = next((key for key in given if key not in ("name", "unit", "start")), None)
         hint = "" if unknown is None else f" ({brief(str(unknown))} is not known)"
@@ -133,7 +133,7 @@ def _choice_sentence(item: Any, path: tuple[str | int, ...]) -> str:
     known = item.get("ctx", {}).get("expected_tags") or ", ".join(map(repr, _kinds_at(path)))
     where = place((*path, "kind"))
     if "kind" in given:
-        return f"{where} is {value_words(given['kind'])}; it must be one of {known}."
+        return f"{where} is {value_text(given['kind'])}; it must be one of {known}."
     near = _near("kind", list(map(str, given)))
     return f"{where} is missing{f' ({near!r} is not known)' if near else ''}; it is one of {known}."
 

@@ -18,6 +18,7 @@ from benchmarks.car import (
     accuracy,
     all_cars,
     edge_answers,
+    error_limits,
     fidelity,
     fidelity_references,
     fidelity_runs,
@@ -26,7 +27,6 @@ from benchmarks.car import (
     road_faces,
     tabled_cars,
     trajectories,
-    trust,
 )
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
@@ -114,9 +114,9 @@ PARTS = {
     ),
     "trust": Part(
         "errors by steps in a period, by speed over a kerb, and of hard manoeuvres",
-        lambda options: trust.measure(),
+        lambda options: error_limits.measure(),
         pages=("trust.md",),
-        blocks=trust.trust_blocks,
+        blocks=error_limits.trust_blocks,
     ),
     "fidelity": Part(
         "how much model a car needs: manoeuvres with every fidelity of the prototype",

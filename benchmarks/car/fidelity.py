@@ -14,7 +14,7 @@ from mbs import Trajectory
 from mbs.scenes import prototype_car
 from mbs.vehicle import Fidelity
 from mbs.vehicle.levels import level_choice as choice
-from mbs.vehicle.levels.level_choice import Choice
+from mbs.vehicle.levels.level_choice import LevelChoice
 
 STEPS = (0.01, 0.005, 0.002)  # s
 COLOURS = {
@@ -79,7 +79,7 @@ def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, 
     }
 
 
-def cheapest(rows: Sequence[Row], output: str, tolerance: float) -> Choice:
+def cheapest(rows: Sequence[Row], output: str, tolerance: float) -> LevelChoice:
     """The fidelity and step with the least time per simulated second that meet a tolerance in all manoeuvres measured.
 
     `rows`: of `measure`, or from a JSON file; `output`: one of `fidelity_runs.OUTPUTS`; `tolerance`: on its error: a

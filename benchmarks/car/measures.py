@@ -208,7 +208,7 @@ def measure_rows(measured: Mapping[str, Mapping[str, float]]) -> list[dict[str, 
     return [
         {"measure": m.name, "unit": m.unit}
         | {car: found[m.name] for car, found in measured.items()}
-        | {"usual": usual_words(m), "meaning": m.meaning}
+        | {"usual": usual_text(m), "meaning": m.meaning}
         for m in MEASURES
     ]
 
@@ -221,6 +221,6 @@ def measure_table(rows: Sequence[Row]) -> str:
     return table(lines, {"measure": "", **dict.fromkeys(cars, ".2f"), "usual": ""})
 
 
-def usual_words(m: Measure) -> str:
+def usual_text(m: Measure) -> str:
     """What cars of the small class have."""
     return "-" if m.usual is None else f"{m.usual[0]:g} to {m.usual[1]:g}"

@@ -20,7 +20,7 @@ from benchmarks.car.step_costs import drive, summary
 from benchmarks.shared.pages import Row, table
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities
-from hosts.driving.wild_driver import Target
+from hosts.driving.random_driver import Target
 from mbs.common.progress import progress_for
 from mbs.elements.road import GridRoad
 

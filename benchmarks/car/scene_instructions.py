@@ -118,8 +118,8 @@ def measure(scene: Scene, program: Path, folder: Path) -> dict[str, Any]:
     """A row of the table."""
     command = command_of(scene, program, folder)
     still = [*command[:-1], "0"]
-    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    status, *counts = map(int, said.split())
+    output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    status, *counts = map(int, output.split())
     if status != 0:
         raise RuntimeError(f"A step of the scene {scene.name!r} was refused (status {status}).")
     whole, before = instructions(command), instructions(still)

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.pilots.pilot import SENSES
-from hosts.driving.wild_driver import Target, WildDriver, wild_start
+from hosts.driving.pilots.pilot import OBSERVED
+from hosts.driving.random_driver import RandomDriver, Target, wild_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
 
 RUN = 20.0  # s, after which the car starts again
@@ -65,8 +65,8 @@ class _Drive:
     def __init__(self, car: Fmu, start: dict[str, Value], step: float, seed: int, targets: Sequence[Target]) -> None:
         self.car, self.values, self.h, self.seed, self.targets = car, start, step, seed, targets
         self.inputs = car.names("input")
-        self.driver = WildDriver(seed, self.inputs, targets)
-        self.read, self.set = car.getter((*SENSES, *_READ)), car.setter(self.inputs)
+        self.driver = RandomDriver(seed, self.inputs, targets)
+        self.read, self.set = car.getter((*OBSERVED, *_READ)), car.setter(self.inputs)
         self.held = dict(zip(self.inputs, car.start_values(self.inputs).tolist(), strict=True))
         self.starts = self.steps = 0
         self.lying = 0.0
@@ -102,7 +102,7 @@ class _Drive:
                 if refusal:
                     refused.append(refusal)
                 else:
-                    roll, iterations, halvings, capped, residual[k] = self.seen[len(SENSES) :]
+                    roll, iterations, halvings, capped, residual[k] = self.seen[len(OBSERVED) :]
                     before = self.last
                     whole[0][k], whole[1][k], whole[2][k] = iterations, halvings - before[0], capped - before[1]
                     self.last = halvings, capped
@@ -121,7 +121,7 @@ class _Drive:
         """One step: microseconds, why it was refused."""
         if self.steps == 0:
             self.last = 0.0, 0.0
-        self.held |= self.driver.act(k * self.h, dict(zip(SENSES, self.seen, strict=False)))
+        self.held |= self.driver.act(k * self.h, dict(zip(OBSERVED, self.seen, strict=False)))
         row = [self.held[name] for name in self.inputs]
         self.set(row)
         refusal = ""

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import mbs
-from ali3.words import range_words
+from ali3.message_text import range_text
 from fmu_src.variables.text_variables import text_table
 from fmu_src.variables.variables import Variable, variable_table
 from hosts.common.wheels import WHEELS
@@ -49,8 +49,8 @@ def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
         for v in table:
             family = _alike(v) if v.causality == "parameter" and alike[_alike(v)] > 1 else _family(v, present)
             one_of_its_own = v.causality == "output" and not _WHEEL.search(v.name)
-            told = v.description if one_of_its_own else ""  # cars differ: driven wheels, gear
-            key = (v.causality, family, told)
+            description = v.description if one_of_its_own else ""  # cars differ: driven wheels, gear
+            key = (v.causality, family, description)
             one = merged.setdefault(key, Shown(v.name, [], v, {}))
             starts = {**one.starts, car: [*one.starts.get(car, []), *([] if v.start is None else [v.start])]}
             merged[key] = replace(one, names=list(dict.fromkeys([*one.names, v.name])), starts=starts)
@@ -77,7 +77,7 @@ def blocks(found: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
                     _short(s.names),
                     "" if v.unit == "1" else v.unit,
                     *values,
-                    *([range_words(low, high, "1"), v.variability] if ranged else []),
+                    *([range_text(low, high, "1"), v.variability] if ranged else []),
                     _plain(s),
                 ]
             )

@@ -21,7 +21,7 @@ from mbs.vehicle.environment import GRAVITY
 METHODS = [method for method in KERNEL if method not in (*CONSERVATIVE_ONLY, *TREE_ONLY)]
 QUICK = ("spinning_beam", "car_at_rest_100s")
 SPIN_UP = Path(__file__).parents[2] / "tests" / "data" / "reference" / "spin_up_beam.csv"
-Found = tuple[float, mbs.Trajectory]
+CaseRun = tuple[float, mbs.Trajectory]
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Scene:
 
     quantity: str
     """That the error is of, and its unit or what it is relative to."""
-    run: Callable[[mbs.Settings, float], Found]
+    run: Callable[[mbs.Settings, float], CaseRun]
     """Error and trajectory for a step, s."""
     limit: float
     steps: tuple[float, ...]
@@ -55,7 +55,7 @@ def _run(
     return mbs.simulate(_system(name), end, h, inputs, settings, every=every, progress=False, estimate_error=False)
 
 
-def beam(settings: mbs.Settings, h: float) -> Found:
+def beam(settings: mbs.Settings, h: float) -> CaseRun:
     """Deflection of the tip against geometrically exact beams."""
     t = _run("beam", spinning_beam.DURATION, h, settings, 0.02)
     time_ref, _, expected = np.loadtxt(SPIN_UP, delimiter=",", skiprows=2).T
@@ -63,7 +63,7 @@ def beam(settings: mbs.Settings, h: float) -> Found:
     return float(np.abs(np.interp(time_ref, t.t, found) - expected).max() / np.abs(expected).max()), t
 
 
-def four_bar(settings: mbs.Settings, h: float) -> Found:
+def four_bar(settings: mbs.Settings, h: float) -> CaseRun:
     """Moments in the coupler against geometrically exact beams."""
     t = _run("four-bar", assembly_defect_four_bar.DURATION, h, settings, STEP)
     expected = reference()
@@ -71,20 +71,20 @@ def four_bar(settings: mbs.Settings, h: float) -> Found:
     return float(gap / max(np.abs(expected[c]).max() for c in COMPONENTS)), t
 
 
-def rest(settings: mbs.Settings, h: float) -> Found:
+def rest(settings: mbs.Settings, h: float) -> CaseRun:
     """How far the braked car moves in 100 s."""
     t = _run("car", 100.0, h, settings, 0.1, {"brake": 1.0})
     place = np.array([t[f"chassis.{c}"] for c in "xyz"])
     return float(np.linalg.norm(place - place[:, :1], axis=0).max()), t
 
 
-def kerb(settings: mbs.Settings, h: float) -> Found:
+def kerb(settings: mbs.Settings, h: float) -> CaseRun:
     """Moments of the flexible frame, after the low-pass, against much smaller steps."""
     t = fidelity_runs.run("kerb_test", 3, h, settings)
     return fidelity_runs.errors(fidelity_runs.sampled(t, h), fidelity_runs.read_reference("kerb_test"))["moment"], t
 
 
-def drive(settings: mbs.Settings, h: float) -> Found:
+def drive(settings: mbs.Settings, h: float) -> CaseRun:
     """Wheel loads, mean over 1000 s of gentle bends under power, against the weight."""
     when = np.arange(0.0, 1001.0, 1.0)
     inputs = {"throttle": 0.2, "steering": (when, 0.02 * np.sin(2.0 * np.pi * when / 40.0))}
@@ -131,8 +131,8 @@ def dissipative_blocks(rows: Sequence[Row]) -> dict[str, str]:
         part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
         line = {"scene": scene, "method": method, "error": part[0]["quantity"], "wrong from": f"{part[0]['limit']:g}"}
         for r in sorted(part, key=lambda r: -r["h_s"]):
-            said = r["outcome"] if r["error"] is None else f"{r['outcome']}, {r['error']:.1e}"
-            line["by step, s"] = "; ".join(filter(None, (line.get("by step, s"), f"{r['h_s']:g}: {said}")))
+            cell_text = r["outcome"] if r["error"] is None else f"{r['outcome']}, {r['error']:.1e}"
+            line["by step, s"] = "; ".join(filter(None, (line.get("by step, s"), f"{r['h_s']:g}: {cell_text}")))
         line["first stop"] = next((r["reason"].partition(". Worst")[0] for r in part if r["reason"]), "-")
         lines.append(line)
     return {"dissipative": table(lines, dict.fromkeys(lines[0], ""))}

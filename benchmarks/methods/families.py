@@ -36,7 +36,7 @@ NEARLY_FLAT = (1e-5, 1e-3)  # by which the arms of a change point differ, of the
 
 
 @dataclass(frozen=True)
-class Found:
+class CaseRun:
     """What a run gives of a case."""
 
     values: Mapping[str, Array]
@@ -58,7 +58,7 @@ class Case:
     """What is judged, by sensor, at equal instants of the run, (n,) each."""
     span: float
     """Duration, s."""
-    run: Callable[..., Found]
+    run: Callable[..., CaseRun]
     """By ``h`` and ``every``, or by ``tolerance`` and ``times``; raises `mbs.SimulationError`."""
     steps: tuple[float, ...] = STEPS
     tolerances: tuple[float, ...] = TOLERANCES
@@ -67,12 +67,12 @@ class Case:
 def simulated(system: mbs.System, span: float, run: Callable[..., mbs.Trajectory] | None = None) -> dict[str, Any]:
     """What a case has of `mbs.simulate`, or of another function of ``h`` and the same names."""
 
-    def found(h: float | None = None, **more: Any) -> Found:
+    def found(h: float | None = None, **more: Any) -> CaseRun:
         made = (run or partial(mbs.simulate, system, span, progress=False))(h=h, **more)
         if made.control is not None:
-            return Found(made, made.control.error, None, made.control.method)
+            return CaseRun(made, made.control.error, None, made.control.method)
         known = made.accuracy
-        return Found(made, known.error if known else None, 1.0 + known.check_cost if known else None)
+        return CaseRun(made, known.error if known else None, 1.0 + known.check_cost if known else None)
 
     return {"system": system, "span": span, "run": found}
 
@@ -172,7 +172,7 @@ def switches(rng: np.random.Generator) -> Case:
     case = _drawn(f"{kind} with a pin", drawing)
     name = f"j{len(drawing.joints) - 1}"
 
-    def run(h: float, every: int) -> Found:
+    def run(h: float, every: int) -> CaseRun:
         simulation = mbs.Simulation(case.system)
         parts, errors = [], []
         for end, held in ((on, False), (off, True), (drawing.span, False)):
@@ -180,7 +180,7 @@ def switches(rng: np.random.Generator) -> Case:
             parts.append(simulation.run(end, h, every=every, progress=False))
             errors.append(parts[-1].accuracy.error if parts[-1].accuracy else None)
         values = {n: np.concatenate([part[n][int(k > 0) :] for k, part in enumerate(parts)]) for n in case.truth}
-        return Found(values, max((e for e in errors if e is not None), default=None))
+        return CaseRun(values, max((e for e in errors if e is not None), default=None))
 
     return replace(case, run=run, tolerances=())
 
@@ -340,7 +340,7 @@ def fmu_mechanisms(rng: np.random.Generator) -> Case:
 
 def _through_fmpy(
     built: Callable[[], Path], names: list[str], span: float, start: dict[str, float], h: float, every: int
-) -> Found:
+) -> CaseRun:
     """What a host reads of an FMU that it steps by its `step_size`; each message of it counts as a warning."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of the run that an FMU is built by, in steps of its own
@@ -358,7 +358,7 @@ def _through_fmpy(
         texts = fmu.messages
     for text in texts:
         warnings.warn(text, mbs.AccuracyWarning, stacklevel=1)
-    return Found(dict(zip(names, np.array(rows).T, strict=True)), None)
+    return CaseRun(dict(zip(names, np.array(rows).T, strict=True)), None)
 
 
 FAMILIES: dict[str, Callable[[np.random.Generator], Case]] = {

@@ -52,10 +52,10 @@ def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p", t
     if r.report is not None:
         row |= {"iterations": r.report.iterations / steps, "halvings": r.report.halvings}
     if told and row["energy"] > WRONG and not row["told"]:
-        with warnings.catch_warnings(record=True) as said:
+        with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             checked = mbs.simulate(system, steps * STEP, STEP, **options)
-        words = {w.category.__name__ for w in said} | {"notice" for _ in checked.notices}
+        words = {w.category.__name__ for w in caught} | {"notice" for _ in checked.notices}
         row["told"] = ", ".join(sorted(words))
     if free.angles:
         way = {end: r[end] - r[end][0] for end in {*free.angles, *(end for tie in free.ties for end in tie[:2])}}

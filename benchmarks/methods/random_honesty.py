@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mbs
-from benchmarks.methods.families import FAMILIES, Case, Found
+from benchmarks.methods.families import FAMILIES, Case, CaseRun
 from benchmarks.references.newton_euler import NoReferenceError
 from benchmarks.shared.pages import Row, table
 from mbs.kernel.header.limits import WRONG_ERROR
@@ -95,7 +95,7 @@ def judged(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
 
 
 def _verdict(
-    asked: str, run: Callable[[], Found], error_of: Callable[[Mapping[str, Array]], float], most: float
+    asked: str, run: Callable[[], CaseRun], error_of: Callable[[Mapping[str, Array]], float], most: float
 ) -> dict[str, Any]:
     row: dict[str, Any] = {"asked": asked, "verdict": "refused", "error": None, "told": None, "warnings": []}
     begin = time.process_time()
@@ -107,15 +107,15 @@ def _verdict(
         return row | {"cpu_s": time.process_time() - begin, "reason": str(refused)}
     row["cpu_s"] = time.process_time() - begin
     error = error_of(found.values)
-    wrong, said = not error <= most, [f"{w.category.__name__}: {w.message}" for w in caught if w.category in ERRORS]
-    verdict = VERDICTS[(3 if said else 4) if wrong else (1 if said else 0)]
+    wrong, messages = not error <= most, [f"{w.category.__name__}: {w.message}" for w in caught if w.category in ERRORS]
+    verdict = VERDICTS[(3 if messages else 4) if wrong else (1 if messages else 0)]
     if most == WRONG_ERROR and NEAR[0] * most <= error <= NEAR[1] * most:
         verdict = "near"
     return row | {
         "verdict": verdict,
         "error": error,
         "told": found.told,
-        "warnings": said,
+        "warnings": messages,
         "method": found.method,
         "steps": found.cost,
     }

@@ -172,8 +172,8 @@ def explain(rows: Sequence[Row]) -> list[dict[str, Any]]:
                 r = min(stopped, key=lambda row: row["stopped_at_s"])
                 value = "" if r["value"] is None else f", {r['value']:g}"
                 first.append(f"{outcome} at {r['stopped_at_s']:.4g} s (h = {r['h_s']:g}{value}): {r['reason']}")
-        said = "; ".join(first) or "-"
-        lines.append({"scene": scene, "method": method} | counts | {"first stop": said})
+        reason = "; ".join(first) or "-"
+        lines.append({"scene": scene, "method": method} | counts | {"first stop": reason})
     return lines
 
 

@@ -143,7 +143,7 @@ def _cluster(workers: int) -> Iterator[str]:
 def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, folder: Path) -> Row:
     """A study on a cluster of Dask, without its start: time beside the runs, memory, disk."""
     from hosts.experiment.cluster import connected
-    from hosts.experiment.store import Kept
+    from hosts.experiment.store import ResultStore
     from hosts.study.outcome_table import OutcomeTable
     from hosts.study.outcome_table import Row as StudyRow
     from hosts.study.parts import part_files
@@ -157,7 +157,7 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     with (
         _cluster(workers) as address,
         connected(address) as client,
-        Kept[StudyRow](folder, StudyRow, "measures a study") as kept,
+        ResultStore[StudyRow](folder, StudyRow, "measures a study") as kept,
     ):
         kept.into(OutcomeTable(folder, plan.record))
         runner = on_cluster(client, plan, trial, plan.runs)

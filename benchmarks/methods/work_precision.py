@@ -229,9 +229,9 @@ def work_blocks(rows: Sequence[Row]) -> dict[str, str]:
     }
     behind = [r for r in ratios if r["ahead"] == "NO"]
     half = [r for r in ratios if r["ratio"] is not None and 0.5 < r["ratio"] <= 1.0]
-    said = f"Behind the best peer in {len(behind)} of {len(ratios)} lines"
-    said += ": " + "; ".join(f"{r['scene']} at {r['error_m']:.0e} m" for r in behind) + "." if behind else "."
-    said += f" Ahead, but by less than a factor of two, in {len(half)}."
+    verdict = f"Behind the best peer in {len(behind)} of {len(ratios)} lines"
+    verdict += ": " + "; ".join(f"{r['scene']} at {r['error_m']:.0e} m" for r in behind) + "." if behind else "."
+    verdict += f" Ahead, but by less than a factor of two, in {len(half)}."
     times = []
     for scene in scenes:
         part = [r for r in rows if r["scene"] == scene]
@@ -242,7 +242,7 @@ def work_blocks(rows: Sequence[Row]) -> dict[str, str]:
             line["finished"] = f"{sum(r['ended'] == 'finished' for r in runs)} of {len(runs)}"
             times.append(line)
     columns_2 = {"scene": "", "method": ""} | {f"{level:.0e} m": ".3g" for level in LEVELS} | {"finished": ""}
-    ratio_table = table(ratios, columns | {"ahead": ""}) + "\n\n" + said
+    ratio_table = table(ratios, columns | {"ahead": ""}) + "\n\n" + verdict
     return {"ratios": ratio_table, "times": table(times, columns_2)}
 
 

@@ -13,10 +13,10 @@ from typing import Any
 
 import mbs
 from benchmarks.paper import assembly_defect, double_four_bar, kerb, measured_guides, puma
+from benchmarks.shared.coarse_runs import expected_errors
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import Row
 from benchmarks.shared.tables import plain_table
-from benchmarks.shared.warned import wrong_on_purpose
 from mbs.scenes import kerb_test
 from mbs.scenes import puma as puma_scene
 from mbs.vehicle import Fidelity
@@ -24,7 +24,7 @@ from mbs.vehicle import Fidelity
 QUICK = {"quick": (False, "a part of it, once")}
 
 
-@wrong_on_purpose()
+@expected_errors()
 def _four_bar(options: Namespace) -> list[dict[str, Any]]:
     windows = double_four_bar.WINDOWS[:1] if options.quick else double_four_bar.WINDOWS
     return double_four_bar.measure_all(windows, options.repeats)
@@ -39,7 +39,7 @@ def _puma(options: Namespace) -> list[dict[str, Any]]:
     return rows + [{"table": "large steps in one stage", **row} for row in stages]
 
 
-@wrong_on_purpose()
+@expected_errors()
 def _defect(options: Namespace) -> list[dict[str, Any]]:
     cases = assembly_defect.CASES[:1] if options.quick else assembly_defect.CASES
     bars = [{"table": "bars", **assembly_defect.measure(case)[0]} for case in watched(cases)]

@@ -8,9 +8,9 @@ import numpy as np
 
 import mbs
 from benchmarks.references.assembly_defect import COMPONENTS, reference
+from benchmarks.shared.coarse_runs import expected_errors
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.pages import Row, table
-from benchmarks.shared.warned import wrong_on_purpose
 from mbs.scenes import assembly_defect_four_bar as scene
 
 STEP = 0.01  # s, as the reference is stored
@@ -50,7 +50,7 @@ def peaks(radius: float) -> dict[str, float]:
     return {"diameter_mm": 2e3 * radius} | {c: float(np.max(np.abs(run[f"coupler.{c}"]))) for c in COMPONENTS}
 
 
-@wrong_on_purpose()
+@expected_errors()
 def draw(rows: Sequence[Row], file: Path) -> None:
     """The moments of the last of the bars over time as in the paper's Figure 5, the reference dashed; colours of Okabe
     and Ito.

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.car import fidelity, fidelity_runs
-from benchmarks.shared.warned import wrong_on_purpose
+from benchmarks.shared.coarse_runs import expected_errors
 from mbs import Simulation, Trajectory
 from mbs.scenes import kerb_test
 from mbs.vehicle import Fidelity
@@ -29,7 +29,7 @@ def left_at_the_end(model: Fidelity, h: float) -> tuple[float, float]:
     t = car.run(RELEASE, h, progress=False)
     peaks = {n: float(np.abs(t[n] - t[n][0]).max()) for n in names}
     held = car.sensors
-    with wrong_on_purpose():
+    with expected_errors():
         car.set_parameter("road.friction", 0.0)
     car.run(kerb_test.DURATION, h, progress=False)
     free = car.sensors

@@ -233,8 +233,8 @@ def row(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int]) ->
                 "peaks, %": 100.0 * float(np.abs(peaks).max()),
             }
         )
-    told: dict[str, Any] = {k: float(np.mean([m[k] for m in made])) for k in made[0]}
-    return {"guide": name, **told, "most": int(max(m["most"] for m in made))}
+    means: dict[str, Any] = {k: float(np.mean([m[k] for m in made])) for k in made[0]}
+    return {"guide": name, **means, "most": int(max(m["most"] for m in made))}
 
 
 def _rms(error: Array) -> float:

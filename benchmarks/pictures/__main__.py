@@ -23,8 +23,8 @@ def _films(options: Namespace) -> None:
     for name in options.only:
         written = film(name, Path(options.out, f"{name}.webp"))
         total += written.size
-        said = f"{written.frames} pictures, {written.duration:.1f} s, {written.size / 1000:.0f} kB"
-        print("\n  ".join([f"{written.path}  {said}", *written.notes]), flush=True)
+        summary = f"{written.frames} pictures, {written.duration:.1f} s, {written.size / 1000:.0f} kB"
+        print("\n  ".join([f"{written.path}  {summary}", *written.notes]), flush=True)
     print(f"{len(options.only)} files, {total / 1e6:.1f} MB")
 
 

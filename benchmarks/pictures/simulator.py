@@ -11,7 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from ali3.files import make_folder, whole_file
+from ali3.files import atomic_file, make_folder
 from benchmarks.shared.command import watched
 from viewer import browser
 
@@ -96,7 +96,7 @@ def take(fmu: Path, shot: Shot, file: Path) -> dict[str, float]:
         drive(page, shot)
         picture, rates = page.screenshot(), page.evaluate(RATES)
         chromium.close()
-    with whole_file(file) as made:
+    with atomic_file(file) as made:
         Image.open(io.BytesIO(picture)).convert("RGB").save(made, "webp", quality=80, method=6)
     return dict(rates)
 

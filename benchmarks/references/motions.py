@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 import mbs
 from benchmarks.baselines.lagrange import Lagrange
 from benchmarks.baselines.mechanism import Mechanism
-from benchmarks.references.rolling import RollingBicycle
+from benchmarks.references.rolling_wheels import RollingBicycle
 from mbs.scenes import bicycle, cart_pole, double_four_bar, slider_crank, spatial_slider_crank
 
 Array = NDArray[np.float64]

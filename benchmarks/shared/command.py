@@ -83,18 +83,18 @@ def _add_options(parser: ArgumentParser, part: Part) -> None:
             help=f"of {', '.join(part.names)}",
         )  # fmt: skip
     for key, (default, words) in part.options.items():
-        flag, told = f"--{key.replace('_', '-')}", words.replace("%", "%%")
+        flag, help_text = f"--{key.replace('_', '-')}", words.replace("%", "%%")
         if default is False:
-            parser.add_argument(flag, action="store_true", help=told)
+            parser.add_argument(flag, action="store_true", help=help_text)
         elif default is Path:
-            parser.add_argument(flag, type=Path, metavar="FILE", help=told)
+            parser.add_argument(flag, type=Path, metavar="FILE", help=help_text)
         else:
             many = isinstance(default, (list, tuple))
             first = (*default, "")[0] if many else default
             shown = " ".join(map(str, default)) if many else str(default)
             parser.add_argument(
                 flag, type=type(first), nargs="+" if many else None, default=default, metavar="X",
-                help=f"{told}; default: {shown}" if shown else told,
+                help=f"{help_text}; default: {shown}" if shown else help_text,
             )  # fmt: skip
     if part.rows:
         parser.add_argument("--json", type=Path, metavar="FILE", help="write {meta, rows}")
@@ -116,8 +116,8 @@ def _work(name: str, part: Part, options: Namespace) -> int:
             return 0
         rows = [*found]
         asked = {key: value for key, value in vars(options).items() if key in part.options or key in ("part", "only")}
-        told = {key: str(value) if isinstance(value, Path) else value for key, value in asked.items()}
-        meta = describe(name, **{"repeats": 1} | told)
+        given = {key: str(value) if isinstance(value, Path) else value for key, value in asked.items()}
+        meta = describe(name, **{"repeats": 1} | given)
     if options.json is not None:
         write_json(options.json, meta, rows)
         print(f"written: {options.json}")
@@ -127,9 +127,9 @@ def _work(name: str, part: Part, options: Namespace) -> int:
     if part.blocks is not None and options.write:
         title = options.part.replace("-", " ")
         write_blocks(part.pages, {**part.blocks(rows), f"machine {title}": machine(meta)})
-    said = [] if part.check is None else part.check(rows, options)
-    print("\n".join(said), end="\n" if said else "")
-    return int(bool(said))
+    faults = [] if part.check is None else part.check(rows, options)
+    print("\n".join(faults), end="\n" if faults else "")
+    return int(bool(faults))
 
 
 def _told(part: Part, rows: Sequence[Row]) -> str:

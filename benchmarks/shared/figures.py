@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 
-from ali3.chart_words import description_of
+from ali3.chart_description import description_of
 from benchmarks.shared.pages import DOCS, replace
 
 _TABLE = re.compile(r"(?:^\|.*\n?)+", re.MULTILINE)
@@ -13,7 +13,7 @@ _DIGITS = 3  # of figures that may be one off in the last
 
 
 @dataclass(frozen=True)
-class Again:
+class RemadeTable:
     """A table, a sentence or a chart of a page that was made again."""
 
     page: str
@@ -50,7 +50,7 @@ def between(text: str, table: str) -> str:
     return found[1] if found else ""
 
 
-def written(again: Again, text: str) -> str:
+def written(again: RemadeTable, text: str) -> str:
     """The text of a page with the cells of a table as they are made; what is left out and other rows stay."""
     block, made = between(text, again.table), rows_of(again.text)
     shown = rows_of(block)
@@ -82,7 +82,7 @@ def same(shown: str | None, made: str) -> bool:
     return abs(int("".join(map(str, one.digits))) - int("".join(map(str, other.digits)))) == 1
 
 
-def differences(again: Again, text: str) -> list[str]:
+def differences(again: RemadeTable, text: str) -> list[str]:
     """A sentence for each figure that the text of the page has otherwise, and for each line of words of a chart."""
     if again.picture and not text:
         return [f"{again.page} does not say what it shows; python -m benchmarks.figures --write draws it again."]
@@ -112,6 +112,6 @@ def differences(again: Again, text: str) -> list[str]:
     return said
 
 
-def all_differences(made: Sequence[Again]) -> list[str]:
+def all_differences(made: Sequence[RemadeTable]) -> list[str]:
     """Differences on all pages, a line each."""
     return [line for again in made for line in differences(again, read(again.page))]

@@ -19,7 +19,7 @@ import numpy as np
 from ali3.errors import UserError
 from benchmarks.shared.command import Part, run, watched
 from benchmarks.shared.pages import DOCS, Row, table
-from benchmarks.validation import kinds, margins, others, two_track
+from benchmarks.validation import margins, omitted_seconds, published_tests, two_track
 from benchmarks.validation.bank import bank_of, write_banked
 from benchmarks.validation.bicycle import MODELS, Body
 from benchmarks.validation.chart import draw
@@ -27,7 +27,7 @@ from benchmarks.validation.curves import ENOUGH, acceleration_error, curves, wit
 from benchmarks.validation.drive import FITTED, JUDGED, Array, Drive, Spans, read_drive
 from benchmarks.validation.fitting import Fitted, fit
 from benchmarks.validation.multibody import Judged, judge
-from benchmarks.validation.published import full_throttle, published_rows
+from benchmarks.validation.published_figures import full_throttle, published_rows
 from benchmarks.validation.refit import BOUNDS, problems, refit
 from benchmarks.validation.refit import COLUMNS as FIT_COLUMNS
 
@@ -119,7 +119,7 @@ def _kinds(options: Namespace) -> list[dict[str, Any]]:
     log, aliases = _log(options)
     models = [*(m for m in MODELS if m.name in LEFT_OUT), two_track.MODELS[1]]
     car = options.car, log, aliases, {"step_size": COARSE}, options.bounds or BOUNDS
-    return kinds.rows_of(models, BODY, read_drive(log, aliases), car)
+    return omitted_seconds.rows_of(models, BODY, read_drive(log, aliases), car)
 
 
 def _log(options: Namespace) -> tuple[Path, Path]:
@@ -264,14 +264,14 @@ PARTS = {
         _kinds,
         options=LOGGED | SOUGHT,
         pages=(PAGE,),
-        blocks=lambda rows: {"kinds": table(rows, kinds.COLUMNS)},
+        blocks=lambda rows: {"kinds": table(rows, omitted_seconds.COLUMNS)},
     ),
     "others": Part(
         "figures that others published of cars and tyres, with what the cars here do",
-        lambda options: others.rows(),
-        others.COLUMNS,
+        lambda options: published_tests.rows(),
+        published_tests.COLUMNS,
         pages=(PAGE,),
-        blocks=lambda rows: {"others": table(rows, others.COLUMNS)},
+        blocks=lambda rows: {"others": table(rows, published_tests.COLUMNS)},
     ),
 }
 

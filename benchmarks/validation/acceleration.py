@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.validation.drive import Array
-from benchmarks.validation.published import KMH, Published, full_throttle
+from benchmarks.validation.published_figures import KMH, Published, full_throttle
 
 MPH = 1.609344  # km/h
 _BODY, _WITH_DRIVER = 1040.0, 1250.0  # kg, of the hatchback

@@ -8,9 +8,9 @@ control, and the best of four drivers of the catalogue steers it.
 
 from pathlib import Path
 
-from benchmarks.validation.published import Published
+from benchmarks.validation.published_figures import Published
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.perform import settings_of_test
+from hosts.catalogue.execution import settings_of_test
 from hosts.catalogue.registry import standard_test
 from hosts.fmu.fmu_file import fmu_file
 from hosts.fmu.fmu_source import FmuSource

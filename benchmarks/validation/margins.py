@@ -12,9 +12,9 @@ import numpy as np
 from benchmarks.shared.command import watched
 from benchmarks.validation.drive import FITTED, JUDGED, LENGTH, Array, Spans
 from benchmarks.validation.multibody import INTERVAL, LATERAL, YAW, in_windows, task_of
+from hosts.compare.segment_fmu import SegmentFmu
+from hosts.compare.segments import Segment
 from hosts.compare.start_values import reference_point
-from hosts.compare.stretch_fmu import StretchFmu
-from hosts.compare.stretches import Stretch
 from hosts.compare.task import Task
 
 BESIDE = 0.5, 0.3, 0.024  # m/s along, m/s across, rad/s: what the car may be off by (docs/validation.md)
@@ -42,20 +42,20 @@ def margins(car: str, log: Path, aliases: Path, settings: dict[str, float]) -> l
     rows = []
     for name, seconds in watched(list(_SECONDS.items())):
         task = task_of(car, log, aliases, settings, seconds)
-        point, stretches = reference_point(task.fmu, task.set_values), task.stretches
+        point, segments = reference_point(task.fmu, task.set_values), task.segments
         corners = [np.array(signs) * BESIDE for signs in product((-1.0, 1.0), repeat=3)]
-        with closing(StretchFmu(task.fmu, task.step)) as fmu:
-            beside = [_driven(fmu, [moved(s, *corner, point) for s in stretches]) for corner in corners]
-            rates = [_driven(fmu, [moved(s, 0.0, 0.0, rate, point) for s in stretches])[1] for rate in (0.0, DISTURBED)]
-            quick = [_driven(fmu, [quickened(s, factor) for s in stretches]) for factor in FASTER]
+        with closing(SegmentFmu(task.fmu, task.step)) as fmu:
+            beside = [_driven(fmu, [moved(s, *corner, point) for s in segments]) for corner in corners]
+            rates = [_driven(fmu, [moved(s, 0.0, 0.0, rate, point) for s in segments])[1] for rate in (0.0, DISTURBED)]
+            quick = [_driven(fmu, [quickened(s, factor) for s in segments]) for factor in FASTER]
         growth = np.abs(rates[1] - rates[0])[:, round(_SINCE / INTERVAL) :] / DISTURBED
-        told = (len(stretches), len(corners) * len(stretches), sum(_departed(task, driven) for driven in beside))
+        told = (len(segments), len(corners) * len(segments), sum(_departed(task, driven) for driven in beside))
         told += (float(growth.max()), float(growth[:, -1].max()), *(_departed(task, driven) for driven in quick))
         rows.append({"windows": name} | dict(zip(list(COLUMNS)[1:], told, strict=True)))
     return rows
 
 
-def moved(stretch: Stretch, along: float, across: float, rate: float, point: tuple[float, float]) -> Stretch:
+def moved(segment: Segment, along: float, across: float, rate: float, point: tuple[float, float]) -> Segment:
     """A stretch that starts beside its state.
 
     `along`, `across`, `rate`: m/s and rad/s, of the reference point; `point`: its place from the origin of the drawing,
@@ -66,26 +66,26 @@ def moved(stretch: Stretch, along: float, across: float, rate: float, point: tup
         "initial.lateral_speed": across - rate * point[0],
         "initial.yaw_rate": rate,
     }
-    start = stretch.manoeuvre.start
-    return _started(stretch, {name: float(start[name]) + value for name, value in by.items()})
+    start = segment.manoeuvre.start
+    return _started(segment, {name: float(start[name]) + value for name, value in by.items()})
 
 
-def quickened(stretch: Stretch, factor: float) -> Stretch:
+def quickened(segment: Segment, factor: float) -> Segment:
     """A stretch with another speed, held and at the start, and the steering as it is."""
-    assert stretch.speed is not None
-    held = replace(stretch.speed, values=factor * stretch.speed.values)
+    assert segment.speed is not None
+    held = replace(segment.speed, values=factor * segment.speed.values)
     name = "initial.speed"
-    return replace(_started(stretch, {name: factor * float(stretch.manoeuvre.start[name])}), speed=held)
+    return replace(_started(segment, {name: factor * float(segment.manoeuvre.start[name])}), speed=held)
 
 
-def _started(stretch: Stretch, start: dict[str, float]) -> Stretch:
-    return replace(stretch, manoeuvre=replace(stretch.manoeuvre, start={**stretch.manoeuvre.start, **start}))
+def _started(segment: Segment, start: dict[str, float]) -> Segment:
+    return replace(segment, manoeuvre=replace(segment.manoeuvre, start={**segment.manoeuvre.start, **start}))
 
 
-def _driven(fmu: StretchFmu, stretches: Sequence[Stretch]) -> tuple[Array, Array]:
+def _driven(fmu: SegmentFmu, segments: Sequence[Segment]) -> tuple[Array, Array]:
     """Lateral velocity and yaw rate in windows, each of shape (w, m); one that is refused keeps its last values."""
     at = INTERVAL * np.arange(round(LENGTH / INTERVAL) + 1)
-    runs = [fmu.drive(stretch) for stretch in stretches]
+    runs = [fmu.drive(segment) for segment in segments]
     across, turning = (np.array([np.interp(at, run.time, run[name]) for run in runs]) for name in (LATERAL, YAW))
     return across, turning
 

@@ -13,7 +13,7 @@ import numpy as np
 from benchmarks.validation.drive import EVERY, FITTED, JUDGED, LENGTH, Array, Spans, text_of
 from hosts.compare.command import main as compare
 from hosts.compare.command import parser_of
-from hosts.compare.stretches import GAP
+from hosts.compare.segments import GAP
 from hosts.compare.task import Task, prepare
 from hosts.fmu.fmu_file import fmu_file
 

@@ -13,7 +13,7 @@ from math import atan, cos, degrees, exp, pi, sin
 
 import numpy as np
 
-from benchmarks.validation.published import Published
+from benchmarks.validation.published_figures import Published
 from mbs import Model, compile, simulate
 from mbs.elements.magic_tyre import MagicTyre
 from mbs.elements.road import PlaneRoad

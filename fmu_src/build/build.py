@@ -16,12 +16,12 @@ from ali3.files import check_writable
 from ali3.parameter_set import ParameterSet
 from fmu_src.build.arguments import Systems, default_fidelity, folder, known_platforms, systems_by_number
 from fmu_src.build.progress_line import watched
-from fmu_src.description.nominal import drive_sizes, with_nominal
+from fmu_src.description.nominal_values import drive_sizes, with_nominal
 from fmu_src.description.probe import probe
 from fmu_src.geometry.geometry import geometry, geometry_file
-from fmu_src.geometry.renamed_columns import with_other_columns
+from fmu_src.geometry.renamed_columns import with_renamed_columns
 from fmu_src.native.early_compilation import compiled_ahead
-from fmu_src.native.faces import FMI2, FMI3, FMI3_SCALAR
+from fmu_src.native.fmi_versions import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
 from fmu_src.native.platforms import able_platforms
 from fmu_src.native.reference import ReferenceRun, reference_runs, with_other_names
@@ -56,7 +56,7 @@ def fmu_name(scene: str, kind: str = "native") -> str:
 
 
 def face_name(kind: str) -> str:
-    """Name of the face of a kind of FMU, as `fmu_src.native.compile.compile_library` takes it."""
+    """Name of the face of a kind of FMU, as `fmu_src.native.compilation.compile_library` takes it."""
     return _FACES[kind].name if kind in _FACES else kind
 
 
@@ -178,7 +178,7 @@ class FmuBuilder:
         self.renamed = Renamed(table, {}) if names is None else renamed(table, names)
         table = self.renamed.table
         if scene is not None and names is not None:
-            scene = with_other_columns(scene, self.renamed.named)
+            scene = with_renamed_columns(scene, self.renamed.named)
         self._contents = NativeContents(
             "", description, version, systems, table, reach, fidelity, followers, *rights, origin or {}
         )

@@ -8,12 +8,12 @@ from typing import Any
 
 import mbs
 from ali3.archives import LARGEST_UNPACKED
+from ali3.message_text import shortened
 from ali3.reading import is_file, read_bytes
-from ali3.words import shortened
 from fmu_src.build.scene_registry import SceneError
 from fmu_src.geometry.system_with_poses import Maker, posed_systems
 from mbs.vehicle import Car, Fidelity, car_names, load
-from mbs.vehicle.chosen_ports import chosen_ports
+from mbs.vehicle.port_option import chosen_ports
 from mbs.vehicle.summary import grip_row
 
 FOLDER = "resources/car"
@@ -51,7 +51,7 @@ def build_car(
     poses : {"wheels", "all"} or None
         As `fmu_src.geometry.system_with_poses.posed_systems` takes it.
     ports : str, optional
-        As `mbs.vehicle.chosen_ports.chosen_ports` takes them, in addition to those of the file; the name of what is
+        As `mbs.vehicle.port_option.chosen_ports` takes them, in addition to those of the file; the name of what is
         built says then that it has ports.
     fidelity : float, optional
         Number of a member of `mbs.vehicle.Fidelity` that is alone in what is built, which its name says; by default
@@ -94,7 +94,7 @@ def grip_of(car: Car) -> dict[str, str]:
     return dict(grip_row(car, axle) for axle in ("front", "rear"))
 
 
-def car_words(car: str) -> str:
+def car_text(car: str) -> str:
     """What is going to be built, for a person: a car of the package and a folder here may have one name.
 
     `car`: as for `build_car`.

@@ -13,7 +13,7 @@ from ali3.errors import UserError
 from ali3.extras import missing_package
 from ali3.near_names import did_you_mean
 from ali3.options import Parser, add_option
-from ali3.warning_lines import told_warnings
+from ali3.warning_lines import warning_lines
 
 if TYPE_CHECKING:
     from ali3.parameter_set import ParameterSet
@@ -122,7 +122,7 @@ def _add_platforms(options: argparse.Namespace) -> int:
     """More platforms for an FMU that is there."""
     from ali3.files import check_writable
     from fmu_src.build.progress_line import ProgressLine
-    from fmu_src.native.more_platforms import add_platforms
+    from fmu_src.native.added_platforms import add_platforms
     from fmu_src.native.platforms import this_platform
 
     _need("ziglang")
@@ -153,7 +153,7 @@ def _build(options: argparse.Namespace) -> int:
 
     first, rest = [p for p in platforms if p == here], [p for p in TARGETS if p in platforms and p != here]
     ahead = [(face_name(kind), p) for p in first + rest for kind in kinds if _able(kind, p)]
-    with compiled_ahead(ahead), told_warnings():
+    with compiled_ahead(ahead), warning_lines():
         return _build_kinds(options, kinds, first, rest)
 
 
@@ -176,7 +176,7 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
     builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin, names)
-    _tell_names(builder.renamed, len(builder.renamed.table))
+    _report_names(builder.renamed, len(builder.renamed.table))
     wanted = [p for p in TARGETS if p in first or p in rest]
     able = {kind: [p for p in wanted if _able(kind, p)] for kind in kinds}
     for kind in [k for k in kinds if not able[k]]:
@@ -209,13 +209,13 @@ def _compiled(
     """Name, Systems by fidelity, default fidelity, description and files of the car or the scene."""
     tables: list[str] = []
     if options.car is not None:
-        from fmu_src.build.car_registry import build_car, car_words
+        from fmu_src.build.car_registry import build_car, car_text
 
-        print(f"car {car_words(options.car)} ...", flush=True)
+        print(f"car {car_text(options.car)} ...", flush=True)
         with line.told("compiling the car"):
             car = build_car(options.car, options.poses, options.ports, options.fidelity, tables.append)
-        _tell_tables(tables)
-        _tell_grip(car.grip)
+        _report_tables(tables)
+        _report_grip(car.grip)
         return car.name, car.systems, min(car.systems), car.description, car.files
     from fmu_src.build.car_registry import grip_of
     from fmu_src.build.scene_registry import car_of_scene, load_fidelities
@@ -223,17 +223,17 @@ def _compiled(
     print(f"scene {options.scene} ...", flush=True)
     with line.told("compiling the scene"):
         compiled = load_fidelities(options.scene, options.poses, tables.append)
-    _tell_tables(tables)
+    _report_tables(tables)
     if (scene_car := car_of_scene(options.scene)) is not None:
-        _tell_grip(grip_of(scene_car))
+        _report_grip(grip_of(scene_car))
     return (*compiled, "", {})
 
 
-def _tell_tables(tables: Sequence[str]) -> None:
+def _report_tables(tables: Sequence[str]) -> None:
     print("".join(f"{table}\n" for table in tables), end="", flush=True)
 
 
-def _tell_names(found: Renamed, variables: int) -> None:
+def _report_names(found: Renamed, variables: int) -> None:
     named = found.named.values()
     if not named:
         return
@@ -247,7 +247,7 @@ def _tell_names(found: Renamed, variables: int) -> None:
         print(f"{', '.join(names)}: no other name; {why}", flush=True)
 
 
-def _tell_grip(grip: Mapping[str, str]) -> None:
+def _report_grip(grip: Mapping[str, str]) -> None:
     for axle, text in grip.items():
         print(f"{axle}: {text}", flush=True)
 

@@ -141,7 +141,7 @@ def _scene(scene: str) -> Iterator[tuple[str, Callable[..., Any]]]:
         except (SceneError, PosesError):
             raise
         except Exception as error:
-            raise _own_words(error, path) from error
+            raise _own_text(error, path) from error
 
 
 class _Neighbours(MetaPathFinder):
@@ -173,7 +173,7 @@ def _neighbours(folder: Path) -> Iterator[None]:
         sys.meta_path.remove(finder)
 
 
-def _own_words(error: Exception, path: Path) -> Exception:
+def _own_text(error: Exception, path: Path) -> Exception:
     """The error as it is where the engine refused the model in a sentence; else with its place in the user's files."""
     if isinstance(error, SyntaxError):
         return SceneError(f"{error.filename}, line {error.lineno}: {error.msg}.")

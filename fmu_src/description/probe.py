@@ -39,7 +39,7 @@ _SHARES = (1.0, 0.1, 0.01)
 _WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.DIRECTION)
 _SECOND = 2  # second rates need accelerations
 _ON_ROAD = (ElementType.TYRE, ElementType.MAGIC_TYRE, ElementType.CONTACT_POINTS)
-_ECHO, _MOTION, _FORCE = "echo", "motion", "force"
+_FEEDTHROUGH, _MOTION, _FORCE = "echo", "motion", "force"
 
 
 @dataclass(frozen=True)
@@ -121,7 +121,7 @@ class _Tries:
     def close(self, systems: Sequence[mbs.System]) -> None:
         """Add what no try may have opened."""
         kinds = {i: {_kind(system, self.table[i].index) for system in systems} for i in self.sensed}
-        kind = {i: next(k for k in (_FORCE, _MOTION, _ECHO) if k in found) for i, found in kinds.items()}
+        kind = {i: next(k for k in (_FORCE, _MOTION, _FEEDTHROUGH) if k in found) for i, found in kinds.items()}
         placed = {i for i, v in enumerate(self.table) if v.source in ("parameter", "pose")}
         forced = {k for i in self.sensed if kind[i] == _FORCE for k in self.initial[i]}
         on_road = {i for i in self.sensed if any(_meets_road(system, self.table[i].index) for system in systems)}
@@ -131,9 +131,9 @@ class _Tries:
             if kind.get(i) == _FORCE and self.initial[i]:
                 self.initial[i] |= placed
         if any(v.source == "settling" for v in self.table):
-            driven = any(self.moved[i] for i in self.sensed if kind[i] != _ECHO)
+            driven = any(self.moved[i] for i in self.sensed if kind[i] != _FEEDTHROUGH)
             moving = {i for i in self.sensed if self.initial[i] or self.moved[i] or (driven and kind[i] == _FORCE)}
-            moving = {i for i in moving if kind[i] != _ECHO}
+            moving = {i for i in moving if kind[i] != _FEEDTHROUGH}
             ahead = {i for i in self.outputs if self.table[i].source == "ahead"}
             self.settling = moving | {i for i in ahead if {self.table[i].index, self.table[i].other} & moving}
 
@@ -218,7 +218,7 @@ def _kind(system: mbs.System, sensor: int) -> str:
     kind, first = SensorType(system.arrays["sen_type"][sensor]), int(system.arrays["sen_int_ptr"][sensor])
     reads = SENSOR_READS[kind]
     if reads == SensorReads.INPUTS:
-        return _ECHO
+        return _FEEDTHROUGH
     second = kind in _WITH_ORDER and int(system.arrays["sen_int"][first]) == _SECOND
     return _MOTION if reads in (SensorReads.MOTION, SensorReads.SOLVER) and not second else _FORCE
 

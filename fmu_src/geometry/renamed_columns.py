@@ -10,7 +10,7 @@ from fmu_src.variables.variables import Variable
 _COLUMNS = ("position", "quaternion", "amplitudes", "angle", "way", "value", "computed", "vector", "tyre", "variables")
 
 
-def with_other_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:
+def with_renamed_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:
     """The scene with its columns as they are called.
 
     `scene`: as `fmu_src.geometry.geometry.geometry` gives it; `named`: variables that have another name, by ours. A

@@ -15,8 +15,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ali3.cores import available_cores
-from ali3.temporary import temporary_folder
-from fmu_src.native.compile import library_command
+from ali3.temporary_folder import temporary_folder
+from fmu_src.native.compilation import library_command
 from fmu_src.native.platforms import TARGETS
 from fmu_src.native.table import c_arrays, c_table
 from fmu_src.variables.arrays import scalars

@@ -8,12 +8,12 @@ from typing import Any
 
 import mbs
 from ali3.parameter_set import ParameterSet
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from fmu_src.description.description import Description
 from fmu_src.description.documentation import documentation
 from fmu_src.description.probe import Dependencies
 from fmu_src.native.archive import identity_of, licence, write_zip
-from fmu_src.native.compile import compile_library
+from fmu_src.native.compilation import compile_library
 from fmu_src.native.picture import curves_png
 from fmu_src.native.platforms import SUFFIXES
 from fmu_src.native.reference import ReferenceRun, reference_files
@@ -124,7 +124,7 @@ class NativeContents:
         return systems | road_resources(self.system.meta) | dict(self.origin) | scene
 
     @property
-    def origin_words(self) -> list[str]:
+    def origin_text(self) -> list[str]:
         """A paragraph of the documentation about `origin`; none where there is nothing."""
         if not self.origin:
             return []
@@ -204,7 +204,7 @@ def pack_native(
         **{f"sources/{path}": data for path, data in sources.items()},
         **contents.resources,
         "documentation/licenses/license.txt": licence("ali3"),
-        "documentation/index.html": _page(contents, [*contents.origin_words, *face.words]),
+        "documentation/index.html": _page(contents, [*contents.origin_text, *face.words]),
         face.picture: _picture(runs[0]),
     } | reference_files(name, runs, contents.stop_time, contents.step_size, contents.parameters)
     with temporary_folder() as temporary:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from itertools import accumulate
 
-from ali3.words import unit_text
+from ali3.message_text import unit_text
 from fmu_src.variables.arrays import Array, references
 from fmu_src.variables.text_variables import TextVariable
 from fmu_src.variables.variables import Variable

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pythonfmu
 
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from fmu_src.description.description import model_description
 from fmu_src.description.documentation import documentation
 from fmu_src.native.archive import identity_of, licence, write_zip
-from fmu_src.native.compile import compile_library
+from fmu_src.native.compilation import compile_library
 from fmu_src.native.package import NativeContents, Telling, first_time
 from fmu_src.native.platforms import PYTHON_PLATFORMS, SUFFIXES, TARGETS
 from fmu_src.native.sources import shell_files
@@ -75,7 +75,7 @@ def pack_python(
             contents.step_size,
             contents.table,
             [
-                *contents.origin_words,
+                *contents.origin_text,
                 "FMI 2.0 co-simulation through Python: the host's machine needs Python 3.10 or newer, and no package. "
                 "The calls pass a class in Python; the slave in C answers them as it does in the native FMU.",
             ],

@@ -108,8 +108,8 @@ def _vector(table: Sequence[Variable], i: int) -> Array | None:
         if all(table[k].name == prefix + dot + part for k, part in zip(items, parts, strict=True)):
             words = common_text([table[k].description for k in items])
             named = any(", ".join(names) in words for names in (parts, [part[-1] for part in parts]))
-            said = words if named else f"{', '.join(parts)}: {words}"
-            return Array(f"{prefix}{dot}{name}", tuple(items), table[i], said)
+            description = words if named else f"{', '.join(parts)}: {words}"
+            return Array(f"{prefix}{dot}{name}", tuple(items), table[i], description)
     return None
 
 
@@ -123,5 +123,5 @@ def _series(table: Sequence[Variable], i: int) -> Array | None:
         items.append(k)
     if len(items) < 2 or not _alike(table, items):
         return None
-    said = f"1 to {len(items)}: {common_text([table[k].description for k in items])}"
-    return Array(f"{match[1]}{match[3]}", tuple(items), table[i], said)
+    description = f"1 to {len(items)}: {common_text([table[k].description for k in items])}"
+    return Array(f"{match[1]}{match[3]}", tuple(items), table[i], description)

@@ -4,9 +4,9 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
+from ali3.message_text import range_text
 from ali3.parameter_set import Entry, ParameterSet, parameter_text
 from ali3.unit_definition import UnitDefinition
-from ali3.words import range_words
 from ali3.write_parameter_set import is_as_built, write_parameter_set
 from fmu_src.variables.text_variables import TextVariable
 from fmu_src.variables.units import parse_unit
@@ -32,7 +32,7 @@ def write_beside(parameters: ParameterSet, file: Path) -> bool:
 
 def _entry(v: Variable) -> Entry:
     assert v.start is not None
-    bounds = range_words(
+    bounds = range_text(
         -math.inf if v.min is None else v.min, math.inf if v.max is None else v.max, "1" if v.whole else v.unit
     )
     text = parameter_text(v.description, bounds, v.variability)

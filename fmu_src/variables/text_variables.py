@@ -8,7 +8,7 @@ from typing import Any
 from ali3.archives import LARGEST_UNPACKED
 from ali3.reading import read_bytes
 from fmu_src.variables.variables import Variable
-from mbs.roads.shipped import FOLDER
+from mbs.roads.package_roads import FOLDER
 
 ROADS = "resources/roads"
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from hosts.catalogue.car import TestedCar
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.settings import settings_of
@@ -59,7 +59,7 @@ def cars_of(
     for k, fmu in enumerate(fmus):
         file = None if not alias_files else alias_files[0 if len(alias_files) == 1 else k]
         cars += _cars_of_one(fmu, file, sets or [Path(AS_IS)], values, step)
-    return _told_apart(cars)
+    return _distinguished(cars)
 
 
 def _cars_of_one(
@@ -70,8 +70,8 @@ def _cars_of_one(
         file = None if alias_file is None or str(alias_file) == NO_ALIASES else alias_file
         source = FmuSource.named(path, fmu.table, file)
         for one in sets:
-            wishes = Wishes([] if str(one) == AS_IS else [one], list(values))
-            start = settings_of(fmu.table, wishes).start
+            fmu_options = FmuOptions([] if str(one) == AS_IS else [one], list(values))
+            start = settings_of(fmu.table, fmu_options).start
             label = path.stem if str(one) == AS_IS else f"{path.stem}, {one.stem}"
             cars.append(TestedCar(label, source, _ours(start, source), step))
     for car in cars:
@@ -91,12 +91,12 @@ def _ours(start: Mapping[str, Value], source: FmuSource) -> dict[str, Value]:
     return made
 
 
-def _told_apart(cars: Sequence[TestedCar]) -> list[TestedCar]:
+def _distinguished(cars: Sequence[TestedCar]) -> list[TestedCar]:
     """The cars with labels of which none stands twice."""
     seen: dict[str, int] = {}
-    told = []
+    labelled = []
     for car in cars:
         seen[car.label] = seen.get(car.label, 0) + 1
         count = seen[car.label]
-        told.append(car if count == 1 else replace(car, label=f"{car.label} ({count})"))
-    return told
+        labelled.append(car if count == 1 else replace(car, label=f"{car.label} ({count})"))
+    return labelled

@@ -15,7 +15,7 @@ from hosts.catalogue.steering import SteeringInput
 from hosts.catalogue.stop_conditions import ROLLED
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.circle_follower import CircleFollower
-from hosts.driving.pilots.combined_pilot import Together
+from hosts.driving.pilots.combined_pilot import CombinedPilot
 from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.result import Result
@@ -62,7 +62,7 @@ class _Watch:
         self.side, self.method, self.first, self.rate, self.tolerance = side, method, first, rate, tolerance
         self.begin = math.nan
         self.end = ""
-        self.off_circle: Callable[[Mapping[str, float]], float] = lambda senses: 0.0
+        self.off_circle: Callable[[Mapping[str, float]], float] = lambda observation: 0.0
         self._off_since = 0.0
         self._smooth = 0.0
         self._largest = 0.0
@@ -76,9 +76,9 @@ class _Watch:
         """By how much what rises has risen."""
         return self.rate * max(time - self.begin, 0.0) if math.isfinite(self.begin) else 0.0
 
-    def ends(self, time: float, senses: Mapping[str, float]) -> bool:
+    def ends(self, time: float, observation: Mapping[str, float]) -> bool:
         """Whether the run is over."""
-        lag = self.speed(time) - senses["speed"]
+        lag = self.speed(time) - observation["speed"]
         step, self._time = time - self._time, time
         if not math.isfinite(self.begin):
             if abs(lag) > 0.3:
@@ -88,17 +88,17 @@ class _Watch:
             if time > _APPROACH:
                 self.end = f"the car did not reach {3.6 * self.first:.3g} km/h within {_APPROACH:g} s."
             return time > _APPROACH
-        if abs(senses.get("sideslip", 0.0)) > _SPUN or abs(senses.get("chassis.roll", 0.0)) > ROLLED:
+        if abs(observation.get("sideslip", 0.0)) > _SPUN or abs(observation.get("chassis.roll", 0.0)) > ROLLED:
             return True
-        self._smooth += step / 0.5 * (self.side * senses["chassis.ay"] - self._smooth)
+        self._smooth += step / 0.5 * (self.side * observation["chassis.ay"] - self._smooth)
         self._largest = max(self._largest, self._smooth)
         if lag > _LAG:
             self.end = (
-                f"the drive ended the run: at {3.6 * senses['speed']:.3g} km/h and {self._smooth:.3g} m/s² the speed "
-                "does not rise further."
+                f"the drive ended the run: at {3.6 * observation['speed']:.3g} km/h and {self._smooth:.3g} m/s² the "
+                "speed does not rise further."
             )
             return True
-        return abs(self.off_circle(senses)) > self.tolerance or self._smooth < self._largest - _FALL
+        return abs(self.off_circle(observation)) > self.tolerance or self._smooth < self._largest - _FALL
 
 
 def drive_circle(
@@ -119,14 +119,14 @@ def drive_circle(
     stop = _APPROACH + (min(most, 300.0) if math.isfinite(most) else 300.0)
     expected = 0.2 * most * rate if steady else math.sqrt(_USUAL * radius) - first
     name = f"circle to the {'left' if side > 0.0 else 'right'}"
-    told = 0.0
+    reported_time = 0.0
 
-    def ends(time: float, senses: Mapping[str, float]) -> bool:
-        nonlocal told
-        if time - told > 1.0:
-            told = time
+    def ends(time: float, observation: Mapping[str, float]) -> bool:
+        nonlocal reported_time
+        if time - reported_time > 1.0:
+            reported_time = time
             progress(min(watch.risen(time) / expected, 1.0))
-        return watch.ends(time, senses)
+        return watch.ends(time, observation)
 
     result = car.drive(Manoeuvre(name, np.zeros(0), {}, stop, start_at(car, first)), pilot, ends, record_step=_RECORD)
     if result.refusal:
@@ -149,8 +149,8 @@ def _pilot(
         return follower
     if method == CONSTANT_ANGLE:
         angle = side * ratio * math.atan(wheelbase / radius)
-        return Together(SpeedHolder(watch.speed, brakes=brakes), _Wheel(steering, lambda time: angle))
-    return Together(
+        return CombinedPilot(SpeedHolder(watch.speed, brakes=brakes), _Wheel(steering, lambda time: angle))
+    return CombinedPilot(
         SpeedHolder(watch.speed, brakes=brakes),
         _Wheel(steering, lambda time: side * min(watch.risen(time), steering.largest)),
     )
@@ -162,7 +162,7 @@ class _Wheel:
     def __init__(self, steering: SteeringInput, angle: Callable[[float], float]) -> None:
         self.steering, self.angle = steering, angle
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         return {self.steering.name: self.steering.per_radian * self.angle(time)}
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hosts.driving.result import Result
 from hosts.measures.braking import locked
-from hosts.measures.turning import circle_through, off_circle, yaw_rate_on_circle
+from hosts.measures.disturbed_turn import circle_through, off_circle, yaw_rate_on_circle
 from hosts.measures.wheels import at_wheels
 
 STEADY = 1.0  # s before the onset, over which the circle is taken

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from hosts.catalogue.limits import GivenLimits
     from hosts.catalogue.record import StandardTest, TestRecord
     from hosts.catalogue.task import Outcome, Task
-    from hosts.experiment.store import Kept
+    from hosts.experiment.store import ResultStore
 
 _PENDING = "Not done yet: the command is still running, or was stopped."
 
@@ -92,11 +92,11 @@ def _list() -> int:
 def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     from ali3.files import check_writable
     from hosts.catalogue.cars import cars_of
+    from hosts.catalogue.execution import settings_of_test
     from hosts.catalogue.limits import GivenLimits
-    from hosts.catalogue.perform import settings_of_test
     from hosts.catalogue.record import TestRecord
     from hosts.catalogue.registry import TESTS, standard_test
-    from hosts.experiment.store import Kept
+    from hosts.experiment.store import ResultStore
     from hosts.measures.limits import read_limits
 
     if not options.fmus:
@@ -114,7 +114,7 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     fmus = [fmu_file(path).absolute() for path in options.fmus]
     cars = cars_of(fmus, options.aliases, options.variant, options.set, options.step)
 
-    with Kept[TestRecord](options.out, TestRecord, "does tests", options.again) as kept:
+    with ResultStore[TestRecord](options.out, TestRecord, "does tests", options.again) as kept:
         return _do(options, command, tests, cars, settings, limits, kept)
 
 
@@ -125,15 +125,15 @@ def _do(
     cars: Sequence[TestedCar],
     settings: Mapping[str, Mapping[str, float]],
     limits: GivenLimits,
-    kept: Kept[TestRecord],
+    kept: ResultStore[TestRecord],
 ) -> int:
     """Do the tests that are not kept, and write what is there after each."""
+    from hosts.catalogue.execution import missing_for
     from hosts.catalogue.finished_tests import find
     from hosts.catalogue.output import print_measures, write_measures
-    from hosts.catalogue.perform import missing_for
     from hosts.catalogue.report import write_report
     from hosts.catalogue.task import Task
-    from hosts.experiment.store import tell_kept
+    from hosts.experiment.store import report_resumed
 
     outcomes: dict[str, dict[str, Outcome]] = {test.name: {} for test in tests}
     tasks = []
@@ -149,7 +149,7 @@ def _do(
                 outcomes[test.name][car.label] = _PENDING if before is None else before
                 tasks += [task] if before is None else []
     there = sum(not isinstance(outcome, str) for by_car in outcomes.values() for outcome in by_car.values())
-    tell_kept(there, len(tests) * len(cars), "tests")
+    report_resumed(there, len(tests) * len(cars), "tests")
     # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
     files = write_measures(options.out, tests, cars, limits.judged(outcomes)[0], settings)
     try:
@@ -186,12 +186,12 @@ def _test_settings(given: Sequence[tuple[str, float]], names: Sequence[str]) -> 
 
 
 def _done(
-    tasks: Sequence[Task], jobs: int, outcomes: Mapping[str, dict[str, Outcome]], kept: Kept[TestRecord]
+    tasks: Sequence[Task], jobs: int, outcomes: Mapping[str, dict[str, Outcome]], kept: ResultStore[TestRecord]
 ) -> Generator[None]:
     """Do all tasks under a progress bar; after each its outcome is among the others, and kept in the folder."""
-    from ali3.isolated import Lost
+    from ali3.isolated_processes import Lost
+    from hosts.catalogue.execution import Reason
     from hosts.catalogue.finished_tests import keep
-    from hosts.catalogue.perform import Reason
     from hosts.catalogue.record import TestRecord
     from hosts.catalogue.task import do, write_runs
     from hosts.experiment.experiment import Experiment

@@ -11,8 +11,8 @@ from pydantic import BaseModel, ConfigDict
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.preparation import early_end, with_step_up_to
 from hosts.catalogue.record import Line, Plot, Setting, TestRecord
+from hosts.catalogue.side_measures import NOT_SHOWN, asymmetry, mean_of_sides
 from hosts.catalogue.steering import SteeringInput
-from hosts.catalogue.two_sides import NOT_SHOWN, asymmetry, mean_of_sides
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from hosts.measures.measure import Limit, Measure

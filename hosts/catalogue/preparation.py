@@ -63,9 +63,9 @@ class RunUp:
         self.start, self._speed = start_at(car, speed), speed
         self.longest = _SETTLED + 10.0 if self.start else _LONGEST
 
-    def is_over(self, time: float, senses: Mapping[str, float]) -> bool:
+    def is_over(self, time: float, observation: Mapping[str, float]) -> bool:
         """Whether the speed is held."""
-        return time >= _SETTLED - 1e-9 and abs(senses["speed"] - self._speed) <= max(0.005 * self._speed, 0.05)
+        return time >= _SETTLED - 1e-9 and abs(observation["speed"] - self._speed) <= max(0.005 * self._speed, 0.05)
 
 
 def early_end(run: str, result: Result) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ from hosts.catalogue.steering import SteeringInput
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from hosts.measures.filters import phaseless_low_pass
-from hosts.measures.log_echo import relations_echo
+from hosts.measures.log_plausibility import relations_plausibility
 from hosts.measures.measure import Measure
 from hosts.measures.signal import Signal
 
@@ -146,7 +146,7 @@ def refuse_odd(run: SteeredRun) -> None:
         ("chassis.ay", "m/s2", run.acceleration),
     )
     signals = {n: Signal(n, n, unit, run.time, x) for n, unit, x in given if np.all(np.isfinite(x))}
-    for sentence in relations_echo("In a slow turn", signals).warnings():
+    for sentence in relations_plausibility("In a slow turn", signals).warnings():
         raise HostError(f"{sentence} An alias file gives signs and units by factor.")
 
 

@@ -61,11 +61,11 @@ class SteeredPilot:
         self._coasting = False
         self._acts: dict[str, float] = {}
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         if not math.isfinite(self.begin):
-            self._approaching(time, senses["speed"])
+            self._approaching(time, observation["speed"])
         if not self._coasting and (not math.isfinite(self.begin) or self.pedals is Pedals.HOLD_SPEED):
-            self._acts = self._holder.act(time, senses)
+            self._acts = self._holder.act(time, observation)
         angle = float(np.interp(time - self.begin, self.time, self.values)) if math.isfinite(self.begin) else 0.0
         return self._acts | {self.input.name: angle}
 
@@ -86,9 +86,9 @@ class SteeredPilot:
                     self.begin = time
         self.gave_up = not math.isfinite(self.begin) and time > self.longest
 
-    def ends(self, time: float, senses: Mapping[str, float]) -> bool:
+    def ends(self, time: float, observation: Mapping[str, float]) -> bool:
         """Whether the run is over: the table is at its end, the car gave up or lies on its side."""
-        return self.gave_up or time >= self.begin + self.time[-1] or abs(senses.get("chassis.roll", 0.0)) > ROLLED
+        return self.gave_up or time >= self.begin + self.time[-1] or abs(observation.get("chassis.roll", 0.0)) > ROLLED
 
 
 @dataclass(frozen=True)
@@ -161,8 +161,8 @@ def steer(
         start,
     )
 
-    def ends(t: float, senses: Mapping[str, float]) -> bool:
-        return pilot.ends(t, senses) or abs(senses["chassis.ay"]) > lateral_limit
+    def ends(t: float, observation: Mapping[str, float]) -> bool:
+        return pilot.ends(t, observation) or abs(observation["chassis.ay"]) > lateral_limit
 
     result = car.drive(manoeuvre, pilot, ends, _INTERVAL)
     return _signals(result, pilot, car.facts.step)

@@ -9,9 +9,9 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.preparation import start_at
 from hosts.catalogue.steering import SteeringInput
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.pilots.combined_pilot import Together
+from hosts.driving.pilots.combined_pilot import CombinedPilot
 from hosts.driving.pilots.speed_holder import SpeedHolder
-from hosts.driving.pilots.steering import SteeringTable
+from hosts.driving.pilots.steering_table import SteeringTable
 
 RATIO = "vehicle.steering_ratio"
 WHEELS = ("wheel_FL.steer", "wheel_FR.steer")
@@ -32,7 +32,7 @@ def steering_ratio(car: TestedCar) -> float:
         return car.facts.constants.get(RATIO, math.nan)
     times = np.array([0.0, 1.0, 3.0, 7.0])
     table = steering.per_radian * _ANGLE * np.array([0.0, 0.0, 1.0, -1.0])
-    pilot = Together(
+    pilot = CombinedPilot(
         SpeedHolder(_SPEED, brakes="brake" in car.facts.inputs), SteeringTable(times, table, steering.name)
     )
     result = car.drive(

@@ -12,7 +12,7 @@ from typing import TypeAlias
 from ali3.errors import UserError
 from ali3.files import write_text
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.perform import Reason, perform
+from hosts.catalogue.execution import Reason, perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.run.result_files import write_csv
@@ -65,11 +65,11 @@ def write_runs(task: Task, record: TestRecord) -> None:
     for name, result in record.runs.items():
         file = task.folder / run_file(task.test, task.car.label, name)
         write_csv(result, file)
-        told = [{"name": variable, "new": value} for variable, value in task.car.fmu.theirs(result.start).items()]
+        settings = [{"name": variable, "new": value} for variable, value in task.car.fmu.theirs(result.start).items()]
         seen = {
             "fmu": str(task.car.path),
             "token": task.car.facts.token,
-            "set": told,
+            "set": settings,
             "marks": result.marks,
             "names": task.car.fmu.of_record,
         }

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ali3.errors import UserError
-from ali3.isolated import Lost
+from ali3.isolated_processes import Lost
 from hosts.check.behaviour import BEHAVIOUR_CHECKS
 from hosts.check.dependencies import DEPENDENCY_CHECKS
 from hosts.check.documents import DOCUMENT_CHECKS, FUNCTIONS

@@ -17,13 +17,13 @@ from ali3.cores import available_cores
 from ali3.decimal_number import number
 from ali3.extras import command_needs
 from ali3.files import check_writable
+from ali3.message_text import shortened
 from ali3.options import Parser, add_option, assignment, count, given_of
-from ali3.words import shortened
 from hosts.check.junit import Case, write_junit
 from hosts.check.sarif import write_sarif
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.options import Wishes, add_fmu, add_setting_options, wishes
+from hosts.common.options import FmuOptions, add_fmu, add_setting_options, fmu_options
 from hosts.fmu.fmu_file import fmu_file
 
 if TYPE_CHECKING:
@@ -163,7 +163,7 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     if table:
         from hosts.check.parameters import parameters
 
-        return parameters(fmu, wishes(options), options.save_parameters, options.diff, options.show_parameters)
+        return parameters(fmu, fmu_options(options), options.save_parameters, options.diff, options.show_parameters)
     cases: list[Case] = []
     try:
         if reference:
@@ -185,12 +185,12 @@ def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
 
     if len(options.fidelity) > 1:
         raise HostError("--fidelity is given twice; give one with --reference.")
-    asked = Asked(options.manoeuvre, options.step, next(iter(options.fidelity), None), wishes(options))
+    asked = Asked(options.manoeuvre, options.step, next(iter(options.fidelity), None), fmu_options(options))
     jobs, out = options.jobs or available_cores(), options.out or OUT
     return check_references(fmu, options.reference, cases, options.bound, asked, jobs, out, options.again)
 
 
-def _settings(fmu: Path, given: Wishes) -> Settings:
+def _settings(fmu: Path, given: FmuOptions) -> Settings:
     from hosts.fmu.fmu import described
     from hosts.fmu.settings import settings_of
     from hosts.fmu.variables import Variables
@@ -200,7 +200,7 @@ def _settings(fmu: Path, given: Wishes) -> Settings:
 
 def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     """The checks in a process of their own; one that a check takes down is replaced for the others."""
-    from ali3.isolated import Lost
+    from ali3.isolated_processes import Lost
     from hosts.check.all_checks import CHECKS, Checker, left_out, lost
     from hosts.check.archive import archive_findings
     from hosts.check.instance import Finding
@@ -213,7 +213,7 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
             cases.append(Case(fmu.stem, finding.check, "bad" if finding.verdict == "bad" else "good", finding.words))
         raise HostError(f"{fmu} is not unpacked: nothing else in it was checked.")
     start: Mapping[str, Value] = {}
-    if given := wishes(options):
+    if given := fmu_options(options):
         settings = _settings(fmu, given)
         start = settings.start
         for name, words in settings.rows():

@@ -10,7 +10,7 @@ from fmpy.validation import validate_fmu
 
 from ali3.call_mark import marked
 from ali3.columns import some_of
-from ali3.processes import cause_words
+from ali3.processes import cause_text
 from hosts.check.instance import REAL, Check, Finding, Subject
 
 FUNCTIONS = "functions"
@@ -48,7 +48,7 @@ def functions(subject: Subject) -> Finding:
     try:
         loaded = marked("dlopen", ctypes.CDLL)(str(library))
     except OSError as error:
-        return lacks(f"the library cannot be loaded: {error}{cause_words(error)}")
+        return lacks(f"the library cannot be loaded: {error}{cause_text(error)}")
     kind, prefix = (FMU3Slave, "fmi3") if subject.three else (FMU2Slave, "fmi2")
     wanted = [name for name in dir(kind) if name.startswith(prefix)]
     missing = [name for name in wanted if not hasattr(loaded, name)]

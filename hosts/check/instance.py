@@ -16,7 +16,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.errors import reason
-from ali3.words import one_line
+from ali3.message_text import one_line
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu import instance

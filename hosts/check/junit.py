@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Literal
 from xml.etree import ElementTree
 
-from ali3.files import whole_file
+from ali3.files import atomic_file
 
 _MOST = 10_000  # characters of a text
 _NOT_IN_XML = re.compile(r"[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -57,7 +57,7 @@ def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
             kind = "failure" if case.verdict == "bad" else case.verdict
             ElementTree.SubElement(element, kind, {"message": _text(case.words)}).text = _text(case.words)
     ElementTree.indent(top)
-    with whole_file(file) as made:
+    with atomic_file(file) as made:
         ElementTree.ElementTree(top).write(made, encoding="utf-8", xml_declaration=True)
 
 

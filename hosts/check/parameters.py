@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from ali3.columns import in_columns
 from ali3.files import check_writable
+from ali3.message_text import shortened
 from ali3.units import typeset
-from ali3.words import shortened
 from ali3.write_parameter_set import write_parameter_set
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.fmu.fmu import described
 from hosts.fmu.parameter_file_settings import settings_of_file
 from hosts.fmu.parameters_as_set import parameter_set_of
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from hosts.fmu.settings import Settings
 
 
-def parameters(fmu: Path, given: Wishes, out: Path | None, diff: Path | None, show: bool = False) -> int:
+def parameters(fmu: Path, given: FmuOptions, out: Path | None, diff: Path | None, show: bool = False) -> int:
     """Print the parameters of an FMU of FMI 2.0 or 3.0, or what is other in a set, and write them.
 
     `given`: what is set in it before; `diff`: parameter set of which only what is other is printed; `show`: whether the

@@ -228,17 +228,17 @@ def messages(subject: Subject) -> Finding:
             words = f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is no format"
             verdict: Literal["note", "bad"] = "note" if subject.three else "bad"
             return Finding("messages", verdict, f"{words} {subject.clause('2.1.5', '2.3.1')}")
-    quiet, said, words = Instance(subject).start(), len(instance.messages), ""
+    quiet, message_count, words = Instance(subject).start(), len(instance.messages), ""
     quiet.run(5)
-    if said > 20 * max(1, len(rows)):
-        words = f"{said} in {len(rows)} steps; say what repeats once"
+    if message_count > 20 * max(1, len(rows)):
+        words = f"{message_count} in {len(rows)} steps; say what repeats once"
     elif instance.without_text:
         words = f"{instance.without_text} have no category or text; give both"
     elif quiet.chatter:
         words = f"logging is off, and {quiet.chatter} are of no problem, as {quiet.messages[0][:40]!r}; leave them out"
     if words:
         return Finding("messages", "note", f"{words} {subject.clause('2.1.5', '2.3.1')}")
-    return Finding("messages", "good", f"{said} in {len(rows)} steps")
+    return Finding("messages", "good", f"{message_count} in {len(rows)} steps")
 
 
 PROCESS_CHECKS = (

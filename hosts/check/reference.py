@@ -17,7 +17,7 @@ from ali3.tables import TextTable
 from hosts.check.deviations import BOUND, Deviation, deviations, remedies
 from hosts.check.junit import Case
 from hosts.common.errors import HostError
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, digest, with_names_of
 from hosts.driving.manoeuvre_settings import set_in
@@ -25,9 +25,9 @@ from hosts.driving.manoeuvre_table import check_begin, read_table
 from hosts.driving.result import Result
 from hosts.driving.run_checks import check_columns
 from hosts.driving.run_record import record_of
-from hosts.driving.run_with_bar import Drive, runs_with_bar
+from hosts.driving.runs_with_progress import Drive, runs_with_bar
 from hosts.experiment.run_key import run_key
-from hosts.experiment.store import Kept, tell_kept
+from hosts.experiment.store import ResultStore, report_resumed
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.own_process import files_of
 from hosts.fmu.settings import Settings
@@ -53,7 +53,7 @@ class Asked:
     """Communication step, s; None: of the record beside a table, else of the FMU, made such that rows are communication
     points."""
     fidelity: float | None
-    wishes: Wishes
+    fmu_options: FmuOptions
     """Parameters and start values."""
 
 
@@ -141,7 +141,11 @@ def check_references(
 
     with ExitStack() as held:
         fmu = held.enter_context(Fmu(path))
-        kept = held.enter_context(Kept[_Compared](out, _Compared, "checks an FMU", again)) if place.is_dir() else None
+        kept = (
+            held.enter_context(ResultStore[_Compared](out, _Compared, "checks an FMU", again))
+            if place.is_dir()
+            else None
+        )
         references = []
         for file in files:
             try:
@@ -169,7 +173,7 @@ def check_references(
 def _done(
     fmu: Fmu,
     references: Sequence[_Reference],
-    kept: Kept[_Compared] | None,
+    kept: ResultStore[_Compared] | None,
     bounds: Sequence[tuple[str, float]],
     by_table: bool,
     jobs: int,
@@ -179,7 +183,7 @@ def _done(
     names = [reference.file.name for reference in references]
     before = [None if kept is None else kept.find(*name_and_key) for name_and_key in zip(names, keys, strict=True)]
     there = [(number, found) for number, found in enumerate(before) if found is not None]
-    tell_kept(len(there), len(keys), "tables")
+    report_resumed(len(there), len(keys), "tables")
     yield from there
     left = [number for number, found in enumerate(before) if found is None]
     with closing(runs_with_bar(fmu, [references[number].drive for number in left], jobs)) as results:
@@ -215,7 +219,7 @@ def _reference(fmu: Fmu, file: Path, asked: Asked) -> _Reference:
     driven = with_names_of(driven, fmu.variables)
     check_columns(fmu, driven)
     driver = driver_of(fmu, driven)
-    driven, settings = set_in(fmu, driven, asked.wishes, asked.fidelity)
+    driven, settings = set_in(fmu, driven, asked.fmu_options, asked.fidelity)
     driven = replace(driven, stop_time=float(times[-1]))
     step = _step(fmu, driven, times) if asked.step is None else asked.step
     _check_times(times, step, file)

@@ -6,7 +6,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from ali3.files import whole_file
+from ali3.files import atomic_file
 from hosts.check.junit import Case
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -38,6 +38,6 @@ def write_sarif(file: Path, fmu: Path, cases: Sequence[Case]) -> None:
         found = {"ruleId": case.name, "ruleIndex": names.index(case.name), "kind": kind, "level": level}
         results.append(found | {"message": {"text": case.words}, "locations": [place]})
     run = {"tool": {"driver": driver}, "results": results}
-    with whole_file(file) as made:
+    with atomic_file(file) as made:
         text = json.dumps({"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}, indent=1, ensure_ascii=False)
         made.write_text(text + "\n", encoding="utf-8")

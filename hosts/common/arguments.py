@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ali3.words import brief
+from ali3.message_text import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import is_finite
 

@@ -3,9 +3,9 @@
 import subprocess
 from collections.abc import Callable
 
-from ali3.children import how_ended
+from ali3.child_processes import how_ended
+from ali3.message_text import brief
 from ali3.processes import module_command
-from ali3.words import brief
 from hosts.common.errors import HostError
 
 ERROR = "error: "
@@ -36,10 +36,10 @@ def run_ali3(*arguments: str, hear: Callable[[str], None] = lambda line: None) -
         except BaseException:  # SIGTERM for this process alone: the other one would be waited for
             process.terminate()
             raise
-    said = "".join(lines)
+    output = "".join(lines)
     if process.returncode != 0:
-        last = said.strip().splitlines()[-1:]
+        last = output.strip().splitlines()[-1:]
         if last and last[0].startswith(ERROR):
             raise HostError(last[0].removeprefix(ERROR))
-        raise HostError(f"The process of ali3 {how_ended(process.returncode, said)}.")
-    return said
+        raise HostError(f"The process of ali3 {how_ended(process.returncode, output)}.")
+    return output

@@ -11,7 +11,7 @@ ROAD = "road.file"
 
 
 @dataclass(frozen=True)
-class Wishes:
+class FmuOptions:
     """What the user sets."""
 
     sets: list[Path]
@@ -41,6 +41,6 @@ def add_setting_options(parser: argparse._ActionsContainer) -> None:
     add_option(parser, "--set", action="append")
 
 
-def wishes(options: argparse.Namespace) -> Wishes:
+def fmu_options(options: argparse.Namespace) -> FmuOptions:
     """What was given by the options of `add_setting_options`."""
-    return Wishes(options.parameters, options.set)
+    return FmuOptions(options.parameters, options.set)

@@ -3,9 +3,9 @@
 from pathlib import Path
 
 import ali3
+from ali3.message_text import brief
 from ali3.near_names import did_you_mean
 from ali3.reading import is_file, is_folder
-from ali3.words import brief
 from hosts.common.errors import HostError
 
 _MBS = Path(ali3.__file__).parents[1] / "mbs"

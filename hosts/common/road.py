@@ -12,23 +12,23 @@ from typing import Any
 from ali3.files import make_folder
 from ali3.json_reading import read_json
 from ali3.reading import is_file, is_folder
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from hosts.common.commands import run_ali3
-from hosts.common.options import ROAD, Wishes, wishes
+from hosts.common.options import ROAD, FmuOptions, fmu_options
 
 MADE_OF = (".csv", ".txt", ".npy", ".npz", ".png", ".toml", ".crg", ".stl", ".obj", ".ply", ".off", ".glb", ".gltf")
 """Suffixes of what ``ali3 road`` makes a road file of."""
 
 
-def wishes_with_road(options: argparse.Namespace, out: Path) -> Wishes:
-    """What was given by `hosts.common.options.wishes`, behind the road of ``--road``, if there is one.
+def options_with_road(options: argparse.Namespace, out: Path) -> FmuOptions:
+    """What was given by `hosts.common.options.fmu_options`, behind the road of ``--road``, if there is one.
 
     `out`: as of `road_value`.
     """
-    given = wishes(options)
+    given = fmu_options(options)
     if options.road is None:
         return given
-    return Wishes(given.sets, [(ROAD, road_value(options.road, out)), *given.values])
+    return FmuOptions(given.sets, [(ROAD, road_value(options.road, out)), *given.values])
 
 
 def road_value(given: str, out: Path) -> str:
@@ -42,12 +42,12 @@ def road_value(given: str, out: Path) -> str:
     if path.suffix.lower() not in MADE_OF:
         return str(path.absolute()) if is_file(path) or is_folder(path) else given
     made = make_folder(out) / f"{path.stem}.road"
-    said = run_ali3("road", str(path), str(made))
-    print(said, end="", file=sys.stderr)  # what is odd about the road
+    output = run_ali3("road", str(path), str(made))
+    print(output, end="", file=sys.stderr)  # what is odd about the road
     return str(made.absolute())
 
 
-def tell_starts(starts: Iterable[Mapping[str, object]]) -> None:
+def report_starts(starts: Iterable[Mapping[str, object]]) -> None:
     """Tell before drives begin that they begin beside their roads, on standard error, of each road once.
 
     `starts`: start values; one without a file here as its parameter ``road.file`` says nothing.

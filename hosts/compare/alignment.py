@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy import signal as sp
 from scipy.optimize import least_squares
 
-from hosts.compare.correlated import covariance
+from hosts.compare.correlated_residuals import covariance
 from hosts.compare.cross_validation import FEWEST, Parts, jackknife, parts_of
 from hosts.compare.curve import Curve
 from hosts.compare.deviations import is_constant

@@ -93,7 +93,7 @@ def _names(text: str) -> list[str]:
 
 
 def _compare(options: argparse.Namespace) -> int:
-    from hosts.compare.perform import perform
+    from hosts.compare.execution import perform
 
     options.fmu = fmu_file(options.fmu)
     return perform(options)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from hosts.compare.deviations import rms
-from hosts.compare.stretches import Stretch
+from hosts.compare.segments import Segment
 from hosts.measures.signal import Signal
 
 Array = NDArray[np.float64]
@@ -39,14 +39,14 @@ class Parts:
         return 1.0 + float(step.sum()) / self.length
 
 
-def parts_of(outputs: Mapping[str, Signal], stretches: Sequence[Stretch]) -> Parts:
+def parts_of(outputs: Mapping[str, Signal], segments: Sequence[Segment]) -> Parts:
     """The windows, or equal parts of a run without restart.
 
     `outputs`: samples that are compared, in the order of the residuals.
     """
-    if len(stretches) > 1:
-        places = np.array([s.place for s in stretches])
-        begins, length = np.array([s.begin for s in stretches]), stretches[0].end
+    if len(segments) > 1:
+        places = np.array([s.place for s in segments])
+        begins, length = np.array([s.begin for s in segments]), segments[0].end
     else:
         times = np.concatenate([s.time for s in outputs.values()])
         length = max(float(np.ptp(times)), 1e-9) / _PARTS

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ali3.message_text import brief
 from ali3.reading import other_encoding
 from ali3.tables import LARGEST, cells_of
 from ali3.units import known_unit
 from ali3.unpacked_size import Unpacked
-from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.compare.log_aliases import Dialect
 

@@ -12,10 +12,10 @@ from scipy.stats import qmc
 
 from hosts.common.display_units import number_in
 from hosts.common.errors import HostError
-from hosts.compare.correlated import covariance, effective_samples
+from hosts.compare.correlated_residuals import covariance, effective_samples
 from hosts.compare.cross_validation import FEWEST, Parts, clustered_covariance, folds, left_out, without_each
 from hosts.compare.deviations import rms
-from hosts.compare.fit_result import Fit, Found, Start
+from hosts.compare.fit_result import Fit, FittedUnknown, Start
 from hosts.compare.fit_unknowns import Unknown
 from hosts.compare.noise import computed_noise, difference_steps, measured_noise
 from hosts.compare.residuals import RefusedError, Residuals
@@ -200,7 +200,7 @@ def _judged(
     correlation = np.where(np.isfinite(spread), spread, 0.0) / np.outer(finite, finite)
     np.fill_diagonal(correlation, 1.0)
     found = [
-        Found(u, float(v), math.inf if gone else float(h), _bound(u, float(v)), w, f)
+        FittedUnknown(u, float(v), math.inf if gone else float(h), _bound(u, float(v)), w, f)
         for u, v, h, gone, w, f in zip(unknowns, p, half, lost, without, by_fold, strict=True)
     ]
     c0, c1 = float(begun @ begun), float(r @ r)

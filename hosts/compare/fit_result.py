@@ -10,7 +10,7 @@ from hosts.compare.fit_unknowns import Unknown
 
 
 @dataclass(frozen=True)
-class Found:
+class FittedUnknown:
     """The value of one unknown, and how well the log determines it."""
 
     unknown: Unknown
@@ -43,7 +43,7 @@ class Start:
 class Fit:
     """The fit of all unknowns to a log."""
 
-    found: list[Found]
+    found: list[FittedUnknown]
     correlation: NDArray[np.float64]
     """Of the errors of the p unknowns, shape (p, p)."""
     before: float

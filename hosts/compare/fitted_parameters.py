@@ -14,7 +14,7 @@ from hosts.fmu.variables import Variable
 _STEP = "step_size"
 
 
-def wanted_parameters(
+def fitted_parameters(
     texts: Sequence[str], variables: Mapping[str, Variable], given: Mapping[str, Value]
 ) -> list[Unknown]:
     """Parameters to be fitted.

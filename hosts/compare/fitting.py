@@ -5,7 +5,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ali3.words import sentence_of
+from ali3.message_text import sentence_of
 from hosts.common.display_units import shown_number
 from hosts.common.numbers import Value
 from hosts.compare.comparison import Comparison, compare
@@ -15,7 +15,7 @@ from hosts.compare.deviations import rms
 from hosts.compare.fit import fit, overlapping
 from hosts.compare.fit_result import Fit
 from hosts.compare.fit_unknowns import NUISANCES, Unknown, nuisances
-from hosts.compare.fitted_parameters import fit_step, wanted_parameters
+from hosts.compare.fitted_parameters import fit_step, fitted_parameters
 from hosts.compare.replay import Replay
 from hosts.compare.task import Task
 from hosts.driving.result import Result
@@ -23,7 +23,7 @@ from hosts.fmu.fmu import StartRefusedError
 
 
 @dataclass(frozen=True)
-class Wanted:
+class FitRequest:
     """What is to be fitted, checked before anything is driven."""
 
     parameters: list[Unknown]
@@ -32,22 +32,22 @@ class Wanted:
     """The inner step of the FMU while it is fitted, where one is asked for."""
 
 
-def wanted(options: argparse.Namespace, task: Task) -> Wanted:
+def wanted(options: argparse.Namespace, task: Task) -> FitRequest:
     """What the options name; a note where an initial speed is not sought."""
     nuisances(options.nuisance, task.outputs, {}, options.longest_delay)  # their names
-    begin = task.stretches[0].manoeuvre.start  # as set, or as measured
+    begin = task.segments[0].manoeuvre.start  # as set, or as measured
     sought = [t.partition("=")[0].strip() for t in options.fit]
     if not task.windowed and "initial.speed" in begin and "initial.speed" not in (*task.set_values, *sought):
         task.notes.append(
             "initial.speed is as measured in the first tenth of a second; its error goes into what is fitted: "
             "--fit initial.speed=LOW:HIGH finds it too."
         )
-    parameters = wanted_parameters(options.fit, task.parameters, begin)
-    return Wanted(parameters, options.nuisance, fit_step(options.fit_step, task.parameters))
+    parameters = fitted_parameters(options.fit, task.parameters, begin)
+    return FitRequest(parameters, options.nuisance, fit_step(options.fit_step, task.parameters))
 
 
 def fitted(
-    options: argparse.Namespace, task: Task, replay: Replay, before: Comparison, wanted: Wanted
+    options: argparse.Namespace, task: Task, replay: Replay, before: Comparison, wanted: FitRequest
 ) -> tuple[Fit, Comparison]:
     """What fits best, and the comparison with it."""
     if not replay.check_reset():
@@ -68,14 +68,14 @@ def fitted(
             unknown = [n for n in outputs if not math.isfinite(float(result[n].sum()))]
             return f"{unknown[0]} is not finite with them." if unknown else result
 
-        found = fit(outputs, unknowns, simulate, starts=options.starts, parts=parts_of(outputs, task.stretches))
+        found = fit(outputs, unknowns, simulate, starts=options.starts, parts=parts_of(outputs, task.segments))
         best = replay.run(dict(found.parameters))
     if wanted.coarse:
         apart = replay.run(wanted.coarse | found.parameters)
-        told = [f"{n} by {shown_number(rms(apart[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
+        changes = [f"{n} by {shown_number(rms(apart[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
         task.notes.append(
             f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
-            f"the fitted FMU differ by (root mean square): {', '.join(told)}."
+            f"the fitted FMU differ by (root mean square): {', '.join(changes)}."
         )
         print(f"note: {task.notes[-1]}")
     curves = {n: SensedCurve(Curve(best, n), *found.sensor(n)) for n in outputs}

@@ -13,7 +13,7 @@ from hosts.compare.curve import Curve
 from hosts.compare.deviations import deviations
 from hosts.compare.plausibility import ALIKE, turned
 from hosts.compare.replay import Replay
-from hosts.compare.stretches import Stretch
+from hosts.compare.segments import Segment
 from hosts.compare.task import Task
 from hosts.measures.relations import SPEEDS
 
@@ -32,7 +32,7 @@ def turned_input(task: Task, compared: Comparison, odd: dict[str, ComparedSignal
     """
     for name in task.turnable if odd else ():
         signal = task.inputs[name]
-        with Replay(task.fmu, [_turned(s, name) for s in task.stretches], task.step) as replay:
+        with Replay(task.fmu, [_turned(s, name) for s in task.segments], task.step) as replay:
             result = replay.run()
         curves = {n: Curve(result, n) for n in compared.signals}
         left = [n for n, s in compared.signals.items() if turned(s.measured, curves[n], s.alignment.delay) is not None]
@@ -55,14 +55,14 @@ def misread_speed(task: Task, compared: Comparison, right: Collection[str]) -> s
     """
     speed = next((s.measured for n, s in compared.signals.items() if n in SPEEDS and n not in right), None)
     others = {n: s for n, s in compared.signals.items() if n not in SPEEDS}
-    begins = any(_SPEED in s.manoeuvre.start for s in task.stretches)
+    begins = any(_SPEED in s.manoeuvre.start for s in task.segments)
     if speed is None or not others or not begins or any(s.deviations.correlation >= ALIKE for s in others.values()):
         return ""
     for mistake in misread(speed.unit):
         if not mistake.usual:
             continue
         try:
-            with Replay(task.fmu, [_at_speed(s, mistake.factor) for s in task.stretches], task.step) as replay:
+            with Replay(task.fmu, [_at_speed(s, mistake.factor) for s in task.segments], task.step) as replay:
                 result = replay.run()
         except HostError:  # the FMU does not start so fast
             continue
@@ -81,18 +81,18 @@ def _correlation(compared: ComparedSignal, curve: Curve) -> float:
     return deviations(measured.time, measured.values, curve(measured.time)).correlation
 
 
-def _at_speed(stretch: Stretch, factor: float) -> Stretch:
+def _at_speed(segment: Segment, factor: float) -> Segment:
     """The stretch from `factor` times the measured speed on."""
-    made, speed = stretch.manoeuvre, stretch.speed
+    made, speed = segment.manoeuvre, segment.speed
     start = {n: factor * float(v) if n in (_SPEED, _ACROSS) else v for n, v in made.start.items()}
     held = None if speed is None else replace(speed, values=factor * speed.values)
-    return replace(stretch, manoeuvre=replace(made, start=start), speed=held)
+    return replace(segment, manoeuvre=replace(made, start=start), speed=held)
 
 
-def _turned(stretch: Stretch, name: str) -> Stretch:
-    made = stretch.manoeuvre
+def _turned(segment: Segment, name: str) -> Segment:
+    made = segment.manoeuvre
     start = {n: -v if n == name and not isinstance(v, str) else v for n, v in made.start.items()}
-    return replace(stretch, manoeuvre=replace(made, inputs=dict(made.inputs) | {name: -made.inputs[name]}, start=start))
+    return replace(segment, manoeuvre=replace(made, inputs=dict(made.inputs) | {name: -made.inputs[name]}, start=start))
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -6,39 +6,31 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from ali3.columns import some_of
-from ali3.echo import Echo, Understood, echo_of
-from ali3.near_names import did_you_mean
+from ali3.message_text import brief
+from ali3.plausibility import Plausibility, Summarised, plausibility_of
 from ali3.units import known_unit
-from ali3.words import brief
 from hosts.common.angles import continuous
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.common.units import unit_definition, unit_of
-from hosts.compare.csv_dialect import CLOCK_TIME, unit_behind
-from hosts.compare.log_aliases import TIME_UNITS, Column, LogAliases
+from hosts.compare.log_aliases import Column, LogAliases
 from hosts.compare.log_file import RawLog
+from hosts.compare.log_times import FEWEST_SAMPLES, TIMES, log_times, near_hint, time_column
 from hosts.compare.repeated_samples import rows_of_a_value
-from hosts.compare.spikes import spike_words, spikes
+from hosts.compare.spikes import spike_text, spikes
 from hosts.driving.missed_inputs import counted
 from hosts.driving.recorded_rows import ROUND_OFF
 from hosts.driving.run_record import record_of
 from hosts.fmu.named_fmu import NamedFmu
-from hosts.measures.log_echo import log_echo
+from hosts.measures.log_plausibility import log_plausibility
 from hosts.measures.signal import Signal
-
-FEWEST_SAMPLES = 10
-_TIMES = ("time", "t", "timestamp", "zeit", "time_s", "seconds", "elapsed")
-_SHUFFLED = 5.0  # usual times between rows, by which rows in a wrong order go back
-_HOUR = 3600.0
-_SLOWEST = 0.5  # s between samples of a test drive, unless the user has named the unit
 
 
 @dataclass(frozen=True)
-class Log(Understood):
+class Log(Summarised):
     """Signals by our names."""
 
     inputs: dict[str, Signal]
@@ -74,10 +66,9 @@ def log_for(
     signals: dict[str, Signal] = {}
     origin: float | None = None
     for ours, column in columns.items():
-        clock = column.time or _time_column(raw, aliases)
+        clock = column.time or time_column(raw, aliases)
         if clock not in clocks:
-            times, origin = _times(raw, aliases, clock, origin, notes)
-            clocks[clock] = times
+            clocks[clock], origin = log_times(raw, aliases, clock, origin, notes)
         told = [] if used and ours in outputs and ours not in used else notes
         read = _of_each_time(_signal(fmu, raw, ours, column, *clocks[clock], told), ours in inputs)
         signals[ours] = _without_spikes(fmu, read if ours in inputs else _as_measured(fmu, read, told), told)
@@ -119,124 +110,22 @@ def _columns(
                     "a column can be an input, a tunable parameter or an output."
                 )
             why = fmu.why_missing(ours)
-            hint = f": {why.rstrip('.')}" if why else _near(ours, [*inputs, *outputs])
+            hint = f": {why.rstrip('.')}" if why else near_hint(ours, [*inputs, *outputs])
             raise HostError(f"{where} is not an input or output of {fmu.path.name}{hint}.")
         for name in (column.name, column.time):
             if name is not None and name not in there:
-                raise HostError(f"{where}: the log {raw.path.name} has no column '{name}'{_near(name, there)}.")
+                raise HostError(f"{where}: the log {raw.path.name} has no column '{name}'{near_hint(name, there)}.")
     named = {c.name for c in aliases.columns.values()}
     plain = {n: Column(name=n) for n in there if (n in inputs or n in outputs) and n not in named}
     found = {**plain, **aliases.columns}
     if not found:
-        clock = [n for n in there if n.lower() not in _TIMES]
+        clock = [n for n in there if n.lower() not in TIMES]
         raise HostError(
             f"The log {raw.path} has no column with the name of an input or output of {fmu.path.name}; its columns "
             f"are {some_of(clock)}. An alias file (--log-aliases) gives them names: under [signals] "
             f'"{next(iter(outputs), "speed")}" = {{ name = "{next(iter(clock), "column")}", unit = "..." }}.'
         )
     return found
-
-
-def _time_column(raw: RawLog, aliases: LogAliases) -> str:
-    there = [str(c) for c in raw.table.columns]
-    name = aliases.clock.name
-    if name is not None:
-        if name not in there:
-            raise HostError(f"{aliases.file}: the log {raw.path.name} has no column '{name}'{_near(name, there)}.")
-        return name
-    found = next((n for wanted in _TIMES for n in there if n.lower() == wanted), None)
-    if found is None:
-        raise HostError(
-            f"The log {raw.path} has no column of times (one of the names {', '.join(_TIMES)}); its columns are "
-            f'{some_of(there)}. The alias file names it: [time] name = "...".'
-        )
-    return found
-
-
-def _times(
-    raw: RawLog, aliases: LogAliases, name: str, origin: float | None, notes: list[str]
-) -> tuple[tuple[NDArray[np.float64], NDArray[np.int64]], float]:
-    """Times from the first sample of the log on in s, the rows they stand in, and that first time."""
-    clock = aliases.clock
-    written = raw.units.get(name, "").strip()
-    unit = clock.unit or (written if written in TIME_UNITS else "s")
-    scale = TIME_UNITS[unit]
-    column = raw.table[name]
-    if scale is None or not pd.api.types.is_numeric_dtype(column):
-        scale, seconds = 1.0, _moments(raw, name, clock.unit)
-    else:
-        seconds = raw.numbers(name)
-    rows = np.flatnonzero(np.isfinite(seconds))
-    if len(rows) < FEWEST_SAMPLES:
-        raise HostError(
-            f"The log {raw.path} has {len(rows)} times in the column '{name}'; at least {FEWEST_SAMPLES} are needed."
-        )
-    # Seconds since 1970 have few digits left for milliseconds: the first is taken off before the rest.
-    zero = scale * (float(seconds[rows[0]]) - clock.offset) / clock.factor
-    t = scale * (seconds[rows] - seconds[rows[0]]) / clock.factor
-    back = np.flatnonzero(np.diff(t) < 0.0)
-    if len(back):
-        k = int(back[0])
-        raise HostError(
-            f"The log {raw.path}, line {raw.line(int(rows[k + 1]))}: time '{name}' goes back from "
-            f"{t[k] - t[0]:.6g} s to {t[k + 1] - t[0]:.6g} s after the first sample; {_why_back(np.diff(t), k)}."
-        )
-    steps = np.diff(t)
-    if (twice := int(np.sum(steps == 0.0)) - raw.added) > 0:
-        notes.append(
-            f"Rows of '{name}' with the time of the row before them: {twice}; the first counts, and after it an input "
-            "has the value of the last."
-        )
-    interval = float(np.median(steps[steps > 0.0])) if steps.any() else 0.0
-    if clock.unit is None and unit == "s" and interval > _SLOWEST:
-        raise HostError(
-            f"The log {raw.path} has a sample every {interval:g} s in the column '{name}', if that is in seconds; for "
-            f'other units the alias file says [time] unit = "ms" (or {", ".join(list(TIME_UNITS)[2:])}).'
-        )
-    start = zero if origin is None else origin
-    return (t + (zero - start), rows), start
-
-
-def _why_back(steps: NDArray[np.float64], k: int) -> str:
-    """What to do about times that go back, which step `k` is the first to do."""
-    usual, back = float(np.median(np.abs(steps))), -float(steps[k])
-    if (steps <= 0.0).all():
-        return "the last row stands first: turn the order of the rows round"
-    if back <= _SHUFFLED * usual:
-        return "rows stand in another order than their times: sort them"
-    if abs(back - _HOUR) <= _SHUFFLED * usual:
-        return "a clock was put back by an hour there: stamps with their zone, such as +02:00, go on"
-    return "cut the log there, each drive is compared by itself"
-
-
-def _moments(raw: RawLog, name: str, unit: str | None) -> NDArray[np.float64]:
-    """Times that are written as dates, s."""
-    texts = raw.table[name].astype(str).str.strip().str.replace(",", ".", regex=False)
-    if unit != "iso" and texts.str.fullmatch(CLOCK_TIME).any():
-        return _clock_times(raw, name, texts)
-    moments = pd.to_datetime(texts.where(raw.table[name].notna()), errors="coerce", utc=True, format="ISO8601")
-    wrong = moments.isna() & raw.table[name].notna()
-    if wrong.any() and unit != "iso":  # of numbers the first that is none
-        wrong = wrong & pd.to_numeric(raw.table[name], errors="coerce").isna()
-    if wrong.any():
-        row = int(np.argmax(wrong.to_numpy()))
-        what = "date of ISO 8601" if unit == "iso" else "number or a date such as 2024-05-03T12:00:00.010"
-        cell = str(raw.table[name].iloc[row])
-        raise raw.error(row, name, unit_behind(cell) or f"the time {brief(cell)} is not a {what}.")
-    first = moments.dropna().iloc[0]
-    return np.array((moments - first) / pd.Timedelta(seconds=1), dtype=np.float64)
-
-
-def _clock_times(raw: RawLog, name: str, texts: pd.Series[str]) -> NDArray[np.float64]:
-    """Times that are written as HH:MM:SS.mmm or MM:SS.mmm, s; behind midnight the next day's."""
-    wrong = ~texts.str.fullmatch(CLOCK_TIME) & raw.table[name].notna()
-    if wrong.any():
-        row = int(np.argmax(wrong.to_numpy()))
-        raise raw.error(row, name, f"the time {brief(texts.iloc[row])} is not written as {texts.iloc[0]}.")
-    parts = texts.where(raw.table[name].notna()).str.split(":", expand=True).astype(float)
-    seconds = np.array(parts.apply(lambda row: row.dropna().to_numpy() @ 60.0 ** np.arange(row.count())[::-1], axis=1))
-    days = np.cumsum(np.nan_to_num(np.diff(seconds, prepend=seconds[:1])) < -43200.0)
-    return np.asarray(seconds + 86400.0 * days)
 
 
 def _signal(
@@ -306,14 +195,10 @@ def _without_spikes(fmu: NamedFmu, signal: Signal, notes: list[str]) -> Signal:
     if fmu.variables[signal.name].type != "Real" or not wrong.any():
         return signal
     what = f"'{signal.source}' ({signal.name})"
-    notes.append(spike_words(what, signal.unit, signal.time[wrong], signal.values[wrong]))
+    notes.append(spike_text(what, signal.unit, signal.time[wrong], signal.values[wrong]))
     return replace(signal, time=signal.time[~wrong], values=signal.values[~wrong])
 
 
-def _near(name: str, names: Collection[str]) -> str:
-    return did_you_mean(name, names, f"it has {some_of(names)}")
-
-
-@echo_of.register
-def _echo_of_log(log: Log) -> list[Echo]:
-    return [log_echo("", log.outputs)]
+@plausibility_of.register
+def _plausibility_of_log(log: Log) -> list[Plausibility]:
+    return [log_plausibility("", log.outputs)]

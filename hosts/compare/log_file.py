@@ -12,10 +12,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from ali3.message_text import brief, one_line
 from ali3.reading import check_file
 from ali3.tables import LARGEST
 from ali3.unpacked_size import Unpacked
-from ali3.words import brief, one_line
 from hosts.common.errors import HostError
 from hosts.common.numbers import LARGEST_NUMBER
 from hosts.common.parquet import opened_parquet

@@ -14,7 +14,7 @@ from ali3.chart_style import BLUE, COLOURS, RED, STYLE
 from ali3.charts import MANY_POINTS
 from hosts.common.display_units import number_in, shown_in, titled
 from hosts.compare.comparison import Comparison
-from hosts.experiment.thinning import thinned
+from hosts.experiment.line_simplification import thinned
 from hosts.measures.signal import Signal
 
 _STYLE: dict[Any, Any] = {**STYLE, "font.size": 9, "axes.titlesize": 10, "legend.fontsize": 8, "lines.linewidth": 1.3}

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hosts.compare.deviations import is_constant
-from hosts.compare.warping import warped
+from hosts.compare.time_warping import warped
 
 POINTS = 1000
 _INNER, _OUTER, _CORRIDOR_POWER = 0.05, 0.5, 2.0  # of the largest measured value

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.isolated import Lost
-from hosts.common.closing import Closing
+from ali3.isolated_processes import Lost
+from hosts.common.closable import Closable
 from hosts.common.errors import FailedFmuError
 from hosts.common.numbers import Value
-from hosts.compare.follower import demanded
-from hosts.compare.stretch_fmu import StretchFmu, Task
-from hosts.compare.stretches import Stretch, joined
+from hosts.compare.follower_demand import demanded
+from hosts.compare.segment_fmu import SegmentFmu, Task
+from hosts.compare.segments import Segment, joined
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre
 from hosts.driving.result import Result
 from hosts.experiment.experiment import Experiment, Progress
@@ -86,7 +86,7 @@ def _kept(signal: Signal, time: NDArray[np.float64], before: NDArray[np.bool_], 
     return np.asarray(np.round(values) if whole else values)
 
 
-class Replay(Closing):
+class Replay(Closable):
     """An FMU that is driven again and again through the same inputs.
 
     Parameters
@@ -109,18 +109,18 @@ class Replay(Closing):
     def __init__(
         self,
         fmu: FmuSource,
-        stretches: Sequence[Stretch],
+        segments: Sequence[Segment],
         step: float,
         jobs: int = 1,
     ) -> None:
-        self.stretches, self.step = list(stretches), step
-        reads = files_of_drives(fmu.path, (stretch.manoeuvre.start for stretch in stretches))
-        work = StretchFmu(fmu, step, stretches)
+        self.segments, self.step = list(segments), step
+        reads = files_of_drives(fmu.path, (segment.manoeuvre.start for segment in segments))
+        work = SegmentFmu(fmu, step, segments)
         self._does = "compare"
         self._experiment: Experiment[Task, Result | str] = Experiment(
-            self._does, work, Result | str, lambda task: self._does, reads, lambda task: 1.0 / len(self.stretches)
+            self._does, work, Result | str, lambda task: self._does, reads, lambda task: 1.0 / len(self.segments)
         )
-        self._pool = self._experiment.pool(min(jobs, len(stretches)))
+        self._pool = self._experiment.pool(min(jobs, len(segments)))
         self._shown: Progress[Task, Result | str] | None = None
         self._can_reset: bool | None = None
         self.said: dict[str, int] = {}
@@ -143,14 +143,14 @@ class Replay(Closing):
 
         Result: under our names; several stretches as `joined` puts them. Raises `FailedFmuError`: a process has ended.
         """
-        tasks: list[Task] = [(k, dict(values or {}), self._can_reset) for k in range(len(self.stretches))]
+        tasks: list[Task] = [(k, dict(values or {}), self._can_reset) for k in range(len(self.segments))]
         with Progress(self._experiment, 1.0) if self._shown is None else nullcontext(self._shown) as shown:
             made = {k: result for k, _, result in shown.results(tasks, self._pool)}
         results = [self._result(k, made[k]) for k in range(len(tasks))]
         self.runs += 1
         for message in dict.fromkeys(m for result in results for m in result.messages):
             self.said[message] = self.said.get(message, 0) + 1
-        return results[0] if len(results) == 1 else joined(results, self.stretches)
+        return results[0] if len(results) == 1 else joined(results, self.segments)
 
     def check_reset(self) -> bool:
         """Drive the first stretch twice; an FMU that does not repeat itself is loaded again for each drive from now on.
@@ -170,5 +170,5 @@ class Replay(Closing):
         if not isinstance(result, Lost):
             return result
         fewer = " --jobs 1 takes less memory." if len(self._pool) > 1 else ""
-        begin = self.stretches[number].begin
+        begin = self.segments[number].begin
         raise FailedFmuError(f"The process that drove the window from {begin:g} s {result.how}.{fewer}")

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 from ali3.charts import Drawing
 from ali3.files import write_text
 from ali3.html_elements import element, picture, table
+from ali3.message_text import sentence_of
 from ali3.units import typeset
-from ali3.words import sentence_of
 from hosts.common.display_units import shown_in
 from hosts.compare.comparison import Comparison
+from hosts.compare.comparison_text import common_sentence, signal_rows
 from hosts.compare.fit_result import Fit
-from hosts.compare.fit_words import FIT_COLUMNS, fit_rows, result_words
+from hosts.compare.fit_text import FIT_COLUMNS, fit_rows, result_text
 from hosts.compare.windows import Bin
-from hosts.compare.words import common_sentence, signal_rows
 from hosts.experiment.report import NOTE, PROBLEM, Section, page, paragraph
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def write_report(
         names = [f.unknown.name for f in fit.found]
         rows = [(n, *(f"{c:.2f}" for c in row)) for n, row in zip(names, fit.correlation.tolist(), strict=True)]
         parts = [table("", FIT_COLUMNS, fit_rows(fit), "numbers")]
-        parts += [paragraph(sentence_of(line)) for line in result_words(fit)]
+        parts += [paragraph(sentence_of(line)) for line in result_text(fit)]
         parts += [element("h3", "Correlation of the errors"), table("", ("", *names), rows, "numbers")]
         sections.append(Section("Fit", parts))
     if told:

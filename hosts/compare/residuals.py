@@ -130,7 +130,7 @@ class Residuals:
 
     def _exact(self, p: Array, k: int, curves: Mapping[str, Curve]) -> Array:
         u, parts = self.unknowns[k], []
-        stretch = 1.0 + self._own("drift", "", p)
+        segment = 1.0 + self._own("drift", "", p)
         for name, signal in self.outputs.items():
             if u.signal not in ("", name):
                 parts.append(np.zeros(len(signal.time)))
@@ -141,7 +141,7 @@ class Residuals:
             elif u.kind == "gain":
                 part = curves[name](t)
             else:
-                part = -gain * curves[name].slope(t) / stretch * (t if u.kind == "drift" else 1.0)
+                part = -gain * curves[name].slope(t) / segment * (t if u.kind == "drift" else 1.0)
             parts.append(part / self.noise[name])
         return np.concatenate(parts)
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ali3.files import whole_file
+from ali3.files import atomic_file
 from hosts.common.numbers import or_null
 from hosts.compare.comparison import Comparison
 from hosts.measures.measure import Measure
@@ -26,7 +26,7 @@ def write_signals(before: Comparison, after: Comparison | None, file: Path) -> N
         columns[f"{name}.simulated [{s.measured.unit}]"] = pd.Series(s.simulated(times), times)
         if after is not None:
             columns[f"{name}.fitted [{s.measured.unit}]"] = pd.Series(after.signals[name].simulated(times), times)
-    with whole_file(file) as path:
+    with atomic_file(file) as path:
         pd.DataFrame(columns, times).to_csv(path, index_label="time [s]", lineterminator="\r\n")
 
 

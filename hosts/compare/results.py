@@ -58,12 +58,14 @@ def write_outcome(
     """Write all files of a comparison; gives those that were written."""
     title = f"{options.fmu.stem} and {options.log.name}"
     write_signals(outcome.before, outcome.after, paths[".csv"])
-    told = bins(outcome.best, task.scales)
+    error_bins = bins(outcome.best, task.scales)
     shown = (
         f"{title}: {', '.join(outcome.before.signals)}, measured and simulated, over time, and what remains of each."
     )
     drawn = drawing(comparison_figure(outcome.before, outcome.after, title, task.inputs), shown)
-    write_report(title, outcome.before, outcome.after, outcome.fit, told, outcome.notes, outcome.problems, paths, drawn)
+    write_report(
+        title, outcome.before, outcome.after, outcome.fit, error_bins, outcome.notes, outcome.problems, paths, drawn
+    )
     if outcome.fit is not None:
         values = task.fmu.names.values(dict(task.set_values) | outcome.fit.parameters)
         description = described(options.fmu)
@@ -77,14 +79,14 @@ def write_outcome(
 def _record(outcome: Outcome, task: Task) -> dict[str, Any]:
     record: dict[str, Any] = {
         "step_s": task.step,
-        "start": task.stretches[0].manoeuvre.start,
+        "start": task.segments[0].manoeuvre.start,
         "notes": outcome.notes,
         "problems": outcome.problems,
         "measures": measure_records(measures(outcome.before)),
         "bins": [asdict(b) for b in bins(outcome.best, task.scales)],
     }
     if task.windowed:
-        record["windows"] = [asdict(w) for w in windows(outcome.best, task.stretches)]
+        record["windows"] = [asdict(w) for w in windows(outcome.best, task.segments)]
     if outcome.fit is not None and outcome.after is not None:
         f = outcome.fit
         record["fitted_measures"] = measure_records(measures(outcome.after))

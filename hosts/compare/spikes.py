@@ -37,7 +37,7 @@ def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np
     return found
 
 
-def spike_words(what: str, unit: str, time: NDArray[np.float64], values: NDArray[np.float64]) -> str:
+def spike_text(what: str, unit: str, time: NDArray[np.float64], values: NDArray[np.float64]) -> str:
     """A sentence on the samples that are left out.
 
     `what`: the signal, as a user knows it; `time`, `values`: of the spikes, s, shape (k,), k > 0.

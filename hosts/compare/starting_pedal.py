@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq
 
-from hosts.compare.stretch_fmu import StretchFmu
-from hosts.compare.stretches import Stretch
+from hosts.compare.segment_fmu import SegmentFmu
+from hosts.compare.segments import Segment
 from hosts.fmu.fmu_source import FmuSource
 from hosts.measures.signal import Signal
 
@@ -15,39 +15,39 @@ _AHEAD = 0.5  # s, until when the speed is met
 _CLOSE = 0.005  # of the pedal
 
 
-def starting_pedals(fmu: FmuSource, stretches: Sequence[Stretch], step: float) -> list[Stretch]:
+def starting_pedals(fmu: FmuSource, segments: Sequence[Segment], step: float) -> list[Segment]:
     """The stretches with the constant pedals at which the FMU has the measured speed half a second after the start.
 
     `step`: communication step, s. Result: the pedal is that of the throttle, negative: of the brake; 1 or -1 where that
     is not enough.
     """
-    pedals = fmu.done_apart(_pedals_of, (list(stretches), step), list[float | None], {})
-    return [s if pedal is None else _started(s, pedal) for s, pedal in zip(stretches, pedals, strict=True)]
+    pedals = fmu.done_apart(_pedals_of, (list(segments), step), list[float | None], {})
+    return [s if pedal is None else _started(s, pedal) for s, pedal in zip(segments, pedals, strict=True)]
 
 
 def _pedals_of(
-    task: tuple[FmuSource, tuple[list[Stretch], float]], tell: Callable[[float], None]
+    task: tuple[FmuSource, tuple[list[Segment], float]], tell: Callable[[float], None]
 ) -> list[float | None]:
-    source, (stretches, step) = task
-    fmu = StretchFmu(source, step)
+    source, (segments, step) = task
+    fmu = SegmentFmu(source, step)
     try:
-        return [None if s.speed is None else _pedal(fmu, step, s, s.speed) for s in stretches]
+        return [None if s.speed is None else _pedal(fmu, step, s, s.speed) for s in segments]
     finally:
         fmu.close()
 
 
-def _started(stretch: Stretch, pedal: float) -> Stretch:
-    start = {**stretch.manoeuvre.start, **_pedals(pedal)}
-    return replace(stretch, pedal=pedal, manoeuvre=replace(stretch.manoeuvre, start=start))
+def _started(segment: Segment, pedal: float) -> Segment:
+    start = {**segment.manoeuvre.start, **_pedals(pedal)}
+    return replace(segment, pedal=pedal, manoeuvre=replace(segment.manoeuvre, start=start))
 
 
 def _pedals(pedal: float) -> dict[str, float]:
     return {"throttle": max(pedal, 0.0), "brake": max(-pedal, 0.0)}
 
 
-def _pedal(fmu: StretchFmu, step: float, stretch: Stretch, speed: Signal) -> float:
-    manoeuvre = replace(stretch.manoeuvre, stop_time=max(step, min(_AHEAD, stretch.end)))
-    short = Stretch(manoeuvre)
+def _pedal(fmu: SegmentFmu, step: float, segment: Segment, speed: Signal) -> float:
+    manoeuvre = replace(segment.manoeuvre, stop_time=max(step, min(_AHEAD, segment.end)))
+    short = Segment(manoeuvre)
 
     def excess(pedal: float) -> float:
         result = fmu.drive(short, _pedals(pedal))

@@ -8,20 +8,21 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.echo import Echo
 from ali3.near_names import did_you_mean
+from ali3.plausibility import Plausibility
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.road import wishes_with_road
-from hosts.compare.log import FEWEST_SAMPLES, Log, log_for
+from hosts.common.road import options_with_road
+from hosts.compare.log import Log, log_for
 from hosts.compare.log_aliases import LogAliases, read_log_aliases, refuse_log_aliases
 from hosts.compare.log_file import read_log
+from hosts.compare.log_times import FEWEST_SAMPLES
 from hosts.compare.plausibility import check_inputs, note_gaps
 from hosts.compare.replay import inputs_of
 from hosts.compare.road_wheels import ANGLES, mean_angle, steering_for
+from hosts.compare.segments import GAP, PEDALS, Segment, Spans, begins, in_spans, one_after_the_other, spans
 from hosts.compare.start_values import measured_start, of_origin, reference_point
 from hosts.compare.starting_pedal import starting_pedals
-from hosts.compare.stretches import GAP, PEDALS, Spans, Stretch, begins, in_spans, one_after_the_other, spans
 from hosts.compare.windows import scales_of
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.missed_inputs import missed_inputs
@@ -33,7 +34,7 @@ from hosts.fmu.named_fmu import NamedFmu
 from hosts.fmu.settings import settings_of
 from hosts.fmu.steering_ratios import RATIOS
 from hosts.fmu.variables import Variable, default_step
-from hosts.measures.log_echo import log_echo
+from hosts.measures.log_plausibility import log_plausibility
 from hosts.measures.signal import Signal
 
 _STEERING, _ANGLE, _ANGLE_MAX = "steering", "steering_wheel_angle", "vehicle.steering_wheel_angle_max"
@@ -49,7 +50,7 @@ class Task:
     inputs: dict[str, Signal]
     outputs: dict[str, Signal]
     """`inputs`, `outputs`: from time 0 on; outputs of windows one window after the other."""
-    stretches: list[Stretch]
+    segments: list[Segment]
     step: float
     """s."""
     slopes: bool
@@ -59,8 +60,8 @@ class Task:
     set_values: dict[str, Value]
     notes: list[str]
     windowed: bool = False
-    """Whether the stretches are windows, each from its measured state."""
-    echo: Echo = field(default_factory=lambda: Echo("", []))
+    """Whether the segments are windows, each from its measured state."""
+    plausibility: Plausibility = field(default_factory=lambda: Plausibility("", []))
     """What was understood of the log."""
     scales: dict[str, Signal] = field(default_factory=dict)
     """Measured speed and lateral acceleration at the places of the outputs."""
@@ -70,7 +71,7 @@ class Task:
     @property
     def end(self) -> float:
         """End of what is compared, s."""
-        return self.stretches[-1].place + self.stretches[-1].end
+        return self.segments[-1].place + self.segments[-1].end
 
 
 def prepare(options: argparse.Namespace) -> Task:
@@ -82,7 +83,7 @@ def prepare(options: argparse.Namespace) -> Task:
     with Fmu(options.fmu) as opened:
         source = FmuSource.named(opened.path, opened.table, options.aliases)
         fmu = source.around(opened)
-        set_values = settings_of(opened.table, wishes_with_road(options, options.out)).start
+        set_values = settings_of(opened.table, options_with_road(options, options.out)).start
         given = source.ours(set_values)
         sought = {source.called([t.partition("=")[0].strip()])[0] for t in options.fit}
         # Those that may drive the car, and the speed for its start, are used whatever is compared.
@@ -112,12 +113,12 @@ def prepare(options: argparse.Namespace) -> Task:
         slopes = opened.follows_slopes
         everything = outputs | log_at(log, options)
         point = reference_point(source, given)
-        stretches: list[Stretch] = []
+        segments: list[Segment] = []
         missed: list[str] = []
         for begin, length in parts:
             begun = None if begin or options.begin else log.begun
             start, words = measured_start(fmu, cut(everything, begin, begin + length), given, begun)
-            notes += words if not stretches else []
+            notes += words if not segments else []
             manoeuvre = inputs_of(
                 options.log.stem,
                 cut(inputs, begin, begin + length),
@@ -135,28 +136,40 @@ def prepare(options: argparse.Namespace) -> Task:
             check_columns(fmu, manoeuvre)
             missed += _missed(manoeuvre, step, slopes, whole, (options.begin or 0.0) + begin)
             held_speed = None if speed is None else cut({"": speed}, begin, begin + length)[""]
-            stretches.append(Stretch(manoeuvre, held_speed, 0.0, begin, len(stretches) * (length + GAP)))
+            segments.append(Segment(manoeuvre, held_speed, 0.0, begin, len(segments) * (length + GAP)))
         notes += missed[:1]
-        turnable = [n for n in inputs if all(_can_turn(s.manoeuvre.inputs[n], fmu.table[n]) for s in stretches)]
+        turnable = [n for n in inputs if all(_can_turn(s.manoeuvre.inputs[n], fmu.table[n]) for s in segments)]
         parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter" or n in held}
     if speed is not None:
-        stretches = starting_pedals(source, stretches, step)
-        pedal = stretches[0].pedal
+        segments = starting_pedals(source, segments, step)
+        pedal = segments[0].pedal
         notes.append(f"The driver starts with {abs(pedal):.3g} of the {'brake' if pedal < 0.0 else 'throttle'}.")
     scales = scales_of(everything)
     if options.windows is not None:
         notes.append(
-            f"Each of the {len(stretches)} windows starts in its measured state; the one above is that of the first."
+            f"Each of the {len(segments)} windows starts in its measured state; the one above is that of the first."
         )
-        outputs, scales = (one_after_the_other(signals, stretches) for signals in (outputs, scales))
+        outputs, scales = (one_after_the_other(signals, segments) for signals in (outputs, scales))
     elif wanted is not None:
         begin = options.begin or 0.0
         moved = tuple((a - begin, b - begin) for a, b in wanted)
         outputs = {n: in_spans(s, moved) for n, s in outputs.items()}
     windowed = options.windows is not None
-    echo = log_echo(options.log.name, everything)
+    plausibility = log_plausibility(options.log.name, everything)
     return Task(
-        source, inputs, outputs, stretches, step, slopes, parameters, given, notes, windowed, echo, scales, turnable
+        source,
+        inputs,
+        outputs,
+        segments,
+        step,
+        slopes,
+        parameters,
+        given,
+        notes,
+        windowed,
+        plausibility,
+        scales,
+        turnable,
     )
 
 

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from hosts.compare.comparison import Comparison
 from hosts.compare.deviations import rms
-from hosts.compare.stretch_fmu import SLIDING
-from hosts.compare.stretches import PEDALS, Stretch
+from hosts.compare.segment_fmu import SLIDING
+from hosts.compare.segments import PEDALS, Segment
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 
@@ -46,23 +46,23 @@ class Bin:
     mean: float
 
 
-def windows(comparison: Comparison, stretches: Sequence[Stretch]) -> list[Window]:
+def windows(comparison: Comparison, segments: Sequence[Segment]) -> list[Window]:
     """Deviations of each window."""
     found = []
     ranges = {n: float(np.ptp(s.measured.values)) for n, s in comparison.signals.items()}
-    for stretch in stretches:
+    for segment in segments:
         sizes, departed = {}, ""
         for name, s in comparison.signals.items():
-            part = s.measured.between(stretch.place, stretch.place + stretch.end)
+            part = s.measured.between(segment.place, segment.place + segment.end)
             error = s.simulated(part.time) - part.values
             sizes[name] = rms(error)
             if not np.max(np.abs(error)) <= ranges[name]:
                 departed = departed or name
-        found.append(Window(stretch.begin, stretch.begin + stretch.end, sizes, departed))
+        found.append(Window(segment.begin, segment.begin + segment.end, sizes, departed))
     return found
 
 
-def window_words(found: Sequence[Window]) -> str:
+def window_text(found: Sequence[Window]) -> str:
     """How many windows there are, and which have departed, in a sentence."""
     gone = [w for w in found if w.departed]
     if not gone:
@@ -102,11 +102,11 @@ def bins(comparison: Comparison, scales: Mapping[str, Signal]) -> list[Bin]:
     return found
 
 
-def held_words(result: Result, stretches: Sequence[Stretch]) -> list[str]:
+def held_text(result: Result, segments: Sequence[Segment]) -> list[str]:
     """How well a driver has held the speed, how much of the time he could not, and by which forces, in a sentence; none
     where no driver did.
     """
-    held = [(s.place + s.speed.time, s.speed.values) for s in stretches if s.speed is not None]
+    held = [(s.place + s.speed.time, s.speed.values) for s in segments if s.speed is not None]
     if not held or "speed" not in result:
         return []
     time, values = (np.concatenate(parts) for parts in zip(*held, strict=True))
@@ -130,8 +130,14 @@ def held_words(result: Result, stretches: Sequence[Stretch]) -> list[str]:
 def _sliding(result: Result) -> NDArray[np.bool_]:
     """Where both wheels of an axle slip by more than a driver holds the speed against."""
     slips = [[f"wheel_{axle}{side}.slip" for side in "LR"] for axle in "FR"]
-    told = [np.minimum(result[left], result[right]) for left, right in slips if left in result and right in result]
-    return np.any([slip > SLIDING for slip in told], axis=0) if told else np.zeros(len(result.time), dtype=np.bool_)
+    smaller_slips = [
+        np.minimum(result[left], result[right]) for left, right in slips if left in result and right in result
+    ]
+    return (
+        np.any([slip > SLIDING for slip in smaller_slips], axis=0)
+        if smaller_slips
+        else np.zeros(len(result.time), dtype=np.bool_)
+    )
 
 
 def _axle(result: Result, axle: str) -> NDArray[np.float64] | None:

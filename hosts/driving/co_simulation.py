@@ -13,7 +13,7 @@ from hosts.common.numbers import Value
 from hosts.driving.derived_columns import derive_columns
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
 from hosts.driving.missed_inputs import missed_end, missed_inputs
-from hosts.driving.observation import Senses
+from hosts.driving.observation import Observation
 from hosts.driving.pilots.pilot import Pilot, refuse_missing
 from hosts.driving.recorded_rows import RecordedRows
 from hosts.driving.result import Result
@@ -54,9 +54,9 @@ def _line_follower(fmu: SimulatedFmu, names: Sequence[str]) -> Callable[[Sequenc
     return follow
 
 
-def _not_finite(time: float, acts: Mapping[str, float], senses: Mapping[str, float]) -> str:
+def _not_finite(time: float, acts: Mapping[str, float], observation: Mapping[str, float]) -> str:
     act = next(f"{n} = {x}" for n, x in acts.items() if not math.isfinite(x))
-    sense = next((f": the output {n} of the FMU is {x}" for n, x in senses.items() if not math.isfinite(x)), "")
+    sense = next((f": the output {n} of the FMU is {x}" for n, x in observation.items() if not math.isfinite(x)), "")
     return f"At {time:.4g} s the driver asks for {act}{sense}."
 
 
@@ -115,13 +115,13 @@ def run(
         return with_change_of_speed(run(fmu, manoeuvre, step, driver, progress, until, every, last, kept))
     inputs, outputs = columns_of(fmu, manoeuvre)
     whole = {n for n in manoeuvre.inputs if (v := fmu.variables[n]).variability == "discrete" or v.type == "Integer"}
-    senses = Senses(fmu, outputs)
+    observation = Observation(fmu, outputs)
 
     start = {**manoeuvre.start, **manoeuvre.initial(whole)}
     fmu.initialise(start)
     if manoeuvre.state is not None:
         fmu.restore_bytes(manoeuvre.state)
-    acts = driver.act(0.0, senses) if driver is not None else {}
+    acts = driver.act(0.0, observation) if driver is not None else {}
     refuse_missing([n for n in acts if n not in inputs], fmu.path.name)
     used = list(dict.fromkeys([*manoeuvre.inputs, *acts]))
     fixed = {*whole, *acts, *manoeuvre.held, *fmu.tunable}
@@ -130,7 +130,7 @@ def run(
     steps = max(1, round(manoeuvre.stop_time / step))
     end = missed_end(manoeuvre.stop_time, steps, step) if until is None else None
     rows = RecordedRows(
-        senses,
+        observation,
         _at_start(fmu, inputs, start),
         [inputs.index(n) for n in used],
         [inputs.index(n) for n in straight],
@@ -144,9 +144,9 @@ def run(
         t = k * step
         wanted = manoeuvre.at(t, whole)
         if driver is not None:
-            acts = acts if k == 0 else driver.act(t, senses)
+            acts = acts if k == 0 else driver.act(t, observation)
             if not all(map(math.isfinite, acts.values())):
-                raise FailedFmuError(_not_finite(t, acts, senses))
+                raise FailedFmuError(_not_finite(t, acts, observation))
             wanted |= acts
         values = [wanted[n] for n in used]
         if used:
@@ -162,13 +162,13 @@ def run(
         except StepRefusedError:
             rows.refused = True
             break
-        senses.stepped()
+        observation.stepped()
         rows.end()
         if (now := clock.perf_counter()) >= due:
             due = now + _BETWEEN
             progress(rows.done)
             alive()
-        if until is not None and until(rows.done * step, senses):
+        if until is not None and until(rows.done * step, observation):
             break
     wall = clock.perf_counter() - begin
     lost = missed_inputs(manoeuvre, step, straight, whole, acts)

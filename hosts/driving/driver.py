@@ -10,7 +10,7 @@ from hosts.common.errors import HostError
 from hosts.driving.courses import course_of
 from hosts.driving.manoeuvre import INITIAL_SPEED, Manoeuvre
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
-from hosts.driving.pilots.pilot import ACTS, SENSES, refuse_missing
+from hosts.driving.pilots.pilot import ACTS, OBSERVED, refuse_missing
 from hosts.driving.simulated_fmu import SimulatedFmu
 
 __all__ = ["CONSTANTS", "Driver", "DriverSettings", "make_driver"]
@@ -86,7 +86,7 @@ def with_settings(
 
 def check_drivable(inputs: Collection[str], outputs: Collection[str], whose: str) -> None:
     """Raises `HostError`: a driver has nothing to act with, or to sense. `whose`: how messages call the FMU."""
-    refuse_missing([n for n in ACTS if n not in inputs] + [n for n in SENSES if n not in outputs], whose)
+    refuse_missing([n for n in ACTS if n not in inputs] + [n for n in OBSERVED if n not in outputs], whose)
 
 
 def driver_of(fmu: SimulatedFmu, manoeuvre: Manoeuvre) -> Driver | None:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.pilots.pilot import ACTS
 from hosts.driving.steady_throttle import THROTTLE
@@ -15,7 +15,7 @@ from hosts.fmu.settings import START_OF, Settings
 def set_in(
     fmu: Fmu,
     manoeuvre: Manoeuvre,
-    wishes: Wishes,
+    fmu_options: FmuOptions,
     fidelity: float | None = None,
     theirs: Callable[[Mapping[str, Any]], Mapping[str, Any]] = dict,
 ) -> tuple[Manoeuvre, Settings]:
@@ -39,7 +39,7 @@ def set_in(
     """
     settings = Settings(fmu.table)
     settings.add_numbers(theirs(manoeuvre.start), f"{START_OF}{manoeuvre.name}")
-    settings.add_wishes(wishes, fidelity)
+    settings.add_wishes(fmu_options, fidelity)
     settings.overwritten(theirs(manoeuvre.inputs), f"it is a column of the manoeuvre {manoeuvre.name}")
     if manoeuvre.find_throttle:
         found = f"the manoeuvre {manoeuvre.name} takes the one that holds the speed"

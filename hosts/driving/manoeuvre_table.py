@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from ali3.decimal_number import parse_number
+from ali3.message_text import brief
 from ali3.near_names import near_names
 from ali3.tables import HEADING, TextTable
-from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, parse_value
 from hosts.driving.manoeuvre import ON_TIME, Manoeuvre

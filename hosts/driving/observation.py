@@ -15,7 +15,7 @@ class _NoOutputError(HostError, KeyError):
     __str__ = Exception.__str__
 
 
-class Senses(Mapping[str, float]):
+class Observation(Mapping[str, float]):
     """The outputs of now by name, read from the FMU when they are asked for: an FMU may compute some on reading.
 
     Where some are derived all are read after each step: rates and whole turns are made from those of the steps before.

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ali3.errors import reason
 from hosts.common.errors import HostError
-from hosts.driving.observation import Senses
+from hosts.driving.observation import Observation
 
 ROUND_OFF = 1e-9
 """Of a value that is reached at the end of a step and set again for the next; more is a jump."""
@@ -47,7 +47,7 @@ class RecordedRows:
 
     Parameters
     ----------
-    senses : Senses
+    observation : Observation
         Outputs, read at the start.
     held : sequence of float, of length n
         Inputs at the start.
@@ -76,7 +76,7 @@ class RecordedRows:
 
     def __init__(
         self,
-        senses: Senses,
+        observation: Observation,
         held: Sequence[float],
         used: Sequence[int],
         straight: Sequence[int],
@@ -85,10 +85,10 @@ class RecordedRows:
         most: int,
         kept: Path | None = None,
     ) -> None:
-        self._senses, self._held = senses, list(held)
+        self._senses, self._held = observation, list(held)
         self._used, self._straight, self._sizes = list(used), list(straight), sizes
         self._every, self._changes = every, list[float]()
-        table = _table((most // every + 3, len(held) + len(senses)), kept)
+        table = _table((most // every + 3, len(held) + len(observation)), kept)
         self._count, self._values = table[0], table[1:]  # in a file, for who reads it after the end of this process
         self._write(0)
         self.done, self.refused = 0, False

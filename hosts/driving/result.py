@@ -67,8 +67,8 @@ class Result:
         """
         if self.ended or not self.failed_steps:
             return self.ended[:1].lower() + self.ended[1:].rstrip(".")
-        said = f": {self.messages[-1].rstrip('.')}" if self.messages else ""
-        return f"the FMU refused the step at {self.simulated:.5g} s{said}"
+        reason = f": {self.messages[-1].rstrip('.')}" if self.messages else ""
+        return f"the FMU refused the step at {self.simulated:.5g} s{reason}"
 
     def not_finite(self) -> str:
         """The first value that is not a number, in a sentence; empty where all are."""

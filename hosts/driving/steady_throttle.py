@@ -32,13 +32,13 @@ class _Finder:
         self._holder: SpeedHolder | None = None
         self._last: deque[tuple[float, float, float]] = deque()
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         if self._holder is None:
-            self.speed = senses["speed"]
+            self.speed = observation["speed"]
             self._holder = SpeedHolder(self.speed, gain=1.0, integral_gain=1.0, brakes=False)
-        acts = self._holder.act(time, senses)
-        self.least = min(self.least, senses["speed"])
-        self._last.append((time, senses["speed"], acts[THROTTLE]))
+        acts = self._holder.act(time, observation)
+        self.least = min(self.least, observation["speed"])
+        self._last.append((time, observation["speed"], acts[THROTTLE]))
         while time - self._last[0][0] > _WINDOW + 1e-9:
             self._last.popleft()
         return acts
@@ -47,8 +47,8 @@ class _Finder:
         """Share by which the speed has been another in the last second."""
         return max(abs(speed - self.speed) for _, speed, _ in self._last) / self.speed
 
-    def is_steady(self, time: float, senses: Mapping[str, float]) -> bool:
-        if time < 2.0 * _WINDOW or abs(senses["speed"] - self.speed) > _CLOSE * self.speed:
+    def is_steady(self, time: float, observation: Mapping[str, float]) -> bool:
+        if time < 2.0 * _WINDOW or abs(observation["speed"] - self.speed) > _CLOSE * self.speed:
             return False
         return bool(np.ptp([x for _, _, x in self._last]) <= _STEADY and self.off() <= _CLOSE)
 
@@ -72,8 +72,8 @@ def with_throttle(drive: Callable[..., Result], fmu: SimulatedFmu, manoeuvre: Ma
     )
     finder = _Finder()
 
-    def ends(time: float, senses: Mapping[str, float]) -> bool:
-        return not finder.speed > 0.0 or finder.is_steady(time, senses)
+    def ends(time: float, observation: Mapping[str, float]) -> bool:
+        return not finder.speed > 0.0 or finder.is_steady(time, observation)
 
     found = drive(fmu, straight, step, finder, until=ends, every=max(1, round(_WINDOW / step)), last=True)
     what, speed = f"The manoeuvre '{manoeuvre.name}' holds the speed of its start", float(found["speed"][-1])

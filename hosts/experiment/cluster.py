@@ -10,11 +10,11 @@ from distributed import Client, KilledWorker, Security
 
 from ali3.archives import LARGEST_ARCHIVE
 from ali3.errors import UserError
+from ali3.message_text import shortened
 from ali3.reading import read_bytes
-from ali3.words import shortened
 from hosts.common.errors import HostError
 from hosts.experiment.cluster_runs import take_back
-from hosts.experiment.cluster_worker import Brought, ExperimentPlugin, why_wrong
+from hosts.experiment.cluster_worker import ExperimentPlugin, UnpackedFmu, why_wrong
 
 _PATIENCE = 20.0  # s for an answer
 _ENCRYPTED = ("tls://", "wss://")
@@ -80,7 +80,7 @@ def _without_logs() -> Iterator[None]:
         logging.disable(before)
 
 
-def bring(client: Client, brought: Brought, fmu: Path) -> None:
+def bring(client: Client, brought: UnpackedFmu, fmu: Path) -> None:
     """Give an experiment to all workers, also those to come, and check that they would make the same runs.
 
     Raises `HostError`: a worker has another version of ALi3, or cannot load it.

@@ -11,9 +11,9 @@ from typing import Any, Generic, TypeAlias, TypeVar
 
 from distributed import Client, Future, KilledWorker
 
-from ali3.isolated import Lost
-from hosts.common.closing import Closing
-from hosts.experiment.cluster_worker import Brought, WrongWorkerError, run_chunk
+from ali3.isolated_processes import Lost
+from hosts.common.closable import Closable
+from hosts.experiment.cluster_worker import UnpackedFmu, WrongWorkerError, run_chunk
 
 WORK = 2.0  # s of a chunk: Dask takes some milliseconds for a task
 _MOST = 5000  # runs of a chunk
@@ -57,20 +57,20 @@ class ChunkSize:
         return max(1, min(round(WORK / self._seconds), self._most, -(-left // (2 * self.workers))))
 
 
-def take_back(client: Client, brought: Brought) -> None:
+def take_back(client: Client, brought: UnpackedFmu) -> None:
     """Take from all workers what they were given; where the scheduler has gone, nothing."""
     with suppress(Exception):  # of many kinds, where processes were killed
         if client.status == "running":
             client.unregister_worker_plugin(brought.name)
 
 
-class ClusterRuns(Closing, Generic[T, R]):
+class ClusterRuns(Closable, Generic[T, R]):
     """Makes runs on a cluster that was given them, see `hosts.experiment.cluster.bring`.
 
     `left`: runs in all; `size`: of chunks.
     """
 
-    def __init__(self, client: Client, brought: Brought, left: int, size: ChunkSize) -> None:
+    def __init__(self, client: Client, brought: UnpackedFmu, left: int, size: ChunkSize) -> None:
         self._client, self._brought, self._size, self._unsent = client, brought, size, left
         self._flying: dict[Future[Any], tuple[_Chunk[T], _Tried]] = {}
         self._arrived: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()

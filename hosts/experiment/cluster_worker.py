@@ -25,7 +25,7 @@ class WrongWorkerError(HostError):
 
 
 @dataclass(frozen=True)
-class Brought:
+class UnpackedFmu:
     """What each worker is given of an experiment."""
 
     key: str
@@ -47,7 +47,7 @@ class Brought:
 class _Room:
     """What a worker keeps of an experiment."""
 
-    brought: Brought
+    brought: UnpackedFmu
     folder: tempfile.TemporaryDirectory[str]
     made: list[Pool[Any, Any]] = field(default_factory=list)
     of_thread: threading.local = field(default_factory=threading.local)
@@ -73,7 +73,7 @@ _rooms: dict[str, _Room] = {}
 class ExperimentPlugin(WorkerPlugin):
     """Brings an experiment to each worker that there is and that comes."""
 
-    def __init__(self, brought: Brought, fmu: bytes) -> None:
+    def __init__(self, brought: UnpackedFmu, fmu: bytes) -> None:
         self.name = brought.name
         self._brought, self._fmu = brought, fmu
         self._confined = is_confined()

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
 from ali3.bars import bar as bar_of
-from ali3.isolated import Lost, Tell
-from hosts.common.closing import Closing
+from ali3.isolated_processes import Lost, Tell
+from hosts.common.closable import Closable
 from hosts.experiment.pool import Pool
 from hosts.fmu.own_process import PATIENCE
 
@@ -86,7 +86,7 @@ class Experiment(Generic[T, R]):
             print(f"note: {runner.left} processes that an FMU had started were ended with it.", file=sys.stderr)
 
 
-class Progress(Closing, Generic[T, R]):
+class Progress(Closable, Generic[T, R]):
     """The bar of an experiment, over one list of runs or over several of which each depends on results of the last.
 
     `whole`: size of all tasks; None: nobody knows it, as of a search, and the bar counts; `before`: of those that are

@@ -6,17 +6,17 @@ from pathlib import Path
 from typing import IO, Any, Generic, TypeVar
 
 from ali3.errors import FileError, reason
-from ali3.files import make_folder, whole_file
+from ali3.files import atomic_file, make_folder
 from ali3.frames import FrameError, read_frame, write_frame
 from ali3.reading import read_bytes
-from hosts.common.closing import Closing
+from hosts.common.closable import Closable
 
 _MOST = 8_000_000_000  # bytes
 
 R = TypeVar("R")
 
 
-class Journal(Closing, Generic[R]):
+class Journal(Closable, Generic[R]):
     """A file of results, each with its key; of several with the same key the last counts.
 
     `kind`: type of the results, which is one that passes between processes (`ali3.frames`). One program at a time
@@ -46,7 +46,7 @@ class Journal(Closing, Generic[R]):
                 found[key] = result
                 end, count = stream.tell(), count + 1
         if end < len(stream.getbuffer()) or len(found) < count:
-            with whole_file(self._file) as made, made.open("wb") as whole:
+            with atomic_file(self._file) as made, made.open("wb") as whole:
                 for item in found.items():
                     write_frame(whole, 0, item)
         return found

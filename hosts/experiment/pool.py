@@ -8,8 +8,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from ali3.isolated import Isolated, Lost, Tell
-from hosts.common.closing import Closing
+from ali3.isolated_processes import Isolated, Lost, Tell
+from hosts.common.closable import Closable
 from hosts.fmu.own_process import PATIENCE
 
 _LOOK = 0.5  # s after which Ctrl-C is noticed where nothing arrives
@@ -20,7 +20,7 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 
-class Pool(Closing, Generic[T, R]):
+class Pool(Closable, Generic[T, R]):
     """Processes that make runs, each one at a time; a process that ends during a run is replaced.
 
     `work`, `answer`, `reads`: see `Isolated`; `jobs`: number of processes; `limit`, `in_all`: time limit of a run, and

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
 from ali3.locks import locked
-from hosts.common.closing import Closing
+from hosts.common.closable import Closable
 from hosts.experiment.journal import Journal
 
 JOURNAL = "done"
@@ -35,7 +35,7 @@ class Table(Protocol[R_contra]):
         """Write what was taken, so that it stays. Raises `FileError`."""
 
 
-class Kept(Closing, Generic[R]):
+class ResultStore(Closable, Generic[R]):
     """Results that stay in a folder, so that the same command goes on with the others; the folder is locked.
 
     `kind`: type of the results, see `Journal`; `does`: what the command does, in the sentence for another one that
@@ -93,7 +93,7 @@ class Kept(Closing, Generic[R]):
         self._held.close()
 
 
-def tell_kept(there: int, of: int, what: str) -> None:
+def report_resumed(there: int, of: int, what: str) -> None:
     """Say how many results need not be made again; `what`: they are, such as ``tests``."""
     if there:
         print(f"{there} of {of} {what} are there; --again repeats them.", flush=True)

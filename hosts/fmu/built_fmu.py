@@ -10,7 +10,7 @@ import ali3
 from ali3.cache import cache_folder
 from ali3.commands import COMMANDS
 from ali3.errors import FileError, reason
-from ali3.folders import forget_oldest, whole_folder
+from ali3.folders import atomic_folder, forget_oldest
 from ali3.locks import locked
 from ali3.reading import is_file, is_folder, read_bytes, read_toml
 from hosts.common.commands import run_ali3
@@ -60,7 +60,7 @@ def _kept_fmu(what: str, name: str, options: tuple[str, ...], tell: Callable[[st
             return found[0]
     tell(f"{what[0].upper()}{what[1:]} is built for this machine, which takes half a minute ...")
     try:
-        with whole_folder(place) as made:
+        with atomic_folder(place) as made:
             build_fmu(what, options, made)
             if not list(made.glob("*.fmu")):
                 raise HostError(f"The FMU of {what} cannot be built: the build left no FMU.")

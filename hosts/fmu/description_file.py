@@ -10,9 +10,9 @@ from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.archives import Archive
 from ali3.limits import VARIABLE, at_most, raised
+from ali3.message_text import one_line
 from ali3.processes import command_name
 from ali3.reading import DEEPEST, is_file, no_file
-from ali3.words import one_line
 from ali3.xml_memory import is_lack_of_memory
 from hosts.common.errors import HostError
 from hosts.fmu.scalars import ELEMENTS, Place, element_names, scalars

@@ -15,11 +15,11 @@ from fmpy.model_description import ModelDescription, ScalarVariable
 from numpy.typing import NDArray
 
 from ali3.errors import reason
+from ali3.message_text import brief, shortened
 from ali3.near_names import did_you_mean
-from ali3.processes import cause_words
-from ali3.temporary import temporary_folder
-from ali3.words import brief, shortened
-from hosts.common.closing import Closing
+from ali3.processes import cause_text
+from ali3.temporary_folder import temporary_folder
+from hosts.common.closable import Closable
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.description_file import opened, read_description
@@ -55,7 +55,7 @@ def unpack(path: Path, folder: Path) -> None:
         archive.unpack(folder, lambda name: not name.startswith(("sources/", "documentation/")))
 
 
-class Fmu(Closing, NamedScalars):
+class Fmu(Closable, NamedScalars):
     """One instance of a co-simulation FMU (FMI 2.0 or 3.0), ready to be initialised.
 
     Its library is loaded by the first call that needs it: who asks for the description alone runs no foreign code.
@@ -94,7 +94,7 @@ class Fmu(Closing, NamedScalars):
                 raise
             if isinstance(error, OSError) and error.errno is not None:
                 raise HostError(f"{path} cannot be unpacked into {folder}: {reason(error)}.") from None
-            raise HostError(f"{path} cannot be loaded on {sys.platform}: {error}{cause_words(error)}") from None
+            raise HostError(f"{path} cannot be loaded on {sys.platform}: {error}{cause_text(error)}") from None
         return self._loaded
 
     @property

@@ -11,7 +11,7 @@ from typing import Any, Protocol, TypeVar
 
 from hosts.common.numbers import Value
 from hosts.fmu.aliases.alias import Aliases
-from hosts.fmu.aliases.of_file import aliases_of
+from hosts.fmu.aliases.alias_option import aliases_of
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.named_fmu import NamedFmu, seen_through
 from hosts.fmu.named_row import NamedRow

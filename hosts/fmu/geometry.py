@@ -11,7 +11,7 @@ from ali3.processes import command_name
 from ali3.reading import is_file
 from ali3.scene.errors import SceneError
 from ali3.scene.scene import read_scene
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value

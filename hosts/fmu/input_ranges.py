@@ -5,8 +5,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.message_text import unit_text
 from ali3.units import misread, typeset
-from ali3.words import unit_text
 from hosts.fmu.variables import Variable
 
 ROUNDING = 1e-6  # of the range

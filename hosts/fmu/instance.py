@@ -11,16 +11,17 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.fmi3 import FMU3Slave, fmi3Byte
-from fmpy.model_description import ModelDescription, ScalarVariable
+from fmpy.model_description import ModelDescription
 from numpy.typing import NDArray
 
 from ali3.call_mark import marked
 from ali3.limits import at_most, raised
+from ali3.message_text import shortened
 from ali3.processes import path_of_caller
 from ali3.reading import LARGEST_STATE
-from ali3.words import shortened
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
+from hosts.fmu.array_values import ArrayValues
 from hosts.fmu.scalars import Place
 
 _WARNING = 1
@@ -68,7 +69,7 @@ class Instance:
     ) -> None:
         self.three = str(description.fmiVersion).startswith("3")
         self._failed: Exception | None = None
-        self._arrays = _Arrays(description.modelVariables, self._read)
+        self._arrays = ArrayValues(description.modelVariables, self._read)
         arguments: dict[str, Any] = {
             "guid": token or description.guid,
             "unzipDirectory": str(folder),
@@ -309,43 +310,6 @@ def _checked(name: str, function: Callable[..., int]) -> Callable[..., int]:
         return status
 
     return call
-
-
-class _Arrays:
-    """Values of arrays that are set by their elements: FMI sets all of them at once.
-
-    `variables`: elements of an array in their order; `read`: gives the values that an array has in the FMU, after its
-    start.
-    """
-
-    def __init__(self, variables: Sequence[ScalarVariable], read: Callable[[Place], list[Any]]) -> None:
-        self._starts: dict[int, list[Any]] = {}
-        for v in variables:
-            self._starts.setdefault(v.valueReference, []).append(0 if v.start is None else v.start)
-        self._read, self._rows, self._from_fmu = read, dict[int, list[Any]](), False
-
-    def row(self, place: Place) -> list[Any]:
-        """All values of a variable as they were set last, to be changed; of a scalar one that will be replaced."""
-        if place.size == 1:
-            return [None]
-        kept = self._rows.get(place.reference)
-        if kept is None:
-            kept = self._read(place) if self._from_fmu else self._starts[place.reference]
-        return list(kept)
-
-    def keep(self, rows: Mapping[int, list[Any]]) -> None:
-        """Values that the FMU has taken, by reference."""
-        self._rows.update({reference: row for reference, row in rows.items() if len(row) > 1})
-
-    def reset(self) -> None:
-        """Start values again."""
-        self._rows.clear()
-        self._from_fmu = False
-
-    def forget(self) -> None:
-        """Drop the values of arrays that are kept here: the FMU has another state, so they are read from it again."""
-        self._rows.clear()
-        self._from_fmu = True
 
 
 def _truth(value: Any) -> bool:

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ali3.errors import UserError
-from ali3.isolated import Isolated, Lost, Tell
+from ali3.isolated_processes import Isolated, Lost, Tell
 from hosts.common.errors import FailedFmuError, HostError
 from hosts.common.numbers import Value
-from hosts.common.road import tell_starts
+from hosts.common.road import report_starts
 
 PATIENCE = 300.0
 """s that a step, a start or an end of an FMU may take."""
@@ -26,7 +26,7 @@ def files_of(values: Mapping[str, Value]) -> list[Path]:
 def files_of_drives(fmu: Path, starts: Iterable[Mapping[str, Value]]) -> list[Path]:
     """Files that drives of an FMU read; a start outside its road is reported now, before any of them begins."""
     given = list(starts)
-    tell_starts(given)
+    report_starts(given)
     return [fmu, *(file for start in given for file in files_of(start))]
 
 
@@ -46,9 +46,9 @@ def in_own_process(
         try:
             done = process.do(task, tell, PATIENCE)
         except UserError as error:
-            told = HostError(str(error))
-            told.status = error.status
-            raise told from None
+            reported = HostError(str(error))
+            reported.status = error.status
+            raise reported from None
     if isinstance(done, Lost):
         raise FailedFmuError(f"The process of the FMU {done.how}.")
     return done

@@ -8,7 +8,7 @@ from ali3.unit_definition import UnitDefinition
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.setting import Setting
-from hosts.fmu.variables import Variable, Variables, kind_words
+from hosts.fmu.variables import Variable, Variables, kind_text
 
 
 def settings_of_file(file: Path, variables: Variables) -> list[Setting]:
@@ -41,9 +41,7 @@ def _taken(variable: Variable, kind: str, text: str, source: str) -> Value:
     """The value of an entry, whose kind must fit the variable; a real one is not yet checked."""
     fits = {"Real": ("Real", "Integer"), "Integer": ("Integer", "Real"), "Enumeration": ("Enumeration", "Integer")}
     if kind not in fits.get(variable.kind, (variable.kind,)):
-        raise HostError(
-            f"{source}: '{variable.name}' is given as {kind}; in the FMU it is {kind_words(variable.kind)}."
-        )
+        raise HostError(f"{source}: '{variable.name}' is given as {kind}; in the FMU it is {kind_text(variable.kind)}.")
     if variable.kind == "Real":
         return float(text)
     if kind == "Real":

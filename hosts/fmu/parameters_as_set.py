@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping
 
+from ali3.message_text import range_text
 from ali3.parameter_set import Entry, ParameterSet, parameter_text
-from ali3.words import range_words
 from hosts.common.numbers import Value
 from hosts.fmu.variables import Variable, Variables
 
@@ -20,7 +20,7 @@ def parameter_set_of(variables: Variables, name: str, values: Mapping[str, Value
         unit = v.unit if v.kind == "Real" and v.definition is not None else None
         if unit is not None and v.definition is not None:
             units[unit] = v.definition
-        bounds = range_words(v.low, v.high, v.unit if v.kind == "Real" else "1")  # as builds write it
+        bounds = range_text(v.low, v.high, v.unit if v.kind == "Real" else "1")  # as builds write it
         text = parameter_text(v.description, bounds, v.variability)
         entries.append(Entry(v.name, v.kind, written(v, value), unit, text))
     return ParameterSet(name, entries, dict(sorted(units.items())))

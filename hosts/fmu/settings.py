@@ -6,7 +6,7 @@ from typing import Any
 
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.fmu.parameter_file_settings import settings_of_file
 from hosts.fmu.setting import Setting
 from hosts.fmu.steering_ratios import steering_rows
@@ -71,13 +71,13 @@ class Settings:
         else:
             self._notes.append((source, f"{len(found)} values, {len(found) - len(own)} of them other than in the FMU"))
 
-    def add_wishes(self, wishes: Wishes, fidelity: float | None = None) -> None:
+    def add_wishes(self, fmu_options: FmuOptions, fidelity: float | None = None) -> None:
         """What the command line sets; see `add_numbers`. `fidelity`: of the option ``--fidelity``."""
-        for file in wishes.sets:
+        for file in fmu_options.sets:
             self.add_set(file)
-        self.add_texts(wishes.values, "--set")
+        self.add_texts(fmu_options.values, "--set")
         if fidelity is not None:
-            if "fidelity" in dict(wishes.values):
+            if "fidelity" in dict(fmu_options.values):
                 raise HostError("The fidelity is given by --fidelity and by --set; give it once.")
             self.add_numbers({"fidelity": fidelity}, "--fidelity")
 
@@ -120,8 +120,8 @@ class Settings:
         return Setting(variable, variable.check(value, source), source)
 
 
-def settings_of(variables: Variables, wishes: Wishes) -> Settings:
+def settings_of(variables: Variables, fmu_options: FmuOptions) -> Settings:
     """What the command line sets in an FMU. Raises `HostError`: a name, value, kind or unit is wrong."""
     settings = Settings(variables)
-    settings.add_wishes(wishes)
+    settings.add_wishes(fmu_options)
     return settings

@@ -10,11 +10,11 @@ from typing import Any
 from fmpy.model_description import ModelDescription, ScalarVariable
 
 from ali3.decimal_number import parse_number
+from ali3.message_text import brief, range_text
 from ali3.near_names import MOST, did_you_mean
 from ali3.processes import command_name
 from ali3.unit_definition import BASE_UNITS, KINDS, UnitDefinition
 from ali3.units import number_with_unit, typeset
-from ali3.words import brief, range_words
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
 
@@ -75,7 +75,7 @@ class Variable:
         """The range in words; empty where it is open."""
         if self.items:
             return ", ".join(f"{number} {name}" for name, number in self.items.items())
-        return range_words(self.low, self.high, typeset(self.unit) or "1" if self.kind == "Real" else "1")
+        return range_text(self.low, self.high, typeset(self.unit) or "1" if self.kind == "Real" else "1")
 
     def read(self, text: str, source: str, with_unit: bool = False) -> Value:
         """The value that a person has written, checked.
@@ -105,8 +105,8 @@ class Variable:
         """
         if self.kind == "String" or isinstance(value, str):
             if self.kind != "String" or not isinstance(value, str):
-                told = self.text(value) if is_finite(value) or isinstance(value, (bool, str)) else brief(value)
-                raise HostError(f"{source}: '{self.name}' is {told}; it must be {kind_words(self.kind)}.")
+                value_text = self.text(value) if is_finite(value) or isinstance(value, (bool, str)) else brief(value)
+                raise HostError(f"{source}: '{self.name}' is {value_text}; it must be {kind_text(self.kind)}.")
             return value
         if not isinstance(value, bool) and not is_finite(value):
             raise HostError(f"{source}: '{self.name}' is {brief(value)}; only finite numbers can be used.")
@@ -239,6 +239,6 @@ def default_step(description: ModelDescription) -> float:
     return own * max(1, round(_STEP / own)) if 0.0 < own < math.inf else _STEP
 
 
-def kind_words(kind: str) -> str:
+def kind_text(kind: str) -> str:
     """A kind with its article."""
     return f"an {kind}" if kind[0] in "AEIO" else f"a {kind}"

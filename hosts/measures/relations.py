@@ -11,7 +11,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.echo import Value, quantities_of
+from ali3.plausibility import Value, quantities_of
 from hosts.common import wheels
 from hosts.measures.signal import Signal
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ali3.echo import Value, far_values
+from ali3.plausibility import Value, far_values
 from hosts.measures.relations import LEAST, PATH, QUANTITIES, SPEEDS, WHEELS, Array, Signals, keys_of, speed_of
 from hosts.measures.signal import Signal
 

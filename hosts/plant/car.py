@@ -8,13 +8,13 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ali3.message_text import brief, value_text
 from ali3.near_names import did_you_mean
-from ali3.words import brief, value_words
 from hosts.common.arguments import mapping, positive, texts
-from hosts.common.closing import Closing
+from hosts.common.closable import Closable
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value, is_finite
-from hosts.common.road import tell_starts
+from hosts.common.road import report_starts
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.fmu.fmu import Fmu
 
@@ -35,7 +35,7 @@ class Saved:
     """As the FMU writes it."""
 
 
-class Car(Closing):
+class Car(Closable):
     """A car that is stepped from Python, through the slave in C of its FMU.
 
     All is as in the FMU, to the last bit: names, division of steps, ranges, warnings.
@@ -141,7 +141,7 @@ class Car(Closing):
             self.fmu.messages.clear()  # in place: who wraps the FMU shares them
             self.fmu.reset()
         self._used, self._started = True, False
-        tell_starts([start])
+        report_starts([start])
         self.fmu.initialise(start)
         self._start_time, self._steps, self._started = 0.0, 0, True
 
@@ -150,7 +150,7 @@ class Car(Closing):
         if isinstance(value, (tuple, list)):
             ends = [end for end in value if is_finite(end)]
             if not (len(ends) == len(value) == 2 and ends[0] <= ends[1]):
-                raise HostError(f"'{name}' is {value_words(value)}; a range is two numbers, the smaller one first.")
+                raise HostError(f"'{name}' is {value_text(value)}; a range is two numbers, the smaller one first.")
             return float(random.uniform(float(ends[0]), float(ends[1])))
         if not (isinstance(value, (bool, float, str)) or is_finite(value)):
             raise HostError(f"'{name}' is {brief(value)}; it must be a number, or a range of two.")

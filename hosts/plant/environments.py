@@ -8,7 +8,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from ali3.words import brief
+from ali3.message_text import brief
 from hosts.common.arguments import mapping
 from hosts.common.errors import HostError
 from hosts.common.numbers import is_finite
@@ -226,8 +226,8 @@ class AntiLockBraking(CarEnvironment):
         speed, yaw = self._now[0], self._now[11]
         reward = -float(speed) * self.car.step_length - float(yaw) ** 2
         ended = speed < self.STANDING or abs(yaw) > 0.5
-        told = {"refused": refused} if refused else {}
-        return self._observed(), reward, bool(ended or refused), self._steps >= self._most, told
+        info = {"refused": refused} if refused else {}
+        return self._observed(), reward, bool(ended or refused), self._steps >= self._most, info
 
     def _observed(self) -> Floats:
         return self._within(self._now[:11])

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
-from ali3.words import brief
+from ali3.message_text import brief
 from hosts.common.arguments import positive
 from hosts.common.errors import HostError
 from hosts.common.numbers import is_finite

@@ -91,13 +91,13 @@ class ProvingGroundLap(LaneEnvironment):
         seen = self._observed()
         made = math.remainder(self.lane.way - self._way, self.lane.length)
         before, self._way, self.driven = self.driven, self.lane.way, self.driven + made
-        told: dict[str, Any] = {"refused": refused} if refused else {}
+        info: dict[str, Any] = {"refused": refused} if refused else {}
         lap = self.driven >= self.lane.length
         if lap:  # the line is crossed within the step
-            told["lap_time"] = self.car.time - (self.driven - self.lane.length) / max(made, 1e-9) * self.car.step_length
+            info["lap_time"] = self.car.time - (self.driven - self.lane.length) / max(made, 1e-9) * self.car.step_length
         out = abs(float(seen[0])) > 0.5 * self.lane.width
         reward = (self.driven - before) / self.PACE - self.car.step_length - self.OUT * (out or bool(refused))
-        return seen, reward, bool(lap or out or refused), self._steps >= self._most, told
+        return seen, reward, bool(lap or out or refused), self._steps >= self._most, info
 
 
 class _Straightened(Course):
@@ -140,6 +140,6 @@ class LapDriver:
         """The action for an observation."""
         offset, heading, speed = (float(value) for value in seen[:3])
         place = (self.environment.lane.way, offset, heading, speed)
-        senses = dict(zip(("chassis.x", "chassis.y", "chassis.yaw", "speed"), place, strict=True))
-        acts = self.driver.act(self.environment.car.time, senses)
+        observation = dict(zip(("chassis.x", "chassis.y", "chassis.yaw", "speed"), place, strict=True))
+        acts = self.driver.act(self.environment.car.time, observation)
         return np.array([acts["steering"], acts["throttle"] - acts["brake"]], np.float32)

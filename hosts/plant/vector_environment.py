@@ -9,7 +9,7 @@ import gymnasium
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 from ali3.cores import available_cores
-from ali3.words import brief
+from ali3.message_text import brief
 from hosts.common.errors import HostError
 from hosts.plant.environments import AntiLockBraking, Floats, LaneKeeping
 from hosts.plant.lap import ProvingGroundLap
@@ -64,7 +64,7 @@ def _raised(error: BaseException) -> Any:
     raise error
 
 
-class Together(SyncVectorEnv[Floats, Floats]):
+class VectorEnvironment(SyncVectorEnv[Floats, Floats]):
     """Environments beside each other, as `gymnasium.vector.SyncVectorEnv`, whose steps and new starts run on threads.
 
     The slave in C of a car leaves Python's lock while it steps, so that cars advance on all cores; what an environment
@@ -112,23 +112,23 @@ class Together(SyncVectorEnv[Floats, Floats]):
         super().close_extras(**options)
 
 
-def _several(environment: Callable[..., _Single], num_envs: int, options: dict[str, Any]) -> Together:
+def _several(environment: Callable[..., _Single], num_envs: int, options: dict[str, Any]) -> VectorEnvironment:
     if not isinstance(num_envs, int) or num_envs < 1:
         raise HostError(f"The number of environments is {brief(num_envs)}; it must be a whole number from 1.")
     own = {name: options.pop(name) for name in ("threads", "autoreset_mode", "copy") if name in options}
-    return Together(num_envs * [partial(environment, **options)], **own)
+    return VectorEnvironment(num_envs * [partial(environment, **options)], **own)
 
 
-def lane_keeping(num_envs: int, **options: Any) -> Together:
-    """Several of `LaneKeeping` with its options, those of `Together` beside them."""
+def lane_keeping(num_envs: int, **options: Any) -> VectorEnvironment:
+    """Several of `LaneKeeping` with its options, those of `VectorEnvironment` beside them."""
     return _several(LaneKeeping, num_envs, options)
 
 
-def anti_lock_braking(num_envs: int, **options: Any) -> Together:
-    """Several of `AntiLockBraking` with its options, those of `Together` beside them."""
+def anti_lock_braking(num_envs: int, **options: Any) -> VectorEnvironment:
+    """Several of `AntiLockBraking` with its options, those of `VectorEnvironment` beside them."""
     return _several(AntiLockBraking, num_envs, options)
 
 
-def proving_ground_lap(num_envs: int, **options: Any) -> Together:
-    """Several of `ProvingGroundLap` with its options, those of `Together` beside them."""
+def proving_ground_lap(num_envs: int, **options: Any) -> VectorEnvironment:
+    """Several of `ProvingGroundLap` with its options, those of `VectorEnvironment` beside them."""
     return _several(ProvingGroundLap, num_envs, options)

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.json_reading import LARGEST_JSON, json_of, read_json
+from ali3.message_text import brief
 from ali3.reading import LARGEST_STATE, read_bytes
-from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, RESTARTS, REWIND, STATE, STATES, VERSION

@@ -29,11 +29,11 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     Returns
     -------
     recording : Recording
-    told : list of str
+    notes : list of str
         Sentences for the user.
     """
     drive = read_recording(folder)
-    told = list(drive.notes)
+    notes = list(drive.notes)
     count = sum(len(rows) for rows in drive.shown())
     if not count:
         raise HostError(f"{folder} contains no rows yet.")
@@ -44,18 +44,18 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     due = every * min(drive.every[len(drive.inputs) :], default=1)
     for k in np.flatnonzero((np.diff(rows.epoch) == 0) & (np.diff(rows.steps) > due))[:1]:
         gap = f"first from {rows.time[k]:g} s to {rows.time[k + 1]:g} s"
-        told.append(f"Rows of {folder} are missing, {gap}; it is drawn straight there.")
+        notes.append(f"Rows of {folder} are missing, {gap}; it is drawn straight there.")
     if every > 1:
-        told.append(f"One of every {every} of {count} rows of {folder} with outputs is read.")
+        notes.append(f"One of every {every} of {count} rows of {folder} with outputs is read.")
     source = geometry or Path(drive.meta["fmu"])
     is_fmu = is_archive(source)
     if geometry is None and not is_fmu:
         raise HostError(f"{folder} names the FMU {source}, which is not there any more; name it by --geometry FMU.")
     scene = scene_from(source, drive.meta["start"], drive.meta.get("world"))
     if is_fmu and described(source).guid != drive.meta["guid"]:
-        told.append(other_build(source, name))
+        notes.append(other_build(source, name))
     if scene is None:
-        told.append(f"{source} does not say what there is to draw; signals can be plotted.")
+        notes.append(f"{source} does not say what there is to draw; signals can be plotted.")
     # As the driver had it: it goes on where the car was reset or rewound.
     time, whole = drive.step * np.asarray(rows.steps, dtype=np.float64), set(drive.meta.get("whole", ()))
     columns = {name: _filled(time, rows.epoch, rows.values[:, k], name in whole) for k, name in enumerate(drive.names)}
@@ -66,7 +66,7 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     jumps = [f"{words} {'once' if count == 1 else f'{count} times'}" for words, count in counts.items()]
     if jumps:
         recording.notes.append(f"The time is that of the driver; the car was {', '.join(jumps)}.")
-    return recording, told
+    return recording, notes
 
 
 def _filled(

@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ali3.extras import missing_package
-from ali3.files import check_writable, make_folder, whole_file, write_text
-from hosts.common.closing import Closing
+from ali3.files import atomic_file, check_writable, make_folder, write_text
+from hosts.common.closable import Closable
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described
 from hosts.recordings.format import DESCRIPTION, EVENTS, FORMAT, STATE, STATES, VERSION, check_new
@@ -97,7 +97,7 @@ def _version(package: str) -> str:
         return "unknown"
 
 
-class Recorder(Closing):
+class Recorder(Closable):
     """Writes a recording; one thread uses it.
 
     What was recorded reaches the disk every two seconds, so that this much is lost where the program is killed.
@@ -200,7 +200,7 @@ class Recorder(Closing):
         what the first row begins with in place of a start.
         """
         file = self.folder / STATE if count is None else self.folder / STATES / f"{epoch}-{count}.state"
-        with whole_file(file) as made:
+        with atomic_file(file) as made:
             made.write_bytes(content)
 
     def flush(self) -> None:

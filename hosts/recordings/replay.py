@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.reading import is_file
-from hosts.common.closing import Closing
+from hosts.common.closable import Closable
 from hosts.common.errors import HostError
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.fmu.instance import State
@@ -71,7 +71,7 @@ def reads_of(drive: RecordedDrive, fmu: Path) -> list[Path]:
     return [drive.folder, *files_of_drives(fmu, starts)]
 
 
-class Repeater(Closing):
+class Repeater(Closable):
     """An FMU that follows a recording row by row; its library is loaded here.
 
     `fmu`: by default the one that was recorded. Raises `HostError`: the FMU is not there, lacks a variable, or cannot

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ali3.errors import reason
+from ali3.message_text import brief, one_line
 from ali3.tables import TextTable
-from ali3.words import brief, one_line
 from hosts.common.errors import HostError
 from hosts.common.parquet import opened_parquet
 

@@ -11,7 +11,7 @@ from typing import IO, Protocol
 
 import numpy as np
 
-from ali3.files import make_folder, whole_file
+from ali3.files import atomic_file, make_folder
 from hosts.recordings.tables import KEYS, PARTS, TABLE, Rows, joined, parquet_blocks
 
 _ROW_GROUP = 16_384
@@ -47,7 +47,7 @@ class ParquetTable:
 
     def write(self, rows: Rows) -> None:
         self._count += 1
-        with whole_file(self._parts / f"{self._count:06d}{self.suffix}") as made:
+        with atomic_file(self._parts / f"{self._count:06d}{self.suffix}") as made:
             self._write([rows], made, write_statistics=False, store_schema=False)  # of a part the larger half
 
     def close(self, progress: Callable[[float], object]) -> None:
@@ -63,7 +63,7 @@ class ParquetTable:
             if held:
                 yield joined(held, 0)
 
-        with whole_file(self._folder / f"{TABLE}{self.suffix}") as made:
+        with atomic_file(self._folder / f"{TABLE}{self.suffix}") as made:
             self._write(blocks(), made)
         shutil.rmtree(self._parts, ignore_errors=True)
 

@@ -17,7 +17,7 @@ from ali3.command_run import run_command
 from ali3.options import Parser, add_option, given_of, name_and_text
 from ali3.units import quantity
 from hosts.common.errors import HostError
-from hosts.common.options import add_fmu, add_setting_options, wishes
+from hosts.common.options import add_fmu, add_setting_options, fmu_options
 from hosts.common.units import unit_of
 from hosts.driving.manoeuvres import manoeuvre_names
 from hosts.fmu.car import is_car
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from hosts.driving.driver import Driver
     from hosts.driving.simulated_fmu import SimulatedFmu
-    from hosts.run.renamed_run import OtherNames
+    from hosts.run.renamed_run import RenamedRun
 
 
 def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
@@ -72,18 +72,18 @@ def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         raise HostError(
             f"--kerb runs the scene kerb_test; --manoeuvre kerb_drop drives the car {options.fmu} down a kerb."
         )
-    return kerb_test(options.fmu, options.fidelity, options.step, options.out, wishes(options))
+    return kerb_test(options.fmu, options.fidelity, options.step, options.out, fmu_options(options))
 
 
 def _run(options: argparse.Namespace) -> int:
     from hosts.driving.manoeuvre import with_names_of
     from hosts.driving.manoeuvre_settings import set_in
     from hosts.driving.run_checks import check_columns, communication_step, steps_of
-    from hosts.driving.run_with_bar import run_with_bar
+    from hosts.driving.runs_with_progress import run_with_bar
     from hosts.fmu.fmu import Fmu
     from hosts.fmu.fmu_file import fmu_file
-    from hosts.recordings.asked_manoeuvre import manoeuvre_of
     from hosts.recordings.load_manoeuvre import check_asked
+    from hosts.recordings.manoeuvre_option import manoeuvre_of
     from hosts.run.result_files import print_result, result_paths, write_csv, write_record
     from hosts.run.result_plots import plot_page
     from hosts.run.run_summary import energy_balance, pace, summary
@@ -91,11 +91,11 @@ def _run(options: argparse.Namespace) -> int:
     check_asked(options.manoeuvre)
     path, known = fmu_file(options.fmu), dict(options.driver)
     with Fmu(path) as opened:
-        other: OtherNames | None = None
+        other: RenamedRun | None = None
         if options.aliases is not None:
-            from hosts.run.renamed_run import OtherNames
+            from hosts.run.renamed_run import RenamedRun
 
-            other = OtherNames(opened, options.aliases)
+            other = RenamedRun(opened, options.aliases)
         fmu: SimulatedFmu = opened if other is None else other.fmu
         manoeuvre = manoeuvre_of(fmu, options.manoeuvre, options.stop_time)
         if known:
@@ -110,11 +110,11 @@ def _run(options: argparse.Namespace) -> int:
 
             driver = driver_of(fmu, manoeuvre)
         set_all = partial(set_in, opened) if other is None else other.set_in
-        given = wishes(options)
+        given = fmu_options(options)
         if options.road is not None:
-            from hosts.common.road import wishes_with_road
+            from hosts.common.road import options_with_road
 
-            given = wishes_with_road(options, options.out)
+            given = options_with_road(options, options.out)
         manoeuvre, settings = set_all(manoeuvre, given, options.fidelity)
         still = options.manoeuvre is None
         stem = _words(path.stem) if still else f"{_words(path.stem)}_{manoeuvre.name}"

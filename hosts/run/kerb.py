@@ -17,11 +17,11 @@ from ali3.charts import save_picture
 from ali3.low_pass import low_pass
 from ali3.processes import command_name
 from hosts.common.errors import HostError
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_settings import set_in
 from hosts.driving.run_checks import communication_step
-from hosts.driving.run_with_bar import run_with_bar
+from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.built_fmu import fmu_of_scene
 from hosts.fmu.fmu import Fmu
 from hosts.run.result_files import print_result, result_paths, write_csv, write_record
@@ -39,7 +39,7 @@ PLACES = {"SG1": "front left", "SG2": "front right", "SG3": "rear left", "SG4": 
 FREQUENCY = 10.0  # Hz
 
 
-def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out: Path, given: Wishes) -> int:
+def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out: Path, given: FmuOptions) -> int:
     """Do the test, print its moments and write its files.
 
     `file`: FMU of the scene; by default `DIST`, else one that is built and kept; `fidelity`: 1 to 3; by default that of

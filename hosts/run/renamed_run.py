@@ -3,7 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.manoeuvre_settings import set_in
 from hosts.driving.simulated_fmu import SimulatedFmu
@@ -12,7 +12,7 @@ from hosts.fmu.fmu_source import FmuSource
 from hosts.fmu.settings import Settings
 
 
-class OtherNames:
+class RenamedRun:
     """The FMU through an alias file.
 
     `file`: of ``--aliases``. `fmu`: under our names; `names`: for the record of a run.
@@ -24,7 +24,9 @@ class OtherNames:
         self.fmu: SimulatedFmu = self._source.seen(fmu)
         self.names = self._source.of_record
 
-    def set_in(self, manoeuvre: Manoeuvre, wishes: Wishes, fidelity: float | None = None) -> tuple[Manoeuvre, Settings]:
+    def set_in(
+        self, manoeuvre: Manoeuvre, fmu_options: FmuOptions, fidelity: float | None = None
+    ) -> tuple[Manoeuvre, Settings]:
         """See `hosts.driving.manoeuvre_settings.set_in`; wishes and settings are in the FMU's names and units."""
-        theirs, settings = set_in(self._own, manoeuvre, wishes, fidelity, self._source.theirs)
+        theirs, settings = set_in(self._own, manoeuvre, fmu_options, fidelity, self._source.theirs)
         return replace(theirs, start=self._source.ours(theirs.start)), settings

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from ali3.columns import in_columns
-from ali3.files import check_writable, whole_file, write_text
+from ali3.files import atomic_file, check_writable, write_text
 from hosts.common.options import ROAD
 from hosts.driving.driver import Driver
 from hosts.driving.manoeuvre import Manoeuvre
@@ -29,7 +29,7 @@ def result_paths(out: Path, stem: str) -> tuple[Path, Path, Path]:
 
 def write_csv(result: Result, file: Path) -> None:
     """Time, inputs and outputs as a table in FMPy's format. `file`: its folder is made if it is not there."""
-    with whole_file(file) as made, made.open("w", newline="", encoding="utf-8") as stream:
+    with atomic_file(file) as made, made.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, quoting=csv.QUOTE_NONNUMERIC)
         writer.writerow(["time", *result.names])
         for t, row in zip(result.time.tolist(), result.values.tolist(), strict=True):

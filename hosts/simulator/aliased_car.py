@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from hosts.common.numbers import Value
 from hosts.fmu.fmu_source import FmuSource
-from hosts.simulator.car import Car, Event, Moment
+from hosts.simulator.car import Car, CarState, Event
 from hosts.simulator.step_times import StepTimes
 
 
@@ -43,7 +43,7 @@ class AliasedCar:
     def restart(self, changes: Mapping[str, Value]) -> None:
         self._car.restart(self._source.theirs(changes))
 
-    def latest(self) -> Moment:
+    def latest(self) -> CarState:
         moment = self._car.latest()
         values = self._row.of(moment.time, moment.values)
         return moment if values is moment.values else replace(moment, values=values)

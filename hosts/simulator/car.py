@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from hosts.common.closing import Closing
+from hosts.common.closable import Closable
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import described
@@ -15,21 +15,21 @@ from hosts.fmu.steering_ratios import steering_as_set
 from hosts.fmu.variables import Variables
 from hosts.recordings.recorded_columns import recorded_columns
 from hosts.recordings.recording import Recorder, recording_meta
+from hosts.simulator.car_events import CarSettings, CarState, Event
 from hosts.simulator.car_process import COMMANDS, Order
-from hosts.simulator.moments import CarSettings, Event, Moment
 from hosts.simulator.process import Process
-from hosts.simulator.process_messages import Mail, Records
+from hosts.simulator.process_messages import ProcessMessages, Records
 from hosts.simulator.shared_values import RECORDING, ROW, STOP, SharedValues, Sizes
 from hosts.simulator.step_times import StepTimes
 
-__all__ = ["Car", "CarSettings", "Event", "Moment", "StepTimes"]
+__all__ = ["Car", "CarSettings", "CarState", "Event", "StepTimes"]
 
 SLOWEST = 0.05
 """Least speed of slow motion, simulated over wall seconds."""
 _ROW_SECONDS, _LEAST_ROWS, _MOST_ROW_BYTES = 8.0, 2000, 1 << 24
 
 
-class Car(Closing):
+class Car(Closable):
     """An FMU that runs in a process of its own; it begins paused, at time 0.
 
     `names`: numeric inputs, then numeric outputs; `units`: by name; `step`: communication step, s. Raises `HostError`:
@@ -62,12 +62,12 @@ class Car(Closing):
         self._shared = SharedValues(sizes)
         self._shared.flags[RECORDING] = settings.record is not None
         self._process: Process | None = None
-        self._mail: Mail | None = None
+        self._mail: ProcessMessages | None = None
         try:
             how = (settings.step, settings.paced, settings.priority)
             fmu = settings.fmu.absolute()
             self._process = Process(Order(fmu, start, *how, sizes, self._shared.name))
-            self._mail = Mail(self._shared, self._recorder(start))
+            self._mail = ProcessMessages(self._shared, self._recorder(start))
         except BaseException:
             self.close()
             raise
@@ -159,12 +159,12 @@ class Car(Closing):
         commands.slot()[:] = COMMANDS.index(name), value, self._wishes
         commands.finish()
 
-    def latest(self) -> Moment:
+    def latest(self) -> CarState:
         """The newest state of the car, at once: neither side waits for the other."""
         with self._lock:
             self._alive()
             v = self._shared.moments.read()
-        return Moment.of(v)
+        return CarState.of(v)
 
     def events(self) -> list[Event]:
         """Events since the last call."""

@@ -15,10 +15,10 @@ from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import StepRefusedError
 from hosts.simulator.clock import Clock, make_clock
-from hosts.simulator.driven_fmu import DrivenFmu, Told
+from hosts.simulator.driven_fmu import DrivenFmu, Notice
 from hosts.simulator.notices import Notices
 from hosts.simulator.priority import ask_for_priority
-from hosts.simulator.real_time_clock import Pace
+from hosts.simulator.real_time_clock import RealTimeClock
 from hosts.simulator.shared_values import LOST_MESSAGES, LOST_ROWS, RECORDING, STATE_HEAD, STOP, SharedValues, Sizes
 from hosts.simulator.step_times import TimesRecord
 
@@ -43,7 +43,7 @@ class Order:
 
 
 def run_car(order: Order, tell: Callable[[str], None]) -> None:
-    """Drive the FMU until the main process says stop; the work of a process, see `ali3.isolated`.
+    """Drive the FMU until the main process says stop; the work of a process, see `ali3.isolated_processes`.
 
     `tell`: called once, with nothing, when the FMU has started. Raises `HostError`: it cannot be started.
     """
@@ -67,7 +67,7 @@ class Loop:
     def __init__(self, order: Order, car: DrivenFmu, shared: SharedValues, clock: Clock) -> None:
         self._order, self._car, self._shared, self._clock = order, car, shared, clock
         self._times = TimesRecord(shared.times)
-        self._pace = Pace(clock, order.step, self._times, order.paced)
+        self._pace = RealTimeClock(clock, order.step, self._times, order.paced)
         self._notices = Notices(car.names, clock, self._times)
         self._running = self._refused = self._runs_on = self._active = False
         self._to_do = 0
@@ -80,7 +80,7 @@ class Loop:
     def run(self) -> None:
         """Until it is to stop."""
         if self._order.priority and self._order.paced:
-            self._tell(Told("priority", ask_for_priority()))
+            self._tell(Notice("priority", ask_for_priority()))
         for told in self._notices.of_step(self._car):
             self._tell(told)
         gc.collect()
@@ -127,7 +127,7 @@ class Loop:
         self._row()
         words = self._pace.done()
         if words:
-            self._tell(Told("behind", words))
+            self._tell(Notice("behind", words))
         for told in self._notices.of_step(car):
             self._tell(told)
         self._publish()
@@ -135,21 +135,21 @@ class Loop:
     def _refuse(self, error: StepRefusedError) -> None:
         self._runs_on, self._running, self._to_do, self._refused = self._running, False, 0, True
         text = f"The FMU refused the step at {self._car.time:.3f} s: {error} The car is paused in the state before it."
-        self._tell(Told("refused", text, {"inputs": self._car.refused_inputs}))
+        self._tell(Notice("refused", text, {"inputs": self._car.refused_inputs}))
         self._car.messages()
         self._publish()
 
     def _take_commands(self) -> None:
         commands = self._shared.commands.take()
-        for code, value, wish in commands.tolist():
+        for code, value, request in commands.tolist():
             try:
-                self._obey(COMMANDS[int(code)], value, wish)
+                self._obey(COMMANDS[int(code)], value, request)
             except (HostError, StepRefusedError, FMICallException) as error:
-                self._tell(Told("told", str(error)))
+                self._tell(Notice("told", str(error)))
                 self._car.messages()
             self._publish()
 
-    def _obey(self, name: str, value: float, wish: float) -> None:
+    def _obey(self, name: str, value: float, request: float) -> None:
         car = self._car
         if name == "run" or name == "step":
             if self._refused:
@@ -167,21 +167,21 @@ class Loop:
         else:
             epoch = car.epoch
             try:
-                self._jump(name, value, wish)
+                self._jump(name, value, request)
             finally:
                 self._pace.restart()
                 if car.epoch != epoch:
                     self._notices.jumped(car)
                     self._publish(row=True)
 
-    def _jump(self, name: str, value: float, wish: float) -> None:
+    def _jump(self, name: str, value: float, request: float) -> None:
         car = self._car
         if name == "reset":
-            told = car.reset(wish)
+            told = car.reset(request)
         elif name == "upright":
-            told = car.upright(wish)
+            told = car.upright(request)
         elif name == "restart":
-            told = car.restart(received(), wish)  # too large for the shared memory
+            told = car.restart(received(), request)  # too large for the shared memory
         else:
             told = car.rewind(value)
         if self._refused:
@@ -207,7 +207,7 @@ class Loop:
             if state:  # where there is no room, a later one serves
                 shared.states.put(STATE_HEAD.pack(car.count, car.epoch) + state)
 
-    def _tell(self, told: Told) -> None:
+    def _tell(self, told: Notice) -> None:
         car = self._car
         record = {"time": car.time, "epoch": car.epoch, "kind": told.kind, "text": told.text, "details": told.details}
         if not self._shared.messages.put(json.dumps(record).encode()):

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 from ali3.command_run import GOOD, NOT_GOOD, run_command
 from ali3.options import Parser, add_option, given_of
 from hosts.common.errors import HostError
-from hosts.common.options import add_fmu, add_setting_options, wishes
+from hosts.common.options import add_fmu, add_setting_options, fmu_options
 
 if TYPE_CHECKING:
     from hosts.simulator.car import Car
-    from hosts.simulator.preparation import Asked, Prepared
+    from hosts.simulator.preparation import DriveRequest, Prepared
     from hosts.simulator.run_report import RunReport
 
 _LOCAL = "127.0.0.1"
@@ -39,7 +39,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 simulator") -
 
 
 def _recorded(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
-    from hosts.recordings.show import replay_recording, save_manoeuvre, show_recording
+    from hosts.recordings.recording_actions import replay_recording, save_manoeuvre, show_recording
 
     given = given_of(parser, options, [name for name in vars(options) if name not in _OF_RECORDINGS])
     if given:
@@ -133,11 +133,11 @@ def _check(options: argparse.Namespace) -> None:
         raise HostError("Inputs are given by --manoeuvre and by --seed; give one of them.")
 
 
-def _asked(options: argparse.Namespace) -> Asked:
-    from hosts.simulator.preparation import Asked
+def _asked(options: argparse.Namespace) -> DriveRequest:
+    from hosts.simulator.preparation import DriveRequest
 
     names = ("fmu", "world", "place", "fidelity", "aliases", "record")
-    return Asked(**{name: getattr(options, name) for name in names}, wishes=wishes(options))
+    return DriveRequest(**{name: getattr(options, name) for name in names}, fmu_options=fmu_options(options))
 
 
 def _started(options: argparse.Namespace, prepared: Prepared) -> Car:
@@ -179,7 +179,7 @@ def _reported(car: Car, options: argparse.Namespace, report: RunReport) -> Itera
 def _alone(options: argparse.Namespace, begin: float) -> int:
     """Without a page; the run ends by itself."""
     from hosts.simulator.aliased_car import AliasedCar
-    from hosts.simulator.headless import headless_driver, manoeuvre_of, run_headless, with_start_of
+    from hosts.simulator.headless_driving import headless_driver, manoeuvre_of, run_headless, with_start_of
     from hosts.simulator.preparation import prepare
     from hosts.simulator.run_report import RunReport
 
@@ -205,13 +205,13 @@ def _with_pages(options: argparse.Namespace, begin: float) -> int:
     """Until Ctrl-C."""
     from concurrent.futures import ThreadPoolExecutor
 
+    from hosts.simulator.access_control import AccessControl
     from hosts.simulator.aliased_car import AliasedCar
-    from hosts.simulator.guard import Guard
+    from hosts.simulator.page_session import Opened, drive_with_pages
     from hosts.simulator.preparation import prepare
     from hosts.simulator.run_report import RunReport
     from hosts.simulator.server_needs import Content
     from hosts.simulator.web import listening_socket
-    from hosts.simulator.with_page import Opened, drive_with_pages
     from viewer.simulator_page import simulator_html
 
     report = RunReport(begin)
@@ -224,7 +224,7 @@ def _with_pages(options: argparse.Namespace, begin: float) -> int:
             record = "" if options.record is None else str(options.record)
             hello = prepared.hello(car.constants, car.names, car.step, record)
             content = Content(page.result(), prepared.world.content, hello, prepared.places())
-            opened = Opened(listening, Guard.of(options.listen), not options.no_open, not options.no_devices)
+            opened = Opened(listening, AccessControl.of(options.listen), not options.no_open, not options.no_devices)
             with _reported(started, options, report):
                 drive_with_pages(car, content, opened, report)
     return GOOD if report.whole else NOT_GOOD

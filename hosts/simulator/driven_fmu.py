@@ -21,7 +21,7 @@ _AT_REST = (*_INITIAL, _SPEED)
 
 
 @dataclass(frozen=True)
-class Told:
+class Notice:
     """What happened, for the events."""
 
     kind: str
@@ -169,7 +169,7 @@ class DrivenFmu:
             dx, dy, cos, sin = there[0] - x, there[1] - y, math.cos(yaw), math.sin(yaw)
             self._offset = (dx * cos + dy * sin, dy * cos - dx * sin, there[2] - yaw)
 
-    def _new_start(self, start: Mapping[str, Value], begin: float, wish: float) -> None:
+    def _new_start(self, start: Mapping[str, Value], begin: float, request: float) -> None:
         """A new start of the FMU; if it is refused, the FMU is where it was."""
         before = self._fmu.state() if self._past is not None else None
         try:
@@ -190,26 +190,26 @@ class DrivenFmu:
                 self._fmu.free(before)
         self._begin, self._steps = begin, 0
         self.epoch += 1
-        self.inputs.restart(wish)
+        self.inputs.restart(request)
 
-    def reset(self, wish: float) -> Told:
-        """Start again at time 0 as at first; wants up to the number `wish` are forgotten."""
-        self._new_start(self._start, 0.0, wish)
+    def reset(self, request: float) -> Notice:
+        """Start again at time 0 as at first; wants up to the number `request` are forgotten."""
+        self._new_start(self._start, 0.0, request)
         self._started()
-        return Told("reset", "The car starts again.", {"start": self.start})
+        return Notice("reset", "The car starts again.", {"start": self.start})
 
-    def restart(self, changes: Mapping[str, Value], wish: float) -> Told:
+    def restart(self, changes: Mapping[str, Value], request: float) -> Notice:
         """Start again at time 0 with other start values, which stay for later resets; `HostError` if refused."""
         changed = self._start | dict(changes)
-        self._new_start(changed, 0.0, wish)
+        self._new_start(changed, 0.0, request)
         self._start = changed
         self.inputs.set_start(self._held(self.names[: self._split]))
-        self.inputs.restart(wish)
+        self.inputs.restart(request)
         self._started()
         self._note_offset(changed)
-        return Told("reset", f"The car starts again with {_words(changes)}.", {"start": self.start})
+        return Notice("reset", f"The car starts again with {_words(changes)}.", {"start": self.start})
 
-    def upright(self, wish: float) -> Told:
+    def upright(self, request: float) -> Notice:
         """Start again where the car is, with its heading, at rest; time goes on."""
         if not self._poses:
             missing = [n for n in _POSE if n not in self.names] + [n for n in _AT_REST if n not in self._fmu.variables]
@@ -229,11 +229,11 @@ class DrivenFmu:
             raise HostError("The car cannot be set upright: its place is not a finite number; a reset starts it again.")
         start = self._start | dict(zip(_INITIAL, initial, strict=True)) | {_SPEED: 0.0}
         start |= {name: 0.0 for name in _MOVING if name in start}
-        self._new_start(start, self.time, wish)
+        self._new_start(start, self.time, request)
         self._started()
-        return Told("upright", f"The car was set on its wheels at x = {x:.2f} m, y = {y:.2f} m.", {"start": start})
+        return Notice("upright", f"The car was set on its wheels at x = {x:.2f} m, y = {y:.2f} m.", {"start": start})
 
-    def rewind(self, seconds: float) -> Told:
+    def rewind(self, seconds: float) -> Notice:
         """Go back by so much simulated time, or as far as there are saved states."""
         if self._past is None:
             raise HostError(f"{self._fmu.path.name} cannot go back: it does not save its state (canGetAndSetFMUstate).")
@@ -251,7 +251,7 @@ class DrivenFmu:
         self._read()
         less = f" ({seconds:g} s were asked for; no older state is kept)" if steps < wanted else ""
         text = f"The car went back by {steps * self._step:g} s, to {self.time:.3f} s{less}."
-        return Told("rewind", text, {"back_to": mark.count, "back_to_epoch": mark.epoch})
+        return Notice("rewind", text, {"back_to": mark.count, "back_to_epoch": mark.epoch})
 
 
 def _words(changes: Mapping[str, Value]) -> str:

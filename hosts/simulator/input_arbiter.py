@@ -30,13 +30,13 @@ class _Input:
     seen: dict[str, float] = field(default_factory=dict)
 
 
-class Hands:
-    """The one way from pages and devices to the inputs of the car.
+class InputArbiter:
+    """Arbitrates between pages and devices at the inputs of the car.
 
-    For each input the source that moved last, by more than `MOVED`, has the word. May be called from several threads.
+    For each input the source that moved last, by more than `MOVED`, moves it. May be called from several threads.
 
-    `car_want`: takes inputs as of `Wanted`; those that nobody wants stay as they are; `inputs`: of the car; wishes for
-    others are passed over.
+    `car_want`: takes inputs as of `Wanted`; those that nobody wants stay as they are; `inputs`: of the car; requests
+    for others are ignored.
     """
 
     def __init__(self, car_want: Callable[[Wanted], None], inputs: Collection[str]) -> None:

@@ -18,7 +18,7 @@ class Inputs:
         self.values = self._start.copy()
         self._targets: list[float] = list(start)
         self._rates: list[float] = [0.0] * len(start)
-        self._oldest_wish = 0.0
+        self._oldest_request = 0.0
 
     def want(self, wants: NDArray[np.float64]) -> None:
         """Take over what is wanted.
@@ -27,16 +27,16 @@ class Inputs:
         shape (3 n,); wishes from before the last `restart` do not count.
         """
         for k in range(len(self._rates)):
-            value, rate, wish = wants[3 * k : 3 * k + 3].tolist()
-            if wish > self._oldest_wish:
+            value, rate, request = wants[3 * k : 3 * k + 3].tolist()
+            if request > self._oldest_request:
                 self._targets[k] = float(round(value)) if self._whole[k] else value
                 self._rates[k] = float("inf") if self._whole[k] else rate
 
-    def restart(self, wish: float) -> None:
+    def restart(self, request: float) -> None:
         """Back to the start values; wishes up to this number are forgotten."""
         self.values[:] = self._start
         self._targets, self._rates = self._start.tolist(), [0.0] * len(self._rates)
-        self._oldest_wish = wish
+        self._oldest_request = request
 
     def set_start(self, start: Sequence[float]) -> None:
         """Other values at every new start from now on."""

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.simulator.clock import Clock
-from hosts.simulator.driven_fmu import DrivenFmu, Told
+from hosts.simulator.driven_fmu import DrivenFmu, Notice
 from hosts.simulator.step_times import TimesRecord
 
 NOT_FINITE = "not finite"
@@ -38,12 +38,12 @@ class Notices:
         if self._capped >= 0:
             self._before = float(car.values[self._capped])
 
-    def of_step(self, car: DrivenFmu) -> list[Told]:
+    def of_step(self, car: DrivenFmu) -> list[Notice]:
         """What is to be said after this step; that a value is not a number, once."""
         if self._zeros is not None and np.dot(car.values, self._zeros) != 0.0:  # NaN, of an infinite one too
             self._zeros = None
             place = int(np.flatnonzero(~np.isfinite(car.values))[0])
-            return [Told(NOT_FINITE, f"The output '{car.names[place]}' is {car.values[place]} at {car.time:.9g} s.")]
+            return [Notice(NOT_FINITE, f"The output '{car.names[place]}' is {car.values[place]} at {car.time:.9g} s.")]
         if self._capped >= 0:
             self._count(car)
         for message in car.messages():
@@ -54,17 +54,17 @@ class Notices:
         if not (worth or self._messages) or self._clock.now() < self._next:
             return []
         self._next = self._clock.now() + _EVERY
-        told = []
+        messages = []
         if worth:
             residual = f"; it left up to {1e3 * self._largest:.3g} mm" if self._residual >= 0 else ""
             stopped = _number(self._steps, "inner step")
-            told.append(Told("capped", f"The solver stopped {stopped} at the limit of iterations{residual}."))
+            messages.append(Notice("capped", f"The solver stopped {stopped} at the limit of iterations{residual}."))
             self._steps, self._largest = 0.0, 0.0
         if self._messages:
             more = f" (and {_number(self._messages - 1, 'message')} before it)" if self._messages > 1 else ""
-            told.append(Told("told", f"{self._message}{more}"))
+            messages.append(Notice("told", f"{self._message}{more}"))
             self._messages = 0
-        return told
+        return messages
 
     def _count(self, car: DrivenFmu) -> None:
         count = float(car.values[self._capped])

@@ -11,7 +11,7 @@ from fmpy.model_description import ModelDescription
 from ali3.near_names import did_you_mean
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.options import ROAD, Wishes
+from hosts.common.options import ROAD, FmuOptions
 from hosts.common.package_names import check_world
 from hosts.common.world_files import DEFAULT_WORLD, World, make_world, no_world
 from hosts.fmu.description_record import description_record
@@ -22,7 +22,7 @@ from hosts.fmu.geometry import scene_of
 from hosts.fmu.settings import START_OF, Settings
 from hosts.fmu.variables import Variables, check_co_simulation
 from hosts.recordings.recording import check_folder
-from hosts.simulator.drivable import not_drivable
+from hosts.simulator.drivability import not_drivable
 
 ITERATIONS = "solver.step_iterations"
 _MOST_ITERATIONS = 6
@@ -31,7 +31,7 @@ _EMPTY_SCENE = {"format": "ALi3 scene", "version": 1, "extent": 5.0, "frames": {
 
 
 @dataclass(frozen=True)
-class Asked:
+class DriveRequest:
     """What the command line says of the car and its world."""
 
     fmu: Path | None
@@ -39,7 +39,7 @@ class Asked:
     """Name or file."""
     place: str | None
     fidelity: float | None
-    wishes: Wishes
+    fmu_options: FmuOptions
     """Of ``--set`` and ``--parameters``."""
     aliases: Path | None
     record: Path | None
@@ -87,7 +87,7 @@ class Prepared:
         return {n: values for n, values in self.world.places().items() if set(values) <= known}
 
 
-def prepare(asked: Asked, tell: Callable[[str], None]) -> Prepared:
+def prepare(asked: DriveRequest, tell: Callable[[str], None]) -> Prepared:
     """Find, check and read everything. `tell`: takes sentences.
 
     Raises `HostError`: something is wrong or cannot be used; one sentence with what would be right.
@@ -129,11 +129,11 @@ def _names(variables: Variables, causality: str) -> list[str]:
     return [name for name in variables.names if variables[name].causality == causality]
 
 
-def _check_road(asked: Asked, path: Path, reads: bool) -> None:
+def _check_road(asked: DriveRequest, path: Path, reads: bool) -> None:
     """Refuse a world where another road was given, or where none can be put under the FMU."""
     if asked.world is None:
         return
-    if ROAD in dict(asked.wishes.values):
+    if ROAD in dict(asked.fmu_options.values):
         raise HostError(f"The road is given by --world and by --set {ROAD}; give it once.")
     if not reads:
         raise HostError(
@@ -142,11 +142,11 @@ def _check_road(asked: Asked, path: Path, reads: bool) -> None:
         )
 
 
-def _wanted_world(asked: Asked, tell: Callable[[str], None]) -> World | None:
+def _wanted_world(asked: DriveRequest, tell: Callable[[str], None]) -> World | None:
     """The world that was asked for, by default the proving ground; None where the user sets a road."""
     if asked.world is not None:
         return make_world(asked.world, tell)
-    if ROAD in dict(asked.wishes.values):
+    if ROAD in dict(asked.fmu_options.values):
         return None
     try:
         return make_world(DEFAULT_WORLD, tell)
@@ -155,7 +155,7 @@ def _wanted_world(asked: Asked, tell: Callable[[str], None]) -> World | None:
         return None
 
 
-def _settings(asked: Asked, source: FmuSource, variables: Variables, world: World) -> Settings:
+def _settings(asked: DriveRequest, source: FmuSource, variables: Variables, world: World) -> Settings:
     """What is set: the world, the place, the manoeuvre, then what the user says."""
     start: dict[str, Value] = {} if world.road is None else {ROAD: str(world.road)}
     places = world.places()
@@ -171,5 +171,5 @@ def _settings(asked: Asked, source: FmuSource, variables: Variables, world: Worl
         settings.add_numbers({ITERATIONS: _MOST_ITERATIONS}, "real time")
     settings.add_numbers(start, f"the world {world.name}")
     settings.add_numbers(asked.start(variables.names), f"{START_OF}{asked.manoeuvre}")
-    settings.add_wishes(asked.wishes, asked.fidelity)
+    settings.add_wishes(asked.fmu_options, asked.fidelity)
     return settings

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from ali3.errors import UserError
-from ali3.isolated import Isolated, Lost
+from ali3.isolated_processes import Isolated, Lost
 from hosts.common.errors import FailedFmuError, HostError
 from hosts.common.numbers import Value
 from hosts.fmu.own_process import files_of_drives

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 from numpy.typing import ArrayLike
 
 from ali3.errors import UserError
-from hosts.simulator.moments import Event
+from hosts.simulator.car_events import Event
 from hosts.simulator.shared_values import LOST_MESSAGES, LOST_ROWS, RECORDING, ROW, STATE_HEAD, SharedValues
 
 _PERIOD = 0.03
@@ -30,7 +30,7 @@ class Records(Protocol):
     def close(self, progress: Callable[[float], object] = ...) -> None: ...
 
 
-class Mail:
+class ProcessMessages:
     """Collects events, and hands rows and events to a recording in a thread of its own."""
 
     def __init__(self, shared: SharedValues, recorder: Records | None) -> None:

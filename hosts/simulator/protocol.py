@@ -14,7 +14,7 @@ from ali3.json_reading import json_of
 from hosts.common.errors import HostError
 
 if TYPE_CHECKING:
-    from hosts.simulator.car import Moment
+    from hosts.simulator.car import CarState
 
 VERSION = 1
 MAGIC = 0x31463341
@@ -31,7 +31,7 @@ _MOST_INPUTS = 64
 _LARGEST = 1e9
 
 
-def frame(moment: Moment, step: float) -> bytes:
+def frame(moment: CarState, step: float) -> bytes:
     """A moment as a page reads it: a header of 96 bytes and the values as float64, little endian.
 
     `step`: communication step, s.

@@ -13,7 +13,7 @@ _CHUNK = 0.02
 _PAUSE = 0.001
 
 
-class Pace:
+class RealTimeClock:
     """The schedule of the steps.
 
     Each step has a time at which it begins and a deadline, at which the next begins. A step that ends too late does not

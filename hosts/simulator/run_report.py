@@ -82,8 +82,8 @@ class RunReport:
         """Show the report, and write it. `file`: JSON. Raises `FileError`: it cannot be written."""
         self.tell(times.text())
         if self._kinds:
-            told = ", ".join(f"{kind} {count}" for kind, count in sorted(self._kinds.items()))
-            self.tell(f"messages: {told}")
+            counts = ", ".join(f"{kind} {count}" for kind, count in sorted(self._kinds.items()))
+            self.tell(f"messages: {counts}")
         if file is not None:
             self._figures |= {"seconds since the start": self._marks, "steps": times.report()}
             self._figures |= {"events": self._events, "event counts": dict(self._kinds)}

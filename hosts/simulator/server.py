@@ -19,10 +19,10 @@ from websockets.exceptions import ConnectionClosed
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.simulator import protocol
+from hosts.simulator.access_control import AccessControl
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.connected_page import ConnectedPage
-from hosts.simulator.guard import Guard
-from hosts.simulator.input_arbiter import Hands
+from hosts.simulator.input_arbiter import InputArbiter
 from hosts.simulator.server_needs import Content, ShownDevices
 from hosts.simulator.web import BACKLOG, MOST_PAGES, Web
 
@@ -48,17 +48,17 @@ class Server:
     def __init__(
         self,
         car: AliasedCar,
-        hands: Hands,
+        arbiter: InputArbiter,
         content: Content,
-        guard: Guard,
+        access: AccessControl,
         tell: Callable[[str, str], None],
     ) -> None:
         self._car = car
-        self._hands = hands
+        self._arbiter = arbiter
         self._tell = tell
         self.devices: ShownDevices | None = None
         self._places = content.places
-        self._web = Web(guard, content.page, content.world)
+        self._web = Web(access, content.page, content.world)
         self._hello = _text("hello", version=protocol.VERSION, **content.hello)
         self._pages: dict[int, ConnectedPage] = {}
         self._served = 0
@@ -200,7 +200,7 @@ class Server:
         if isinstance(message, protocol.Seen):
             page.saw(message.count)
         elif isinstance(message, protocol.Want):
-            self._hands.want(page.source(message.source), message.values)
+            self._arbiter.want(page.source(message.source), message.values)
         elif isinstance(message, protocol.Order):
             self._check_pace(message.name)
             self._car.command(message.name, message.value)
@@ -255,9 +255,9 @@ class Server:
         shown: list[dict[str, Any]] = []
         while True:
             for event in self._car.events():
-                self._tell_all(event.kind, event.time, event.text)
+                self._report_all(event.kind, event.time, event.text)
             while self._said:
-                self._tell_all("told", self._car.latest().time, self._said.popleft())
+                self._report_all("told", self._car.latest().time, self._said.popleft())
             for page in list(self._pages.values()):
                 if page.stalls():
                     self._let_go(page, "no longer sends messages")
@@ -278,11 +278,13 @@ class Server:
         return state
 
     def _let_go(self, page: ConnectedPage, why: str) -> None:
-        released = [name for source in sorted(page.sources) for name in self._hands.gone(source)]
+        released = [name for source in sorted(page.sources) for name in self._arbiter.gone(source)]
         if released:
-            self._tell_all("told", self._car.latest().time, f"Page {page.number} {why}: {', '.join(released)} let go.")
+            self._report_all(
+                "told", self._car.latest().time, f"Page {page.number} {why}: {', '.join(released)} let go."
+            )
 
-    def _tell_all(self, kind: str, seconds: float, text: str) -> None:
+    def _report_all(self, kind: str, seconds: float, text: str) -> None:
         """A sentence for the terminal and all pages."""
         self._tell(kind, text)
         for page in self._pages.values():

@@ -9,7 +9,7 @@ from struct import Struct
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.children import stop_signals_blocked
+from ali3.child_processes import stop_signals_blocked
 from hosts.simulator.step_times import TIMES_SIZE
 
 MOMENT = (

@@ -17,7 +17,7 @@ from websockets.http11 import Request, Response
 
 from ali3.errors import reason
 from hosts.common.errors import HostError
-from hosts.simulator.guard import Guard
+from hosts.simulator.access_control import AccessControl
 
 DRIVE = "/drive"
 MOST_STRANGERS = 64
@@ -113,8 +113,8 @@ def _bound(address: str, port: int) -> socket.socket:
 class Web:
     """Answers requests. `page`: HTML; `world`: JSON of the drawing of the world."""
 
-    def __init__(self, guard: Guard, page: str, world: Mapping[str, Any]) -> None:
-        self._guard = guard
+    def __init__(self, access: AccessControl, page: str, world: Mapping[str, Any]) -> None:
+        self._guard = access
         self._kinds = {"/": "text/html; charset=utf-8", "/world": "application/json"}
         texts = {"/": page, "/world": json.dumps(world, allow_nan=False)}
         self._bodies = {(path, True): gzip.compress(text.encode(), 5, mtime=0) for path, text in texts.items()}

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from hosts.common.numbers import Value
-from hosts.driving.pilots.pilot import SENSES
-from hosts.driving.wild_driver import WildDriver, wild_start
+from hosts.driving.pilots.pilot import OBSERVED
+from hosts.driving.random_driver import RandomDriver, wild_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.soak.checks import LARGEST_BALANCE, BadStepError, Counts, Watch
-from hosts.soak.last_seconds import Stretch
+from hosts.soak.last_seconds import RecentSteps
 from hosts.soak.memory import Memory
 from hosts.soak.soak_roads import Ground
 
@@ -88,11 +88,11 @@ class _Drive:
         self.inputs, self.outputs = fmu.names("input"), fmu.names("output")
         self.set, self.get = fmu.setter(self.inputs), fmu.getter(self.outputs)
         self.watch = Watch(self.outputs, task.step, task.largest_balance)
-        self.stretch = Stretch(fmu, [*self.inputs, *self.outputs], self.inputs, task.step)
+        self.recent = RecentSteps(fmu, [*self.inputs, *self.outputs], self.inputs, task.step)
         self.memory = Memory()
         self.outcome = Outcome(task.seed, task.fidelity, counts=self.watch.counts)
         self.grounds = task.grounds or (Ground("", ()),)
-        self.senses = [(name, self.outputs.index(name)) for name in SENSES if name in self.outputs]
+        self.observation = [(name, self.outputs.index(name)) for name in OBSERVED if name in self.outputs]
         self.rest = fmu.start_values(self.inputs).tolist()
         self.settable = {n for n, v in fmu.variables.items() if v.causality in ("parameter", "input")}
         self._started = False
@@ -107,7 +107,7 @@ class _Drive:
         self.fmu.initialise(start)
         row = self.get()
         self.watch.begin(row)
-        self.stretch.begin(start, 0.0, [*self.rest, *row])
+        self.recent.begin(start, 0.0, [*self.rest, *row])
         return row
 
     def run(self) -> None:
@@ -125,7 +125,7 @@ class _Drive:
             start["road.file"] = ground.road
         if task.fidelity is not None:
             start["fidelity"] = task.fidelity
-        driver = WildDriver(seed, self.inputs, ground.targets)
+        driver = RandomDriver(seed, self.inputs, ground.targets)
         try:
             self._steps(driver, start | task.start, max(steps, 1), again if steps > 2 * _AGAIN else 0)
         except (BadStepError, StepRefusedError) as error:
@@ -134,14 +134,14 @@ class _Drive:
             self.outcome.messages[message] = self.outcome.messages.get(message, 0) + 1
         self.fmu.messages.clear()
 
-    def _steps(self, driver: WildDriver, start: dict[str, Value], steps: int, again: int) -> None:
+    def _steps(self, driver: RandomDriver, start: dict[str, Value], steps: int, again: int) -> None:
         """Drive; a car that lies on its roof is set upright where it is."""
         h = self.task.step
         row = self.start(start)
         self._count, lying = 0, 0
         k = 0
         while k < steps:
-            wanted = driver.act(k * h, {name: row[j] for name, j in self.senses})
+            wanted = driver.act(k * h, {name: row[j] for name, j in self.observation})
             row = self._step([wanted.get(name, rest) for name, rest in zip(self.inputs, self.rest, strict=True)])
             k += 1
             if k == again:
@@ -161,7 +161,7 @@ class _Drive:
         self.fmu.step(self._count * h, h)
         self._count += 1
         row = self.get()
-        self.stretch.add(self._count * h, [*inputs, *row])
+        self.recent.add(self._count * h, [*inputs, *row])
         self.watch.step(row)
         self.outcome.simulated += h
         if self.outcome.simulated - self._told >= _TOLD:
@@ -186,7 +186,7 @@ class _Drive:
         return row
 
     def _still(self, row: Sequence[float]) -> bool:
-        return all(row[j] < _STILL for name, j in self.senses if name == "speed")
+        return all(row[j] < _STILL for name, j in self.observation if name == "speed")
 
     def _upright(self, row: Sequence[float]) -> dict[str, Value]:
         """Start values on the wheels where the car is."""
@@ -199,7 +199,7 @@ class _Drive:
         if len(self.outcome.failures) < _MOST_SAVED:
             name = f"seed_{self.task.seed}_fidelity_{self.task.fidelity or 0}_run_{number}"
             folder = Path(self.task.out) / "failures" / name
-            failure.manoeuvre = str(self.stretch.save(folder, kind, str(error), self.task.seed, refused))
+            failure.manoeuvre = str(self.recent.save(folder, kind, str(error), self.task.seed, refused))
         self.outcome.failures.append(failure)
 
 

@@ -7,9 +7,9 @@ from typing import NamedTuple
 from hosts.common.numbers import Value
 from hosts.fmu.fmu import Fmu
 from hosts.recordings.format import REFUSED
+from hosts.recordings.manoeuvre_export import to_manoeuvre
 from hosts.recordings.recorded_drive import read_recording
 from hosts.recordings.recording import Recorder, recording_meta
-from hosts.recordings.to_manoeuvre import to_manoeuvre
 
 _SPAN = 2.0  # s between saved states; a stretch has one or two of them
 
@@ -26,7 +26,7 @@ class _Part(NamedTuple):
     rows: list[_Row]
 
 
-class Stretch:
+class RecentSteps:
     """Keeps what led to the present state. `step`: s."""
 
     def __init__(self, fmu: Fmu, names: Sequence[str], inputs: Sequence[str], step: float) -> None:

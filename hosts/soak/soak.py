@@ -5,7 +5,6 @@ roll-overs, resets and rewinds, all in one process. The same seed gives the same
 """
 
 import argparse
-import json
 import math
 from collections.abc import Generator, Sequence
 from contextlib import closing
@@ -13,13 +12,13 @@ from dataclasses import asdict
 from pathlib import Path
 
 from ali3.cores import available_cores
-from ali3.files import check_writable, make_folder, write_text
-from ali3.isolated import Lost
+from ali3.files import check_writable, make_folder, write_json
+from ali3.isolated_processes import Lost
 from hosts.common.errors import HostError
-from hosts.common.options import wishes
+from hosts.common.options import fmu_options
 from hosts.experiment.experiment import Experiment
 from hosts.experiment.run_key import run_key
-from hosts.experiment.store import Kept, tell_kept
+from hosts.experiment.store import ResultStore, report_resumed
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_file import fmu_file
 from hosts.fmu.own_process import files_of
@@ -52,7 +51,7 @@ def soak(options: argparse.Namespace, prog: str) -> int:
         check_writable(options.json)
     path, out = fmu_file(options.fmu).absolute(), make_folder(options.out or OUT).absolute()
     with Fmu(path) as fmu:
-        start = settings_of(fmu.table, wishes(options)).start
+        start = settings_of(fmu.table, fmu_options(options)).start
         fidelities = _fidelities(fmu, [int(n) for n in options.fidelity])
         roads = "road.file" in fmu.variables and "road.file" not in start
     grounds = tuple(_grounds(out, options.world)) if roads else ()
@@ -63,11 +62,11 @@ def soak(options: argparse.Namespace, prog: str) -> int:
         for fidelity in (fidelities[k % len(fidelities)],)
     ]
     keys = [run_key(path, task, files=_files(task)) for task in tasks]
-    with Kept[Outcome](out, Outcome, "drives", options.again) as kept:
+    with ResultStore[Outcome](out, Outcome, "drives", options.again) as kept:
         before = [kept.find(key, key) for key in keys]
         outcomes = [made or Outcome(task.seed, task.fidelity) for task, made in zip(tasks, before, strict=True)]
         left = [place for place, outcome in enumerate(before) if outcome is None]
-        tell_kept(len(tasks) - len(left), len(tasks), "drives")
+        report_resumed(len(tasks) - len(left), len(tasks), "drives")
         try:
             for place in _driven(tasks, outcomes, left, options.jobs or available_cores()):
                 kept.add(keys[place], keys[place], outcomes[place])
@@ -75,7 +74,7 @@ def soak(options: argparse.Namespace, prog: str) -> int:
             print_outcomes(tasks, outcomes, f"{prog} --soak", options.world)
             if options.json is not None:
                 record = {"tasks": [asdict(task) for task in tasks], "outcomes": [asdict(made) for made in outcomes]}
-                write_text(options.json, json.dumps(record, indent=1) + "\n")
+                write_json(options.json, record)
                 print(f"written: {options.json}", flush=True)
     return 0 if all(map(is_good, outcomes)) else 1
 

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.files import make_folder, whole_file
+from ali3.files import atomic_file, make_folder
 from ali3.json_reading import read_json
 from hosts.common.commands import run_ali3
 from hosts.common.errors import HostError
 from hosts.common.road import road_value
-from hosts.driving.wild_driver import Target
+from hosts.driving.random_driver import Target
 
 _SPACING = 0.25  # m, of the points of the road
 _HALF = 80.0  # m, half the side of its square; beyond it is level
@@ -92,7 +92,7 @@ def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
     heights, targets = jump_heights()
     x, y = centre
     file = make_folder(folder) / f"jumps_{x:.0f}_{y:.0f}.npz"
-    with whole_file(file) as made, made.open("wb") as stream:
+    with atomic_file(file) as made, made.open("wb") as stream:
         np.savez(
             stream,
             heights=heights,

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 
 from ali3.columns import in_columns
 from ali3.processes import command_name
-from hosts.common.set_words import set_words
+from hosts.common.set_arguments import set_arguments
 from hosts.soak.drive import Outcome, Task
 from hosts.soak.memory import LARGEST_GROWTH
 
@@ -72,4 +72,4 @@ def _print_failures(task: Task, outcome: Outcome, prog: str, worlds: Sequence[st
         words = [task.fmu, "--seed", str(task.seed), "--stop-time", repr(task.seconds), "--drives", "1", "--again"]
         words += [] if outcome.fidelity is None else ["--fidelity", str(outcome.fidelity)]
         words += ["--step", repr(task.step), *(part for name in worlds for part in ("--world", name))]
-        print(f"  the whole drive again: {prog} {shlex.join([*words, *set_words(task.start)])}")
+        print(f"  the whole drive again: {prog} {shlex.join([*words, *set_arguments(task.start)])}")

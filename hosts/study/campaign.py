@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from ali3.columns import some_of
 from ali3.cores import available_cores
 from ali3.errors import FileError
-from ali3.isolated import Lost
+from ali3.isolated_processes import Lost
 from ali3.reading import is_file, is_folder
 from hosts.common.errors import HostError
 from hosts.experiment.experiment import Runner
-from hosts.experiment.store import Kept
+from hosts.experiment.store import ResultStore
 from hosts.measures.limits import limits_record
 from hosts.study.counts import Counts, duration
 from hosts.study.folder import (
@@ -38,7 +38,7 @@ from hosts.study.outcome_table import OutcomeTable, Row
 from hosts.study.parts import part_files
 from hosts.study.plan import Plan, make_plan
 from hosts.study.study_file import StudyFile, read_study_file
-from hosts.study.study_runs import experiment_of, outcome_of, tell_start
+from hosts.study.study_runs import experiment_of, outcome_of, report_start
 from hosts.study.trial_runs import Trial, bytes_of, try_out, with_columns
 from hosts.study.worker_data import FAILED, Outcome, Run
 
@@ -51,7 +51,7 @@ _LOOK = 1000  # runs that are prepared at a time
 
 
 @dataclass(frozen=True)
-class Ended:
+class StudyOutcome:
     """What a study has come to."""
 
     folder: Path
@@ -63,7 +63,7 @@ class Ended:
 
 def run_study(
     file: Path, out: Path | None, scheduler: str | None, workers: int | None, dry: bool = False, again: bool = False
-) -> Ended | None:
+) -> StudyOutcome | None:
     """Check a study, make the runs that are missing, and write their rows; None after a dry run.
 
     `scheduler`: address; `dry`: only print the plan; `again`: make failed runs again. Raises `HostError` or
@@ -85,19 +85,19 @@ def run_study(
         plan = with_columns(plan, {n: u for n, u in before["measures"].items() if n not in plan.work.columns})
         check_same(folder, before, plan.record)
         plan = _with_limits(plan, study)
-    with nullcontext() if dry else Kept[Row](folder, Row, "runs a study") as kept:
+    with nullcontext() if dry else ResultStore[Row](folder, Row, "runs a study") as kept:
         done = np.zeros(plan.runs, dtype=np.bool_)
         if before is not None and kept is not None:
             from hosts.study.damaged_files import sound_runs
 
-            done, told = sound_runs(folder, before)
-            for line in told:
+            done, notes = sound_runs(folder, before)
+            for line in notes:
                 print(f"note: {line}", file=sys.stderr)
             if not again and done.all():
                 kept.clear()  # a kill between a table and its journal leaves both
                 keep_limits(folder, before, plan.record["limits"], content)
                 print(f"{plan.runs} of {plan.runs} runs are there: {folder}")
-                return Ended(folder, True, 0)
+                return StudyOutcome(folder, True, 0)
         trial = try_out(plan)
         for note in trial.notes:
             print(f"note: {note}", file=sys.stderr)
@@ -189,9 +189,9 @@ def _run(
     scheduler: str | None,
     workers: int | None,
     again: bool,
-    kept: Kept[Row],
+    kept: ResultStore[Row],
     done: NDArray[np.bool_],
-) -> Ended:
+) -> StudyOutcome:
     record = read_record(folder)
     if record is None:
         _check_space(bytes_of(plan), folder)
@@ -210,7 +210,7 @@ def _run(
         print(f"{before} of {plan.runs} runs are there", flush=True)
         _check_space(bytes_of(plan) * (plan.runs - before) / plan.runs, folder)
     if before == plan.runs:
-        return Ended(folder, True, 0)
+        return StudyOutcome(folder, True, 0)
     return _make(folder, table, kept, _outcomes(plan, trial, table.done.copy(), scheduler, workers), scheduler)
 
 
@@ -226,10 +226,10 @@ def _check_space(needed: float, folder: Path) -> None:
 def _make(
     folder: Path,
     table: OutcomeTable,
-    kept: Kept[Row],
+    kept: ResultStore[Row],
     outcomes: Generator[Row],
     scheduler: str | None,
-) -> Ended:
+) -> StudyOutcome:
     begin, lost, counts = clock.monotonic(), False, Counts()
     try:
         with closing(outcomes):
@@ -257,7 +257,7 @@ def _make(
     seconds = clock.monotonic() - begin
     if lost and not table.done.all():
         print(f"The scheduler at {scheduler} has gone. {_kept(table.done)}", file=sys.stderr)
-        return Ended(folder, False, counts.failed)
+        return StudyOutcome(folder, False, counts.failed)
     rate = counts.made / seconds
     words = f"{counts.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {counts.failed} failed"
     if counts.incomplete:
@@ -272,7 +272,7 @@ def _make(
             "keeps only those that are wanted.",
             file=sys.stderr,
         )
-    return Ended(folder, not bare, counts.failed)
+    return StudyOutcome(folder, not bare, counts.failed)
 
 
 def _outcomes(
@@ -303,7 +303,7 @@ def missing(plan: Plan, done: NDArray[np.bool_]) -> Generator[Run]:
     for first in range(0, len(done), _LOOK):
         indices = (first + np.flatnonzero(~done[first : first + _LOOK])).tolist()
         for run in plan.runs_at(indices) if indices else []:
-            tell_start(plan.work, run)
+            report_start(plan.work, run)
             yield run
 
 
@@ -311,10 +311,10 @@ def on_cluster(client: Any, plan: Plan, trial: Trial, left: int) -> ClusterRuns[
     """A cluster as what makes runs; its workers have the study then."""
     from hosts.experiment.cluster import bring
     from hosts.experiment.cluster_runs import ChunkSize, ClusterRuns
-    from hosts.experiment.cluster_worker import Brought
+    from hosts.experiment.cluster_worker import UnpackedFmu
 
     work = plan.work
-    brought = Brought(plan.key, work.fmu.path.name, work.sha256, work.program, partial(experiment_of, work))
+    brought = UnpackedFmu(plan.key, work.fmu.path.name, work.sha256, work.program, partial(experiment_of, work))
     bring(client, brought, plan.fmu)
     bytes_a_run = max(8 * job.samples * len(work.signals) for job in work.jobs) + 1
     size = ChunkSize(trial.seconds, sum(client.nthreads().values()), int(_CHUNK_BYTES / bytes_a_run))

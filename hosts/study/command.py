@@ -77,9 +77,9 @@ def _keeps_limits(folder: Path) -> bool:
     from hosts.study.folder import read_record
 
     if (read_record(folder) or {}).get("limits"):
-        from hosts.study.limits import tell_limits
+        from hosts.study.limits import report_limits
 
-        return tell_limits(folder)
+        return report_limits(folder)
     for name in ("limits.csv", "limits.json"):  # of limits that are not asked for any more
         (folder / name).unlink(missing_ok=True)
     return True
@@ -92,8 +92,8 @@ def _target(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int
     if others:
         raise HostError(f"{others[0]} cannot be combined with --target, which makes its own runs.")
     if len(options.target) > 1:
-        told = " and ".join(options.target)
-        raise HostError(f"--target is given {len(options.target)} times, {told}; one parameter meets one value.")
+        targets = " and ".join(options.target)
+        raise HostError(f"--target is given {len(options.target)} times, {targets}; one parameter meets one value.")
     if options.by is None:
         raise HostError("--target needs --by, the name of a parameter.")
     if options.study.is_dir():

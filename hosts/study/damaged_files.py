@@ -28,20 +28,20 @@ def sound_runs(folder: Path, record: Mapping[str, Any]) -> tuple[NDArray[np.bool
     list of str
         What was taken out, a sentence for each.
     """
-    done, told = np.zeros(record["runs"], dtype=np.bool_), []
+    done, notes = np.zeros(record["runs"], dtype=np.bool_), []
     for file in part_files(folder):
         try:
             table = read_part(file, record)
         except DamagedPartError as error:
             aside = file.replace(file.with_name(f".damaged-{file.name}"))
-            told.append(f"{error.file} is damaged ({error.words}); its runs are repeated, it is kept as {aside}.")
+            notes.append(f"{error.file} is damaged ({error.words}); its runs are repeated, it is kept as {aside}.")
             continue
         try:
             if record["signals"]:
                 read_signals(file, record)
         except DamagedPartError as error:
             file.unlink()
-            told.append(f"{error.file} is damaged ({error.words}); its runs are repeated.")
+            notes.append(f"{error.file} is damaged ({error.words}); its runs are repeated.")
         else:
             marked(done, file, table)
-    return done, told
+    return done, notes

@@ -15,11 +15,11 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError,
 
 from ali3.archives import LARGEST_ARCHIVE
 from ali3.columns import some_of
-from ali3.files import make_folder, whole_file, write_text
+from ali3.files import atomic_file, make_folder, write_text
 from ali3.json_reading import read_json
+from ali3.message_text import VALUE, one_line
 from ali3.reading import no_file, read_bytes
 from ali3.typed_sentences import Sentences
-from ali3.words import VALUE, one_line
 from hosts.common.errors import HostError
 from hosts.study.study_file import SamplingEntry, Setting, SignalsEntry
 
@@ -152,9 +152,9 @@ def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
 
 def begin_study(folder: Path, record: Mapping[str, Any], study_file: bytes, fmu: Path) -> None:
     """Write what a study begins with; the record comes last and says that the rest is there."""
-    with whole_file(folder / "study.toml") as made:
+    with atomic_file(folder / "study.toml") as made:
         made.write_bytes(study_file)
-    with whole_file(folder / fmu.name) as made:
+    with atomic_file(folder / fmu.name) as made:
         shutil.copyfile(fmu, made)
     make_folder(folder / RUNS)
     write_record(folder, record)
@@ -221,7 +221,7 @@ def keep_limits(folder: Path, before: dict[str, Any], limits: Mapping[str, Any],
     if before.get("limits", {}) == limits:
         return before
     after = {**before, "limits": dict(limits)}
-    with whole_file(folder / "study.toml") as made:
+    with atomic_file(folder / "study.toml") as made:
         made.write_bytes(content)
     write_record(folder, after)
     return after

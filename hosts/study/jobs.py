@@ -10,7 +10,7 @@ import numpy as np
 from ali3.near_names import did_you_mean
 from ali3.reading import is_folder
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.perform import lacking, perform, settings_of_test
+from hosts.catalogue.execution import lacking, perform, settings_of_test
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.common.errors import HostError

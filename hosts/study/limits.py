@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.stats import binomtest
 
 from ali3.columns import in_columns
-from ali3.files import whole_file, write_json
+from ali3.files import atomic_file, write_json
 from ali3.units import typeset
 from hosts.common.display_units import shown_in
 from hosts.common.numbers import or_null
@@ -179,13 +179,13 @@ def write_shares(found: Sequence[Share], folder: Path) -> list[Path]:
     """Write ``limits.csv`` and ``limits.json`` into the folder of a study, in the units of the measures."""
     rows = [{n: or_null(x) if isinstance(x, float) else x for n, x in asdict(s).items()} for s in found]
     table, record = folder / "limits.csv", folder / "limits.json"
-    with whole_file(table) as made:
+    with atomic_file(table) as made:
         pd.DataFrame(rows).to_csv(made, index=False)
     write_json(record, rows)
     return [table, record]
 
 
-def tell_limits(folder: Path) -> bool:
+def report_limits(folder: Path) -> bool:
     """Print and write the shares of a study that has limits; whether all runs keep them."""
     frame = read_study(folder)
     found = shares(frame)

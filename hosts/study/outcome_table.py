@@ -1,4 +1,4 @@
-"""The outcomes of a study in its folder, as a table of a `Kept`: rows wait in memory, and are written as parts."""
+"""The outcomes of a study in its folder, as a table of a `ResultStore`: rows wait in memory, then become parts."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -20,7 +20,7 @@ _MOST_BYTES = 200e6  # of signals that are kept before they are written
 
 
 class OutcomeTable:
-    """Where a `Kept` writes rows; the name of one is the number of its run.
+    """Where a `ResultStore` writes rows; the name of one is the number of its run.
 
     `done`: which runs have a row, shape (runs,), see `hosts.study.damaged_files.sound_runs`; None: none.
     """

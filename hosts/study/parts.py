@@ -11,9 +11,9 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from ali3.columns import some_of
-from ali3.files import whole_file
+from ali3.files import atomic_file
+from ali3.message_text import one_line
 from ali3.reading import is_file
-from ali3.words import one_line
 from hosts.common.errors import HostError
 from hosts.common.parquet import opened_parquet
 from hosts.study.folder import RUNS, SIGNALS, sync
@@ -133,6 +133,6 @@ def write_part(table: Any, file: Path) -> None:
     """Write a part, whole or not at all."""
     buffer = pa.BufferOutputStream()
     pq.write_table(table, buffer, compression="zstd", write_page_checksum=True)
-    with whole_file(file) as made:
+    with atomic_file(file) as made:
         made.write_bytes(buffer.getvalue())
         sync(made)

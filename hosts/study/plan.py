@@ -216,8 +216,8 @@ def _job_record(entry: ManoeuvreEntry, job: Job) -> dict[str, Any]:
 def job_digest(job: Job) -> str:
     """A hash of all that a manoeuvre does, tables and states included."""
     driven = "" if job.manoeuvre is None else manoeuvre_digest(job.manoeuvre)
-    told = job.test, job.settings, job.start, job.step, job.every, job.samples, driven
-    return hashlib.sha256(repr(told).encode()).hexdigest()
+    key_parts = job.test, job.settings, job.start, job.step, job.every, job.samples, driven
+    return hashlib.sha256(repr(key_parts).encode()).hexdigest()
 
 
 def _signals(study: StudyFile, file: Path, fmu: SimulatedFmu) -> list[str]:

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.message_text import brief
 from ali3.tables import TextTable, number_of
-from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.fmu.variables import Variable
@@ -23,7 +23,7 @@ from hosts.study.parameters import Parameter, in_unit
 from hosts.study.study_file import ParameterEntry, SamplingEntry
 
 if TYPE_CHECKING:
-    from hosts.study.drawn_points import Places
+    from hosts.study.random_points import Places
 
 _MOST = 10**9
 _DIGESTED = 256  # drawn points at both ends that tell one plan from another
@@ -74,7 +74,7 @@ def sampled_points(parameters: tuple[Parameter, ...], sampling: SamplingEntry, f
 
 def _drawn(d: int, sampling: SamplingEntry, file: str) -> tuple[int, Places]:
     """How many random points of d dimensions, and where they lie."""
-    from hosts.study.drawn_points import latin_hypercube, saltelli, sobol_sequence
+    from hosts.study.random_points import latin_hypercube, saltelli, sobol_sequence
 
     n, seed = sampling.runs or 0, sampling.seed
     if sampling.method == "sobol":

@@ -14,7 +14,7 @@ from ali3.processes import command_name
 from ali3.reading import is_file
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.set_words import set_words
+from hosts.common.set_arguments import set_arguments
 from hosts.driving.write_manoeuvre import write_manoeuvre
 from hosts.study.folder import REPEAT, check_no_link
 from hosts.study.plan import runs_of_folder
@@ -71,14 +71,14 @@ def _alias_file(name: str, file: Path) -> str:
 def _test(job: Job, fmu: Path, values: Mapping[str, Value], aliases: Sequence[str], out: Path) -> Repeat:
     step = [] if math.isnan(job.step) else ["--step", repr(job.step)]
     settings = [part for n, x in job.settings.items() for part in ("--test-setting", f"{job.test}.{n}={x!r}")]
-    words = [str(fmu), "--tests", job.test, *set_words({**job.start, **values}), *settings, *step, *aliases]
+    words = [str(fmu), "--tests", job.test, *set_arguments({**job.start, **values}), *settings, *step, *aliases]
     return Repeat(_line("catalogue", [*words, "--out", str(out)]), "")
 
 
 def _drive(job: Job, fmu: Path, values: Mapping[str, Value], file: Path) -> Repeat:
     assert job.manoeuvre is not None
     write_manoeuvre(job.manoeuvre, file)
-    words = [str(fmu), "-m", str(file), "--step", repr(job.step), *set_words(values), "--out", str(file.parent)]
+    words = [str(fmu), "-m", str(file), "--step", repr(job.step), *set_arguments(values), "--out", str(file.parent)]
     return Repeat(_line("run", words), _line("view", words))
 
 

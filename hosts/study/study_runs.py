@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.isolated import Lost
-from ali3.words import sentence_of
-from hosts.common.closing import Closing
+from ali3.isolated_processes import Lost
+from ali3.message_text import sentence_of
+from hosts.common.closable import Closable
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.common.road import tell_starts
+from hosts.common.road import report_starts
 from hosts.driving.co_simulation import run
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import Manoeuvre, with_names_of
@@ -122,7 +122,7 @@ def sampled(result: Result, names: Sequence[str], job: Job) -> NDArray[np.float6
 
 def _of_result(result: Result) -> Outcome:
     """Whether the run reached its end with numbers."""
-    missed = [": ".join(told).replace("--step ", "step = ") for told in result.missed]
+    missed = [": ".join(parts).replace("--step ", "step = ") for parts in result.missed]
     end = Outcome(simulated=result.simulated, messages=said(missed + result.messages))
     if what := result.not_finite():
         end.status, end.reason = FAILED, what
@@ -155,9 +155,9 @@ def _starts(work: Work) -> list[Mapping[str, Value]]:
     return [job.manoeuvre.start for job in work.jobs if job.manoeuvre is not None] or [{}]
 
 
-def tell_start(work: Work, run: Run) -> None:
+def report_start(work: Work, run: Run) -> None:
     """Tell of a start of a run that is beside its road."""
-    tell_starts({**start, **run.values} for start in _starts(work))
+    report_starts({**start, **run.values} for start in _starts(work))
 
 
 def outcome_of(work: Work, result: Outcome | Lost) -> Outcome:
@@ -170,7 +170,7 @@ def outcome_of(work: Work, result: Outcome | Lost) -> Outcome:
     return Outcome(FAILED, f"The process of the run {result.how}.")
 
 
-class OneProcess(Closing):
+class OneProcess(Closable):
     """Makes runs one after the other, each time in the same process."""
 
     def __init__(self, work: Work, path: Path) -> None:
@@ -182,5 +182,5 @@ class OneProcess(Closing):
 
     def run(self, run: Run) -> Outcome:
         """Make a run."""
-        tell_start(self._work, run)
+        report_start(self._work, run)
         return outcome_of(self._work, self._pool.run(run))

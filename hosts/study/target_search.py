@@ -30,7 +30,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Found:
+class SearchResult:
     """What a search has come to."""
 
     runs: tuple[Run, ...]
@@ -70,7 +70,7 @@ def seek(
     log: bool = False,
     start: float = math.nan,
     most: int = MOST,
-) -> Found:
+) -> SearchResult:
     """Seek a value of a parameter.
 
     The ends of the range come first. Where the wanted value lies between theirs, Brent's method follows; else the
@@ -114,10 +114,10 @@ class _Search:
         self._tolerance = TOLERANCE * abs(wanted)
         self._start = self._place(start) if math.isfinite(start) and (start > 0.0 or not log) else 0.5
 
-    def found(self) -> Found:
+    def found(self) -> SearchResult:
         with contextlib.suppress(_End):
             self._from_the_ends()
-        if (best := self._best()) is None or abs(best.y - self._wanted) > self._tolerance:
+        if (best := self._best()) is None or not self._meets(best):
             return self._result(())
         (low, high), aside = self._ends, _BESIDE * min(abs(best.x) or math.inf, self._ends[1] - self._ends[0])
         place = self._place(best.x + aside if best.x + aside <= high else max(best.x - aside, low))
@@ -142,9 +142,12 @@ class _Search:
                 raise _End
             x = self._x(u)
             self._runs[u] = Run(x, *self._measure(x))
-            if abs(self._runs[u].y - self._wanted) <= self._tolerance:
+            if self._meets(self._runs[u]):
                 raise _End
         return self._runs[u].y - self._wanted
+
+    def _meets(self, run: Run) -> bool:
+        return abs(run.y - self._wanted) <= self._tolerance
 
     def _from_the_ends(self) -> None:
         first, last = (self._inward(end) for end in (0.0, 1.0))
@@ -159,14 +162,16 @@ class _Search:
             try:
                 brentq(self._known, *bracket, xtol=_CLOSEST, rtol=1e-12, maxiter=self._most)
             except _New:  # a run between them failed: look on its other sides
-                for a, b in zip(bracket, (self._failed(bracket),) * 2, strict=True):
-                    self._at(0.5 * (a + b))
+                failed = self._failed(bracket)
+                for end in bracket:
+                    self._at(0.5 * (end + failed))
 
     def _inward(self, end: float) -> float:
         """The place of a run that yields the measure, at an end of the range or near it."""
         for part in _INWARD:
-            if math.isfinite(self._at(abs(end - part))):
-                return abs(end - part)
+            place = abs(end - part)
+            if math.isfinite(self._at(place)):
+                return place
         raise _End
 
     def _known(self, u: float) -> float:
@@ -206,17 +211,17 @@ class _Search:
         yielded = [run for run in reversed(self._runs.values()) if math.isfinite(run.y)]
         return min(yielded, key=lambda run: abs(run.y - self._wanted), default=None)
 
-    def _result(self, near: Sequence[Run]) -> Found:
+    def _result(self, near: Sequence[Run]) -> SearchResult:
         """`near`: two runs that give the slope, or fewer."""
         known = [run for _, run in sorted(self._runs.items()) if math.isfinite(run.y)]
         changes = [b.y - a.y for a, b in itertools.pairwise(known)]
         largest = max((abs(run.y) for run in known), default=0.0)
         least, best = min(self._tolerance, TOLERANCE * largest), self._best()  # what is wanted may be far off
         x, y = [run.x for run in near], [run.y for run in near]
-        return Found(
+        return SearchResult(
             tuple(self._runs.values()),
             best,
-            best is not None and abs(best.y - self._wanted) <= self._tolerance,
+            best is not None and self._meets(best),
             self._tolerance,
             (y[1] - y[0]) / (x[1] - x[0]) if len(near) > 1 else math.nan,
             (x[0], x[-1]) if near else (math.nan, math.nan),

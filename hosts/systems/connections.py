@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
+from ali3.message_text import brief
 from ali3.near_names import did_you_mean
 from ali3.units import known_unit
-from ali3.words import brief
 from hosts.common.arguments import mapping
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value

@@ -7,10 +7,10 @@ from os import PathLike
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, register_namespace, tostring
 
-from ali3.files import check_writable, whole_file
+from ali3.files import atomic_file, check_writable
+from ali3.message_text import brief
 from ali3.parameter_set import Entry, ParameterSet
-from ali3.temporary import temporary_folder
-from ali3.words import brief
+from ali3.temporary_folder import temporary_folder
 from ali3.write_parameter_set import write_parameter_set
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
@@ -81,7 +81,7 @@ def write_ssp(
                 made = content[f"resources/{part}.ssv"] = folder / f"{part}.ssv"
                 write_parameter_set(ParameterSet(SET, _entries(fmus[part], values), {}), made, as_built=False)
         document = _document(name or file.stem, fmus, wires, content, version)
-        with whole_file(file) as whole, zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as archive:
+        with atomic_file(file) as whole, zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as archive:
             archive.writestr("SystemStructure.ssd", document)
             for place, path in content.items():
                 archive.write(path, place)

@@ -75,7 +75,7 @@ def _view(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     if given:
         raise HostError(f"{given[0]} {'cannot be combined with' if options.live else 'needs'} --live.")
     if options.live:
-        from hosts.view.live import live
+        from hosts.view.live_page import live
 
         return live(options)
     from hosts.view.show import show

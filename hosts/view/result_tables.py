@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.message_text import brief
 from ali3.reading import open_file
 from ali3.tables import LARGEST, TextTable
-from ali3.words import brief
 from hosts.common.errors import HostError
 
 _MOST_VALUES = 8_000_000  # that are read: 64 MB

@@ -12,12 +12,12 @@ from ali3.command_run import GOOD, NOT_GOOD
 from ali3.files import check_writable
 from ali3.near_names import near_names
 from hosts.common.errors import HostError
-from hosts.common.road import wishes_with_road
+from hosts.common.road import options_with_road
 from hosts.fmu.car import is_car
 from hosts.fmu.fmu_file import fmu_file
 from hosts.recordings.load_manoeuvre import check_asked
 from hosts.view.open_page import open_page
-from hosts.view.view_sources import RunWishes, recordings_of
+from hosts.view.view_sources import ViewRunOptions, recordings_of
 from viewer.gltf import write_gltf
 from viewer.page_file import write_page
 from viewer.pictures import write_picture
@@ -38,8 +38,8 @@ def show(options: argparse.Namespace) -> int:
         if file is not None:
             check_writable(file)
     folder = page.parent if page is not None else Path("out")
-    given = wishes_with_road(options, folder)
-    run = RunWishes(options.manoeuvre, options.stop_time, options.step, given)
+    given = options_with_road(options, folder)
+    run = ViewRunOptions(options.manoeuvre, options.stop_time, options.step, given)
     recordings, told, good = recordings_of(options.what, options.geometry, run)
     for line in told:
         print(line)

@@ -11,20 +11,20 @@ from ali3.processes import command_name
 from ali3.reading import is_file, is_folder, no_file
 from ali3.scene.recording import Recording
 from hosts.common.errors import HostError
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.driving.course_scenery import with_course, with_marks
 from hosts.driving.courses import TRACKS, course_of
 from hosts.driving.driver import driver_of
 from hosts.driving.manoeuvre import with_names_of
 from hosts.driving.manoeuvre_settings import set_in
-from hosts.driving.pilots.pilot import ACTS, SENSES
+from hosts.driving.pilots.pilot import ACTS, OBSERVED
 from hosts.driving.run_checks import check_columns, communication_step
-from hosts.driving.run_with_bar import run_with_bar
+from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.fmu import Fmu, described
 from hosts.fmu.geometry import RESOURCE, scene_of
 from hosts.fmu.scene_file import scene_from
-from hosts.recordings.asked_manoeuvre import manoeuvre_of
 from hosts.recordings.format import is_recording
+from hosts.recordings.manoeuvre_option import manoeuvre_of
 from hosts.recordings.recorded_view import other_build, recorded_view
 from hosts.view.result_tables import Table, read_table
 
@@ -35,7 +35,7 @@ _ON_THE_GROUND = "what the manoeuvre has on the ground"
 
 
 @dataclass(frozen=True)
-class RunWishes:
+class ViewRunOptions:
     """How an FMU is run that is to be shown."""
 
     manoeuvre: str | None
@@ -43,14 +43,14 @@ class RunWishes:
     stop_time: float | None
     step: float | None
     """`stop_time`, `step`: s."""
-    wishes: Wishes
+    fmu_options: FmuOptions
 
     def __bool__(self) -> bool:
-        return bool(self.wishes) or any(x is not None for x in (self.manoeuvre, self.stop_time, self.step))
+        return bool(self.fmu_options) or any(x is not None for x in (self.manoeuvre, self.stop_time, self.step))
 
 
 def recordings_of(
-    paths: Sequence[Path], geometry: Path | None, run: RunWishes
+    paths: Sequence[Path], geometry: Path | None, run: ViewRunOptions
 ) -> tuple[list[Recording], list[str], bool]:
     """Recordings of all that the user named.
 
@@ -61,13 +61,13 @@ def recordings_of(
     -------
     recordings : list of Recording
         With names that differ.
-    told : list of str
+    notes : list of str
         Sentences for the user.
     good : bool
         Whether every FMU that was run made all steps, and its outputs are numbers.
     """
     made: list[Recording] = []
-    told: list[str] = []
+    notes: list[str] = []
     good = True
     for path, name in zip(paths, _names(paths), strict=True):
         if not is_file(path) and not is_folder(path):
@@ -84,14 +84,14 @@ def recordings_of(
         else:
             raise HostError(_no_kind(path))
         made.append(recording)
-        told += words
+        notes += words
     if run and not any(path.suffix.lower() == ".fmu" for path in paths):
         raise HostError("Manoeuvre, times and values are set for an FMU that is run; results are shown as they are.")
-    _tell_other_grounds(made)
-    return made, told, good
+    _report_other_grounds(made)
+    return made, notes, good
 
 
-def _tell_other_grounds(recordings: Sequence[Recording]) -> None:
+def _report_other_grounds(recordings: Sequence[Recording]) -> None:
     """Note of each run that is a ghost on the ground of the first but ran on another."""
     grounds = [(one, one.scene.get("roads", [])) for one in recordings if one.scene is not None]
     for ghost, ground in grounds[1:]:
@@ -127,7 +127,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
     table = read_table(table_file)
     record = _record(record_file) if is_file(record_file) else None
     units: dict[str, str] = dict(table.units)
-    told: list[str] = []
+    notes: list[str] = []
     source: Path | None = None
     scene: dict[str, Any] | None = None
     settings = {entry["name"]: entry["new"] for entry in record["set"]} if record is not None else {}
@@ -138,7 +138,7 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
             known, same = _units(source, str(record.get("token", "")))
             units = known | units
             if not same:
-                told.append(other_build(source, name))
+                notes.append(other_build(source, name))
         _add_names_of_fmu(table, units, record, record_file)
         if scene is not None:
             scene = _with_marks(_with_course(scene, record, record_file), record, record_file)
@@ -146,23 +146,23 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
         source = geometry or record_file  # a scene
         scene = scene_from(source)
         if scene is not None and scene.get("roads") and is_archive(source):
-            told.append(
+            notes.append(
                 f"{table_file} has no record {record_file.name} beside it that says where it ran: what is drawn of the "
                 f"ground is that of {source} as it was built."
             )
     else:
-        told.append(
+        notes.append(
             f"{table_file} has no record {record_file.name} beside it that names its FMU, and no scene of that name: "
             "its signals can be plotted, and nothing is drawn; --geometry FILE names an FMU or a scene."
         )
     if source is not None and scene is None:
-        told.append(_foreign(source))
+        notes.append(_foreign(source))
     recording = Recording(scene, table.t, table.columns, units, name)
     if scene is not None and recording.scene is not None and scene["shapes"] and not recording.scene["shapes"]:
         why = recording.missing[-1]["why"].rstrip(".") if recording.missing else "no shape has a pose"
-        told.append(f"{table_file} contains no poses that could be drawn ({why}); its signals can be plotted.")
+        notes.append(f"{table_file} contains no poses that could be drawn ({why}); its signals can be plotted.")
     recording.notes += [table.note] if table.note else []
-    return recording, told
+    return recording, notes
 
 
 def _record(file: Path) -> dict[str, Any] | None:
@@ -245,34 +245,34 @@ def _foreign(path: Path) -> str:
     )
 
 
-def _of_fmu(path: Path, name: str, wanted: RunWishes) -> tuple[Recording, list[str], bool]:
+def _of_fmu(path: Path, name: str, wanted: ViewRunOptions) -> tuple[Recording, list[str], bool]:
     """Run an FMU: through a manoeuvre, or for its default experiment; whether the run is good."""
-    told = []
+    notes = []
     with Fmu(path) as fmu:
         given = wanted.manoeuvre
-        car = set(ACTS) <= set(fmu.names("input")) and set(SENSES) <= set(fmu.names("output"))
+        car = set(ACTS) <= set(fmu.names("input")) and set(OBSERVED) <= set(fmu.names("output"))
         if given is None and car and wanted.stop_time is None:
             given = _CAR_MANOEUVRE
-            told.append(f"{path} is driven through {given}; --manoeuvre names another.")
+            notes.append(f"{path} is driven through {given}; --manoeuvre names another.")
         manoeuvre = with_names_of(manoeuvre_of(fmu, given, wanted.stop_time), fmu.variables)
         check_columns(fmu, manoeuvre)
         driver = driver_of(fmu, manoeuvre)
-        manoeuvre, settings = set_in(fmu, manoeuvre, wanted.wishes)
+        manoeuvre, settings = set_in(fmu, manoeuvre, wanted.fmu_options)
         scene = scene_of(path, settings.start)
         result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, wanted.step), driver)
     if scene is None:
-        told.append(_foreign(path))
+        notes.append(_foreign(path))
     else:
         scene = scene if driver is None else with_course(scene, driver.course)
         scene = with_marks(scene, result.marks, _ON_THE_GROUND)
-    told += [": ".join(missed) for missed in result.missed]
-    told += [f"FMU: {message}" for message in dict.fromkeys(result.messages)]
+    notes += [": ".join(missed) for missed in result.missed]
+    notes += [f"FMU: {message}" for message in dict.fromkeys(result.messages)]
     if wrong := result.not_finite():
-        told.append(wrong)
+        notes.append(wrong)
     if result.ended:
-        told.append(result.ended)
+        notes.append(result.ended)
     elif result.failed_steps:
-        told.append(f"{path} refused the step at {result.time[-1]:g} s; what came before is shown.")
+        notes.append(f"{path} refused the step at {result.time[-1]:g} s; what came before is shown.")
     columns = {n: result.values[:, k] for k, n in enumerate(result.names)}
     title = name if given is None else f"{name}, {manoeuvre.name.replace('_', ' ')}"
-    return Recording(scene, result.time, columns, result.units, settings.title(title)), told, result.is_good
+    return Recording(scene, result.time, columns, result.units, settings.title(title)), notes, result.is_good

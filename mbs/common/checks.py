@@ -167,8 +167,8 @@ def one_of(value: object, words: Collection[str], what: str, error: Error = Mode
     """One of some words."""
     if not isinstance(value, str) or value not in words:
         known = [repr(w) for w in words] if len(words) < 4 or all(len(w) == 1 for w in words) else list(words)
-        said = " or ".join([", ".join(known[:-1]), known[-1]] if len(known) > 1 else known)
-        raise error(f"{capital(what)} is {shown(value)}; it must be {said}.")
+        choices = " or ".join([", ".join(known[:-1]), known[-1]] if len(known) > 1 else known)
+        raise error(f"{capital(what)} is {shown(value)}; it must be {choices}.")
     return str(value)
 
 

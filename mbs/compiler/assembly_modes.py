@@ -1,6 +1,6 @@
 """Assembly modes of closed loops: which signs its triads may have, as the `mode_` arrays of the System.
 
-A block of loops with one freedom is traced once around from its drawing (`mbs.compiler.trace`).
+A block of loops with one freedom is traced once around from its drawing (`mbs.compiler.loop_motion`).
 
 - Where a body that is hinged on the frame makes a full turn on the way, as a crank does, the combinations of signs that
   the way has are its modes: any other belongs to another circuit or branch.
@@ -19,13 +19,13 @@ from numpy.typing import NDArray
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.compiler.block_rows import MovingPart, affine_of, moving_part, quadratics
+from mbs.compiler.loop_motion import TURN, trace
 from mbs.compiler.loops import Block, blocks_of_loops
 from mbs.compiler.polynomial import RowTerms
 from mbs.compiler.tables import Signals, ragged
-from mbs.compiler.trace import TURN, trace
 from mbs.compiler.triads import Triad, triads
 from mbs.model.model import Model
-from mbs.model.perpendicular import perpendicular
+from mbs.model.perpendicular_vectors import perpendicular
 
 Array = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager
 
 from mbs.common.checks import flag
-from mbs.common.later import Later
+from mbs.common.lazy_value import LazyValue
 from mbs.compiler.assembly_modes import mode_arrays
 from mbs.compiler.drawing import drawing
 from mbs.compiler.generated.library import library_of
@@ -66,7 +66,7 @@ def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False)
     def ported(system: System) -> System | None:
         return None if make is None else with_ports_of(System.of(_closed(make(), closing)[1]), system)
 
-    late = Later(draw)
+    late = LazyValue(draw)
     model.draw_before_change(late)
     system = System.of(made, late, None if make is None else ported)
     if flag(native, "The native of compile"):

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from mbs.common.affine import Affine
-from mbs.compiler.eliminate import Elimination, eliminate
-from mbs.compiler.natural import NaturalCoordinates
+from mbs.compiler.elimination import Elimination, eliminate
+from mbs.compiler.natural_coordinates import NaturalCoordinates
 from mbs.compiler.polynomial import RowTerms, cleaned, substitute
 from mbs.model.coordinate import CoordinateInfo
 from mbs.model.equation import Equation

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from mbs.common.vectors import cross, in_space
-from mbs.compiler.biconnected import blocks_of
+from mbs.compiler.biconnected_blocks import blocks_of
 from mbs.compiler.spanning_tree import frame_along
 from mbs.model.body import Body, Ground
 from mbs.model.joints.joint import Drawing, Joint

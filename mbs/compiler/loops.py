@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from mbs.common.affine import AffineVector
-from mbs.compiler.biconnected import blocks_of
+from mbs.compiler.biconnected_blocks import blocks_of
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model

@@ -12,7 +12,7 @@ from mbs.common.affine import Affine
 from mbs.common.checks import flag, instance_of, mapping
 from mbs.common.errors import ModelError
 from mbs.compiler.armatures import armature_arrays
-from mbs.compiler.consistent import close_position
+from mbs.compiler.consistent_start import close_position
 from mbs.compiler.dependent_rows import independent_rows
 from mbs.compiler.equilibrium import equilibrium, start_arrays
 from mbs.compiler.extent import check_near, coordinate_lengths, drawn_length, fineness, model_length, unit_vectors
@@ -23,9 +23,11 @@ from mbs.compiler.fronts import Fronts, build_fronts
 from mbs.compiler.full_coordinates import full_gravity, full_mass, reduce_coordinates, symmetric, transformation
 from mbs.compiler.immobile_models import check_motion, locked_gears, locked_parts
 from mbs.compiler.metadata import metadata
-from mbs.compiler.natural import NaturalCoordinates, natural_coordinates
+from mbs.compiler.natural_coordinates import NaturalCoordinates, natural_coordinates
 from mbs.compiler.open_joints import joint_gaps, joints_of_bodies
 from mbs.compiler.ordering import clique_pattern, fill_reducing_order
+from mbs.compiler.parametric_axes import axis_arrays, axis_cliques, axis_room
+from mbs.compiler.parametric_inertias import inertia_arrays, inertia_cliques
 from mbs.compiler.payloads import payload_arrays, payload_cliques, with_room
 from mbs.compiler.polynomial import RowTerms, row_terms
 from mbs.compiler.pose import pose_arrays, pose_partners
@@ -39,17 +41,15 @@ from mbs.compiler.tabled_bodies import (
     base_coordinates,
     carried_mass,
     columns_of,
+    distinguish,
     locator_of,
     refuse_joint,
     spread,
     tabled_arrays,
     tabled_cliques,
     tabled_coordinates,
-    tell_apart,
 )
 from mbs.compiler.tables import Signals, channel_arrays, element_arrays, element_cliques, sensor_arrays
-from mbs.compiler.written_axes import axis_arrays, axis_cliques, axis_room
-from mbs.compiler.written_inertias import inertia_arrays, inertia_cliques
 from mbs.kernel.header.arrays import ARRAYS
 from mbs.model.equation import Equation
 from mbs.model.model import Model
@@ -131,7 +131,7 @@ def _reduced(model: Model, closed: Corrections) -> _Reduced:
     length, size = model_length(model), drawn_length(model)
     stay = flexible_coordinates(model) | base_coordinates(model)
     natural, remaining, full, of_z, redundant, left = reduce_coordinates(model, natural, linear, stay, size)
-    known = tell_apart(model, remaining, full, of_z, left)
+    known = distinguish(model, remaining, full, of_z, left)
     error = max((max(distance / size, angle) for distance, angle in closed.values()), default=0.0)
     candidates = [row_terms(e, j, k, known.seen, size, error) for j, k, e in others]
     for row in candidates:

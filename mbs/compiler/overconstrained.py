@@ -127,7 +127,7 @@ def redrawn(joints: list[Corrected]) -> Iterator[dict[str, tuple[float, float]]]
 
 
 @dataclass
-class Found:
+class MovableConstants:
     """Constants with which loops move, and the position of the loops that is nearest to the drawn one."""
 
     g: Array
@@ -220,7 +220,7 @@ def _parallel(loops: Loops, at: Closed, angle: float) -> Array:
     return g
 
 
-def _constants(loops: Loops, positions: list[Closed], share: float, g: Array) -> Found | None:
+def _constants(loops: Loops, positions: list[Closed], share: float, g: Array) -> MovableConstants | None:
     """The constants next to `g` with which the loops close at all positions, also at others than these; None where the
     iteration finds none.
     """
@@ -239,7 +239,7 @@ def _constants(loops: Loops, positions: list[Closed], share: float, g: Array) ->
         if not more:
             return None
         if max(c.open for c in more) <= EXACT:
-            return Found(g, start)
+            return MovableConstants(g, start)
         positions = positions + more
     return None
 
@@ -277,7 +277,7 @@ def _explaining(parts: Array, size: float, s: Array) -> int:
     return max(1, min(enough, int(np.sum(s > 1e-11 * s[0]))))
 
 
-def _joints(loops: Loops, found: Found, tolerance: float) -> list[Corrected]:
+def _joints(loops: Loops, found: MovableConstants, tolerance: float) -> list[Corrected]:
     """The corrected joints; drawn where they meet if that is next to where the bodies are drawn, else on each body."""
     places, drawn = found.start.places, loops.drawn()
     moved = np.max(np.abs(places.centres - drawn.centres)) / loops.size + np.max(np.abs(places.axes - drawn.axes))

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
-from mbs.compiler.natural import NaturalCoordinates
+from mbs.compiler.natural_coordinates import NaturalCoordinates
 from mbs.compiler.tables import Signals
 from mbs.model.model import Model
 

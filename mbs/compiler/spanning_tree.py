@@ -16,7 +16,7 @@ from mbs.common.vectors import in_space
 from mbs.model.body import Body
 from mbs.model.joints.joint import Joint, JointPlaces
 from mbs.model.model import Model
-from mbs.model.perpendicular import perpendicular
+from mbs.model.perpendicular_vectors import perpendicular
 
 Array = NDArray[np.float64]
 

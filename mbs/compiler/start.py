@@ -6,9 +6,9 @@ from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from mbs.common.affine import Affine
-from mbs.compiler.consistent import start_velocity
+from mbs.compiler.consistent_start import start_velocity
 from mbs.compiler.full_coordinates import full_mass, symmetric
-from mbs.compiler.natural import NaturalCoordinates
+from mbs.compiler.natural_coordinates import NaturalCoordinates
 from mbs.compiler.pose import full_values
 from mbs.compiler.row_arrays import RowArrays
 from mbs.compiler.start_velocities import GivenVelocity, contradiction, given_velocities

@@ -86,8 +86,10 @@ def contradiction(
     lost = [g for g in missed if g.missed(alone(g)) <= least] if len(given) > 1 else []
     if not lost:
         return ""
-    told = "; ".join(f"{g.name} is given as {g.text(g.rates)} and is {g.text(reached[g.part])}" for g in lost[:2])
+    contradictions = "; ".join(
+        f"{g.name} is given as {g.text(g.rates)} and is {g.text(reached[g.part])}" for g in lost[:2]
+    )
     return (
-        f"The initial velocities of '{model.name}' contradict each other through its joints: {told}. Each alone could "
-        "hold: give one of them, or values that fit."
+        f"The initial velocities of '{model.name}' contradict each other through its joints: {contradictions}. Each "
+        "alone could hold: give one of them, or values that fit."
     )

@@ -12,7 +12,7 @@ from mbs.common.errors import ModelError
 from mbs.compiler.front_arrays import Locate
 from mbs.compiler.polynomial import RowTerms
 from mbs.model.model import Model
-from mbs.model.tabled import TabledBody, TabledNumber
+from mbs.model.table_bodies import TabledBody, TabledNumber
 
 NONE = [-1] * 12
 
@@ -55,7 +55,7 @@ def carried_mass(model: Model) -> NDArray[np.float64]:
     return mass
 
 
-def tell_apart(
+def distinguish(
     model: Model, remaining: list[int], full: list[Affine], of_z: list[Affine], left: list[RowTerms]
 ) -> Dependents:
     """Take the dependents out of z and number them behind it; arguments as of `reduce_coordinates`."""

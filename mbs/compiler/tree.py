@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mbs.common.affine import Affine, AffineVector
 from mbs.common.vectors import in_space
 from mbs.compiler.armatures import written_armatures
-from mbs.compiler.natural import choose
+from mbs.compiler.natural_coordinates import choose
 from mbs.compiler.spanning_tree import (
     MOST_JOINTS,
     Cut,

@@ -83,21 +83,27 @@ def header(kind: type[Element]) -> str:
             lines += [f'  {{{of.of.value}, {limits}, "{_sentence(of, words)}"}},']
         lines += ["};"]
         sizes |= {"integers": f"{name}_integers", "nintegers": f"{upper}_INTEGERS"}
-    said = textwrap.wrap(", ".join(f".{size}={value}" for size, value in sizes.items()), 90)
-    said = [line.replace("=", " = ") for line in said]
-    lines += [f"#define ALI3_{upper} \\", *(f"  {line} \\" for line in said[:-1]), f"  {said[-1]}", "#endif", "#endif"]
+    size_lines = textwrap.wrap(", ".join(f".{size}={value}" for size, value in sizes.items()), 90)
+    size_lines = [line.replace("=", " = ") for line in size_lines]
+    lines += [
+        f"#define ALI3_{upper} \\",
+        *(f"  {line} \\" for line in size_lines[:-1]),
+        f"  {size_lines[-1]}",
+        "#endif",
+        "#endif",
+    ]
     return "\n".join(lines) + "\n"
 
 
 def _enumeration(kind: type[Element], size: str, own: int, more: bool) -> list[str]:
     """Places of the numbers; of those that may be missing as if nothing were counted before them."""
-    said, lines, at, follows = texts(kind), ["enum {"], 0, ""
+    meanings, lines, at, follows = texts(kind), ["enum {"], 0, ""
     for field, real in declared(kind).items():
         if more and at == own:
             lines += [f"  {size}{follows}", "};", "enum {"]
             follows = f" = {size}" + (f" + {kind._behind}" if kind._behind else "")
         name = kind._prefix + (real.name if isinstance(real, Real) and real.name else field).upper()
-        lines += [*(f"  {line}" for line in _comment(said[field])), f"  {name}{follows},"]
+        lines += [*(f"  {line}" for line in _comment(meanings[field])), f"  {name}{follows},"]
         count = len([*each_real(real.kind)]) if isinstance(real, Group) else len(real.parts) or 1
         follows = f" = {name} + {count}" if count > 1 else ""
         if at < own < at + count:  # a group of which the last numbers may be missing

@@ -45,10 +45,10 @@ class Integer:
         """A value of the element `what`; None for an input that may be missing."""
         if value is None and self.least == -1:
             return -1
-        said = f"{capital(self.called)} of {what}"
+        subject = f"{capital(self.called)} of {what}"
         if self.of is not Of.NUMBERS:
-            return index(value, said)  # type: ignore[arg-type]  # refuses what is not a number
-        return whole(value, said, self.least, self.most)
+            return index(value, subject)  # type: ignore[arg-type]  # refuses what is not a number
+        return whole(value, subject, self.least, self.most)
 
 
 def an_input(name: str, words: str = "", *, missing: bool = False, optional: bool = False) -> Integer:
@@ -59,8 +59,8 @@ def an_input(name: str, words: str = "", *, missing: bool = False, optional: boo
 def channels(inputs: Sequence[int | None], count: int, what: str) -> list[int | None]:
     """Numbers of the inputs of a force or a torque, one per component; None for none."""
     if not isinstance(inputs, (list, tuple)) or len(inputs) != count:
-        said = f"has {len(inputs)} inputs" if isinstance(inputs, (list, tuple)) else f"has the inputs {shown(inputs)}"
-        raise ModelError(f"{capital(what)} {said}; it needs {count}, None for no component.")
+        given = f"has {len(inputs)} inputs" if isinstance(inputs, (list, tuple)) else f"has the inputs {shown(inputs)}"
+        raise ModelError(f"{capital(what)} {given}; it needs {count}, None for no component.")
     return [*inputs]
 
 

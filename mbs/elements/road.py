@@ -11,7 +11,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ali3.echo import Understood
+from ali3.plausibility import Summarised
 from mbs.common.checks import array, is_number, not_negative, not_zero, number, one_of, positive, shown, vector, whole
 from mbs.common.errors import ModelError
 from mbs.elements.reals import Check, NotNegative, Number, Positive, Reals, each_real, reals_of
@@ -42,7 +42,7 @@ class _NamedNumbers(ABC):
 
 
 @dataclass(frozen=True)
-class PlaneRoad(Understood, _NamedNumbers):
+class PlaneRoad(Summarised, _NamedNumbers):
     """Plane z = height + grade_x x + grade_y y."""
 
     height: Number = 0.0
@@ -63,7 +63,7 @@ class PlaneRoad(Understood, _NamedNumbers):
 
 @dataclass(frozen=True)
 class KerbRoad(
-    Understood,
+    Summarised,
     _NamedNumbers,
     order=("position", "lower_height", "step", "side", "friction", "friction_factor"),
     side=not_zero,
@@ -90,7 +90,7 @@ class KerbRoad(
 
 
 @dataclass(frozen=True)
-class GridRoad(Understood):
+class GridRoad(Summarised):
     """Heights and frictions on a regular grid; C1 bicubic in between, the border goes on outside."""
 
     origin: Sequence[float]
@@ -159,7 +159,7 @@ class PortRoad:
 Road = PlaneRoad | KerbRoad | GridRoad | PortRoad
 
 
-class RoadOfFile(Understood, ABC):
+class RoadOfFile(Summarised, ABC):
     """A road that the kernel reads from a file while it runs, as a model sees it: `mbs.roads.RoadFile` is one."""
 
     path: str | os.PathLike[str]

@@ -11,7 +11,7 @@ from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
 from mbs.flexible.fixed_interface import FixedInterface
 from mbs.flexible.relief_matrices import InertiaRelief
-from mbs.flexible.sparse import Sparse
+from mbs.flexible.sparse_matrices import Sparse
 
 
 def inertia_relief(

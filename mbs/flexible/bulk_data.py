@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ali3.message_text import brief
 from ali3.named_files import NamedFiles
 from ali3.reading import read_bytes
-from ali3.words import brief
 from mbs.common.checks import LARGEST as LARGEST_NUMBER
 from mbs.common.errors import ModelError
 from mbs.flexible.foreign_file import LARGEST

@@ -11,8 +11,8 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
 from ali3.extras import missing_module
+from ali3.message_text import brief
 from ali3.reading import is_file, no_file, open_file, read_bytes
-from ali3.words import brief
 from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.foreign_file import LARGEST, read_foreign

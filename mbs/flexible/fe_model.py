@@ -9,7 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import qr
 
-from ali3.echo import Understood
+from ali3.plausibility import Summarised
 from mbs.common.checks import flag, is_finite, shown
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
@@ -20,7 +20,7 @@ Reference = str | int | Sequence[str | int]
 
 
 @dataclass(frozen=True)
-class FiniteElementModel(Understood):
+class FiniteElementModel(Summarised):
     """Linear model in its own axes, which become the axes of the floating frame; SI units."""
 
     positions: np.ndarray

@@ -12,7 +12,7 @@ from scipy.sparse.linalg import eigsh, splu
 from ali3.columns import some_of
 from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel, Reference
-from mbs.flexible.sparse import Sparse
+from mbs.flexible.sparse_matrices import Sparse
 
 SYMMETRY = 1e-6  # of the largest entry: matrices printed with seven digits pass
 GROUNDED = 1e-5  # of the stiffness times the size: printed matrices pass, a spring to the ground does not

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ali3.reader_stops import read_by_library
+from ali3.library_errors import read_by_library
 from ali3.reading import check_file
 from mbs.common.errors import ModelError
 

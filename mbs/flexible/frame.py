@@ -9,7 +9,7 @@ from mbs.common.checks import flag
 from mbs.flexible.beam_frame import Beam, BeamFrame
 from mbs.flexible.beam_mass import beam_mass_points
 from mbs.flexible.beam_stiffness import shear_parameters
-from mbs.flexible.body_echo import FlexibleWarning, model_echo
+from mbs.flexible.body_plausibility import FlexibleWarning, model_plausibility
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.fe_model_checks import check_free
 from mbs.flexible.mass_points import MassPoints, nodal_mass_points
@@ -67,8 +67,8 @@ class Frame(BeamFrame):
             points = points.merged(nodal_mass_points(self.positions, self.masses, dof[:, :3], 6 * n))
         model = FiniteElementModel(self.positions, self.names, dof, K, points, self, mass == "consistent")
         check_free(model)
-        for echo in model_echo(model, modes=False):
-            echo.warn(FlexibleWarning)
+        for plausibility in model_plausibility(model, modes=False):
+            plausibility.warn(FlexibleWarning)
         return model
 
     def _beam_mass(self, kind: str, rotary: bool) -> MassPoints:

@@ -14,14 +14,14 @@ from ali3.tables import TextTable
 from mbs.common.checks import numbers, positive
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import node_labels
-from mbs.flexible.body_echo import FlexibleWarning, model_echo
+from mbs.flexible.body_plausibility import FlexibleWarning, model_plausibility
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.fe_model_checks import SYMMETRY, asymmetry, check_definite, check_free, check_symmetric
 from mbs.flexible.foreign_file import read_foreign
-from mbs.flexible.lumping import lumped_masses
+from mbs.flexible.mass_lumping import lumped_masses
 from mbs.flexible.mass_points import check_masses, nodal_mass_points
 from mbs.flexible.matrix_market import read_matrix_market, read_sparse_arrays
-from mbs.flexible.sparse import Sparse
+from mbs.flexible.sparse_matrices import Sparse
 
 
 def external_model(
@@ -98,8 +98,8 @@ def external_model(
         check_masses(masses, labels)
         points = nodal_mass_points(x, masses, table[:, :3], int(K.shape[0]))
     model = replace(model, mass=points)
-    for echo in model_echo(model, what, beside=beside):
-        echo.warn(FlexibleWarning)
+    for plausibility in model_plausibility(model, what, beside=beside):
+        plausibility.warn(FlexibleWarning)
     return model
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mbs.flexible.sparse import Sparse
+from mbs.flexible.sparse_matrices import Sparse
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.foreign_file import read_foreign
 from mbs.flexible.matrix_files import external_model
 from mbs.flexible.output4 import read_output4
-from mbs.flexible.sparse import Sparse
+from mbs.flexible.sparse_matrices import Sparse
 
 
 def read_nastran(

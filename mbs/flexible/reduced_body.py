@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ali3.echo import Understood
+from ali3.plausibility import Summarised
 from mbs.common.checks import shown
 from mbs.common.errors import ModelError
 from mbs.flexible.beam_frame import BeamFrame
@@ -15,7 +15,7 @@ from mbs.flexible.modal_body import InterfaceModes, ModalBody
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReducedBody(ModalBody, Understood):
+class ReducedBody(ModalBody, Summarised):
     """A `ModalBody` with what reductions of it and pictures need."""
 
     M: np.ndarray

@@ -14,7 +14,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from ali3.cache import cache_folder
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 
 HERE = Path(__file__).resolve().parent
 FLAGS = [

@@ -7,8 +7,8 @@ from mbs.common.lazy_modules import lazy_modules
 if TYPE_CHECKING:
     from mbs.common.errors import ModelError as ModelError
     from mbs.model.body import Body as Body
-    from mbs.model.carried import SlidingPoint as SlidingPoint
-    from mbs.model.carried import Spin as Spin
+    from mbs.model.carried_parts import SlidingPoint as SlidingPoint
+    from mbs.model.carried_parts import Spin as Spin
     from mbs.model.coordinate import Coordinate as Coordinate
     from mbs.model.joints.joint import Joint as Joint
     from mbs.model.model import Model as Model
@@ -30,8 +30,8 @@ _LAZY = {
     "Parameter": "mbs.model.records",
     "PointMass": "mbs.model.point_mass",
     "Sensor": "mbs.model.sensor",
-    "SlidingPoint": "mbs.model.carried",
-    "Spin": "mbs.model.carried",
+    "SlidingPoint": "mbs.model.carried_parts",
+    "Spin": "mbs.model.carried_parts",
 }
 __getattr__ = lazy_modules(__name__, (), _LAZY)
 

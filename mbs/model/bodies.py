@@ -18,9 +18,9 @@ from mbs.common.checks import (
 )
 from mbs.common.errors import ModelError
 from mbs.model.body import Body, same_place, size_about
-from mbs.model.carried import Payload, WrittenInertia
-from mbs.model.ends import FixedEnd, body_and_point
+from mbs.model.carried_parts import Payload, WrittenInertia
 from mbs.model.inertia import inertia_matrix
+from mbs.model.joint_ends import FixedEnd, body_and_point
 from mbs.model.register import Register
 
 SIZES = (1e-12, 1e8)

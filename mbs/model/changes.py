@@ -13,7 +13,7 @@ R = TypeVar("R")
 C = TypeVar("C", bound="Changes")
 
 
-def whole_or_not(method: Callable[Concatenate[C, P], R]) -> Callable[Concatenate[C, P], R]:
+def atomic_call(method: Callable[Concatenate[C, P], R]) -> Callable[Concatenate[C, P], R]:
     """A method of a model that leaves the model as it was when it raises."""
 
     @functools.wraps(method)

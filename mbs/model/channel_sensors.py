@@ -15,8 +15,8 @@ from mbs.model.inputs import owned_input
 from mbs.model.joints.joint import Joint
 from mbs.model.reactions import guide_terms
 from mbs.model.records import Guide, Input
-from mbs.model.sensed import sensed_joints
 from mbs.model.sensor import Sensor
+from mbs.model.sensor_arguments import sensed_joints
 from mbs.model.sensors import RATE_UNITS, SensorVocabulary, order_number
 
 SOLVER = tuple(value.name.lower() for value in SolverValue)

@@ -18,7 +18,7 @@ from mbs.elements.record import ElementRecord
 from mbs.elements.spin_torque import SpinTorque
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.model.coordinate import Coordinate
 from mbs.model.inputs import owned_input
 from mbs.model.records import Input

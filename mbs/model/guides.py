@@ -14,7 +14,7 @@ from mbs.common.errors import ModelError
 from mbs.kernel.header.enumerations import GuideType
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.carried import SlidingPoint
+from mbs.model.carried_parts import SlidingPoint
 from mbs.model.inputs import owned_input
 from mbs.model.records import Guide, Input
 from mbs.model.register import Register

@@ -7,10 +7,10 @@ import numpy as np
 
 from mbs.common.affine import AffineVector
 from mbs.model.body import Body
+from mbs.model.joint_rotation import Turning
 from mbs.model.joints.joint import Joint
 from mbs.model.reactions import folded
 from mbs.model.sensor import Term
-from mbs.model.turning import Turning
 
 
 def force_on_first(joint: Joint) -> list[tuple[int, float, AffineVector]]:

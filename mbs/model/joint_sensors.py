@@ -16,8 +16,8 @@ from mbs.model.body import Body
 from mbs.model.joint_reactions import force_on_first, moment_terms, rod_terms
 from mbs.model.joints.joint import SCALAR_FORCES, Joint
 from mbs.model.reactions import folded
-from mbs.model.sensed import component_number, sensed_joint, sensed_joints
 from mbs.model.sensor import Sensor, Term
+from mbs.model.sensor_arguments import component_number, sensed_joint, sensed_joints
 from mbs.model.sensors import SensorVocabulary
 
 

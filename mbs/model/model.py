@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ali3.echo import Echo, Understood, echo_of
+from ali3.plausibility import Plausibility, Summarised, plausibility_of
 from mbs.common.checks import Vector, is_number, number, positive, shown, vector
 from mbs.common.errors import ModelError
 from mbs.model.air import AirVocabulary
@@ -24,20 +24,20 @@ from mbs.model.forces import ForceVocabulary
 from mbs.model.inputs import InputVocabulary
 from mbs.model.joint_sensors import JointSensorVocabulary
 from mbs.model.joint_vocabulary import JointVocabulary
-from mbs.model.more_guides import MoreGuidesVocabulary
 from mbs.model.motion_sensors import MotionSensorVocabulary
 from mbs.model.orientation_sensors import OrientationSensorVocabulary
 from mbs.model.parameters import ParameterVocabulary
 from mbs.model.point_mass import PointMass
 from mbs.model.road_vocabulary import RoadVocabulary
 from mbs.model.sliding_shapes import SlidingVocabulary
+from mbs.model.special_guides import MoreGuidesVocabulary
 from mbs.model.spin import SpinVocabulary
 from mbs.model.springs import SpringVocabulary
 from mbs.model.table_vocabulary import TableVocabulary
 
 
 class Model(
-    Understood,
+    Summarised,
     JointVocabulary,
     SpringVocabulary,
     ForceVocabulary,
@@ -173,8 +173,12 @@ def _angular(value: ArrayLike, size: int, what: str) -> Vector:
     return vector([value] if size == 1 and is_number(value) else value, size, what)
 
 
-@echo_of.register
-def _echo_of_model(model: Model) -> list[Echo]:
+@plausibility_of.register
+def _plausibility_of_model(model: Model) -> list[Plausibility]:
     """Of its flexible bodies."""
-    bodies = [b for b in model.bodies if isinstance(b, FlexibleBody) and isinstance(b.reduced, Understood)]
-    return [replace(echo, title=f"flexible body '{b.name}'") for b in bodies for echo in echo_of(b.reduced)]
+    bodies = [b for b in model.bodies if isinstance(b, FlexibleBody) and isinstance(b.reduced, Summarised)]
+    return [
+        replace(plausibility, title=f"flexible body '{b.name}'")
+        for b in bodies
+        for plausibility in plausibility_of(b.reduced)
+    ]

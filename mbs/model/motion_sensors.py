@@ -11,8 +11,8 @@ from mbs.common.errors import ModelError
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
-from mbs.model.sensed import component_number
 from mbs.model.sensor import Sensor
+from mbs.model.sensor_arguments import component_number
 from mbs.model.sensors import RATE_UNITS, SensorVocabulary, order_number, spatial
 
 SIGNALS = (SensorType.SIGNAL, SensorType.SIGNAL_RATE, SensorType.SIGNAL_SECOND_RATE)

@@ -10,9 +10,9 @@ from mbs.common.errors import ModelError
 from mbs.elements.spin_angle import SpinAngle
 from mbs.kernel.header.enumerations import SensorType
 from mbs.model.body import Body
-from mbs.model.carried import Spin
-from mbs.model.sensed import component_number
+from mbs.model.carried_parts import Spin
 from mbs.model.sensor import Sensor
+from mbs.model.sensor_arguments import component_number
 from mbs.model.sensors import SensorVocabulary, order_number, spatial
 
 

@@ -10,7 +10,7 @@ from mbs.common.checks import array, flag, not_negative, not_zero, number, posit
 from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header.enumerations import GuideType, ParameterTarget, SensorType
-from mbs.model.carried import AXIS_REALS, INERTIA_REALS, Payload, WrittenAxis, WrittenInertia
+from mbs.model.carried_parts import AXIS_REALS, INERTIA_REALS, Payload, WrittenAxis, WrittenInertia
 from mbs.model.records import Armature, Guide, Parameter
 from mbs.model.register import Named, Register
 from mbs.model.spin import STEEPEST

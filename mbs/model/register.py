@@ -13,14 +13,14 @@ from mbs.common.errors import ModelError
 from mbs.elements.record import ElementRecord
 from mbs.elements.road import Road
 from mbs.model.body import Body, Ground
-from mbs.model.carried import Payload, Spin, WrittenAxis, WrittenInertia
-from mbs.model.changes import whole_or_not
+from mbs.model.carried_parts import Payload, Spin, WrittenAxis, WrittenInertia
+from mbs.model.changes import atomic_call
+from mbs.model.checked_shapes import Shape, Turning
 from mbs.model.coordinates import ModelCoordinates
-from mbs.model.drawn import Shape, Turning
 from mbs.model.joints.joint import Joint
 from mbs.model.records import Ahead, Armature, Constant, Guide, Input, Parameter, RoadFileParameter, Switch
 from mbs.model.sensor import Sensor
-from mbs.model.tabled import TabledBody, TabledNumber
+from mbs.model.table_bodies import TabledBody, TabledNumber
 
 
 class Named(Protocol):
@@ -47,7 +47,7 @@ class Register(ModelCoordinates):
         super().__init_subclass__(**kwargs)
         for name, method in list(vars(cls).items()):
             if callable(method) and not name.startswith("_"):
-                setattr(cls, name, whole_or_not(method))
+                setattr(cls, name, atomic_call(method))
 
     def __init__(
         self, name: str, dimension: int = 3, gravity: ArrayLike | None = None, *, length: float | None = None
@@ -161,7 +161,7 @@ class Register(ModelCoordinates):
         )
         return tuple(len(part) for part in parts)
 
-    @whole_or_not
+    @atomic_call
     def add(self, element: ElementRecord) -> ElementRecord:
         """Add a force element by its record. `element`: from the ``record`` method of an element of `mbs.elements`."""
         instance_of(ElementRecord, element, "The element of Model.add", "an ElementRecord")

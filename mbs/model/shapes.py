@@ -31,9 +31,9 @@ from mbs.common.errors import ModelError
 from mbs.common.vectors import in_space
 from mbs.model.bodies import ROTATION, BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
+from mbs.model.checked_shapes import Owner, Shape, Turning
 from mbs.model.coordinate import Coordinate
-from mbs.model.drawn import Owner, Shape, Turning
 
 Kind: TypeAlias = Literal[
     "box", "sphere", "cylinder", "tube", "plate", "mesh", "spring", "damper", "wheel", "steering_wheel", "none"

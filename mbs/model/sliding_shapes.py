@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from mbs.common.checks import array, flag, named, shown
 from mbs.common.errors import ModelError
 from mbs.model.body import Body
-from mbs.model.drawn import Owner, Shape, Turning
+from mbs.model.checked_shapes import Owner, Shape, Turning
 from mbs.model.shapes import ShapeVocabulary, local_place
 
 

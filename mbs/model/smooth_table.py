@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from mbs.common.checks import array, capital, is_number, shown
 from mbs.common.errors import ModelError
 from mbs.model.body import Body
-from mbs.model.tabled import SmoothTable
+from mbs.model.table_bodies import SmoothTable
 
 Array = NDArray[np.float64]
 

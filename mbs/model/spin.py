@@ -13,11 +13,11 @@ from mbs.common.errors import ModelError
 from mbs.elements.gyroscopic_spin import GyroscopicSpin
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.carried import Spin, WrittenAxis
-from mbs.model.perpendicular import perpendicular
+from mbs.model.carried_parts import Spin, WrittenAxis
+from mbs.model.perpendicular_vectors import perpendicular
 
 STEEPEST = 1.4
-"""rad of elevation, as in `mbs/kernel/src/system/turned.c`."""
+"""rad of elevation, as in `mbs/kernel/src/system/parametric_axes.c`."""
 
 
 def _own(vector: AffineVector) -> AffineVector:

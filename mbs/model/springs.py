@@ -10,7 +10,7 @@ from mbs.elements.scalar_spring_damper import ScalarSpringDamper
 from mbs.elements.spring_damper import EndStops, SpringDamper
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.coordinate import Coordinate
-from mbs.model.ends import FixedEnd, body_and_point, different
+from mbs.model.joint_ends import FixedEnd, body_and_point, different
 
 
 class SpringVocabulary(BodyVocabulary):

@@ -14,7 +14,7 @@ from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.inertia import inertia_matrix
 from mbs.model.smooth_table import check_drawn, checked_parameters, pose_functions, smooth_table
-from mbs.model.tabled import TabledBody, TabledNumber
+from mbs.model.table_bodies import TabledBody, TabledNumber
 
 
 class TableVocabulary(BodyVocabulary):

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ali3.words import unit_text
+from ali3.message_text import unit_text
 from mbs.kernel.header.enumerations import GuideType
 from mbs.kernel.header.limits import AGREED, WRONG_ERROR
 from mbs.kernel.header.steps import Balance
@@ -67,20 +67,20 @@ class Accuracy:
         return max(self.units.values(), default=0.0) if self.compared_step is not None and self.units else None
 
     def __str__(self) -> str:
-        said = []
+        sentences = []
         if self.energy_balance is not None:
-            said.append(f"energy balance open by {_percent(self.energy_balance)}")
+            sentences.append(f"energy balance open by {_percent(self.energy_balance)}")
         if self.halvings_per_step > 0.0:
-            said.append(f"{self.halvings_per_step:.2g} halvings a step")
+            sentences.append(f"{self.halvings_per_step:.2g} halvings a step")
         if self.units:
             parts = (f"{_percent(e)}{_of(unit)}" for unit, e in self.units.items())
-            said.append(f"estimated error {', '.join(parts)}")
+            sentences.append(f"estimated error {', '.join(parts)}")
         if self.check_cost > 0.0:
-            said.append(
+            sentences.append(
                 f"checked by runs of {self.check_cost:.2g} times its steps (at most {MOST_COST:g} unless "
                 "estimate_error=N; none with estimate_error=False)"
             )
-        return "; ".join(said)
+        return "; ".join(sentences)
 
 
 def doubt(report: Report) -> str:
@@ -217,15 +217,15 @@ def open_text(accuracy: Accuracy, step: float, most: float, needed: float) -> st
 
     `accuracy`: by the last one; `step`: of the next one, s; `needed`: what all that may follow would cost.
     """
-    said = "there is no estimate"
+    reason = "there is no estimate"
     if accuracy.error is not None:
-        said = (
+        reason = (
             f"the last estimate, with steps of {accuracy.compared_step:g} s, is {_percent(accuracy.error)} of the "
             "largest range"
         )
     return (
         f"Whether the result is off was not checked: a refined run with steps of {step:g} s would cost more than the "
-        f"budget of {most:g} runs ({said}). Allow simulate(..., estimate_error={math.ceil(needed)}), or give it "
+        f"budget of {most:g} runs ({reason}). Allow simulate(..., estimate_error={math.ceil(needed)}), or give it "
         "tolerance=1e-3 in place of a step."
     )
 

@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 PICKLED = "a run that was pickled has what was read of it before. Read the sensor before the run is pickled"
 
 
-class LeftOut:
+class OmittedSensors:
     """Columns of a run that it did not compute.
 
     `compute`: takes of how many samples one is wanted, and returns the columns by name; None where nothing can;
@@ -45,9 +45,9 @@ class LeftOut:
             raise KeyError(refused(name, self.reason))
         return self._found[name]
 
-    def thinned(self, every: int) -> LeftOut:
+    def thinned(self, every: int) -> OmittedSensors:
         """Of every so many samples of this one."""
-        made = LeftOut(self.names, self._compute, self.reason, self._every * every)
+        made = OmittedSensors(self.names, self._compute, self.reason, self._every * every)
         if self._compute is None and self._found is not None:
             made._found = {name: values[::every] for name, values in self._found.items()}
         return made

@@ -13,17 +13,17 @@ from numpy.typing import NDArray
 
 from ali3.columns import some_of
 from ali3.errors import TableError, UserError
-from ali3.files import whole_file
+from ali3.files import atomic_file
+from ali3.message_text import brief
 from ali3.near_names import did_you_mean
 from ali3.scene.drawer import drawer
 from ali3.scene.recording import Recording
 from ali3.scene.scene import check_scene
 from ali3.tables import TextTable
-from ali3.words import brief
 from mbs.common.checks import flag, shown, whole
 from mbs.elements.road import PortRoad, Road
 from mbs.results.accuracy import Accuracy
-from mbs.results.omitted_sensors import LeftOut
+from mbs.results.omitted_sensors import OmittedSensors
 from mbs.results.poses import Poses
 from mbs.results.run_report import Report
 from mbs.roads.scene_part import drawn_roads, scene_part
@@ -65,7 +65,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         What `mbs.animate` draws.
     roads : mapping of int to road or str, optional
         Roads of the run that are not those of the drawing, by their numbers: moved by parameters, or paths of files.
-    left_out : LeftOut, optional
+    left_out : OmittedSensors, optional
         Sensors among `names` that the run did not compute; their columns of `values` are not looked at.
     """
 
@@ -85,10 +85,10 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         poses: Poses | None = None,
         drawing: Drawing | None = None,
         roads: Mapping[int, Road | str] | None = None,
-        left_out: LeftOut | None = None,
+        left_out: OmittedSensors | None = None,
     ) -> None:
         self.t = t
-        self._left_out = left_out if left_out is not None else LeftOut((), None)
+        self._left_out = left_out if left_out is not None else OmittedSensors((), None)
         without = set(self._left_out.names)
         hidden = set() if self._left_out.can else without
         self.units = {n: unit for n, unit in zip(names, units, strict=True) if n not in hidden}
@@ -246,9 +246,9 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
     def __repr__(self) -> str:
         known = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
-        told = "".join(f" {text}" for text in (*self.notices, self.branch_change) if text)
+        notices_text = "".join(f" {text}" for text in (*self.notices, self.branch_change) if text)
         samples = f"{len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s"
-        text = f"Trajectory({samples}, {len(self)} sensors{known}){told}"
+        text = f"Trajectory({samples}, {len(self)} sensors{known}){notices_text}"
         return text if self.control is None else f"{text}\n  {self.control}"
 
     def to_csv(self, path: str | PathLike[str], poses: bool = False) -> None:
@@ -278,7 +278,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
                     f"run.thinned({self.poses.every}).to_csv(..., poses=True)."
                 )
             columns, units = self.poses.recorded(columns, units)
-        with whole_file(path, make_parents=False) as made, made.open("w", newline="", encoding="utf-8") as file:
+        with atomic_file(path, make_parents=False) as made, made.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(["time [s]", *(f"{name} [{unit}]" for name, unit in units.items())])
             writer.writerows(np.column_stack([self.t, *columns.values()]).tolist())

@@ -1,9 +1,9 @@
 """Roads as files: the format that kernel and FMU read while they run, and what it is made of."""
 
 from mbs.roads.read_road import read_road
-from mbs.roads.road_echo import file_echo, road_echo
 from mbs.roads.road_file import RoadFile
 from mbs.roads.road_header import RoadFileError
+from mbs.roads.road_plausibility import file_plausibility, road_plausibility
 from mbs.roads.sampled_road import SampledRoad
 from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.write_road import write_road
@@ -13,8 +13,8 @@ __all__ = [
     "RoadFileError",
     "RoadWarning",
     "SampledRoad",
-    "file_echo",
+    "file_plausibility",
     "read_road",
-    "road_echo",
+    "road_plausibility",
     "write_road",
 ]

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from ali3.arrays import read_arrays
 from ali3.errors import reason
 from ali3.extras import missing_package
+from ali3.message_text import brief
 from ali3.reading import check_file, read_bytes
 from ali3.tables import Row, TextTable, is_number, plain_name
-from ali3.words import brief
 from mbs.roads.kinds import GRIDS, PICTURE, TABLES
 from mbs.roads.road_header import RoadFileError
 

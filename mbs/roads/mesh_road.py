@@ -144,12 +144,12 @@ def _filled(heights: Values, road: GridRoad, source: str) -> Values:
         gap = f"a gap of {areas[part]:.3g} m2 at x = {x0 + i * dx:.6g} m, y = {y0 + j * dy:.6g} m"
         if areas[part] < HOLE:
             raise RoadFileError(f"{source} has {gap} in its surface, with no triangle above or below; close the hole.")
-        told = f"{source} has {gap}; it is taken as what the road goes round and filled from its border."
-        warnings.warn(told, RoadWarning, stacklevel=4)
+        warning = f"{source} has {gap}; it is taken as what the road goes round and filled from its border."
+        warnings.warn(warning, RoadWarning, stacklevel=4)
     pieces, number = ndimage.label(~missing, np.ones((3, 3)))
     if number > 1:
         least = np.bincount(pieces.ravel())[1:].min() * dx * dy
-        told = f"{source} is in {number} pieces, the smallest has {least:.3g} m2; between them their borders go on."
-        warnings.warn(told, RoadWarning, stacklevel=4)
+        warning = f"{source} is in {number} pieces, the smallest has {least:.3g} m2; between them their borders go on."
+        warnings.warn(warning, RoadWarning, stacklevel=4)
     nearest = ndimage.distance_transform_edt(missing, sampling=(dx, dy), return_distances=False, return_indices=True)
     return np.asarray(heights[tuple(nearest)])

@@ -15,8 +15,8 @@ from scipy.interpolate import make_interp_spline
 from scipy.spatial import cKDTree
 
 from ali3.extras import missing_module
+from ali3.message_text import one_line
 from ali3.reading import check_file
-from ali3.words import one_line
 from mbs.elements.road import GridRoad
 from mbs.kernel.header.limits import ROAD_HIGHEST
 from mbs.roads.road_header import RoadFileError

@@ -38,8 +38,8 @@ def scene_part(road: PlaneRoad | KerbRoad | GridRoad) -> dict[str, Any]:
 
 def _grip(friction: float | None, factor: float) -> dict[str, Any]:
     """What is said of the friction of a road. `friction`: if it is the same everywhere."""
-    said = {} if friction is None else {"friction": friction}
-    return said if factor == 1.0 else said | {"friction_factor": factor}
+    friction_entry = {} if friction is None else {"friction": friction}
+    return friction_entry if factor == 1.0 else friction_entry | {"friction_factor": factor}
 
 
 def read_thinned(file: str | os.PathLike[str]) -> PlaneRoad | KerbRoad | GridRoad:

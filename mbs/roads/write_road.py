@@ -11,7 +11,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.files import whole_file
+from ali3.files import atomic_file
 from mbs.common.checks import instance_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.kernel.header.enumerations import RoadType
@@ -50,13 +50,13 @@ def write_road(
         A grid has a wall, a face that is higher than the radius of a wheel.
     """
     instance_of((PlaneRoad, KerbRoad, GridRoad), road, "What write_road writes", "a PlaneRoad, KerbRoad or GridRoad")
-    with whole_file(file) as made, made.open("wb") as out:
+    with atomic_file(file) as made, made.open("wb") as out:
         if shared and isinstance(road, GridRoad):
             _write_shared(road, out, file, tolerance)
         else:
             _write(road, out, file)
-    if isinstance(road, GridRoad) and (told := steep_face(road, file)):
-        warnings.warn(told, RoadWarning, stacklevel=2)
+    if isinstance(road, GridRoad) and (warning := steep_face(road, file)):
+        warnings.warn(warning, RoadWarning, stacklevel=2)
 
 
 def _write_shared(road: GridRoad, out: BinaryIO, name: object, tolerance: float) -> None:

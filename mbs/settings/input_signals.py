@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ali3.words import unit_text
+from ali3.message_text import unit_text
 from mbs.common.checks import is_number, numbers, shown
 from mbs.kernel.binding.instance import Instance
 from mbs.settings.input_breaks import AT_END, Table, distinct, function_breaks, input_breaks

@@ -10,7 +10,7 @@ import numpy as np
 
 from mbs.common.checks import Vector
 from mbs.model.body import Body
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.model.flexible import FlexibleBody, Interface
 from mbs.model.joints.joint import RollingBody, RollingSpin
 from mbs.model.model import Model

@@ -14,13 +14,13 @@ from mbs.common.affine import Affine, AffineVector
 from mbs.common.checks import Vector
 from mbs.common.vectors import in_space
 from mbs.model.body import Body
-from mbs.model.carried import Spin
-from mbs.model.drawn import Owner, Turning
+from mbs.model.carried_parts import Spin
+from mbs.model.checked_shapes import Owner, Turning
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
 from mbs.model.shapes import origin_of
 from mbs.model.sliding_shapes import Sliding
-from mbs.model.tabled import TabledBody
+from mbs.model.table_bodies import TabledBody
 from mbs.system.drawing import POSE, AmplitudePlace, BodyPlace, Places, TurnPlace, matrices
 
 Anchor = tuple[str, list[float]]

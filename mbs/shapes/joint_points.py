@@ -12,7 +12,7 @@ from mbs.common.vectors import in_space
 from mbs.elements.record import ElementRecord
 from mbs.kernel.header.enumerations import ElementType, SensorType
 from mbs.model.body import Body
-from mbs.model.carried import SlidingPoint
+from mbs.model.carried_parts import SlidingPoint
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.shapes import origin_of

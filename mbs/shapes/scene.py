@@ -12,10 +12,10 @@ from ali3.scene.base64_numbers import encoded
 from mbs.common.checks import Vector
 from mbs.common.vectors import in_space
 from mbs.flexible.scene_part import flexible_parts
-from mbs.model.drawn import Shape
+from mbs.model.checked_shapes import Shape
 from mbs.model.flexible import FlexibleBody
 from mbs.model.model import Model
-from mbs.model.tabled import TabledBody
+from mbs.model.table_bodies import TabledBody
 from mbs.shapes.arrows import arrows_of
 from mbs.shapes.default_shapes import Defaults
 from mbs.shapes.frames import FrameNames, frames_of, numbers

@@ -19,7 +19,7 @@ from mbs.simulation.method_choice import choose
 from mbs.simulation.prepared_system import length_of
 from mbs.simulation.step_choice import StepChoice, choose_step
 from mbs.simulation.stepped_system import SteppedSystem
-from mbs.simulation.tolerance_words import warn_of_tolerance
+from mbs.simulation.tolerance_messages import warn_of_tolerance
 
 
 def chosen_equal_steps(

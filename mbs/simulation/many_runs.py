@@ -42,8 +42,8 @@ from mbs.simulation.arguments import (
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.fixed_steps import Warned, fixed_step_run
 from mbs.simulation.large_bending import BendingWarning
-from mbs.simulation.left_out_run import left_out_of_run
 from mbs.simulation.march import attached, next_chunk, trajectory_of
+from mbs.simulation.omitted_sensor_run import omitted_of_run
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.refusal import refusal
@@ -109,7 +109,7 @@ class _Run:
         self.before, self.alone, self.wall = self.simulation.report, 0, 0.0
         self.values = np.empty((steps // every + 1, len(meta["sensors"])))
         self.values[0] = list(self.simulation.instance.sensors())
-        self.left_out = left_out_of_run(self.simulation, variant.inputs, h, every)
+        self.left_out = omitted_of_run(self.simulation, variant.inputs, h, every)
         self.record = PositionRecord(system, self.simulation.state.q, len(self.values))
         self.error: KernelError | None = None
 

@@ -12,7 +12,7 @@ from mbs.kernel.binding import KernelError
 from mbs.kernel.header.limits import MOST_PARTS
 from mbs.results import accuracy
 from mbs.results.comparison import instants
-from mbs.results.omitted_sensors import LeftOut
+from mbs.results.omitted_sensors import OmittedSensors
 from mbs.results.run_report import Report
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import InputSignals, Signal
@@ -24,7 +24,7 @@ from mbs.simulation.arguments import (
     check_values,
     count_steps,
 )
-from mbs.simulation.left_out_run import left_out_of_run
+from mbs.simulation.omitted_sensor_run import omitted_of_run
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared
 from mbs.simulation.recorded_trajectory import recorded
@@ -64,7 +64,7 @@ def march(
     signals = InputSignals(given, meta["inputs"])
     values = np.empty((steps // every + 1, len(meta["sensors"])))
     values[0] = list(instance.sensors())
-    left_out = left_out_of_run(simulation, given, h, every)
+    left_out = omitted_of_run(simulation, given, h, every)
     compared = [int(k) for k in instants(len(values))] if look else []
     looks = [int(k) * every for k in instants(len(values))] if simulation.bending.watches else []
     if watch is not None:
@@ -124,7 +124,7 @@ def trajectory_of(
     wall: float,
     before: Report,
     record: PositionRecord,
-    left_out: Callable[[int], LeftOut | None],
+    left_out: Callable[[int], OmittedSensors | None],
 ) -> Trajectory:
     """What was recorded, with the counters since `before`; `left_out` makes of the number of samples what was not."""
     report, settings = simulation.report, simulation.settings

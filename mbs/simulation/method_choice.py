@@ -24,7 +24,7 @@ LOST = 1.1  # times the price of the one that ended first
 
 
 @dataclass(frozen=True)
-class Choice:
+class MethodChoice:
     """A method, why, its coarse run, and methods that follow where it cannot hold the tolerance."""
 
     method: str
@@ -56,12 +56,12 @@ def candidates(system: System, tolerance: float) -> tuple[list[str], str]:
 
 def choose(
     start: Callable[[], SteppedSystem], task: Task, settings: Settings, tolerance: float, coarse: float
-) -> Choice:
+) -> MethodChoice:
     """The method for a tolerance, by runs of all candidates at a coarse one, each as long as it can still win."""
     system = start().system
     names, what = candidates(system, tolerance)
     if len(names) == 1:
-        return Choice(names[0], f"chosen: {what}", None, 0.0, 0, tuple(name for name in LAST if name != names[0]))
+        return MethodChoice(names[0], f"chosen: {what}", None, 0.0, 0, tuple(name for name in LAST if name != names[0]))
     growth = coarse / tolerance
     runs = {name: ControlledRun(start(), task, replace(settings, method=name), coarse) for name in names}
     methods = {name: METHOD_TABLE[name] for name in names}
@@ -80,7 +80,7 @@ def choose(
         )
     lost = [f"{name} {'fails' if name in failed else 'is slower'}" for name in runs if name != best]
     others = tuple(name for name in dict.fromkeys([*runs, *LAST]) if name != best and name not in failed)
-    return Choice(best, f"chosen in coarse runs: {what}, {', '.join(lost)}", runs[best], wall, len(runs), others)
+    return MethodChoice(best, f"chosen in coarse runs: {what}, {', '.join(lost)}", runs[best], wall, len(runs), others)
 
 
 def _race(runs: dict[str, ControlledRun], price: dict[str, float]) -> set[str]:

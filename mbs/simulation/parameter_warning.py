@@ -6,14 +6,14 @@ import warnings
 from collections.abc import Mapping
 from typing import Any
 
-from ali3.words import unit_text
+from ali3.message_text import unit_text
 
 
 class ParameterWarning(UserWarning):
     """A parameter has a value outside the range in which such models work."""
 
 
-def tell_unworkable(entry: Mapping[str, Any], value: float, stacklevel: int) -> None:
+def warn_of_unworkable(entry: Mapping[str, Any], value: float, stacklevel: int) -> None:
     """Warn of a value that is not between those of the entry of the parameter in `System.meta`."""
     least, most = entry.get("works", (value, value))
     if not least <= value <= most:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.results.accuracy import Accuracy
-from mbs.results.omitted_sensors import LeftOut
+from mbs.results.omitted_sensors import OmittedSensors
 from mbs.results.trajectory import Trajectory
 from mbs.settings.control import Control
 from mbs.settings.settings import Settings
@@ -28,7 +28,7 @@ def recorded(
     settings: Settings,
     wall: float,
     record: PositionRecord,
-    left_out: LeftOut | None,
+    left_out: OmittedSensors | None,
     notices: Iterable[str] = (),
     accuracy: Accuracy | None = None,
     control: Control | None = None,

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from ali3.words import unit_text
+from ali3.message_text import unit_text
 from mbs.kernel.binding import KernelError, Status, open_row
 from mbs.kernel.binding.errors import status_cause, status_remedy
 from mbs.kernel.header.enumerations import Cause
@@ -134,18 +134,18 @@ def _farthest_changed(simulation: SteppedSystem) -> str:
             words = f"{entry['name']!r} is {value:g}{unit_text(entry['unit'])} in place of {entry['value']:g}"
             changed.append((abs(value - entry["value"]) / span if span < math.inf else math.inf, words))
     changed.sort(key=lambda item: -item[0])
-    said = "; ".join(words for _, words in changed[:MOST_NAMED])
+    changes_text = "; ".join(words for _, words in changed[:MOST_NAMED])
     more = f" (and {len(changed) - MOST_NAMED} others)" if len(changed) > MOST_NAMED else ""
-    return f" {said}{more}." if said else ""
+    return f" {changes_text}{more}." if changes_text else ""
 
 
 def _worst_equations(simulation: SteppedSystem, report: dict[str, float]) -> str:
     """The constraint row and the balance that are farthest from zero."""
-    meta, said = prepared(simulation.system)[1], ""
+    meta, worst_text = prepared(simulation.system)[1], ""
     worst = open_row(report, [row["name"] for row in meta["rows"]])
     if worst:
-        said += f" Worst constraint: {worst}."
+        worst_text += f" Worst constraint: {worst}."
     if simulation.system.fineness * simulation.settings.tolerance_r < report["residual"] < math.inf:
         name = meta["coordinates"][int(report["worst_coordinate"])]
-        said += f" Worst balance: {name!r}, residual {report['residual']:.3g}."
-    return said
+        worst_text += f" Worst balance: {name!r}, residual {report['residual']:.3g}."
+    return worst_text

@@ -3,14 +3,14 @@
 from collections.abc import Mapping
 
 from mbs.kernel.header.enumerations import RoadType
-from mbs.roads.road_echo import QUANTITIES, Place, place_of_file, start_echo
 from mbs.roads.road_file import RoadFile
+from mbs.roads.road_plausibility import QUANTITIES, Place, place_of_file, start_plausibility
 from mbs.roads.steep_faces import RoadWarning
 from mbs.simulation.state import Pose
 from mbs.system.system import System
 
 
-def tell_start(system: System, files: Mapping[int, str], pose: Pose | None, stacklevel: int) -> None:
+def report_start(system: System, files: Mapping[int, str], pose: Pose | None, stacklevel: int) -> None:
     """Warn of a scene that starts beside a grid, of a file or of the model.
 
     `files`: paths of files in place of roads, by the number of the road; `pose`: None: as drawn.
@@ -26,6 +26,6 @@ def tell_start(system: System, files: Mapping[int, str], pose: Pose | None, stac
             place = Place((x, y), (dx, dy), (int(nx), int(ny)))
         if place is None:
             continue
-        echo = start_echo(path or "the road", place, start)
-        if any(v.quantity is QUANTITIES["away"] for v in echo.outside):
-            echo.warn(RoadWarning, stacklevel + 1)
+        plausibility = start_plausibility(path or "the road", place, start)
+        if any(v.quantity is QUANTITIES["away"] for v in plausibility.outside):
+            plausibility.warn(RoadWarning, stacklevel + 1)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import astuple
 from typing import Any
 
-from ali3.words import unit_text
+from ali3.message_text import unit_text
 from mbs.common.checks import flag, instance_of, is_finite, number, positive, shown, whole
 from mbs.common.progress import progress_for
 from mbs.kernel.binding import KernelError, Status
@@ -19,7 +19,7 @@ from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import AccuracyWarning
 from mbs.results.trajectory import Trajectory
-from mbs.roads.shipped import road_path
+from mbs.roads.package_roads import road_path
 from mbs.roads.steep_faces import RoadWarning
 from mbs.settings.control import Tolerance
 from mbs.settings.input_signals import InputSignals, Signal
@@ -42,11 +42,11 @@ from mbs.simulation.arguments import (
     record_times,
 )
 from mbs.simulation.fixed_steps import fixed_step_run
-from mbs.simulation.follower import Readings
-from mbs.simulation.parameter_warning import tell_unworkable
+from mbs.simulation.omitted_sensor_system import Readings
+from mbs.simulation.parameter_warning import warn_of_unworkable
 from mbs.simulation.refusal import refusal
 from mbs.simulation.restored_run import restored
-from mbs.simulation.start_on_road import tell_start
+from mbs.simulation.start_on_road import report_start
 from mbs.simulation.state import Pose
 from mbs.simulation.stepped_system import SteppedSystem
 from mbs.simulation.tolerance_run import to_tolerance
@@ -111,7 +111,7 @@ class Simulation(SteppedSystem):
         if (placed := check_pose(pose, self._meta)) is not None:
             self._call(f"The starting {placed} was refused", lambda: self.instance.set_pose(*astuple(placed)))
         if self._meta["floating"]:
-            tell_start(system, self.road_paths, pose, 2)
+            report_start(system, self.road_paths, pose, 2)
         self._call("The start could not be made consistent", lambda: self.instance.initialise(start))
         self._started = True
 
@@ -180,7 +180,7 @@ class Simulation(SteppedSystem):
                 f"Parameter {name!r} is set to {shown(value)}{unit_text(entry['unit'])}, which the model cannot take "
                 "beside its other values."
             ) from None
-        tell_unworkable(entry, x, stacklevel=2 if self._started else 3)
+        warn_of_unworkable(entry, x, stacklevel=2 if self._started else 3)
         self._also(lambda run: run.set_parameter(index, x))
 
     def _also(self, act: Callable[[Instance], object]) -> None:
@@ -483,9 +483,9 @@ class Simulation(SteppedSystem):
 
     def _warn_once(self, right: bool = False) -> None:
         """The part of `simulate`'s check that costs nothing; `right`: a refined run shows it despite the balance."""
-        if not self._rim_told and (told := self.road_text):
+        if not self._rim_told and (warning := self.road_text):
             self._rim_told = True
-            warnings.warn(told, RoadWarning, stacklevel=3)
+            warnings.warn(warning, RoadWarning, stacklevel=3)
         if self._warned or right or not self.instance.balance_wrong():
             return
         self._warned = True

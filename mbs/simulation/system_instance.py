@@ -9,8 +9,8 @@ import numpy as np
 from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
 from mbs.kernel.binding.kernel_memory import KernelMemory
-from mbs.simulation.standing_system import sensor_values
 from mbs.simulation.state import State
+from mbs.simulation.unstepped_system import sensor_values
 from mbs.system.compiled_model import CompiledModel
 
 

@@ -21,12 +21,12 @@ from mbs.settings.settings import Settings
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.controlled_pair import ControlledPair
 from mbs.simulation.controlled_run import ROUND_OFF, ControlledRun, StalledError, Task, signals_of
-from mbs.simulation.left_out_run import left_out_to_tolerance
 from mbs.simulation.method_choice import choose
+from mbs.simulation.omitted_sensor_run import omitted_to_tolerance
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.recorded_trajectory import recorded
 from mbs.simulation.stepped_system import SteppedSystem
-from mbs.simulation.tolerance_words import refused, stalled, warn_of_tolerance
+from mbs.simulation.tolerance_messages import refused, stalled, warn_of_tolerance
 
 Array = NDArray[np.float64]
 COARSE = 20.0
@@ -64,7 +64,7 @@ def to_tolerance(
     if t_end <= t0:
         values = np.array([list(first.instance.sensors())])
         record = PositionRecord(first.system, first.state.q, 1)
-        return recorded(first, times, values, settings, 0.0, record, left_out_to_tolerance(first.system)), first
+        return recorded(first, times, values, settings, 0.0, record, omitted_to_tolerance(first.system)), first
     grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, INSTANTS + 1) / INSTANTS)
     grid[-1] = t_end
     task = Task(t0, t_end, grid, signals_of(inputs, first))
@@ -169,11 +169,11 @@ def _by(
         before = run
         aim = max(ROUND_OFF, aim * min(AGREED if unsure else 1.0 / FINER, wanted / max(guess, wanted)))
     assert run is not None
-    c, told = run.fields, 0.0
+    c, reported_error = run.fields, 0.0
     if error > 0.0:  # smaller guesses are too small; what stands still errs by no more than it moves
-        told = max(error, min(AGREED * wanted, run.moved / run.length))
+        reported_error = max(error, min(AGREED * wanted, run.moved / run.length))
     control = Control(
-        wanted, run.length, settings.method, reason, told, None, c.accepted, c.rejected, c.failed, c.forced,
+        wanted, run.length, settings.method, reason, reported_error, None, c.accepted, c.rejected, c.failed, c.forced,
         c.smallest, c.largest, c.side_steps, runs, run.moved, ControlledPair(run, before, tolerance).errors,
     )  # fmt: skip
     return _Ended(run, before, control, error, wall)
@@ -201,7 +201,7 @@ def _recorded(
     values = np.vstack([list(first.instance.sensors()), run.values[at]])
     record = PositionRecord(first.system, first.state.q, len(times))
     record.fill(np.vstack([first.state.q, run.positions[at]]))
-    left_out = left_out_to_tolerance(first.system)
+    left_out = omitted_to_tolerance(first.system)
     return recorded(run.simulation, times, values, run.settings, wall, record, left_out, control=control)
 
 

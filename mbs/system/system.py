@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ali3.files import whole_file
+from ali3.files import atomic_file
 from ali3.json_reading import json_of
+from ali3.message_text import brief, one_line
 from ali3.reading import read_bytes
-from ali3.words import brief, one_line
 from mbs.common.checks import instance_of
 from mbs.common.frames import Frames
-from mbs.common.later import Later
+from mbs.common.lazy_value import LazyValue
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.system.compiled_model import (
     BYTES,
@@ -66,7 +66,7 @@ class System(CompiledModel):
         arrays: Mapping[str, ArrayLike],
         meta: Mapping[str, Any],
         frames: Frames | None = None,
-        drawing: Drawing | Later[Drawing] | None = None,
+        drawing: Drawing | LazyValue[Drawing] | None = None,
         modes: Callable[[], Mapping[str, ArrayLike]] | None = None,
         ported: Callable[[System], System | None] | None = None,
     ) -> None:
@@ -77,13 +77,13 @@ class System(CompiledModel):
     @property
     def drawing(self) -> Drawing | None:
         """What is drawn and how the coordinates move it; None where the file had none."""
-        return self._drawing() if isinstance(self._drawing, Later) else self._drawing
+        return self._drawing() if isinstance(self._drawing, LazyValue) else self._drawing
 
     @classmethod
     def of(
         cls,
         made: CompiledModel,
-        drawing: Drawing | Later[Drawing] | None = None,
+        drawing: Drawing | LazyValue[Drawing] | None = None,
         ported: Callable[[System], System | None] | None = None,
     ) -> System:
         """A compiled System with its drawing, or a function that makes it on demand, and with `ported`."""
@@ -207,7 +207,7 @@ class System(CompiledModel):
         OSError
             The file cannot be written.
         """
-        with whole_file(path, make_parents=False) as made:
+        with atomic_file(path, make_parents=False) as made:
             made.write_bytes(self.to_bytes())
 
     @classmethod

@@ -28,7 +28,7 @@ def system_text(name: str, dimension: int, report: dict[str, Any]) -> str:
     ]
     if r.get("closed"):
         lines.append(f"  closed by least squares        {_correction_text(r['closed'])}")
-    lines += [f"  {told}" for name in ("locked", "contradiction") if (told := r.get(name))]
+    lines += [f"  {message}" for name in ("locked", "contradiction") if (message := r.get(name))]
     return "\n".join(lines)
 
 

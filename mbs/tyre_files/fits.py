@@ -92,8 +92,8 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
 
     names = ("QBZ1", "QBZ2", "QCZ1", "QDZ1", "QDZ2", "QEZ1")
     c |= fitted(names, (8.0, 0.0, 1.2, 0.1, 0.0, -1.0), moment_errors)
-    told = {name: float(np.abs(errors(name, c)).max()) for name in most}
-    told["moment"] = float(np.abs(moment_errors(c)).max())
+    largest_errors = {name: float(np.abs(errors(name, c)).max()) for name in most}
+    largest_errors["moment"] = float(np.abs(moment_errors(c)).max())
     stiffness = tyre.carcass_stiffness
     c["PTX1"] = c["PKX1"] * nominal / stiffness[0] / tyre.radius
     c["PTY2"] = 2.0
@@ -113,7 +113,7 @@ def magic_of_tmeasy(tyre: Tyre) -> tuple[MagicTyre, dict[str, float]]:
         combination="ellipse",
         largest_load=2.5 * nominal,
     )
-    return made, told
+    return made, largest_errors
 
 
 def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
@@ -171,7 +171,7 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
         friction_factor=tyre.friction_factor,
         bore=tyre.bore,
     )
-    told = {
+    largest_errors = {
         "longitudinal": max(
             float(np.abs(_tmeasy(made.longitudinal, q, KAPPA / (1.0 + KAPPA)) - along[q]).max() / along[q].max())
             for q in LOADS
@@ -185,7 +185,7 @@ def tmeasy_of_magic(tyre: MagicTyre) -> tuple[Tyre, dict[str, float]]:
             for q in LOADS
         ),
     }
-    return made, told
+    return made, largest_errors
 
 
 def _tmeasy(curve: TyreCurve, q: float, slip: Array) -> Array:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ali3.echo import Understood
+from ali3.plausibility import Summarised
 from mbs.common.checks import one_of
 from mbs.elements.magic_tyre import SIGNS, MagicTyre
 from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
@@ -74,7 +74,7 @@ _MOST_LOAD = 5.0  # nominal loads, where a file has no range
 
 
 @dataclass(frozen=True)
-class TyreFile(Understood):
+class TyreFile(Summarised):
     """A Magic Formula tyre as its file has it."""
 
     name: str

@@ -6,8 +6,8 @@ from collections.abc import Container
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ali3.message_text import brief, one_line
 from ali3.reading import read_bytes
-from ali3.words import brief, one_line
 from mbs.common.errors import ModelError
 
 LARGEST = 1_000_000

@@ -14,9 +14,9 @@ from scipy.spatial.transform import Rotation
 
 from ali3.columns import some_of
 from ali3.decimal_number import parse_number
-from ali3.echo import Echo, Understood, echo_of
 from ali3.extras import missing_module
 from ali3.near_names import did_you_mean
+from ali3.plausibility import Plausibility, Summarised, plausibility_of
 from ali3.reading import read_bytes
 from mbs.common.checks import direction
 from mbs.common.errors import ModelError
@@ -26,11 +26,11 @@ from mbs.flexible.foreign_file import read_foreign
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
 from mbs.model.model import Model
-from mbs.model.perpendicular import perpendicular
+from mbs.model.perpendicular_vectors import perpendicular
 from mbs.urdf.crossed_hinges import CrossedHinges, crossed_hinges
 from mbs.urdf.inertias import UrdfWarning, mass_of, pose_of, possible_inertia
-from mbs.urdf.mimic import Follower, followers_of, start_of
-from mbs.urdf.robot_echo import robot_echo
+from mbs.urdf.mimic_joints import MimicJoint, mimic_joints_of, start_of
+from mbs.urdf.robot_plausibility import robot_plausibility
 from mbs.urdf.source import Element, read_source
 
 Pose = NDArray[np.float64]
@@ -41,7 +41,7 @@ _MOST = 4  # joints that a sentence names
 
 
 @dataclass
-class Robot(Understood):
+class Robot(Summarised):
     """A robot as a model, to which tools, loads, sensors and forces may be added."""
 
     model: Model
@@ -54,13 +54,13 @@ class Robot(Understood):
     """Each of shape (4, 4): of the frames of links in earth axes in the reference configuration, m."""
     angles: dict[str, Coordinate] = field(default_factory=dict)
     """Of turning joints, rad, as the file counts them."""
-    echo: Echo | None = None
+    plausibility: Plausibility | None = None
     """What was understood of the file."""
 
 
-@echo_of.register
-def _echo_of_robot(robot: Robot) -> list[Echo]:
-    return [] if robot.echo is None else [robot.echo]
+@plausibility_of.register
+def _plausibility_of_robot(robot: Robot) -> list[Plausibility]:
+    return [] if robot.plausibility is None else [robot.plausibility]
 
 
 def read_urdf(
@@ -120,13 +120,13 @@ def read_urdf(
         if name in guides and joint.type == "prismatic":
             raise ModelError(f"{file.name}: the joint '{name}' is prismatic; guides move turning joints.")
     at |= {name: float(motion(0.0)) for name, motion in guides.items()}
-    followers = followers_of(joints, at, file.name)
+    followers = mimic_joints_of(joints, at, file.name)
     at |= start_of(followers, at)
     robot = Robot(Model(urdf.name or file.stem))
     robot.model.floating = floating
     _place(robot, below, at)
-    robot.echo = robot_echo(file.name, source, robot.poses, at, _turning(below, floating))
-    robot.echo.warn(UrdfWarning)
+    robot.plausibility = robot_plausibility(file.name, source, robot.poses, at, _turning(below, floating))
+    robot.plausibility.warn(UrdfWarning)
     groups = _groups(below)
     massless = _bodies(robot, urdf, groups, None if floating else groups[next(iter(below))], file.name)
     if not robot.model.bodies and not massless:
@@ -143,7 +143,7 @@ def read_urdf(
         _joint(robot, joint, at.get(name, 0.0), guides.get(name), driven=name not in followers)
     for follower in followers.values():
         _couple(robot, joints, follower)
-    _tell_left_out(joints.values(), crossed, file.name)
+    _report_omitted(joints.values(), crossed, file.name)
     return robot
 
 
@@ -267,7 +267,7 @@ def _bodies(robot: Robot, urdf: Any, groups: Mapping[str, str], ground: str | No
 
 
 def _cross(
-    robot: Robot, crossed: CrossedHinges, guides: Mapping[str, PPoly], followers: Mapping[str, Follower], what: str
+    robot: Robot, crossed: CrossedHinges, guides: Mapping[str, PPoly], followers: Mapping[str, MimicJoint], what: str
 ) -> None:
     """A universal or ball joint in the place of hinges with links without mass between them."""
     of = {joint.name for joint in crossed.hinges}
@@ -330,7 +330,7 @@ def _push(robot: Robot, joint: Any, axis: Pose, point: Pose, most: float) -> Non
             m.add(BodyForce([force.index, None, None]).record(f"{name} on {body.name}", body.point(point), axes))
 
 
-def _couple(robot: Robot, joints: Mapping[str, Any], follower: Follower) -> None:
+def _couple(robot: Robot, joints: Mapping[str, Any], follower: MimicJoint) -> None:
     """A joint that follows another one."""
     m, name, ratio = robot.model, f"{follower.name} follows {follower.leader}", follower.multiplier
 
@@ -351,7 +351,7 @@ def _couple(robot: Robot, joints: Mapping[str, Any], follower: Follower) -> None
         m.coupled_slides(name, a, b, carrier_1=on_a, carrier_2=on_b, axis_1=axis_a, axis_2=axis_b, ratio=ratio)
 
 
-def _tell_left_out(joints: Collection[Any], crossed: Iterable[CrossedHinges], what: str) -> None:
+def _report_omitted(joints: Collection[Any], crossed: Iterable[CrossedHinges], what: str) -> None:
     left = []
     one: set[str] = set()
     for hinges in crossed:
@@ -366,10 +366,10 @@ def _tell_left_out(joints: Collection[Any], crossed: Iterable[CrossedHinges], wh
             left.append(f"damping of '{joint.name}', {damping:g} {'N s/m' if joint.type == 'prismatic' else 'N m s'}")
     free = [j.name for j in joints if j.type in ("revolute", "prismatic") and not (j.limit and j.limit.effort)]
     if free:
-        told = (
+        warning = (
             f"{what}: the limit of {some_of(map(repr, free), _MOST)} has no effort, or 0; {FREE:g} N m or N is taken."
         )
-        warnings.warn(told, UrdfWarning, stacklevel=3)
+        warnings.warn(warning, UrdfWarning, stacklevel=3)
     if left:
         text = f"{what}: the model is without {some_of(left, _MOST, '; ')}. Add elements of mbs.elements for them."
         warnings.warn(text, UrdfWarning, stacklevel=3)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from xml.parsers import expat
 
 from ali3.decimal_number import parse_number
-from ali3.words import brief
+from ali3.message_text import brief
 from mbs.common.checks import LARGEST
 from mbs.common.errors import ModelError
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pydantic import Field
 
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.vehicle.alignment import Alignment
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner, TieRodEnd

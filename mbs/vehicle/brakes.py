@@ -3,7 +3,7 @@
 import math
 
 from mbs.elements.brake import Brake
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.corner import Corner
 from mbs.vehicle.port_inputs import brake_port

@@ -9,14 +9,14 @@ from typing import Any, TypeAlias, TypeVar
 
 from pydantic import ValidationError
 
-from ali3.echo import Echo, Understood, echo_of
+from ali3.message_text import one_line
+from ali3.plausibility import Plausibility, Summarised, plausibility_of
 from ali3.typed_sentences import Sentences
-from ali3.words import one_line
 from mbs.common.affine import Affine
 from mbs.common.errors import ModelError
 from mbs.elements.road import Road, RoadOfFile
-from mbs.model.carried import Spin
-from mbs.model.ends import End
+from mbs.model.carried_parts import Spin
+from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent
@@ -30,19 +30,19 @@ from mbs.vehicle.checks.equilibrium import Rest, rest_outputs, settled
 from mbs.vehicle.checks.working_ranges import working_ranges
 from mbs.vehicle.corner import TieRodEnd
 from mbs.vehicle.driver_inputs import driver_inputs
-from mbs.vehicle.echo.car_echo import car_echo
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.errors import CarFileError, CarWarning
 from mbs.vehicle.fidelity import OFFERED, Fidelity
 from mbs.vehicle.names import FORMS, NAME_WORDS
 from mbs.vehicle.outputs import car_outputs
+from mbs.vehicle.plausibility.car_plausibility import car_plausibility
 from mbs.vehicle.port_parts import force_ports, road_ports, torque_ports, wind_port
 from mbs.vehicle.road import level_within
 from mbs.vehicle.schema_version import check_version
 from mbs.vehicle.shapes.car_shapes import car_shapes
 from mbs.vehicle.side import Point as Coordinates
 from mbs.vehicle.side import Side
-from mbs.vehicle.steep_road import tell_steep_face
+from mbs.vehicle.steep_road import warn_of_steep_face
 from mbs.vehicle.steering.steering_interface import Steered
 from mbs.vehicle.tabled_axle import tabled_axle
 
@@ -54,7 +54,7 @@ Outputs: TypeAlias = Callable[[CarBuilder, Steered, Mapping[str, Spin]], None]
 """Adds what a car reports. Its arguments: the car but for its drawing, its steering, its wheels by name."""
 
 
-class BuiltCar(Understood, CarContent):
+class BuiltCar(Summarised, CarContent):
     """A car file whose parts are added to a model; a `Car` makes the model itself."""
 
     @cached_property
@@ -123,7 +123,7 @@ class BuiltCar(Understood, CarContent):
         flexible = None if fidelity.rigid else self.flexible_frame
         b = self._builder(m, road)
         if road is not None:
-            tell_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
+            warn_of_steep_face(road, max(self.front.tyre.radius, self.rear.tyre.radius))
         with m.together():
             self._build(b, outputs, road, flexible, fidelity, drive)
         return b
@@ -195,17 +195,17 @@ class BuiltCar(Understood, CarContent):
         """Add all shapes, when somebody asks for the drawing."""
         car_shapes(b, self, spins, links=fidelity is not Fidelity.TABLE)
 
-    def echo(self, what: str = "") -> list[Echo]:
+    def plausibility(self, what: str = "") -> list[Plausibility]:
         """What was understood of the file: the car, then the tyres of each axle, then its flexible frame.
 
         `what`: the file, for messages. Raises `ModelError`: it does not come to rest.
         """
-        echoes = car_echo(what or str(self.folder), self, self.rest, self._data, self._remade)
+        plausibilities = car_plausibility(what or str(self.folder), self, self.rest, self._data, self._remade)
         titles = ["car", *(f"{name} tyres" for name in self.axles)]
         if self.has_frame:
-            echoes += self.flexible_frame.echo()
+            plausibilities += self.flexible_frame.plausibility()
             titles.append("flexible frame")
-        return [replace(echo, title=title) for echo, title in zip(echoes, titles, strict=True)]
+        return [replace(plausibility, title=title) for plausibility, title in zip(plausibilities, titles, strict=True)]
 
     def _remade(self, data: dict[str, Any]) -> tuple[CarContent, Rest] | None:
         """The car of altered content at rest, or None where that is not a car."""
@@ -234,7 +234,7 @@ class BuiltCar(Understood, CarContent):
 
     def mechanism(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
         """Add steering and front axle, then the rear axle."""
-        steered = self.steering.build(b, self.rack_way)
+        steered = self.steering.build(b, self.rack_direction)
         if not self.front.suspension.linked and steered.travel is not None:
             b.rack = steered.travel()
         yield steered, self.front.build(b, "front", steered.tie_rod, self.brakes.build)
@@ -242,7 +242,7 @@ class BuiltCar(Understood, CarContent):
 
     def tabled(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
         """The same by tables."""
-        steered = self.steering.build(b, self.rack_way)
+        steered = self.steering.build(b, self.rack_direction)
         if steered.travel is None:
             raise ModelError(
                 f"{self.steering.key('kind')} is '{self.steering.kind}', {self.steering.without_travel}: the "
@@ -264,9 +264,9 @@ class BuiltCar(Understood, CarContent):
         return end
 
 
-@echo_of.register
-def _echo_of_car(car: BuiltCar) -> list[Echo]:
-    return car.echo()
+@plausibility_of.register
+def _plausibility_of_car(car: BuiltCar) -> list[Plausibility]:
+    return car.plausibility()
 
 
 def checked_car(
@@ -322,8 +322,12 @@ def checked_car(
         raise CarFileError(_told(what, [f"as drawn it is not a valid car. {error}"])) from error
     if warn:
         misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
-        told = [sentence for echo in car_echo("", car, rest, car._data, car._remade) for sentence in echo.warnings()]
-        for sentence in (*misfit, *car_oddities(car, rest), *told):
+        lines = [
+            sentence
+            for plausibility in car_plausibility("", car, rest, car._data, car._remade)
+            for sentence in plausibility.warnings()
+        ]
+        for sentence in (*misfit, *car_oddities(car, rest), *lines):
             warnings.warn(f"{what}: {one_line(sentence)}", CarWarning, stacklevel=stacklevel)
     return car
 
@@ -334,7 +338,7 @@ def _on_own_tyres(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _told(what: str, faults: Sequence[str]) -> str:
-    told = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
+    lines = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
     if len(faults) > MOST_FAULTS:
-        told.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")
-    return "\n".join(told)
+        lines.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")
+    return "\n".join(lines)

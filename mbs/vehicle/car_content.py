@@ -158,7 +158,7 @@ class CarContent(Section):
         return inner
 
     @property
-    def rack_way(self) -> float:
+    def rack_direction(self) -> float:
         """1 where tie rods before the axle steer to the left as the rack moves to the left, else -1."""
         return 1.0 if self.front.suspension.steers_left(self.front.wheel.centre) else -1.0
 

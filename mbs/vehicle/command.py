@@ -107,12 +107,11 @@ def _run(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _check(car: str, parameters: bool, json_file: Path | None, picture: Path | None) -> int:
-    import json
     import sys
     import warnings
 
-    from ali3.echo import summary_of, tables_of
-    from ali3.files import whole_file, write_text
+    from ali3.files import atomic_file, write_json
+    from ali3.plausibility import summary_of, tables_of
     from mbs.vehicle.built_car import BuiltCar
     from mbs.vehicle.errors import CarWarning
     from mbs.vehicle.read_car import read_car
@@ -121,14 +120,14 @@ def _check(car: str, parameters: bool, json_file: Path | None, picture: Path | N
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", CarWarning)
         loaded = read_car(BuiltCar, car)
-    echoes = loaded.echo()
-    print(f"{summary(loaded)}\n\n{summary_of(echoes)}")
+    plausibilities = loaded.plausibility()
+    print(f"{summary(loaded)}\n\n{summary_of(plausibilities)}")
     if json_file is not None:
-        write_text(json_file, json.dumps(tables_of(echoes), indent=1) + "\n")
+        write_json(json_file, tables_of(plausibilities))
     if picture is not None:
         from mbs.vehicle.picture import draw_car
 
-        with whole_file(picture) as made:
+        with atomic_file(picture) as made:
             draw_car(loaded, made)
         print(f"written: {picture}")
     if parameters:

@@ -3,7 +3,7 @@
 import shutil
 from pathlib import Path
 
-from ali3.folders import whole_folder
+from ali3.folders import atomic_folder
 from ali3.near_names import did_you_mean
 from mbs.common.checks import shown
 from mbs.vehicle.errors import CarFileError
@@ -21,7 +21,7 @@ def copy_car(name: str, folder: Path) -> list[Path]:
         raise CarFileError(f"There is no car {shown(name)} to copy{near}")
     if folder.exists() or folder.is_symlink():
         raise CarFileError(f"{folder} exists; the copy of a car needs a folder that does not.")
-    with whole_folder(folder) as made:
+    with atomic_folder(folder) as made:
         shutil.copytree(CARS / name, made, ignore=shutil.ignore_patterns("__pycache__"), dirs_exist_ok=True)
         shutil.copy(SCHEMA_FILE, made)
         file = made / FILE

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from mbs.model.body import Body
-from mbs.model.ends import End
+from mbs.model.joint_ends import End
 from mbs.vehicle.side import Point, Side
 
 TieRodEnd: TypeAlias = Callable[[Side, Point], End]

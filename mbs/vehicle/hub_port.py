@@ -1,7 +1,7 @@
 """Forces and moments of other programs on the hub of a wheel, in place of its tyre."""
 
 from mbs.elements.hub_wrench import HubWrench
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.model.records import Role
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.port_inputs import new_port

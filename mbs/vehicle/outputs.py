@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from mbs.common.affine import Affine
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.model.model import Model
 from mbs.vehicle.axes import FORWARD, LEFT, UP
 from mbs.vehicle.builder import CarBuilder

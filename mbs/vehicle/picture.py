@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from ali3.chart_words import png_metadata
+from ali3.chart_description import png_metadata
 from mbs.vehicle.car_content import CarContent
 from mbs.vehicle.checks.places import contact_points
 from mbs.vehicle.section import sections_of

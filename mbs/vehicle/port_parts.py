@@ -13,7 +13,7 @@ from mbs.elements.record import ElementRecord
 from mbs.elements.road import PortRoad
 from mbs.elements.spin_torque import SpinTorque
 from mbs.elements.wind import Wind
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.model.model import Model
 from mbs.model.records import Ahead
 from mbs.vehicle.builder import CarBuilder

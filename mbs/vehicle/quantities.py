@@ -8,7 +8,7 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from ali3.words import unit_text
+from ali3.message_text import unit_text
 
 Change = Literal["tunable", "fixed"]
 

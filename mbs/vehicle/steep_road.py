@@ -11,7 +11,7 @@ from mbs.roads.steep_faces import RoadWarning, steep_face
 MOST_LOOKED_AT = 4e6
 
 
-def tell_steep_face(road: Road | RoadOfFile, radius: float) -> None:
+def warn_of_steep_face(road: Road | RoadOfFile, radius: float) -> None:
     """Warn of a grid with a wall for a wheel.
 
     Parameters
@@ -27,5 +27,5 @@ def tell_steep_face(road: Road | RoadOfFile, radius: float) -> None:
         table = Path(road.path).suffix.lower() in TEXTS
         name, small = road.path, table or road.header.nx * road.header.ny <= MOST_LOOKED_AT
         grid = read_road(name) if small else None
-    if isinstance(grid, GridRoad) and (told := steep_face(grid, name, radius)):
-        warnings.warn(told, RoadWarning, stacklevel=3)
+    if isinstance(grid, GridRoad) and (warning := steep_face(grid, name, radius)):
+        warnings.warn(warning, RoadWarning, stacklevel=3)

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ali3.message_text import brief
 from ali3.tables import TextTable, number_of
-from ali3.words import brief
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.files import beside
 

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mbs.common.errors import ModelError
 from mbs.model.body import Body
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.model.coordinate import Coordinate
 from mbs.model.model import Model
 from mbs.vehicle.builder import CarBuilder

@@ -12,7 +12,7 @@ from ali3.command_run import run_command
 from ali3.errors import UserError
 from ali3.options import Parser, add_option, given_of
 from ali3.units import quantity
-from mbs.worlds.shipped import shipped_worlds
+from mbs.worlds.package_worlds import shipped_worlds
 
 _EPILOG = """\
 inputs:

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from ali3.message_text import brief
 from ali3.named_files import NamedFiles
 from ali3.tables import LARGEST, TextTable
-from ali3.words import brief
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.steep_faces import RoadWarning
 from mbs.worlds.centre_line import CentreLine, curve_through, of_segments, through

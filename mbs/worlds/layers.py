@@ -21,7 +21,7 @@ FAR = 1e6
 
 
 @dataclass(frozen=True)
-class Found:
+class LayerPoints:
     """A layer at places."""
 
     excess: Float
@@ -45,7 +45,7 @@ class Layer(Protocol):
     def near(self, x: Float, y: Float) -> tuple[Float, Float]:
         """About how far places are from the surface, m, and their station; beyond its reach FAR."""
 
-    def at(self, x: Float, y: Float, guess: Float) -> Found:
+    def at(self, x: Float, y: Float, guess: Float) -> LayerPoints:
         """The layer at places whose stations are about known."""
 
 
@@ -106,13 +106,13 @@ class CourseLayer:
         s = self.line.step * np.minimum(k, len(self.line.points) - 1)
         return np.where(np.isfinite(distance), distance - self.half(s), FAR), s
 
-    def at(self, x: Float, y: Float, guess: Float) -> Found:
+    def at(self, x: Float, y: Float, guess: Float) -> LayerPoints:
         s, offset, distance = self.line.beside(x, y, guess)
         half = self.half(s)
         bank = self.course.bank
         pivot = {"left": half, "centre": 0.0 * half, "right": -half}[bank.pivot if bank is not None else "centre"]
         height = self.height(s) + self.bank(s) * (pivot - offset)
-        return Found(distance - half, height, s, offset)
+        return LayerPoints(distance - half, height, s, offset)
 
 
 def _smoothed(heights: Float, line: CentreLine, width: float) -> Callable[[Float], Float]:
@@ -137,9 +137,9 @@ class AreaLayer:
     def near(self, x: Float, y: Float) -> tuple[Float, Float]:
         return self._excess(x, y), np.zeros(np.shape(x))
 
-    def at(self, x: Float, y: Float, guess: Float) -> Found:
+    def at(self, x: Float, y: Float, guess: Float) -> LayerPoints:
         zero = np.zeros(np.shape(x))
-        return Found(self._excess(x, y), zero + self.area.height, zero, zero)
+        return LayerPoints(self._excess(x, y), zero + self.area.height, zero, zero)
 
     def _excess(self, x: Float, y: Float) -> Float:
         dx, dy = x - self.area.at[0], y - self.area.at[1]

@@ -16,12 +16,12 @@ from mbs.roads.road_header import CHECKED_FROM, HEADER, RoadFileError
 from mbs.roads.scene_part import read_thinned, scene_part
 from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.write_road import write_road
-from mbs.worlds.road_of_world import points_of, write_world_road
 from mbs.worlds.terrain import Terrain
 from mbs.worlds.thinned_world import STEP, off_by, thinner
-from mbs.worlds.world_echo import world_echo
 from mbs.worlds.world_file import is_world
+from mbs.worlds.world_plausibility import world_plausibility
 from mbs.worlds.world_record import record_of, world_record
+from mbs.worlds.world_road_file import points_of, write_world_road
 from mbs.worlds.world_types import WorldDescription
 
 PLAIN = 250.0
@@ -70,7 +70,7 @@ def make_world(
         if thin:
             world = world.model_copy(update={"spacing": thinner(world.spacing)})
         _check_size(world, file)
-        world_echo(str(file), world).warn(RoadWarning)
+        world_plausibility(str(file), world).warn(RoadWarning)
         tell("ground and courses", 0.0)
         try:
             terrain = Terrain(world, file.parent)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ali3.chart_words import png_metadata
+from ali3.chart_description import png_metadata
 from ali3.scene.base64_numbers import decoded, octets
 
 COLOURS = {

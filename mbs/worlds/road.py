@@ -7,15 +7,15 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ali3.echo import Echo, tables_of
 from ali3.errors import UserError
-from ali3.files import whole_file, write_text
-from ali3.warning_lines import told_warnings
+from ali3.files import atomic_file, write_json, write_text
+from ali3.plausibility import Plausibility, tables_of
+from ali3.warning_lines import warning_lines
 from mbs.elements.road import GridRoad, PlaneRoad
 from mbs.roads.picture import draw_road
 from mbs.roads.read_road import read_road
-from mbs.roads.road_echo import file_echo, place_of, road_echo
 from mbs.roads.road_file import RoadFile
+from mbs.roads.road_plausibility import file_plausibility, place_of, road_plausibility
 from mbs.roads.sampled_road import SampledRoad
 from mbs.roads.scene_part import scene_part
 from mbs.roads.steep_faces import RoadWarning
@@ -39,38 +39,40 @@ def make_road(options: argparse.Namespace) -> int:
         return 0
     others = (output, options.picture, options.part)
     if options.start is not None and options.input.suffix.lower() == ".road" and not any(others):
-        (echo,) = file_echo(RoadFile(options.input), tuple(options.start), most=0)  # a large road is not read for it
-        with told_warnings():
-            echo.warn(RoadWarning)
-        print(echo.text())
-        _write_table(options.json, echo)
+        (plausibility,) = file_plausibility(
+            RoadFile(options.input), tuple(options.start), most=0
+        )  # a large road is not read for it
+        with warning_lines():
+            plausibility.warn(RoadWarning)
+        print(plausibility.text())
+        _write_table(options.json, plausibility)
         return 0
-    with told_warnings():
+    with warning_lines():
         road = read_road(options.input, **given)
         # who makes a road file says later where a drive on it begins
         start = tuple(options.start or (0.0, 0.0)) if output is None or options.start is not None else None
-        echo = road_echo(str(options.input), road, start)
-        echo.warn(RoadWarning)
+        plausibility = road_plausibility(str(options.input), road, start)
+        plausibility.warn(RoadWarning)
     if output is not None:
-        with told_warnings():
+        with warning_lines():
             write_road(road, output)
         RoadFile(output).read()  # as it lies on the disk
     if options.picture is not None:
-        with whole_file(options.picture) as made:
+        with atomic_file(options.picture) as made:
             draw_road(road, made, options.input.name, _starts(options))
     if options.part is not None:
         write_text(options.part, json.dumps(scene_part(road), allow_nan=False))
-    print("\n".join([*_lines(road), echo.text()]))
-    _write_table(options.json, echo)
+    print("\n".join([*_lines(road), plausibility.text()]))
+    _write_table(options.json, plausibility)
     for file in (output, options.picture, options.part, options.json):
         if file is not None:
             print(f"written: {file} ({Path(file).stat().st_size / 1e6:.3g} MB)")
     return 0
 
 
-def _write_table(file: Path | None, echo: Echo) -> None:
+def _write_table(file: Path | None, plausibility: Plausibility) -> None:
     if file is not None:
-        write_text(file, json.dumps(tables_of([echo]), indent=1) + "\n")
+        write_json(file, tables_of([plausibility]))
 
 
 def _starts(options: argparse.Namespace) -> dict[str, tuple[float, float]]:

@@ -22,7 +22,7 @@ LOOKED_AT = 16
 
 
 @dataclass(frozen=True)
-class Off:
+class Deviation:
     """How far the heights of a thin world are off, m: at most, and in all places but one of a thousand."""
 
     most: float
@@ -43,7 +43,7 @@ def thinner(spacing: tuple[float, float]) -> tuple[float, float]:
     return max(spacing[0], SPACING[0]), max(spacing[1], SPACING[1])
 
 
-def off_by(terrain: Terrain, road: Path) -> Off:
+def off_by(terrain: Terrain, road: Path) -> Deviation:
     """Compare a road file with the terrain in the middle of some cells of every tile.
 
     `road`: as it lies on the disk.
@@ -62,4 +62,4 @@ def off_by(terrain: Terrain, road: Path) -> Off:
             x, y = x0 + (rows + 0.5) * dx, y0 + (places + 0.5) * dy
             differences.append(np.abs(middle - terrain.at(x, y))[inside])
     found = np.concatenate(differences)
-    return Off(float(found.max()), float(np.quantile(found, 0.999)), len(found))
+    return Deviation(float(found.max()), float(np.quantile(found, 0.999)), len(found))

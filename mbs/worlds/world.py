@@ -10,19 +10,19 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ali3.echo import Echo, echo_of, summary_of, tables_of
 from ali3.errors import UserError
-from ali3.files import write_text
+from ali3.files import write_json
 from ali3.json_reading import read_json
 from ali3.near_names import did_you_mean
+from ali3.plausibility import Plausibility, plausibility_of, summary_of, tables_of
 from ali3.reading import is_file
-from ali3.warning_lines import told_warnings
+from ali3.warning_lines import warning_lines
 from mbs.roads import RoadFile
 from mbs.roads.kinds import CRG, MESHES
 from mbs.worlds.make_world import described, make_world
 from mbs.worlds.map_picture import draw_map
-from mbs.worlds.shipped import ROADS, WORLDS, shipped_worlds
-from mbs.worlds.stored import add_file, key_of, world_files
+from mbs.worlds.package_worlds import ROADS, WORLDS, shipped_worlds
+from mbs.worlds.world_cache import add_file, key_of, world_files
 from mbs.worlds.world_file import named_files
 
 
@@ -44,10 +44,10 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False, table
     if picture is not None:
         add_file(key, f"{name}.png", lambda target: _draw(out / f"{name}.json", target), picture)
         made.append(picture)
-    echoes = _echoes(file, out / f"{name}.road")
-    print(summary_of(echoes))
+    plausibilities = _plausibilities(file, out / f"{name}.road")
+    print(summary_of(plausibilities))
     if table is not None:
-        write_text(table, json.dumps(tables_of(echoes), indent=1) + "\n")
+        write_json(table, tables_of(plausibilities))
         made.append(table)
     for path in made:
         print(f"written: {path} ({path.stat().st_size / 1e6:.3g} MB)")
@@ -60,10 +60,10 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False, table
     return 0
 
 
-def _echoes(file: Path, road: Path) -> Sequence[Echo]:
+def _plausibilities(file: Path, road: Path) -> Sequence[Plausibility]:
     """What was understood of the description of a world, and of the road that was made of it."""
     found = described(file)
-    return [*(echo_of(found) if found is not None else []), *echo_of(RoadFile(road))]
+    return [*(plausibility_of(found) if found is not None else []), *plausibility_of(RoadFile(road))]
 
 
 def _file(given: str) -> Path:
@@ -82,7 +82,7 @@ def _file(given: str) -> Path:
 
 
 def _make(file: Path, name: str, folder: Path, thin: bool) -> None:
-    with told_warnings() as told:
+    with warning_lines() as told:
         record: dict[str, Any] = make_world(file, name, folder / f"{name}.road", _Line(name), thin)
     if told:
         record["warnings"] = told

@@ -4,8 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from ali3.echo import Understood
 from ali3.iso_3888 import Track
+from ali3.plausibility import Summarised
 from ali3.scene.road_types import SurfaceClass
 
 Coordinate = Annotated[float, Field(ge=-1e6, le=1e6)]
@@ -260,7 +260,7 @@ class Place(_Table):
     at: Start
 
 
-class WorldDescription(Understood, _Table):
+class WorldDescription(Summarised, _Table):
     """A world: ground, courses carved into it, obstacles, surfaces, scenery and places to start from."""
 
     kind: Literal["world"]

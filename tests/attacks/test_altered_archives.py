@@ -14,7 +14,7 @@ from hosts.check.archive import archive_findings
 from tests.altered_files import altered
 from tests.attacks.bounds import seeds
 from tests.commands.test_archives import DESCRIPTION
-from tests.commands.test_files_of_strangers import fault_of
+from tests.commands.test_untrusted_files import fault_of
 
 _PARTS = ("a", "A", "..", ".", "", "sources", "CON", "x" * 300, "\x00", "é", "C:", "a\nb", "resources", "a.c", "\\")
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA)

@@ -11,7 +11,7 @@ import pytest
 from tests.altered_files import altered
 from tests.attacks.bounds import little_memory, seeds
 from tests.attacks.good_files import CAR, GOOD, MENDED
-from tests.commands.test_files_of_strangers import KINDS, MANY, fault_of
+from tests.commands.test_untrusted_files import KINDS, MANY, fault_of
 from tests.quick import quick
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="alarms are those of POSIX")

@@ -12,7 +12,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from ali3.temporary import PREFIX
+from ali3.temporary_folder import PREFIX
 from hosts.fmu.fmu import described
 from hosts.recordings.recorded_drive import read_recording
 from hosts.study.store import read_study

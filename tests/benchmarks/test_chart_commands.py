@@ -7,7 +7,7 @@ import pytest
 
 from benchmarks import cost, honesty, stability, work_precision
 from benchmarks.baselines.run import METHODS as CLASSICAL
-from benchmarks.methods import dissipative, growth
+from benchmarks.methods import cost_growth, dissipative
 from benchmarks.methods import stability as maps
 from benchmarks.methods.honesty import VERDICTS, honesty_blocks, summary
 from benchmarks.methods.kernel_methods import TITLES, TREE_ONLY
@@ -150,10 +150,10 @@ def test_growth_finds_the_non_zeros_linear(tmp_path):
     assert cost.main(["growth", "--quick", *files]) == 0
     _, rows = read(tmp_path / "g.json")
     few, more = [row for row in rows if row["table"] == "chassis"]
-    assert more["modes"] - few["modes"] == growth.MODES[1] - growth.MODES[0]
-    exponents = growth.exponents([few, more], "modes")
+    assert more["modes"] - few["modes"] == cost_growth.MODES[1] - cost_growth.MODES[0]
+    exponents = cost_growth.exponents([few, more], "modes")
     assert 1.0 < exponents["factor_nonzeros"] < 2.0  # the modal block is dense
-    blocks = growth.growth_blocks(rows)
+    blocks = cost_growth.growth_blocks(rows)
     assert f"factor nonzeros {exponents['factor_nonzeros']:.2f}" in blocks["chassis growth"]
     assert {"growth", "exponents", "chassis growth"} == set(blocks)
     assert (tmp_path / "growth.png").read_bytes().startswith(PNG)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from benchmarks.car import fidelity, fidelity_runs
-from benchmarks.methods import naive
+from benchmarks.methods import unreduced_models
 from mbs.vehicle import Fidelity
 
 
@@ -72,7 +72,7 @@ def test_errors_of_a_reference_with_itself_are_nothing() -> None:
 
 def test_naive_models_move_alike_and_are_larger() -> None:
     for scene in ("double four-bar", "prototype car"):
-        found = naive.measure(scene, 1)
+        found = unreduced_models.measure(scene, 1)
         assert found["naive_coordinates"] > 2 * found["coordinates"]
         assert found["naive_rows"] > 2 * found["rows"]
         assert found["difference"] < 0.01

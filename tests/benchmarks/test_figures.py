@@ -5,23 +5,23 @@ import re
 import pytest
 from matplotlib.figure import Figure
 
-from ali3.chart_words import description_of
+from ali3.chart_description import description_of
 from ali3.charts import save_picture
 from benchmarks import figures
-from benchmarks.pictures import charts_again
-from benchmarks.shared.figures import Again, between, differences, read, rows_of, same, written
+from benchmarks.pictures import chart_commands
+from benchmarks.shared.figures import RemadeTable, between, differences, read, rows_of, same, written
 from benchmarks.shared.pages import DOCS
 from hosts.run.plot_panels import table_of
 
 MADE = "| method | h s | error | ms |\n| --- | --- | --- | --- |\n| a | 0.1 | 2.5 | 9 |\n| b | 0.1 | 1e-05 | 8 |"
 PAGE = f"text\n<!-- begin t -->\n{MADE}\n| c | 0.1 | 3 | 7 |\n<!-- end t -->\nThe car takes 0.36 s\nof time.\n"
-AGAIN = Again("docs/x.md", MADE, "t", ("method", "h s"), ("ms",))
+AGAIN = RemadeTable("docs/x.md", MADE, "t", ("method", "h s"), ("ms",))
 
 
 def test_a_page_with_the_same_figures_has_no_difference():
     assert differences(AGAIN, PAGE) == []
     assert differences(AGAIN, PAGE.replace("| 9 |", "| 11 |")) == []  # a time
-    assert differences(Again("docs/x.md", "takes 0.36 s of time"), PAGE) == []
+    assert differences(RemadeTable("docs/x.md", "takes 0.36 s of time"), PAGE) == []
 
 
 def test_only_the_last_of_three_digits_may_be_one_off():
@@ -46,7 +46,7 @@ def test_an_altered_figure_is_a_sentence(before, after, said):
 
 
 def test_an_altered_sentence_is_told():
-    again = Again("README.md", "takes 0.36 s of time")
+    again = RemadeTable("README.md", "takes 0.36 s of time")
     assert differences(again, PAGE.replace("0.36", "0.29")) == ["README.md does not say: takes 0.36 s of time"]
 
 
@@ -74,7 +74,7 @@ def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_told(tmp_path)
         "panel Speed; x time, s; y m/s²",
         "panel Loads; x time, s; y kN; curves FL",
     ]
-    again = Again("docs/images/x.png", new, picture=(tmp_path / "new.png").read_bytes())
+    again = RemadeTable("docs/images/x.png", new, picture=(tmp_path / "new.png").read_bytes())
     gone, drawn_now = (
         "docs/images/x.png shows what is not drawn now: ",
         "docs/images/x.png does not show what is drawn now: ",
@@ -91,7 +91,7 @@ def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_told(tmp_path)
     assert said.startswith("docs/images/x.png does not say what it shows; python -m benchmarks.figures --write")
 
 
-@pytest.mark.parametrize("name", charts_again.DRAWN)
+@pytest.mark.parametrize("name", chart_commands.DRAWN)
 def test_charts_that_are_drawn_again_say_what_they_show(name):
     page = f"docs/images/{name}"
     assert len(read(page).splitlines()) > 1
@@ -138,7 +138,7 @@ def test_each_cell_of_the_table_of_instructions_is_held():
 
 def test_a_table_that_is_made_without_rows_is_told():
     made = MADE.rsplit("\n", 2)[0]
-    assert differences(Again("docs/x.md", made, "t", ("method", "h s")), PAGE) == [
+    assert differences(RemadeTable("docs/x.md", made, "t", ("method", "h s")), PAGE) == [
         "docs/x.md, table 't': there are no rows when it is made again."
     ]
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.car import plant_steps as plant
-from hosts.plant.vector_environment import Together
+from hosts.plant.vector_environment import VectorEnvironment
 
 
 def test_every_way_makes_its_steps(prototype_fmu: Path) -> None:
@@ -21,12 +21,12 @@ def test_every_way_makes_its_steps(prototype_fmu: Path) -> None:
 
 
 def test_other_numbers_on_threads_are_an_error(prototype_fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    step = Together.step
+    step = VectorEnvironment.step
 
-    def other(self: Together, actions: np.ndarray) -> tuple[np.ndarray, ...]:
+    def other(self: VectorEnvironment, actions: np.ndarray) -> tuple[np.ndarray, ...]:
         seen, *rest = step(self, actions)
         return seen + np.spacing(seen), *rest
 
-    monkeypatch.setattr(Together, "step", other)
+    monkeypatch.setattr(VectorEnvironment, "step", other)
     with pytest.raises(RuntimeError, match="not the same in all ways"):
         plant.measure("LaneKeeping", 2, 1, 1, car=str(prototype_fmu))

@@ -5,27 +5,27 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.validation import kinds, margins, refit
+from benchmarks.validation import margins, omitted_seconds, refit
 from benchmarks.validation.drive import Drive
 from benchmarks.validation.fitting import SCALES
-from hosts.compare.stretches import Stretch
+from hosts.compare.segments import Segment
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.measures.signal import Signal
 
 STEP = 0.01
 
 
-def stretch() -> Stretch:
+def segment() -> Segment:
     time = np.array([0.0, 1.0])
     start = {"initial.speed": 20.0, "initial.lateral_speed": 0.5, "initial.yaw_rate": 0.3}
     speed = Signal("speed", "speed", "m/s", time, np.array([20.0, 24.0]))
-    return Stretch(Manoeuvre("drive", time, {"steering": 0.1 + 0.0 * time}, 1.0, start), speed)
+    return Segment(Manoeuvre("drive", time, {"steering": 0.1 + 0.0 * time}, 1.0, start), speed)
 
 
 def test_a_start_beside_the_state_is_that_of_the_reference_point() -> None:
     """The velocity of a rigid body at a point is that of the origin and the yaw rate times the lever."""
     point = -1.33, 0.02
-    one, other = (s.manoeuvre.start for s in (stretch(), margins.moved(stretch(), 0.5, -0.3, 0.024, point)))
+    one, other = (s.manoeuvre.start for s in (segment(), margins.moved(segment(), 0.5, -0.3, 0.024, point)))
 
     def at_point(start) -> list[float]:
         rate = start["initial.yaw_rate"]
@@ -35,7 +35,7 @@ def test_a_start_beside_the_state_is_that_of_the_reference_point() -> None:
 
 
 def test_a_faster_stretch_holds_and_starts_with_more_speed_at_the_same_steering() -> None:
-    faster = margins.quickened(stretch(), 1.1)
+    faster = margins.quickened(segment(), 1.1)
     assert faster.manoeuvre.start["initial.speed"] == pytest.approx(22.0)
     assert faster.speed is not None
     assert faster.speed.values.tolist() == pytest.approx([22.0, 26.4])
@@ -54,7 +54,7 @@ def laps() -> Drive:
 
 def test_seconds_are_told_apart_by_corner_speed_and_acceleration() -> None:
     drive = laps()
-    found = kinds.families(drive)
+    found = omitted_seconds.families(drive)
     corners = found["corners"]
     assert [name.startswith("corner at") for name in corners.names] == [True, True]
     left, right = (np.flatnonzero(drive.yaw_rate * side > 0.0) for side in (1.0, -1.0))
@@ -63,7 +63,7 @@ def test_seconds_are_told_apart_by_corner_speed_and_acceleration() -> None:
     assert corners.number[left[50]] != corners.number[right[50]]
     assert corners.number[np.argmax(drive.yaw_rate == 0.0)] == 2
     speeds = np.bincount(found["speed"].number)
-    np.testing.assert_allclose(speeds, len(drive.time) / kinds.SPEEDS, rtol=0.01)
+    np.testing.assert_allclose(speeds, len(drive.time) / omitted_seconds.SPEEDS, rtol=0.01)
     assert np.bincount(found["acceleration"].number, minlength=5)[2] == (np.abs(drive.ax) < 1.0).sum()
 
 
@@ -72,11 +72,11 @@ def test_a_kind_is_judged_by_what_the_others_lead_to() -> None:
     random = np.random.default_rng(3)
     count = 400
     number = np.arange(count) % 4
-    family = kinds.Family(["a", "b", "c"], number)  # the fourth is of no kind
+    family = omitted_seconds.Family(["a", "b", "c"], number)  # the fourth is of no kind
     x = np.column_stack([random.normal(size=2 * count), np.ones(2 * count)])
     measured = random.normal(size=2 * count) + np.tile(number, 2)
     p = np.array([0.3, -0.2])
-    told = kinds.without_kinds(x, x @ p - measured, np.arange(count), {"corners": family})
+    told = omitted_seconds.without_kinds(x, x @ p - measured, np.arange(count), {"corners": family})
     sizes = []
     for k in range(3):
         others = np.tile(number, 2) != k

@@ -7,8 +7,8 @@ import pytest
 
 from benchmarks.shared.pages import DOCS, table
 from benchmarks.validation import __main__ as command
-from benchmarks.validation import acceleration, avoidance, others, tyre_rig
-from benchmarks.validation.published import Published
+from benchmarks.validation import acceleration, avoidance, published_tests, tyre_rig
+from benchmarks.validation.published_figures import Published
 from mbs.tyre_files.fits import tmeasy_of_magic
 
 
@@ -49,11 +49,11 @@ def test_the_part_is_merged_and_the_rest_of_the_page_stays(monkeypatch: pytest.M
     (tmp_path / "validation.md").write_text(before, encoding="utf-8")
     made = [Published("a test", "s", {"somebody": 1.0}, 0.05).row(1.2)]
     monkeypatch.setattr("benchmarks.shared.command.DOCS", tmp_path)
-    monkeypatch.setattr(others, "rows", lambda: made)
+    monkeypatch.setattr(published_tests, "rows", lambda: made)
     assert command.main(["others", "--write"]) == 0
     after = (tmp_path / "validation.md").read_text(encoding="utf-8")
     begin, end = "<!-- begin others -->\n", "<!-- end others -->"
-    assert after.split(begin)[1].split(end)[0] == table(made, others.COLUMNS) + "\n"
+    assert after.split(begin)[1].split(end)[0] == table(made, published_tests.COLUMNS) + "\n"
     assert "| a test, s | 1 (somebody) | 0.05 | 1.2 | +14 % |" in after
     assert [part.split(begin)[0] if k == 0 else part for k, part in enumerate(after.split(end))] == [
         part.split(begin)[0] if k == 0 else part for k, part in enumerate(before.split(end))
@@ -78,7 +78,7 @@ def test_the_hatchback_is_slower_than_people_in_a_named_car(monkeypatch: pytest.
 
 @pytest.mark.slow
 def test_the_rows_of_another_program_have_its_sources_and_fail_where_it_differs() -> None:
-    found = others.by_commonroad()
+    found = published_tests.by_commonroad()
     assert len(found) == 18
     verdicts = [figure.row(value)["verdict"] for figure, value in found]
     roll = [float(v.split()[0]) for (figure, _), v in zip(found, verdicts, strict=True) if "roll" in figure.test]

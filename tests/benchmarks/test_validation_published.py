@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from benchmarks.validation.published import FROM_REST, TOP_SPEED, published_rows
+from benchmarks.validation.published_figures import FROM_REST, TOP_SPEED, published_rows
 
 
 def test_a_constant_acceleration_and_its_end() -> None:

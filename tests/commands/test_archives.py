@@ -11,7 +11,7 @@ import pytest
 
 from ali3.archives import Archive, faults_of
 from ali3.errors import FileError, UserError
-from fmu_src.native.more_platforms import add_platforms
+from fmu_src.native.added_platforms import add_platforms
 from hosts.check.archive import archive_findings
 from hosts.common.errors import HostError
 from hosts.fmu import description_file

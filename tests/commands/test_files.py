@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import mbs
-from ali3.files import FileError, check_writable, whole_file, write_text
-from ali3.folders import whole_folder
+from ali3.files import FileError, atomic_file, check_writable, write_text
+from ali3.folders import atomic_folder
 from ali3.locks import locked
 from fmu_src.native.archive import write_zip
 from mbs.scenes import pendulum
@@ -35,17 +35,17 @@ def names(folder: Path) -> list[str]:
 
 
 def fail_half_way(file: Path, error: type[BaseException]) -> None:
-    with whole_file(file) as made:
+    with atomic_file(file) as made:
         made.write_text("half")
         raise error
 
 
 def test_a_file_is_replaced_when_the_new_one_is_whole(tmp_path: Path) -> None:
     file = tmp_path / "a" / "table.csv"
-    with whole_file(file) as made:
+    with atomic_file(file) as made:
         made.write_text("one")
         assert not file.exists()
-    with whole_file(file) as made:
+    with atomic_file(file) as made:
         made.write_text("two")
         assert made.suffix == ".csv"
         assert file.read_text() == "one"
@@ -65,7 +65,7 @@ def test_an_error_inside_leaves_the_old_file_and_nothing_else(tmp_path: Path) ->
 
 def test_the_mode_is_that_of_any_new_file(tmp_path: Path) -> None:
     (tmp_path / "plain").write_text("")
-    with whole_file(tmp_path / "whole") as made:
+    with atomic_file(tmp_path / "whole") as made:
         made.write_text("")
     assert (tmp_path / "whole").stat().st_mode == (tmp_path / "plain").stat().st_mode
 
@@ -74,13 +74,13 @@ def test_the_mode_is_that_of_any_new_file(tmp_path: Path) -> None:
 def test_a_link_stays_a_link(tmp_path: Path) -> None:
     (tmp_path / "real").mkdir()
     (tmp_path / "link").symlink_to(tmp_path / "real" / "file")
-    with whole_file(tmp_path / "link") as made:
+    with atomic_file(tmp_path / "link") as made:
         made.write_text("x")
     assert (tmp_path / "link").is_symlink()
     assert (tmp_path / "real" / "file").read_text() == "x"
 
 
-@pytest.mark.parametrize("write", [check_writable, lambda f: whole_file(f).__enter__()], ids=["check", "write"])
+@pytest.mark.parametrize("write", [check_writable, lambda f: atomic_file(f).__enter__()], ids=["check", "write"])
 def test_what_cannot_be_written_is_named(write: object, tmp_path: Path) -> None:
     (tmp_path / "folder").mkdir()
     (tmp_path / "file").write_text("")
@@ -151,7 +151,7 @@ def test_a_folder_is_there_whole_or_not_at_all(tmp_path):
     target = tmp_path / "new" / "folder"
 
     def fill(text):
-        with whole_folder(target) as made:
+        with atomic_folder(target) as made:
             (made / "a").write_text(text)
 
     with pytest.raises(TypeError):
@@ -162,14 +162,14 @@ def test_a_folder_is_there_whole_or_not_at_all(tmp_path):
 
 
 def test_of_two_programs_that_make_a_folder_the_first_wins(tmp_path):
-    with whole_folder(tmp_path / "a") as made:
+    with atomic_folder(tmp_path / "a") as made:
         (made / "b").write_text("second")
         (tmp_path / "a").mkdir()
         (tmp_path / "a" / "b").write_text("first")
     assert (tmp_path / "a" / "b").read_text() == "first"
     assert [place.name for place in tmp_path.iterdir()] == ["a"]
     (tmp_path / "file").write_text("")
-    with pytest.raises(FileError, match="file cannot be written: "), whole_folder(tmp_path / "file") as made:
+    with pytest.raises(FileError, match="file cannot be written: "), atomic_folder(tmp_path / "file") as made:
         (made / "b").write_text("")
 
 

@@ -16,7 +16,7 @@ import pytest
 from numpy.typing import NDArray
 
 from ali3.frames import MOST_TEXT, FrameError, read_frame, write_frame
-from ali3.isolated import Isolated, Lost
+from ali3.isolated_processes import Isolated, Lost
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from lxml import etree
 from matplotlib.figure import Figure
 
 from ali3 import html_elements
-from ali3.chart_words import description_of
+from ali3.chart_description import description_of
 from ali3.charts import Drawing, drawing
 from ali3.html_elements import element, picture, table
 

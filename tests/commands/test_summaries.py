@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import mbs
-from ali3.echo import Understood, echo_of
+from ali3.plausibility import Plausibility, Summarised, Value, plausibility_of, quantities_of
 from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.model import Model
 from mbs.roads import RoadFile, RoadWarning, read_road, write_road
@@ -50,12 +50,20 @@ def test_what_readers_return_sums_itself_up(tmp_path: Path) -> None:
         (read_urdf(tmp_path / "arm.urdf"), "total mass"),
         (load("prototype"), "flexible frame"),
     ):
-        assert isinstance(thing, Understood)
+        assert isinstance(thing, Summarised)
         assert words in thing.summary()
         assert len(thing.summary().splitlines()) < 60
-        assert echo_of(thing)
+        assert plausibility_of(thing)
     with pytest.raises(TypeError, match="no summary for a int"):
-        echo_of(3)
+        plausibility_of(3)
+
+
+def test_an_open_end_of_a_range_is_null() -> None:
+    """JSON has no infinity (RFC 8259)."""
+    beside = quantities_of("world")["beside"]
+    (row,) = json.loads(json.dumps(Plausibility("", [Value(beside, 5.0, {})]).to_json(), allow_nan=False))
+    assert row["range"] == [None, 3.0]
+    assert not row["inside"]
 
 
 def test_the_road_command_writes_its_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -23,4 +23,6 @@ def test_examples_of_a_module(name: str) -> None:
 
 
 def test_there_are_some() -> None:
-    assert {"mbs.common.affine", "mbs.compiler.eliminate", "mbs.model.model", "fmu_src.variables.units"} <= set(MODULES)
+    assert {"mbs.common.affine", "mbs.compiler.elimination", "mbs.model.model", "fmu_src.variables.units"} <= set(
+        MODULES
+    )

@@ -15,7 +15,7 @@ from mbs.flexible.fe_model_checks import check_connected
 from mbs.flexible.fixed_interface import Interface
 from mbs.flexible.frame import Beam, Frame
 from mbs.flexible.frequencies import natural_modes
-from mbs.flexible.lumping import lumped_masses
+from mbs.flexible.mass_lumping import lumped_masses
 from mbs.flexible.mass_points import nodal_mass_points
 from mbs.flexible.matrix_files import external_model, read_matrix
 from mbs.flexible.recovery import section_forces

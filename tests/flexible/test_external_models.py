@@ -15,7 +15,7 @@ from mbs.flexible.bulk_data import grid_points
 from mbs.flexible.calculix import calculix_matrices, read_calculix
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.frequencies import natural_modes
-from mbs.flexible.lumping import lumped_masses
+from mbs.flexible.mass_lumping import lumped_masses
 from mbs.flexible.matrix_files import external_model, read_matrix, read_model
 from mbs.flexible.nastran import read_nastran
 from mbs.flexible.output4 import read_output4

@@ -15,7 +15,7 @@ from mbs.elements import ContactPoints, CoordinateFriction, EndStops, GridRoad, 
 from mbs.model.records import Ahead
 from mbs.scenes import cart_pole
 from tests.elements.tyre_data import TYRE
-from tests.model.test_written_inertias import DRAWN, thrown_model
+from tests.model.test_parametric_inertias import DRAWN, thrown_model
 
 
 def crane(mass: float = 2.0, name: str = "crane") -> mbs.Model:

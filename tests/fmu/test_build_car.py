@@ -11,7 +11,7 @@ import pytest
 
 import build_fmu
 from ali3.read_parameter_set import read_parameter_set
-from fmu_src.build.car_registry import build_car, car_files, car_words
+from fmu_src.build.car_registry import build_car, car_files, car_text
 from hosts.fmu.fmu import Fmu
 from mbs.vehicle import load
 from mbs.vehicle.read_car import CARS
@@ -162,7 +162,7 @@ def test_a_fidelity_that_is_none_is_a_sentence(word: str, tmp_path: Path, capsys
 
 def test_a_folder_of_the_name_of_a_car_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    assert car_words("prototype") == "prototype of the package"
+    assert car_text("prototype") == "prototype of the package"
     shutil.copytree(CARS / "prototype", "prototype")
-    assert car_words("prototype") == "prototype of the package (the folder prototype here would be ./prototype)"
-    assert car_words("./prototype") == "./prototype"
+    assert car_text("prototype") == "prototype of the package (the folder prototype here would be ./prototype)"
+    assert car_text("./prototype") == "./prototype"

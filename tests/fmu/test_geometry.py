@@ -17,7 +17,7 @@ from ali3.scene.scene_columns import all_columns
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities
 from fmu_src.geometry.geometry import geometry, lost_frames
-from fmu_src.geometry.renamed_columns import with_other_columns
+from fmu_src.geometry.renamed_columns import with_renamed_columns
 from fmu_src.geometry.system_with_poses import PosesError, posed_systems
 from fmu_src.variables.variables import variable_table
 from hosts.fmu.fmu import described
@@ -198,7 +198,7 @@ def test_gauges_under_other_names_read_what_is_called_so_and_are_left_out_in_oth
     first, second, *others = scene["flexible"][0]["gauges"]
     named = {first["value"]: replace(table[first["value"]], name="Sensor.1"), first["name"]: table["speed"]}
     named[second["value"]] = replace(table[second["value"]], name="Sensor.2", scale=1e-6)
-    gauges = with_other_columns(scene, named)["flexible"][0]["gauges"]
+    gauges = with_renamed_columns(scene, named)["flexible"][0]["gauges"]
     assert gauges == [first | {"value": "Sensor.1"}, *others]
 
 

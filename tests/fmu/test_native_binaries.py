@@ -15,9 +15,9 @@ import fmpy
 import numpy as np
 import pytest
 
-from fmu_src.native.more_platforms import add_platforms
+from fmu_src.native.added_platforms import add_platforms
 from fmu_src.native.platforms import PLATFORMS
-from fmu_src.native.universal import universal
+from fmu_src.native.universal_binary import universal
 from tests import kinds
 from tests.fmu import native
 from tests.fmu.calls import OK, HostMaker

@@ -18,7 +18,7 @@ from fmu_src.build.build import build_fmu
 from hosts.common.numbers import Value
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.wild_driver import WildDriver, wild_start
+from hosts.driving.random_driver import RandomDriver, wild_start
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.scalars import ELEMENTS, element_names
 from mbs import Pose, Simulation
@@ -267,7 +267,7 @@ def test_a_wild_drive_is_that_of_the_kernel_with_small_steps(car: Road, seed: in
     with Fmu(car("drop")) as fmu:
         inputs = fmu.names("input")
         wild = Manoeuvre("wild", np.zeros(0), {}, 4.0, start | {"step_size": 0.2 * H})
-        rows = run(fmu, wild, H, WildDriver(seed, inputs))
+        rows = run(fmu, wild, H, RandomDriver(seed, inputs))
     pose = Pose(**{n.removeprefix(manoeuvres.INITIAL): float(x) for n, x in start.items()})
     kernel = Simulation(manoeuvres.system_of("drop"), pose=pose)
     found = []

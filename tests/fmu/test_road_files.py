@@ -16,7 +16,7 @@ import mbs
 from fmu_src.build.build import build_fmu
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads import RoadFile, RoadWarning, write_road
-from mbs.roads.shipped import FOLDER
+from mbs.roads.package_roads import FOLDER
 from mbs.scenes import prototype_car
 from mbs.scenes.prototype_car import Fidelity
 from tests.fmu.calls import ERROR, OK

@@ -71,9 +71,9 @@ def test_between_rows_outputs_are_read_that_somebody_looks_at(kerb_fmus: Path, l
         manoeuvre = read_manoeuvre("step_steer_given_throttle")
         manoeuvre = replace(manoeuvre, start={**manoeuvre.start, "fidelity": 0})
 
-        def until(time, senses):  # type: ignore[no-untyped-def]
+        def until(time, observation):  # type: ignore[no-untyped-def]
             if looks:
-                seen.append(senses["stress.SG1"])
+                seen.append(observation["stress.SG1"])
             return time > 0.295
 
         result = driven(fmu, manoeuvre, H, until=until, every=10)

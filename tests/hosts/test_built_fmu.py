@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from ali3.signals import Stopped
-from ali3.temporary import PREFIX
+from ali3.temporary_folder import PREFIX
 from hosts.common import commands
 from hosts.common.errors import HostError
 from hosts.fmu import built_fmu

@@ -15,7 +15,7 @@ from hosts.check.command import main
 from hosts.check.deviations import deviations
 from hosts.check.reference import in_order
 from hosts.driving.result import Result
-from hosts.driving.run_with_bar import runs_with_bar
+from hosts.driving.runs_with_progress import runs_with_bar
 from hosts.run.command import main as run_main
 from tests.in_process import run
 

@@ -15,9 +15,9 @@ def drive(radius: float, yaw: float = 0.3, gain: float = 1.2, seconds: float = 3
     centre = (x - radius * math.sin(yaw), y + radius * math.cos(yaw))
     rows = []
     for k in range(round(seconds / step)):
-        senses = {"chassis.x": x, "chassis.y": y, "chassis.yaw": yaw - 0.05, "sideslip": 0.05, "speed": speed}
-        act = pilot.act(k * step, senses)
-        rows.append((math.hypot(x - centre[0], y - centre[1]), pilot.offset(senses), speed))
+        observation = {"chassis.x": x, "chassis.y": y, "chassis.yaw": yaw - 0.05, "sideslip": 0.05, "speed": speed}
+        act = pilot.act(k * step, observation)
+        rows.append((math.hypot(x - centre[0], y - centre[1]), pilot.offset(observation), speed))
         curvature += step / 0.15 * (gain * math.tan(0.5 * act["steering"]) / 2.5 - curvature)
         speed += step * (3.0 * act["throttle"] - 8.0 * act["brake"])
         yaw += step * speed * curvature

@@ -68,10 +68,10 @@ def test_the_integral_waits_while_a_pedal_is_at_its_stop() -> None:
     """A minute of full throttle or brake leaves nothing behind: at the right speed neither pedal is pressed."""
     for speed, pedal in ((0.0, "throttle"), (60.0, "brake")):
         driver = make_driver(SETTINGS, CAR)
-        senses = {"chassis.x": 0.0, "chassis.y": 0.0, "chassis.yaw": 0.0, "speed": speed}
+        observation = {"chassis.x": 0.0, "chassis.y": 0.0, "chassis.yaw": 0.0, "speed": speed}
         for k in range(60):
-            assert driver.act(float(k), senses)[pedal] == 1.0
-        now = driver.act(60.0, senses | {"speed": driver.settings.speed})
+            assert driver.act(float(k), observation)[pedal] == 1.0
+        now = driver.act(60.0, observation | {"speed": driver.settings.speed})
         assert now["throttle"] == now["brake"] == 0.0
 
 
@@ -79,8 +79,8 @@ def test_the_integral_takes_away_what_the_error_leaves() -> None:
     """Half a metre a second too slow for two seconds, given twice: the pedal grows by gain times error times time."""
     driver = make_driver(SETTINGS, CAR)
     s = driver.settings
-    senses = {"chassis.x": 0.0, "chassis.y": 0.0, "chassis.yaw": 0.0, "speed": s.speed - 0.5}
-    pedals = [driver.act(t, senses)["throttle"] for t in (0.0, 2.0, 4.0)]
+    observation = {"chassis.x": 0.0, "chassis.y": 0.0, "chassis.yaw": 0.0, "speed": s.speed - 0.5}
+    pedals = [driver.act(t, observation)["throttle"] for t in (0.0, 2.0, 4.0)]
     assert np.diff(pedals) == pytest.approx([0.0, s.speed_integral * 0.5 * 2.0])
 
 

@@ -15,13 +15,13 @@ from hosts.driving.course_scenery import things_of, with_marks
 from hosts.driving.courses import course_of
 from hosts.driving.ground_marks import lanes, marks_of_inputs
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.pilots.braking import Braking
+from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
-from hosts.driving.pilots.course_from_here import CourseFromHere
 from hosts.driving.pilots.fixed_steering import FixedSteering
+from hosts.driving.pilots.run_up_pilot import CourseFromHere
 from hosts.driving.result import Result
-from hosts.driving.run_with_bar import run_with_bar
+from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_source import FmuSource
 from hosts.view.view_sources import _with_marks
@@ -98,12 +98,12 @@ def test_other_inputs_bring_nothing(columns) -> None:
 
 def test_pilots_tell_what_they_drive_by() -> None:
     circle = CircleFollower(30.0, 10.0, 2.5, 0.5)
-    pilot = Braking(FixedSteering(circle, 1.0, 0.5), lambda time, senses: time > 2.0, 0.5, 0.1)
+    pilot = Braking(FixedSteering(circle, 1.0, 0.5), lambda time, observation: time > 2.0, 0.5, 0.1)
     assert pilot.marks == []
-    senses = {"chassis.x": 1.0, "chassis.y": 2.0, "chassis.yaw": 0.5 * math.pi, "sideslip": 0.0, "speed": 10.0}
-    pilot.act(0.0, senses)
+    observation = {"chassis.x": 1.0, "chassis.y": 2.0, "chassis.yaw": 0.5 * math.pi, "sideslip": 0.0, "speed": 10.0}
+    pilot.act(0.0, observation)
     assert pilot.marks[0]["centre"] == pytest.approx([-29.0, 2.0])
-    pilot.act(2.5, senses | {"chassis.x": 5.0})
+    pilot.act(2.5, observation | {"chassis.x": 5.0})
     _, line = pilot.marks
     assert np.array(line["points"]) == pytest.approx(np.array([[3.0, 2.0], [7.0, 2.0]]))
 
@@ -111,11 +111,11 @@ def test_pilots_tell_what_they_drive_by() -> None:
 def test_cones_stand_along_the_course_as_it_was_laid_out() -> None:
     course = course_of("iso_3888_1", 1.6)
     steering = CourseFollower(course, DriverSettings(15.0, 2.5, 0.5, 4.0, 1.6))
-    pilot = CourseFromHere(steering, 15.0, lambda time, senses: time > 1.0)
-    senses = {"chassis.x": 100.0, "chassis.y": 7.0, "chassis.yaw": 0.5 * math.pi, "speed": 15.0}
-    pilot.act(0.0, senses)
+    pilot = CourseFromHere(steering, 15.0, lambda time, observation: time > 1.0)
+    observation = {"chassis.x": 100.0, "chassis.y": 7.0, "chassis.yaw": 0.5 * math.pi, "speed": 15.0}
+    pilot.act(0.0, observation)
     assert pilot.marks == []
-    pilot.act(1.5, senses)
+    pilot.act(1.5, observation)
     places = things_of(pilot.marks)
     assert len(places) == 34
     first = course.gates[0]

@@ -13,10 +13,10 @@ from typing import Any
 import pytest
 
 from hosts.common import commands
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.fmu.geometry import scene_of
 from hosts.view.command import main
-from hosts.view.view_sources import RunWishes, recordings_of
+from hosts.view.view_sources import ViewRunOptions, recordings_of
 from mbs.worlds.command import main as road
 from viewer.page_file import notes_of
 
@@ -155,7 +155,7 @@ def test_a_result_whose_world_was_deleted_says_how_to_make_it_again(tuned: Path,
     result.write_text("time,height\n0,1\n1,2\n")
     record = {"fmu": str(fmu), "set": [{"name": "road.file", "new": str(gone)}]}
     result.with_suffix(".json").write_text(json.dumps(record))
-    (recording,), _, _ = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
+    (recording,), _, _ = recordings_of([result], None, ViewRunOptions(None, None, None, FmuOptions([], [])))
     (sentence,) = notes_of([recording])
     remedy = f" road --world skidpad --out '{gone.parent}'"
     assert sentence.startswith(f"The road {gone} is not drawn: its file is not there; that of a world is made again by")
@@ -178,7 +178,7 @@ def test_a_result_whose_scenery_alone_is_gone_says_so(tuned: Path, tmp_path: Pat
     result.with_suffix(".json").write_text(json.dumps(record))
 
     def drawn() -> tuple[int, list[str]]:
-        (recording,), _, _ = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
+        (recording,), _, _ = recordings_of([result], None, ViewRunOptions(None, None, None, FmuOptions([], [])))
         assert recording.scene is not None
         assert len(recording.scene["roads"]) == 1
         return len(recording.scene.get("scenery", [])), notes_of([recording])
@@ -194,7 +194,7 @@ def test_a_result_whose_scenery_alone_is_gone_says_so(tuned: Path, tmp_path: Pat
     )
     assert sentence.endswith(f" road --world line --out {tmp_path}.")
     of_world.write_text(re.sub(r'"checksum": *\d+', '"checksum": 7', content))
-    (recording,), _, _ = recordings_of([result], None, RunWishes(None, None, None, Wishes([], [])))
+    (recording,), _, _ = recordings_of([result], None, ViewRunOptions(None, None, None, FmuOptions([], [])))
     assert recording.scene is not None
     assert recording.scene["roads"] == []
     assert f"{of_world} is the record of another line.road than the one beside it" in notes_of([recording])[0]
@@ -212,7 +212,7 @@ def test_an_fmu_that_is_named_beside_a_record_is_drawn_where_the_run_was(tuned: 
     result.with_suffix(".json").write_text(json.dumps(record))
 
     def drawn() -> tuple[list[str], list[str]]:
-        (recording,), told, _ = recordings_of([result], fmu, RunWishes(None, None, None, Wishes([], [])))
+        (recording,), told, _ = recordings_of([result], fmu, ViewRunOptions(None, None, None, FmuOptions([], [])))
         assert recording.scene is not None
         return [item["kind"] for item in recording.scene.get("scenery", [])], told
 
@@ -239,7 +239,7 @@ def test_runs_on_different_worlds_say_whose_ground_is_drawn(tuned: Path, tmp_pat
         results[-1].write_text("time,height\n0,1\n1,2\n")
         record = {"fmu": str(fmu), "set": [{"name": "road.file", "new": str(folder / "w.road")}]}
         results[-1].with_suffix(".json").write_text(json.dumps(record))
-    recordings, _, _ = recordings_of(results, None, RunWishes(None, None, None, Wishes([], [])))
+    recordings, _, _ = recordings_of(results, None, ViewRunOptions(None, None, None, FmuOptions([], [])))
     assert notes_of(recordings) == ["two: It ran on another ground than one, whose ground is drawn."]
 
 

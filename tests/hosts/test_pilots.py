@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from hosts.common.errors import HostError
-from hosts.driving.pilots.combined_pilot import Together
+from hosts.driving.pilots.combined_pilot import CombinedPilot
 from hosts.driving.pilots.speed_holder import SpeedHolder
-from hosts.driving.pilots.steering import SteeringTable
+from hosts.driving.pilots.steering_table import SteeringTable
 
 
 def hold(pilot: SpeedHolder, start: float, seconds: float, push: float = 4.0, step: float = 0.01) -> np.ndarray:
@@ -87,5 +87,5 @@ def test_a_wrong_table_is_told(time: list[float], values: list[float], words: st
 
 
 def test_the_later_pilot_wins() -> None:
-    pilots = Together(SteeringTable([0.0], [0.1]), SpeedHolder(5.0), SteeringTable([0.0], [0.2]))
+    pilots = CombinedPilot(SteeringTable([0.0], [0.1]), SpeedHolder(5.0), SteeringTable([0.0], [0.2]))
     assert pilots.act(0.0, {"speed": 5.0}) == {"steering": 0.2, "throttle": 0.0, "brake": 0.0}

@@ -7,23 +7,23 @@ import numpy as np
 import pytest
 
 from hosts.driving.courses import course_of
-from hosts.driving.pilots.braking import Braking
-from hosts.driving.pilots.course_from_here import CourseFromHere
+from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.fixed_steering import FixedSteering
 from hosts.driving.pilots.line_follower import LineFollower
+from hosts.driving.pilots.run_up_pilot import CourseFromHere
 from hosts.driving.planned_course import planned
 
 
 class Wave:
     """Steers a sine, with half of the throttle."""
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         return {"steering": 0.3 + 0.1 * math.sin(2 * math.pi * time), "throttle": 0.5, "brake": 0.0}
 
 
 @pytest.mark.parametrize("step", [0.001, 0.005, 0.02])
 def test_pedal_rises_alike_whatever_the_step(step: float) -> None:
-    pilot = Braking(Wave(), lambda time, senses: time >= 1.0 - 1e-9, 0.8, 0.1, {"selector": (1.0, 0.0)})
+    pilot = Braking(Wave(), lambda time, observation: time >= 1.0 - 1e-9, 0.8, 0.1, {"selector": (1.0, 0.0)})
     acts = [pilot.act(k * step, {}) for k in range(round(1.5 / step))]
     time = step * np.arange(len(acts))
     brake = np.array([a["brake"] for a in acts])
@@ -57,8 +57,8 @@ def test_a_car_without_slip_follows_the_line_from_wherever_it_is(x0: float, y0: 
     x, y, yaw, sideslip, rate = x0, y0, yaw0, 0.0, 0.0
     seen, pedals = [], []
     for k in range(1100):
-        senses = {"chassis.x": x, "chassis.y": y, "chassis.yaw": yaw, "speed": speed}
-        act = pilot.act(k * step, senses | {"sideslip": sideslip, "chassis.wz": rate})
+        observation = {"chassis.x": x, "chassis.y": y, "chassis.yaw": yaw, "speed": speed}
+        act = pilot.act(k * step, observation | {"sideslip": sideslip, "chassis.wz": rate})
         sideslip = math.atan(0.5 * math.tan(act["steering"] * 0.6))
         rate = speed * math.sin(sideslip) / half
         x += step * speed * math.cos(yaw + sideslip)

@@ -9,7 +9,7 @@ import pytest
 import mbs
 from fmu_src.build.build import build_fmu
 from hosts.common.errors import HostError
-from hosts.common.road import road_value, tell_starts
+from hosts.common.road import report_starts, road_value
 from hosts.run.command import main
 from mbs.elements import ContactPoints, PlaneRoad
 
@@ -68,7 +68,7 @@ def test_a_start_beside_the_road_is_told_before_the_drive(tmp_path, capfd, x, st
     rows = "".join(f"{x + at:g},0,0,0\n" for at in (-50.0, 0.0, 50.0))
     (tmp_path / "far.csv").write_text(f"x,-5,0,5\n{rows}")
     road = road_value(str(tmp_path / "far.csv"), tmp_path)
-    tell_starts([{"road.file": road, "initial.x": start}] * 3)
+    report_starts([{"road.file": road, "initial.x": start}] * 3)
     said = capfd.readouterr().err
     assert said.count("warning: ") == bool(words)
     assert words in said

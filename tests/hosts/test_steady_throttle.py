@@ -19,7 +19,7 @@ from hosts.driving.write_manoeuvre import write_manoeuvre
 from hosts.fmu.fmu import StepRefusedError
 from hosts.run.command import main
 from hosts.run.run_summary import summary
-from hosts.simulator.headless import OfManoeuvre
+from hosts.simulator.headless_driving import OfManoeuvre
 from hosts.study.jobs import Job
 from hosts.study.plan import job_digest
 

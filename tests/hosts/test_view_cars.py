@@ -19,8 +19,8 @@ from hosts.view.result_tables import read_table
 from mbs.vehicle import load
 from tests.hosts.test_view import shown
 from tests.quick import quick
-from viewer.browser import BrowserError, find_chromium
 from tests.viewer.poses import FramePoses
+from viewer.browser import BrowserError, find_chromium
 
 CARS = ("prototype", "hatchback")
 WHEELS = ("FL", "FR", "RL", "RR")

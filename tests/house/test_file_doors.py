@@ -30,13 +30,13 @@ BEHIND = {
 OWN = {
     # What this program wrote a moment before, or what is installed with it.
     "ali3/call_mark.py",
-    "ali3/chart_words.py",
-    "ali3/echo/quantity.py",
-    "ali3/guard.py",
+    "ali3/chart_description.py",
+    "ali3/plausibility/quantity.py",
+    "ali3/process_supervisor.py",
     "hosts/driving/recorded_rows.py",
-    "ali3/isolated.py",
+    "ali3/isolated_processes.py",
     "fmu_src/native/archive.py",
-    "fmu_src/native/compile.py",
+    "fmu_src/native/compilation.py",
     "fmu_src/native/sources.py",
     "fmu_src/python_slave/package.py",
     "hosts/check/documents.py",

@@ -25,7 +25,7 @@ OPTIONAL_OF_A_STUDY = {
     "hosts.fmu.built_fmu",
     "hosts.study.analysis.report",
     "hosts.study.damaged_files",
-    "hosts.study.drawn_points",
+    "hosts.study.random_points",
     "hosts.study.repeated_run",
     "hosts.study.target",
 }
@@ -93,5 +93,5 @@ def test_a_process_for_code_of_others_leaves_its_guard_before_it_loads_packages(
     loaded = ran(
         "import sys; before = {*sys.modules}; import ali3.worker; print(*{*sys.modules} - before)"
     ).stdout.split()
-    assert "ali3.guard" in loaded
+    assert "ali3.process_supervisor" in loaded
     assert {"numpy", "pydantic", "resource"}.isdisjoint(loaded)

@@ -15,18 +15,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hosts.measures.log_echo import log_echo
+from hosts.measures.log_plausibility import log_plausibility
 from mbs.elements.road import GridRoad
-from mbs.roads.road_echo import place_of, road_echo, start_echo
+from mbs.roads.road_plausibility import place_of, road_plausibility, start_plausibility
 from mbs.tyre_files import read_tyre
-from mbs.tyre_files.tyre_echo import magic_echo
+from mbs.tyre_files.tyre_plausibility import magic_plausibility
 from mbs.urdf import read_urdf
 from mbs.vehicle import load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changed_content import changed_content
-from mbs.worlds.world_echo import world_echo
+from mbs.worlds.world_plausibility import world_plausibility
 from mbs.worlds.world_types import WorldDescription
-from tests.hosts.compare.test_log_echo import Drive, drive, frozen, late, scaled, swapped
+from tests.hosts.compare.test_log_plausibility import Drive, drive, frozen, late, scaled, swapped
 from tests.urdf.robots import ROBOTS, write_urdf
 
 ROOT = Path(__file__).parents[2]
@@ -67,7 +67,7 @@ def tyre(**factors: float) -> Told:
         file = folder / "t.tir"
         file.write_text(text, encoding="utf-8")
         read = read_tyre(file)
-        return magic_echo("t.tir", read.tyre(), read.numbers).warnings()
+        return magic_plausibility("t.tir", read.tyre(), read.numbers).warnings()
 
     return told
 
@@ -93,7 +93,7 @@ def robot(pattern: str, factor: float) -> Told:
 
 def log(change: Callable[[Drive], Drive]) -> Told:
     """A drive with a mistake."""
-    return lambda _: log_echo("log.csv", change(drive())).warnings()
+    return lambda _: log_plausibility("log.csv", change(drive())).warnings()
 
 
 def offset(name: str, by: float) -> Callable[[Drive], Drive]:
@@ -111,8 +111,8 @@ def road(heights: float = 1.0, spacing: float = 0.5, origin: tuple[float, float]
     made = GridRoad(origin, (spacing, spacing), z, **more)
     return lambda _: [
         sentence
-        for echo in (road_echo("r.csv", made), start_echo("r.csv", place_of(made), (0.0, 0.0)))
-        for sentence in echo.warnings()
+        for plausibility in (road_plausibility("r.csv", made), start_plausibility("r.csv", place_of(made), (0.0, 0.0)))
+        for sentence in plausibility.warnings()
     ]
 
 
@@ -122,7 +122,7 @@ def world(section: str, k: int, **values: Any) -> Told:
     def told(_: Path) -> list[str]:
         data = tomllib.loads((ROOT / "mbs/worlds/proving_ground.toml").read_text(encoding="utf-8"))
         data[section][k] |= values
-        return world_echo("w.toml", WorldDescription.model_validate(data)).warnings()
+        return world_plausibility("w.toml", WorldDescription.model_validate(data)).warnings()
 
     return told
 

@@ -44,12 +44,12 @@ def test_states_have_the_same_bits_without_avx2(tmp_path):
     """
     if widest_lanes() == 2:
         pytest.skip("this processor has no AVX2")
-    as_without = kernel(tmp_path / "without", ["processor.c", "fours.c"], NO_AVX2 + NO_FOURS)
+    as_without = kernel(tmp_path / "without", ["processor.c", "element_fours.c"], NO_AVX2 + NO_FOURS)
     result = states_of(as_without, widest=2)
     assert result.returncode == 0, result.stderr.decode()
     one, two = np.frombuffer(states(), np.uint8), np.frombuffer(result.stdout, np.uint8)
     assert np.array_equal(one, two)
-    as_here = kernel(tmp_path / "here", ["fours.c"], NO_FOURS)
+    as_here = kernel(tmp_path / "here", ["element_fours.c"], NO_FOURS)
     assert states_of(as_here, widest=widest_lanes()).returncode < 0, "no elements of the car go in fours"
 
 

@@ -10,9 +10,9 @@ import pytest
 from ali3.command import main
 from mbs.elements import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads import RoadFile, RoadFileError, read_road, write_road
+from mbs.roads.package_roads import FOLDER
 from mbs.roads.picture import shown
 from mbs.roads.rough_road import ISO_8608, rough_heights
-from mbs.roads.shipped import FOLDER
 
 CRG = Path(__file__).parents[1] / "data" / "crg"
 HEIGHTS = np.array([[0.0, 0.1, 0.2], [1.0, 1.1, 1.2]])  # x number 0 and 1, y number 0 to 2

@@ -9,7 +9,7 @@ import mbs
 from benchmarks.references import motions as references
 from benchmarks.references.bicycle import AT_FIVE, CAPSIZE, WEAVE, eigenvalues, stable_speeds
 from benchmarks.references.cases import exact_of, system_of
-from benchmarks.references.rolling import RollingBicycle
+from benchmarks.references.rolling_wheels import RollingBicycle
 from mbs.scenes import bicycle
 
 PRINTED = 1e-8  # 1/s: of the published eigenvalues

@@ -12,7 +12,7 @@ import pytest
 import mbs
 from mbs import BranchWarning, Model, Settings, Simulation, SimulationError, System, compile
 from mbs.compiler import assembly_modes
-from mbs.compiler.trace import trace
+from mbs.compiler.loop_motion import trace
 from mbs.kernel.binding import KernelError, LoadedSystem, Status
 from mbs.scenes import (
     assembly_defect_four_bar,
@@ -23,7 +23,7 @@ from mbs.scenes import (
     spatial_slider_crank,
     squeezer,
 )
-from mbs.simulation.standing_system import StandingSystem
+from mbs.simulation.unstepped_system import StandingSystem
 
 from .loops import four_bar, suspension
 

@@ -20,8 +20,8 @@ from tests.kernel.scenes import four_bar
 from tests.kernel.system_builder import SystemBuilder
 from tests.methods.test_refusals import driven_four_bar, four_bar_with_crank, sliding
 from tests.model.test_free_wheels import WHEELS
-from tests.model.test_tabled import number_model
-from tests.model.test_written_inertias import DRAWN, thrown
+from tests.model.test_parametric_inertias import DRAWN, thrown
+from tests.model.test_table_bodies import number_model
 from tests.simulation.test_start_in_equilibrium import hanging
 
 Cause_ = Callable[[Path], object]

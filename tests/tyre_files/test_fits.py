@@ -13,7 +13,7 @@ from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
 from mbs.tyre_files import read_tyre
 from mbs.tyre_files.fits import magic_of_tmeasy, tmeasy_of_magic
 from mbs.tyre_files.magic_file import one_sided
-from mbs.tyre_files.writing import write_tyre
+from mbs.tyre_files.property_writer import write_tyre
 from tests.elements.harness import Element
 from tests.elements.test_magic_tyre import element_of, pose
 from tests.elements.tyre_data import TYRE, tyre_element

@@ -7,7 +7,7 @@ import warnings
 import pytest
 
 from mbs.compiler.model_to_system import compiled
-from mbs.simulation.standing_system import StandingSystem
+from mbs.simulation.unstepped_system import StandingSystem
 from mbs.vehicle import CarFileError, CarWarning, load
 from mbs.vehicle.built_car import checked_car
 from mbs.vehicle.car import Car

@@ -52,7 +52,7 @@ class Linkage:
         self.P, self.A = np.array(s.arm_pivot), np.array(s.arm_joint)
         self.Q = mirror * self.P if s.idler_pivot is None else np.array(s.idler_pivot)
         self.B = mirror * self.A if s.idler_joint is None else np.array(s.idler_joint)
-        self.sign = -car.rack_way  # the arm points back: a turn to the left, seen from above, moves its end right
+        self.sign = -car.rack_direction  # the arm points back: a turn to the left, seen from above, moves its end right
         self.idler0 = self._root(0.0, 0.0)
 
     def turn(self, v, angle):

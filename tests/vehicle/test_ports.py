@@ -9,7 +9,7 @@ import pytest
 import mbs
 from mbs.vehicle import CarFileError, load
 from mbs.vehicle.car import Car
-from mbs.vehicle.chosen_ports import chosen_ports
+from mbs.vehicle.port_option import chosen_ports
 from tests.elements.harness import Element
 from tests.vehicle.column_car import column_car, rigid_chassis
 
@@ -111,12 +111,12 @@ def test_what_a_port_replaces_is_left_out_and_all_else_stays_in_its_order() -> N
     }
     kinds = {"torque": "hub_motors", "brakes": "pressure", "steering": "rack_position"}
     for port, (no_inputs, no_sensors) in gone.items():
-        mine, senses = names(with_ports(rigid(), **{port: kinds[port]}))
+        mine, observation = names(with_ports(rigid(), **{port: kinds[port]}))
         no_sensors = no_sensors | {f"used.{name}" for name in no_inputs}
         if [n for n in mine if n in inputs] != [n for n in inputs if n not in no_inputs]:
             faults.append((port, mine))
-        if [n for n in senses if n in sensors] != [n for n in sensors if n not in no_sensors]:
-            faults.append((port, set(sensors) - set(senses) ^ no_sensors))
+        if [n for n in observation if n in sensors] != [n for n in sensors if n not in no_sensors]:
+            faults.append((port, set(sensors) - set(observation) ^ no_sensors))
     assert not faults
     parameters = [p.name for p in with_ports(rigid(), torque="half_shafts", brakes="torque").model().parameters]
     assert not [n for n in parameters if n.startswith("drive.") or n in ("brakes.torque", "brakes.balance")]
@@ -333,7 +333,7 @@ def test_a_force_on_the_rack_relieves_the_steering_wheel() -> None:
     per_radian = car.steering.rack_per_turn / (2.0 * np.pi)
     relief = held[0.0]["steering_wheel_torque"] - held[100.0]["steering_wheel_torque"]
     rods = held[100.0]["steering_rack_force"] - held[0.0]["steering_rack_force"]
-    way = car.rack_way
+    way = car.rack_direction
     assert abs(relief) > 0.1
     assert abs(relief - way * per_radian * (100.0 + rods)) < 0.3 * abs(relief)
 
@@ -428,9 +428,9 @@ def test_a_gear_that_is_asked_for_is_engaged_and_the_drive_shifts_by_itself_with
         power = now[f"wheel_{w}{side}.drive_torque"] * now[f"wheel_{w}{side}.omega"]
         assert now[f"wheel_{w}{side}.drive_power"] == pytest.approx(power, rel=0.02)
     inputs, sensors = names(rigid())
-    mine, senses = names(with_ports(rigid(), gear="request"))
+    mine, observation = names(with_ports(rigid(), gear="request"))
     assert [n for n in mine if n != "gear_request"] == inputs
-    assert [n for n in senses if n in sensors] == sensors
+    assert [n for n in observation if n in sensors] == sensors
 
 
 def test_a_clutch_hands_on_what_its_pedal_leaves() -> None:

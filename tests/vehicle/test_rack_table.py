@@ -65,7 +65,7 @@ def test_a_straight_table_is_the_constant_ratio():
 @pytest.mark.slow
 def test_kinematics_has_the_angle_and_the_ratio_of_the_table():
     c = kinematics(TABLED, points=41).curves["front", "steer"].columns
-    angle, rack = c["steering_wheel_angle"], CAR.rack_way * c["rack_travel"]
+    angle, rack = c["steering_wheel_angle"], CAR.rack_direction * c["rack_travel"]
     np.testing.assert_allclose(CURVE(angle), rack, rtol=0, atol=1e-14)
     usual = kinematics(CAR, points=41).curves["front", "steer"].columns
     constant = CAR.steering.rack_per_turn / (2.0 * math.pi)
@@ -76,13 +76,13 @@ def test_kinematics_has_the_angle_and_the_ratio_of_the_table():
 
 
 def test_a_run_moves_the_rack_by_the_table(tabled):
-    angle, rack = tabled["steering_wheel_angle"], CAR.rack_way * tabled["steering_rack"]
+    angle, rack = tabled["steering_wheel_angle"], CAR.rack_direction * tabled["steering_rack"]
     assert np.ptp(angle) > 4.0
     np.testing.assert_allclose(rack, CURVE(angle), rtol=0, atol=1e-14)
 
 
 def test_power_of_the_hands_is_power_of_the_rack(tabled):
-    speed = CAR.rack_way * CURVE(tabled["steering_wheel_angle"], 1) * tabled["steering_wheel_speed"]
+    speed = CAR.rack_direction * CURVE(tabled["steering_wheel_angle"], 1) * tabled["steering_wheel_speed"]
     hands, rack = (
         tabled["steering_wheel_torque"] * tabled["steering_wheel_speed"],
         -tabled["steering_rack_force"] * speed,
@@ -104,7 +104,7 @@ def test_full_lock_is_that_of_the_rack():
     t = run(TABLED, {"steering": 0.9, "steering_wheel_angle_demand": 3.0})
     largest = TABLED.steering.wheel_angle_max
     assert t["steering_wheel_angle"][-1] == pytest.approx(largest, abs=1e-6)
-    assert CAR.rack_way * t["steering_rack"][-1] == pytest.approx(CAR.steering.rack_travel, abs=1e-7)
+    assert CAR.rack_direction * t["steering_rack"][-1] == pytest.approx(CAR.steering.rack_travel, abs=1e-7)
     assert t["steering_demand_excess"][-1] == pytest.approx(3.0 - 0.1 * largest, abs=1e-9)
     assert any("beyond full lock" in text for text in t.notices)
 
@@ -118,7 +118,7 @@ def test_the_travel_per_turn_stretches_the_table():
             written[sensor], built[sensor], rtol=0, atol=1e-9 * np.ptp(built[sensor]), err_msg=sensor
         )
     angle = built["steering_wheel_angle"]
-    np.testing.assert_allclose(CAR.rack_way * built["steering_rack"], CURVE(1.1 * angle), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(CAR.rack_direction * built["steering_rack"], CURVE(1.1 * angle), rtol=0, atol=1e-14)
     assert not [*TABLED.steering.oddities()]
     (sentence,) = TABLED.changed({name: value}).steering.oddities()
     assert f"{PER_TURN:.6g} m of rack travel per turn" in sentence
@@ -128,10 +128,10 @@ def test_the_travel_per_turn_stretches_the_table():
 def test_an_axle_by_tables_has_it_too():
     t = Simulation(compile(TABLED.model(fidelity="table"))).run(0.5, 0.005, inputs=TURN, estimate_error=False)
     assert np.ptp(t["steering_wheel_angle"]) > 2.0
-    rack = CAR.rack_way * t["steering_rack"]
+    rack = CAR.rack_direction * t["steering_rack"]
     np.testing.assert_allclose(rack, CURVE(t["steering_wheel_angle"]), rtol=0, atol=1e-14)
     power = t["steering_wheel_torque"] * t["steering_wheel_speed"]
-    slope = CAR.rack_way * CURVE(t["steering_wheel_angle"], 1)
+    slope = CAR.rack_direction * CURVE(t["steering_wheel_angle"], 1)
     np.testing.assert_allclose(
         power, -t["steering_rack_force"] * slope * t["steering_wheel_speed"], rtol=0, atol=1e-9 * np.ptp(power)
     )
@@ -150,7 +150,7 @@ def test_lanes_have_it_too():
         for name in ("steering_rack", "steering_wheel_angle", "steering_wheel_torque"):
             np.testing.assert_allclose(a[name], b[name], rtol=0, atol=1e-9 * np.ptp(b[name]), err_msg=name)
         assert np.ptp(a["steering_wheel_angle"]) > 2.0
-        rack = CAR.rack_way * a["steering_rack"]
+        rack = CAR.rack_direction * a["steering_rack"]
         np.testing.assert_allclose(rack, CURVE(a["steering_wheel_angle"]), rtol=0, atol=1e-14)
 
 
@@ -178,9 +178,12 @@ def test_an_fmu_of_the_file_steers_by_it(tmp_path):
             seen.append(read())
     rack, angle, speed, torque, force = np.transpose(seen)
     assert np.ptp(angle) > 3.0
-    np.testing.assert_allclose(CAR.rack_way * rack, CURVE(angle), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(CAR.rack_direction * rack, CURVE(angle), rtol=0, atol=1e-14)
     np.testing.assert_allclose(
-        torque * speed, -force * CAR.rack_way * CURVE(angle, 1) * speed, rtol=0, atol=1e-9 * np.ptp(torque * speed)
+        torque * speed,
+        -force * CAR.rack_direction * CURVE(angle, 1) * speed,
+        rtol=0,
+        atol=1e-9 * np.ptp(torque * speed),
     )
 
 

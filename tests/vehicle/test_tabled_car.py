@@ -10,7 +10,7 @@ from fmu_src.geometry.geometry import geometry, lost_frames
 from fmu_src.variables.variables import variable_table
 from mbs import Pose, Simulation, System, compile, simulate
 from mbs.common.errors import ModelError
-from mbs.model.tabled import TabledBody
+from mbs.model.table_bodies import TabledBody
 from mbs.vehicle import Car, Fidelity, load
 from mbs.vehicle.linkages.linkage import Linkage
 from mbs.vehicle.linkages.pose_grid import at_springs

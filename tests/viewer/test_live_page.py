@@ -23,7 +23,7 @@ from hosts.run.command import main as run
 from hosts.view import page_parts
 from hosts.view.command import main as view
 from mbs.scenes import prototype_car
-from tests.in_browser import SELDOM, wait_until, wait_words
+from tests.in_browser import SELDOM, wait_text, wait_until
 
 SCENES = Path(__file__).parents[1] / "fmu" / "scenes.py"
 PLATFORMS = [fmpy.platform, "wasm32"]
@@ -138,10 +138,10 @@ def test_the_car_is_driven_by_keys_in_real_time_and_its_table_runs_natively_to_t
     opened.until("player.get('used.hand_brake') === 1 && player.get('used.steering') === 0")
     keyboard.up("Space")
     assert opened.get("chassis.yaw")[0] > 0.0  # to the left
-    wait_words(opened.page, "cluster", "km/h")
-    wait_words(opened.page, "pace", "real time (×")
+    wait_text(opened.page, "cluster", "km/h")
+    wait_text(opened.page, "pace", "real time (×")
     keyboard.press("k")
-    wait_words(opened.page, "step time", " of 2.00 ms")
+    wait_text(opened.page, "step time", " of 2.00 ms")
     keyboard.press("p")
     opened.until("!player.running")
     keyboard.press("r")
@@ -240,7 +240,7 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
     field.fill("0.3")
     opened.page.keyboard.press("Tab")
     opened.until("player.time === 0 && player.session.start['spring.free_length'] === 0.3")
-    wait_words(opened.page, "events", "began again with spring.free_length = 0.3")
+    wait_text(opened.page, "events", "began again with spring.free_length = 0.3")
     opened.ask("player.advance(20)")
     assert "spring.free_length=0.3" in opened.ask("player.csv()")
     assert_same_bits(reach, opened.ask("player.csv()"), tmp_path)
@@ -368,7 +368,7 @@ def test_slow_motion_a_machine_too_slow_a_hidden_page_and_levers(car: Path, chro
     opened.page.locator('[data-a3="toggle"]').click()
     opened.until("player.factor !== null && player.time > 0.05")
     assert 0.05 < opened.ask("player.factor") < 0.15
-    wait_words(opened.page, "pace", "slow motion × 0.1")
+    wait_text(opened.page, "pace", "slow motion × 0.1")
     assert not opened.page.locator('[data-a3="flag behind"]').is_visible()
     opened.ask("player.run(2000)")  # more than any machine does
     opened.until("document.querySelector('[data-a3=\"flag behind\"]')?.textContent.includes('does not keep up')")

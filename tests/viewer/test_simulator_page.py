@@ -10,7 +10,7 @@ import pytest
 
 from ali3.scene.recording import Recording
 from benchmarks.car import manoeuvres
-from tests.in_browser import picture_of_simulator, wait_drawn, wait_until, wait_words
+from tests.in_browser import picture_of_simulator, wait_drawn, wait_text, wait_until
 from tests.viewer.simulator_program import BEHIND, REFUSED, REPORT, RUNNING, Program
 
 PLACES = [{"name": "start", "x": 0.0, "y": -60.0, "yaw": 0.0}, {"name": "hill_20", "x": 120.0, "y": 80.0, "yaw": 0.0}]
@@ -104,8 +104,8 @@ def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> No
     assert "Outside of the world" in program.text("flag outside")
     program.say({"type": "event", "kind": "told", "time": 2.3, "text": "Page 2 was closed: throttle let go."})
     program.say({"type": "refused", "text": "There is no command 'fly'."})
-    wait_words(program.page, "events", "throttle let go.")
-    wait_words(program.page, "events", "There is no command 'fly'.")
+    wait_text(program.page, "events", "throttle let go.")
+    wait_text(program.page, "events", "There is no command 'fly'.")
     wait_until(program.page, "!document.querySelector('[data-a3=\"flag stalled\"]')?.hidden === true")
     assert "this is the last that came" in program.text("flag stalled")
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from wasm_hosts import Chromium, Driven, Fmu, Plan, assert_same, native, node, wasmtime
 
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.fmu.fmu import described
 from hosts.fmu.settings import settings_of
 from hosts.fmu.variables import Variables
@@ -81,7 +81,7 @@ def test_the_hatchback(hatchback: Fmu, expected: Any, name: str, host: Callable[
 def test_a_parameter_set(prototype: Fmu, host: Callable[[Fmu, Plan], Driven], tmp_path: Path) -> None:
     file = tmp_path / "softer.ssv"
     file.write_text(SSV)
-    settings = settings_of(Variables(described(prototype.path)), Wishes([file], []))
+    settings = settings_of(Variables(described(prototype.path)), FmuOptions([file], []))
     assert settings.start == {"front.spring.stiffness": 18500.0, "road.friction": 0.7, "payload.passenger.mass": 80.0}
     plan = drive(200, {"initial.speed": 15.0, **settings.start}, every=100)
     compared = native(prototype, plan)

@@ -131,10 +131,10 @@ def wasmtime(fmu: Fmu, plan: Plan) -> Driven:
 
 def node(fmu: Fmu, plan: Plan) -> Driven:
     """The module in Node, through the page's `fmu.js`."""
-    return decoded(told_by_node("node_drive.mjs", fmu.job(plan)), plan)
+    return decoded(counts_by_node("node_drive.mjs", fmu.job(plan)), plan)
 
 
-def told_by_node(script: str, job: dict[str, Any]) -> Any:
+def counts_by_node(script: str, job: dict[str, Any]) -> Any:
     """What a script of the folder js prints that gets a job."""
     try:
         return in_node(JS / script, job)

@@ -4,7 +4,7 @@
 
 #include "slave.h"
 
-static const double JUMP = 0.015; /* m; from 0.02 m on a load is off by a fifth, see docs/decisions/0184 */
+static const double JUMP = 0.015; /* m; from 0.02 m on a load is off by a fifth, see docs/decisions/0091 */
 
 static const double BEND = 1e-4; /* m; loads are then off by up to 1.2 %, see docs/decisions/0091 */
 static const double FARTHEST = 4.0; /* square of a wheel's way to an answer over that between two */

@@ -258,7 +258,7 @@ void slave_fidelity_take(slave *s, const slave_fidelity *loaded);
 void slave_fidelity_free(const slave *s, slave_fidelity *loaded);
 bool slave_fidelity_choose(slave *s);
 
-/* follower.c */
+/* omitted_outputs.c */
 bool slave_left_out(const slave *s, const slave_variable *v);
 bool slave_follow(slave *s);
 
@@ -332,7 +332,7 @@ slave_status slave_set_asked(slave *s, const uint32_t *reference, size_t n, cons
 ali3_status slave_asked_steps(slave *s, int64_t *n, double h, double *left);
 void slave_asked_taken(slave *s);
 
-/* Turn of unit normals: sums of ground and edge stay below it, see docs/decisions/0184. */
+/* Turn of unit normals: sums of ground and edge stay below it, see docs/decisions/0091. */
 static const double SLAVE_EDGE = 0.3;
 
 /* road_ramps.c: answers on the road for the end of a step go there from the last ones */
@@ -373,7 +373,7 @@ void slave_forget_refusal(slave *s);
 bool slave_wants_end(const slave *s);
 bool slave_is_of_step(ali3_status status); /* a smaller step_size may pass */
 
-/* watch.c: what a run says about itself, once */
+/* run_warnings.c: what a run says about itself, once */
 slave_status slave_watch(slave *s);
 void slave_watch_outputs(slave *s);
 void slave_watch_start(slave *s);

@@ -36,14 +36,14 @@ def head(cars: Sequence[TestedCar]) -> list[HtmlElement]:
 
 def _facts(car: TestedCar) -> dict[str, Content]:
     try:
-        told = described(car.path)
+        description = described(car.path)
     except HostError as error:
-        told = None
+        description = None
         model, guid, tool, step = str(error), NONE, NONE, NONE
-    if told is not None:
-        model, guid = told.modelName or NONE, told.guid or NONE
-        tool = ", ".join(filter(None, (told.generationTool, told.generationDateAndTime))) or NONE
-        step = f"{with_unit(default_step(told) if car.step is None else car.step, 's')}"
+    if description is not None:
+        model, guid = description.modelName or NONE, description.guid or NONE
+        tool = ", ".join(filter(None, (description.generationTool, description.generationDateAndTime))) or NONE
+        step = f"{with_unit(default_step(description) if car.step is None else car.step, 's')}"
     names = car.fmu.count
     return {
         "file": car.path.name,
@@ -72,10 +72,10 @@ def _changed(cars: Sequence[TestedCar]) -> list[list[Content]]:
     names = list(dict.fromkeys(n for texts in by_car for n in texts))
     rows: list[list[Content]] = []
     for name in names:
-        told = [texts.get(name, ("as built", "")) for texts in by_car]
-        if any(text != built and text != "as built" for text, built in told):
+        shown = [texts.get(name, ("as built", "")) for texts in by_car]
+        if any(text != built and text != "as built" for text, built in shown):
             cells = [
-                element("td", text, element("small", f"as built {b}") if b and b != text else "") for text, b in told
+                element("td", text, element("small", f"as built {b}") if b and b != text else "") for text, b in shown
             ]
             rows.append([element("code", name), *cells])
     return rows

@@ -7,9 +7,9 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.circle_stop import COMPARED, STEADY, Stop
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.preparation import held, start_at
-from hosts.catalogue.stop_conditions import Ends
+from hosts.catalogue.stop_conditions import StopConditions
 from hosts.common.errors import HostError
-from hosts.driving.pilots.braking import Braking
+from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower
 from hosts.driving.pilots.fixed_steering import FixedSteering
 
@@ -58,13 +58,13 @@ def stop(car: TestedCar, settings: Mapping[str, float], pedal: float, longest: f
     )
     pilot = Braking(
         FixedSteering(circle, begin, STEADY),
-        lambda time, senses: time >= begin + 1.5 * STEADY - 1e-9,
+        lambda time, observation: time >= begin + 1.5 * STEADY - 1e-9,
         pedal,
         settings["rise_time"],
     )
     # a car with less than 0.5 m/s2 does not brake
     stop_time = begin + 1.5 * STEADY + min(longest, settings["rise_time"] + speed / 0.5)
-    ends = Ends(stands=0.05)
+    ends = StopConditions(stands=0.05)
 
     def over(time: float, outputs: Mapping[str, float]) -> bool:
         started = not math.isnan(pilot.onset)

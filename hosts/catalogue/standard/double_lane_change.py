@@ -10,14 +10,14 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.passage import Passage
 from hosts.catalogue.preparation import RunUp, held
-from hosts.catalogue.stop_conditions import Ends
+from hosts.catalogue.stop_conditions import StopConditions
 from hosts.common.errors import HostError
 from hosts.driving.course import Course
 from hosts.driving.courses import course_of
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
-from hosts.driving.pilots.course_from_here import CourseFromHere
 from hosts.driving.pilots.line_follower import LineFollower
 from hosts.driving.pilots.pilot import Pilot
+from hosts.driving.pilots.run_up_pilot import CourseFromHere
 from hosts.driving.planned_course import planned
 
 STEP = 0.005  # s, in which the driver holds the steering
@@ -158,7 +158,7 @@ def drive_through(car: TestedCar, layout: _Layout, speed: float, driver: str) ->
         course.gates[0].x_start + layout.release - 0.5 * length,
     )
     way = course.gates[-1].x_end + length
-    ends = Ends(stands=0.3 * wanted)
+    ends = StopConditions(stands=0.3 * wanted)
 
     def over(time: float, outputs: Mapping[str, float]) -> bool:
         if math.isnan(pilot.start):

@@ -7,13 +7,13 @@ from typing import Any
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.measure_sheet import Sheet
 from hosts.catalogue.preparation import RunUp, early_end, held
-from hosts.catalogue.stop_conditions import Ends
+from hosts.catalogue.stop_conditions import StopConditions
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
-from hosts.driving.pilots.braking import Braking
-from hosts.driving.pilots.combined_pilot import Together
+from hosts.driving.pilots.braking_pilot import Braking
+from hosts.driving.pilots.combined_pilot import CombinedPilot
 from hosts.driving.pilots.speed_holder import SpeedHolder
-from hosts.driving.pilots.steering import SteeringTable
+from hosts.driving.pilots.steering_table import SteeringTable
 from hosts.driving.result import Result
 
 STEP = 0.005  # s; the pedal rises in a multiple of it
@@ -60,7 +60,7 @@ def stop(
     neutral = settings["neutral"] >= 0.5 and "selector" in car.facts.inputs
     run_up = RunUp(car, nominal)
     pilot = Braking(
-        Together(SteeringTable([0.0], [0.0]), SpeedHolder(nominal, gain=1.0, integral_gain=1.0)),
+        CombinedPilot(SteeringTable([0.0], [0.0]), SpeedHolder(nominal, gain=1.0, integral_gain=1.0)),
         run_up.is_over,
         settings["pedal"],
         settings["rise_time"],
@@ -68,7 +68,7 @@ def stop(
     )
     # a car with less than 1 m/s2 does not brake
     stop_time = run_up.longest + settings["rise_time"] + nominal / 1.0
-    ends = Ends(stands=0.02)
+    ends = StopConditions(stands=0.02)
 
     def over(time: float, outputs: Mapping[str, float]) -> bool:
         started = not math.isnan(pilot.onset)

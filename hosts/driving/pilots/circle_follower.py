@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from hosts.driving.ground_marks import Mark, circle
 from hosts.driving.pilots.speed_holder import SpeedHolder
 
-SENSES = ("chassis.x", "chassis.y", "chassis.yaw", "sideslip", "speed")
+OBSERVED = ("chassis.x", "chassis.y", "chassis.yaw", "sideslip", "speed")
 """Outputs without which a circle cannot be held."""
 
 
@@ -54,11 +54,11 @@ class CircleFollower:
         self._integral = 0.0
         self._time = 0.0
 
-    def offset(self, senses: Mapping[str, float]) -> float:
+    def offset(self, observation: Mapping[str, float]) -> float:
         """How far to the left of the circle the car is, m; zero before the first act."""
         if self._centre is None:
             return 0.0
-        distance = math.hypot(senses["chassis.x"] - self._centre[0], senses["chassis.y"] - self._centre[1])
+        distance = math.hypot(observation["chassis.x"] - self._centre[0], observation["chassis.y"] - self._centre[1])
         return math.copysign(abs(self.radius) - distance, self.radius * (abs(self.radius) - distance))
 
     @property
@@ -66,9 +66,9 @@ class CircleFollower:
         """The circle, once it is known."""
         return [] if self._centre is None else [circle(self._centre, abs(self.radius))]
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """See `hosts.driving.pilots.pilot.Pilot.act`; steering, throttle and brake from `SENSES`."""
-        x, y, yaw, sideslip, speed = (senses[name] for name in SENSES)
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
+        """See `hosts.driving.pilots.pilot.Pilot.act`; steering, throttle and brake from `OBSERVED`."""
+        x, y, yaw, sideslip, speed = (observation[name] for name in OBSERVED)
         travel = yaw + sideslip
         if self._centre is None:
             self._centre = (x - self.radius * math.sin(travel), y + self.radius * math.cos(travel))
@@ -77,7 +77,7 @@ class CircleFollower:
         side = math.copysign(1.0, self.radius)
         tangent = math.atan2(side * (x - cx), -side * (y - cy))
         astray = math.remainder(travel - tangent, 2.0 * math.pi)
-        offset = self.offset(senses)
+        offset = self.offset(observation)
         length = self.horizon * max(speed, 1.0)
         curvature = 1.0 / self.radius - 3.0 * astray / length - 3.0 * offset / length**2
         curvature -= self._integral / length**2 / self.horizon
@@ -85,4 +85,4 @@ class CircleFollower:
         if abs(steering) < self.largest:
             self._integral += step * offset
         limited = min(max(steering, -self.largest), self.largest)
-        return {self.name: limited} | self.speed_holder.act(time, senses)
+        return {self.name: limited} | self.speed_holder.act(time, observation)

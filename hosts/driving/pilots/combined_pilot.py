@@ -6,7 +6,7 @@ from hosts.driving.ground_marks import Mark, marks_of
 from hosts.driving.pilots.pilot import Pilot
 
 
-class Together:
+class CombinedPilot:
     """Pilots that share a car, such as one who steers and one who holds the speed.
 
     `pilots`: where two act on an input the later one does.
@@ -20,8 +20,8 @@ class Together:
         """Marks of all pilots."""
         return [mark for pilot in self.pilots for mark in marks_of(pilot)]
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         acts: dict[str, float] = {}
         for pilot in self.pilots:
-            acts |= pilot.act(time, senses)
+            acts |= pilot.act(time, observation)
         return acts

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hosts.driving.course import Course
-from hosts.driving.pilots.pilot import SENSES
+from hosts.driving.pilots.pilot import OBSERVED
 from hosts.driving.pilots.speed_holder import SpeedHolder
 
 
@@ -43,16 +43,16 @@ class CourseFollower:
         self.settings = settings
         self.speed_holder = SpeedHolder(settings.speed, settings.speed_gain, settings.speed_integral)
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         """Inputs for the coming communication step.
 
-        `time`: in s; `senses`: `SENSES`, SI units, earth axes. Result: `ACTS`.
+        `time`: in s; `observation`: `OBSERVED`, SI units, earth axes. Result: `ACTS`.
         """
         s = self.settings
-        x, y, yaw, speed = (senses[name] for name in SENSES)
+        x, y, yaw, speed = (observation[name] for name in OBSERVED)
         curvature = self.course.path(x + s.curvature_preview * speed)[2]
         slope = self.course.path(x + s.heading_preview * speed)[1]
         angle = math.atan(s.wheelbase * curvature)
         angle += s.heading_gain * (math.atan(slope) - yaw) + s.lateral_gain * (self.course.path(x)[0] - y)
         steering = angle / s.wheel_angle_max
-        return {"steering": min(max(steering, -1.0), 1.0)} | self.speed_holder.act(time, senses)
+        return {"steering": min(max(steering, -1.0), 1.0)} | self.speed_holder.act(time, observation)

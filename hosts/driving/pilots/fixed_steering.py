@@ -27,8 +27,8 @@ class FixedSteering:
         """Marks of the other pilot."""
         return marks_of(self.pilot)
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        acts = dict(self.pilot.act(time, senses))
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
+        acts = dict(self.pilot.act(time, observation))
         if self.value is None and time >= self.fixed_at - 1e-9 and self._count:
             self.value = self._sum / self._count
         if self.value is not None:

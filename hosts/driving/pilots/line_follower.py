@@ -45,17 +45,17 @@ class LineFollower:
         self.horizon = horizon
         self.lead = lead
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         """See `hosts.driving.pilots.pilot.Pilot.act`; steering only."""
-        x, y, speed = senses["chassis.x"], senses["chassis.y"], senses["speed"]
-        travel = senses["chassis.yaw"] + senses.get("sideslip", 0.0)
+        x, y, speed = observation["chassis.x"], observation["chassis.y"], observation["speed"]
+        travel = observation["chassis.yaw"] + observation.get("sideslip", 0.0)
         place, slope, bend = self.course.path(x)
         astray = math.remainder(travel - math.atan(slope), 2.0 * math.pi)
         offset = (y - place) * math.cos(math.atan(slope))
         # both errors as they will be when the car answers
         offset += self.lead * speed * astray
-        if "chassis.wz" in senses:
-            astray += self.lead * (senses["chassis.wz"] - speed * bend)
+        if "chassis.wz" in observation:
+            astray += self.lead * (observation["chassis.wz"] - speed * bend)
         length = self.horizon * max(speed, 1.0)
         curvature = self.course.path(x + self.preview * speed * math.cos(travel))[2]
         curvature -= 2.0 * astray / length + offset / length**2

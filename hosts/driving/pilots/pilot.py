@@ -5,7 +5,7 @@ from typing import Protocol
 
 from hosts.common.errors import HostError
 
-SENSES = ("chassis.x", "chassis.y", "chassis.yaw", "speed")
+OBSERVED = ("chassis.x", "chassis.y", "chassis.yaw", "speed")
 """Outputs without which a course cannot be followed."""
 ACTS = ("steering", "throttle", "brake")
 """Inputs without which it cannot."""
@@ -23,6 +23,6 @@ def refuse_missing(names: Sequence[str], whose: str) -> None:
 class Pilot(Protocol):
     """A driver: from the outputs of the car to its inputs."""
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
-        """Inputs for the coming communication step; `senses` are all outputs by our names, until that step is made."""
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
+        """Inputs for the coming communication step; `observation`: all outputs by our names, until that step."""
         ...

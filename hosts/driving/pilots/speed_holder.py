@@ -56,10 +56,10 @@ class SpeedHolder:
         """Speed that is wanted at a time, m/s."""
         return self.speed(time) if callable(self.speed) else self.speed
 
-    def act(self, time: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
         """See `hosts.driving.pilots.pilot.Pilot.act`; throttle and brake."""
         step, self._time = time - self._time, time
-        error, forward = self.wanted(time) - senses["speed"], 0.0
+        error, forward = self.wanted(time) - observation["speed"], 0.0
         if callable(self.speed):
             # The communication step that is coming is as long as the last one.
             ahead = step or 1e-3
@@ -67,17 +67,17 @@ class SpeedHolder:
         if self._first is not None:
             self._integral, self._first = (self._first - forward) / self.integral_gain, None
         pedal = self.gain * error + self.integral_gain * self._integral + forward
-        left = self._left(senses)
+        left = self._left(observation)
         if self._lowest < pedal < 1.0 and left == 1.0:
             self._integral += step * error
         pedals = {"throttle": left * min(max(pedal, 0.0), 1.0)}
         return pedals if self._lowest == 0.0 else pedals | {"brake": min(max(-pedal, 0.0), 1.0)}
 
-    def _left(self, senses: Mapping[str, float]) -> float:
+    def _left(self, observation: Mapping[str, float]) -> float:
         """The part of the throttle that an axle which slides leaves."""
         if self._axles is None:
-            slips = [n for n in senses if n.startswith("wheel_") and n.endswith(("L.slip", "R.slip"))]
+            slips = [n for n in observation if n.startswith("wheel_") and n.endswith(("L.slip", "R.slip"))]
             sides = {n.removesuffix("L.slip").removesuffix("R.slip") for n in slips}
             self._axles = [[n for n in slips if n in (f"{a}L.slip", f"{a}R.slip")] for a in sorted(sides)]
-        slip = max((min(senses[n] for n in axle) for axle in self._axles), default=0.0)
+        slip = max((min(observation[n] for n in axle) for axle in self._axles), default=0.0)
         return min(max(2.0 - slip / self._sliding, 0.0), 1.0)

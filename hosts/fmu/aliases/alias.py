@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hosts.common.numbers import Value
-from hosts.fmu.aliases.derived import Derived
+from hosts.fmu.aliases.derived_variable import Derived
 
 
 @dataclass(frozen=True)

@@ -3,9 +3,9 @@
 import math
 from typing import Any
 
+from ali3.message_text import brief
 from ali3.unit_definition import UnitDefinition
 from ali3.units import known_unit, same_quantity
-from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.common.units import says_nothing, unit_of
 from hosts.fmu.aliases.alias import Alias

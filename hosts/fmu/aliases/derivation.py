@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hosts.fmu.aliases.derived import Derived, in_order
+from hosts.fmu.aliases.derived_variable import Derived, in_order
 
 _ROWS = 3
 """That a rate of second order needs."""

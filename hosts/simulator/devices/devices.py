@@ -10,11 +10,11 @@ from typing import Any
 from hosts.common.errors import HostError
 from hosts.simulator.devices.calibration import Assignment, Calibration
 from hosts.simulator.devices.device import Device
+from hosts.simulator.devices.device_text import and_list, number_text
 from hosts.simulator.devices.mapping import DeviceMapping, drivable, read_input, read_settings
-from hosts.simulator.devices.reader import HandsLike, Reader
+from hosts.simulator.devices.reader import ArbiterLike, Reader
 from hosts.simulator.devices.reading import Source
 from hosts.simulator.devices.steering import ANGLE_MAX, Steering
-from hosts.simulator.devices.words import and_list, number_said
 
 ASSIGN_TIME = 15.0
 """s for which an input waits to be assigned by moving something."""
@@ -40,7 +40,7 @@ class Devices:
 
     def __init__(
         self,
-        hands: HandsLike,
+        arbiter: ArbiterLike,
         inputs: Collection[str],
         constants: Mapping[str, float],
         tell: Callable[[str], None],
@@ -49,7 +49,7 @@ class Devices:
     ) -> None:
         self._inputs = drivable(inputs)
         steering = Steering(constants.get(ANGLE_MAX), "steering" not in inputs)
-        self._reader = Reader(hands, self._inputs, steering, tell, Path(folder), torque)
+        self._reader = Reader(arbiter, self._inputs, steering, tell, Path(folder), torque)
 
     def __enter__(self) -> Devices:
         self._reader.start()
@@ -77,7 +77,7 @@ class Devices:
             found = self._device(device)
             made = None if mapping is None else read_input(name, mapping)
             if name not in self._inputs:
-                raise HostError(f"The car has no input for '{name}'; {number_said(self._inputs)}.")
+                raise HostError(f"The car has no input for '{name}'; {number_text(self._inputs)}.")
             if made is not None and not Source.read(made.source).is_in(found.reading):
                 raise HostError(f"{found.label} has no {made.source}; it has {found.reading.counts()}.")
             self._reader.remap(found, found.mapping.with_input(name, made))
@@ -87,7 +87,7 @@ class Devices:
         with self._reader.lock:
             found = self._device(device)
             if name not in self._inputs:
-                raise HostError(f"The car has no input for '{name}'; {number_said(self._inputs)}.")
+                raise HostError(f"The car has no input for '{name}'; {number_text(self._inputs)}.")
             found.assignment = Assignment(name, found.reading, time.monotonic() + ASSIGN_TIME) if on else None
 
     def calibrate(self, device: str, on: bool, keep: bool = True) -> None:

@@ -9,9 +9,9 @@ import tomli_w
 from platformdirs import user_config_path
 
 from ali3.errors import FileError, reason
-from ali3.files import whole_file
+from ali3.files import atomic_file
+from ali3.message_text import brief
 from ali3.reading import LARGEST_TEXT, read_bytes, read_toml
-from ali3.words import brief
 from hosts.common.errors import HostError
 from hosts.simulator.devices.mapping import DeviceMapping, read_input, read_settings
 
@@ -75,9 +75,9 @@ class MappingFiles:
             self.read(device)
         except HostError:
             if file.is_file():
-                with whole_file(file.with_name(file.name + ".damaged")) as kept:
+                with atomic_file(file.with_name(file.name + ".damaged")) as kept:
                     kept.write_bytes(read_bytes(file, LARGEST_TEXT))
-        with whole_file(file) as made:
+        with atomic_file(file) as made:
             made.write_text(_HEAD + tomli_w.dumps(table), encoding="utf-8")
 
     def remove(self, device: str) -> None:

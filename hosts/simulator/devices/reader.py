@@ -12,13 +12,13 @@ from hosts.common.errors import HostError
 from hosts.simulator.devices import sdl as sdl_library
 from hosts.simulator.devices.defaults import default_mapping
 from hosts.simulator.devices.device import Device
+from hosts.simulator.devices.device_text import and_list, came
 from hosts.simulator.devices.identity import Identities
 from hosts.simulator.devices.joysticks import Joystick, Joysticks
 from hosts.simulator.devices.mapping import DeviceMapping
 from hosts.simulator.devices.mapping_files import MappingFiles
 from hosts.simulator.devices.reading import Source
 from hosts.simulator.devices.steering import ANGLE_MAX, Steering
-from hosts.simulator.devices.words import and_list, came
 
 PERIOD = 0.004
 """s between two readings."""
@@ -31,8 +31,8 @@ _END_TIME = 0.4
 TORQUE = "steering_wheel_torque"
 
 
-class HandsLike(Protocol):
-    """What devices need of `Hands`."""
+class ArbiterLike(Protocol):
+    """What devices need of `InputArbiter`."""
 
     def want(self, source: str, values: Mapping[str, tuple[float, float]]) -> None: ...
 
@@ -48,7 +48,7 @@ class Reader:
 
     def __init__(
         self,
-        hands: HandsLike,
+        arbiter: ArbiterLike,
         inputs: list[str],
         steering: Steering,
         tell: Callable[[str], None],
@@ -59,7 +59,7 @@ class Reader:
         self.lock = threading.RLock()
         self.devices: dict[str, Device] = {}
         self.files = MappingFiles(folder)
-        self._hands, self._steering, self._torque = hands, steering, torque
+        self._arbiter, self._steering, self._torque = arbiter, steering, torque
         self._identities = Identities(self.files.serial)
         self._end, self._ready = threading.Event(), threading.Event()
         self._thread: threading.Thread | None = None
@@ -100,7 +100,7 @@ class Reader:
             self.tell(f"Devices are no longer read; the keyboard drives. {why}")
             for device in self.devices.values():
                 with suppress(Exception):  # perhaps it is the car that is gone
-                    self._hands.gone(device.source)
+                    self._arbiter.gone(device.source)
         finally:
             with self.lock:
                 gone, self.devices = [*self.devices.values()], {}
@@ -153,7 +153,7 @@ class Reader:
                 self.tell(f"{device.label}: nothing was moved far enough for {assignment.name}; it is as before.")
         wants = device.wants(everything)
         if wants:
-            self._hands.want(device.source, wants)
+            self._arbiter.want(device.source, wants)
 
     def _add(self, joystick: Joystick) -> None:
         id = self._identities.take(joystick.guid, joystick.serial, joystick.path)
@@ -199,7 +199,7 @@ class Reader:
             if device is None:
                 return
             del self.devices[device.id]
-        let_go = self._hands.gone(device.source)
+        let_go = self._arbiter.gone(device.source)
         self._identities.leave(device.id)
         words = f"; {and_list(let_go)} let go" if let_go else ""
         self.tell(f"{device.label} was pulled out{words}. Plug it in again and it drives as before.")
@@ -211,11 +211,11 @@ class Reader:
     def let_go(self, device: Device) -> None:
         """Release the inputs that the device drives; what is moved again drives again."""
         device.sleep(list(device.mapping.inputs))
-        self._hands.gone(device.source)
+        self._arbiter.gone(device.source)
 
     def remap(self, device: Device, mapping: DeviceMapping, save: bool = True) -> None:
         if device.remap(mapping):
-            self._hands.gone(device.source)
+            self._arbiter.gone(device.source)
         device.calibration = None
         if not save:
             return

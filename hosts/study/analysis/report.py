@@ -9,7 +9,7 @@ from matplotlib import pyplot as plt
 from ali3.bars import bar as bar_of
 from ali3.chart_style import STYLE
 from ali3.charts import drawing
-from ali3.files import make_folder, whole_file, write_text
+from ali3.files import atomic_file, make_folder, write_text
 from ali3.processes import command_name
 from hosts.common.errors import HostError
 from hosts.experiment.report import FAINT, Plots, Section, page, paragraph
@@ -63,6 +63,6 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
             sections.append(measure_section(data, response, k, plots, commands, numbers))
     file, rows = folder / "report.html", make_folder(folder / ANALYSIS) / "effects.csv"
     write_text(file, page(f"Study {data.about['study']}", facts(data), sections))
-    with whole_file(rows) as made:
+    with atomic_file(rows) as made:
         pd.DataFrame(numbers).to_csv(made, index=False)
     return [file, rows.parent]

@@ -10,7 +10,7 @@ from ali3.html_elements import Content, table
 from hosts.experiment.report import FAINT, NOTE, Plots, Section, commands_cell, paragraph
 from hosts.study.analysis.data import FAILED, StudyData
 from hosts.study.analysis.effect_plots import plot_failed
-from hosts.study.analysis.tables import reasons, said, statistics, told_statistics
+from hosts.study.analysis.tables import reasons, reported_statistics, said, statistics
 from hosts.study.limits import share_notes, share_rows, shares
 
 MOST_RESPONSES = 40
@@ -56,7 +56,7 @@ def measures_section(data: StudyData) -> Section:
     """A table of all measures with their percentiles; those of no random sample have their range only."""
     if not data.responses:
         return Section("Measures", [paragraph("No run yields a measure.", NOTE)])
-    names, why = told_statistics(data)
+    names, why = reported_statistics(data)
     found = [(r, statistics(r)) for r in data.responses]
     rows = [
         (r.label, r.unit, f"{len(r.rows)} of {r.asked}", *(f"{s[n]:.5g}" for n in names if n != "runs"))

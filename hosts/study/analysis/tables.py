@@ -37,11 +37,11 @@ def no_distribution(data: StudyData, response: Response) -> str:
 
 def statistics(response: Response) -> dict[str, float]:
     """Count, mean, standard deviation and percentiles, in the unit of the measure."""
-    told = pd.Series(response.values).describe(percentiles=[0.05, 0.5, 0.95])
-    return dict(zip(_STATISTICS, told.tolist(), strict=True))
+    summary = pd.Series(response.values).describe(percentiles=[0.05, 0.5, 0.95])
+    return dict(zip(_STATISTICS, summary.tolist(), strict=True))
 
 
-def told_statistics(data: StudyData) -> tuple[list[str], str]:
+def reported_statistics(data: StudyData) -> tuple[list[str], str]:
     """Names of the `statistics` that can be told of all measures, and why not the others; "" for all of them."""
     why = next(filter(None, (no_distribution(data, response) for response in data.responses)), "")
     return [name for name in _STATISTICS if not (why and name in _OF_SAMPLES)], why

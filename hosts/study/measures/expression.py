@@ -17,8 +17,8 @@ from functools import lru_cache
 import numpy as np
 import simpleeval
 
+from ali3.message_text import sentence_of
 from ali3.near_names import MOST, did_you_mean
-from ali3.words import sentence_of
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.result import Result

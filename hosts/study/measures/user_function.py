@@ -13,9 +13,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from ali3.message_text import sentence_of
 from ali3.processes import path_of_caller
 from ali3.reading import LARGEST_TEXT, read_text
-from ali3.words import sentence_of
 from hosts.common.errors import HostError
 from hosts.common.numbers import Value
 from hosts.driving.result import Result

@@ -3,7 +3,7 @@
 import hashlib
 from pathlib import Path
 
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from mbs.common.errors import ModelError
 from mbs.compiler.generated.source import source
 from mbs.kernel import build

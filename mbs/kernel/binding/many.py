@@ -16,7 +16,7 @@ from .loaded_system import LoadedSystem
 _DOUBLES = POINTER(c_double)
 
 
-class Ended(NamedTuple):
+class RunEnd(NamedTuple):
     """How the run of one instance ended."""
 
     done: int
@@ -63,7 +63,7 @@ class Many(KernelMemory):
 
     def run(
         self, instances: Sequence[Instance], h: float, n: int, every: int, out: Sequence[Any], positions: Sequence[Any]
-    ) -> list[Ended]:
+    ) -> list[RunEnd]:
         """`n` steps of `h` seconds of each instance, as `Instance.run` makes them.
 
         `instances`: at most `width`, with the same settings; `out`, `positions`: per instance, as of `Instance.run`.
@@ -79,7 +79,7 @@ class Many(KernelMemory):
             lane.out, lane.positions = (None if b is None else ctypes.cast(b, _DOUBLES) for b in (taken, where))
         self._check(self._library.ali3_many_run(self._handle, len(lanes), lanes, h, n, every))
         return [
-            Ended(lane.done, lane.alone, self._error(instance, lane.status))
+            RunEnd(lane.done, lane.alone, self._error(instance, lane.status))
             for lane, instance in zip(lanes, instances, strict=True)
         ]
 

@@ -17,7 +17,7 @@ struct ali3_instance {
 
   ali3_settings settings; /* what it is set to */
   ali3_parameters parameters;
-  ali3_turned_axes axes;
+  ali3_parametric_axes axes;
   ali3_masses mass;
   ali3_roads roads;
   ali3_inputs inputs;

@@ -88,7 +88,8 @@ struct ali3_system {
   bool has_avx2; /* the processor, see algebra/processor.h */
   /* derived at load, in one block */
   void *derived;
-  ali3_system *turned; /* turned.c: with room for all directions of axes that parameters write; NULL: there are none */
+  ali3_system
+      *turned; /* parametric_axes.c: with room for all directions of axes that parameters write; NULL: there are none */
   void *lean; /* the arrays of this one, which has none */
   int32_t *hess_ptr, *hess_col; /* second derivatives of row_ptr's entries: Phi_q = row_lin + hess q; of a row of
                                    points the terms of three entries in turn */
@@ -127,7 +128,7 @@ struct ali3_system {
    * first the columns of the others are one and two further, and the values are the same. */
   int32_t *
       mass_alike; /* nq: rows of mass_ptr from this one on that have the same columns; 0: it is the first of a triple */
-  int32_t *four, *alone; /* elements that are evaluated four at a time (elements/fours.h), and the others */
+  int32_t *four, *alone; /* elements that are evaluated four at a time (elements/element_fours.h), and the others */
   unsigned char *el_in_four; /* ne: 1: it is one of those */
   int32_t *el_beside; /* ne: the first signal of an element whose signals follow each other, else -1 */
   unsigned char *active_triple, *el_triple,

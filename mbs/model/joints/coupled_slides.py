@@ -8,8 +8,8 @@ from mbs.common.checks import not_zero
 from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.ends import different
 from mbs.model.equation import Equation, Product, dot_products
+from mbs.model.joint_ends import different
 from mbs.model.joints.joint import Joint
 
 

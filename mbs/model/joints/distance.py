@@ -10,9 +10,9 @@ from mbs.common.checks import positive
 from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.carried import SlidingPoint
-from mbs.model.ends import End, body_and_point, different
+from mbs.model.carried_parts import SlidingPoint
 from mbs.model.equation import Equation, GuideTerm, dot_products
+from mbs.model.joint_ends import End, body_and_point, different
 from mbs.model.joints.joint import Drawing, Joint, JointEnds
 
 ENDS = "(body, point), a point mass or a sliding point"

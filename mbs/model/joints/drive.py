@@ -7,9 +7,9 @@ from mbs.common.checks import shown
 from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.coordinate import Coordinate
-from mbs.model.ends import End
 from mbs.model.equation import Equation, GuideTerm
 from mbs.model.guides import owned_guide
+from mbs.model.joint_ends import End
 from mbs.model.joints.distance import distance
 from mbs.model.joints.joint import Joint
 from mbs.model.records import Guide

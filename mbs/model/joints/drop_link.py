@@ -11,8 +11,8 @@ from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
-from mbs.model.ends import different
 from mbs.model.equation import AnglePart, Equation, dot_products
+from mbs.model.joint_ends import different
 from mbs.model.joints.joint import Joint
 
 DEAD_POINT = 0.1

@@ -5,7 +5,7 @@ from __future__ import annotations
 from mbs.common.checks import not_zero
 from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.model.coordinate import Coordinate
 from mbs.model.equation import Equation
 from mbs.model.joints.joint import Joint

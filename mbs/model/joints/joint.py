@@ -13,11 +13,11 @@ from mbs.common.affine import AffineVector
 from mbs.common.checks import Vector, array, is_number
 from mbs.common.errors import ModelError
 from mbs.model.body import Body
-from mbs.model.carried import SlidingPoint, Spin
-from mbs.model.ends import PointPair
+from mbs.model.carried_parts import SlidingPoint, Spin
 from mbs.model.equation import Equation
+from mbs.model.joint_ends import PointPair
+from mbs.model.joint_rotation import Turning
 from mbs.model.records import Switch
-from mbs.model.turning import Turning
 
 FORCE_KINDS = ("point", "line", "distance", "drive", "driven_distance", "gear", "rack", "thread")
 """Kinds of equations whose multipliers are a force or a torque that can be read."""

@@ -8,11 +8,11 @@ from mbs.common.affine import AffineVector
 from mbs.common.checks import direction
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.ends import PointPair, different
 from mbs.model.equation import Equation, dot_products
+from mbs.model.joint_ends import PointPair, different
+from mbs.model.joint_rotation import Turning
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, equal_vectors, point_pair
-from mbs.model.perpendicular import perpendicular
-from mbs.model.turning import Turning
+from mbs.model.perpendicular_vectors import perpendicular
 
 
 def shared_point(

@@ -8,12 +8,12 @@ from numpy.typing import ArrayLike
 from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.ends import PointPair, different
 from mbs.model.equation import Equation, dot_products
+from mbs.model.joint_ends import PointPair, different
+from mbs.model.joint_rotation import Turning
 from mbs.model.joints.joint import Drawing, Joint, JointPlaces, equal_vectors, point_pair
 from mbs.model.joints.points import may_share, points_of
 from mbs.model.joints.sliding import on_line, sliding_ends
-from mbs.model.turning import Turning
 
 
 def same_orientation(model: BodyVocabulary, name: str, body_1: Body, body_2: Body, what: str) -> list[Equation]:

@@ -8,10 +8,10 @@ from mbs.common.checks import not_zero
 from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.model.coordinate import Coordinate
-from mbs.model.ends import different
 from mbs.model.equation import Equation, dot_products
+from mbs.model.joint_ends import different
 from mbs.model.joints.joint import Joint
 from mbs.model.joints.transmission import turned, turning_rate, wheel
 

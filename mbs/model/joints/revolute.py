@@ -6,7 +6,7 @@ from mbs.common.checks import direction
 from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.ends import PointPair, different
+from mbs.model.joint_ends import PointPair, different
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, JointPlaces, point_pair
 from mbs.model.joints.points import shared_axis, shared_point, turning_about
 

@@ -23,10 +23,10 @@ from mbs.common.checks import direction as unit_vector
 from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.model.equation import Equation
 from mbs.model.joints.joint import Joint, RollingBody, RollingSpin
-from mbs.model.perpendicular import perpendicular
+from mbs.model.perpendicular_vectors import perpendicular
 from mbs.model.switches import new_switch
 
 GAP = 1e-3  # of the radius: a drawing that misses the plane by less is closed by compile

@@ -10,11 +10,11 @@ from mbs.common.checks import direction
 from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.ends import PointPair, body_and_point, different
 from mbs.model.equation import Equation, dot_products
+from mbs.model.joint_ends import PointPair, body_and_point, different
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, point_pair
 from mbs.model.joints.points import shared_axis, turning_about
-from mbs.model.perpendicular import perpendicular
+from mbs.model.perpendicular_vectors import perpendicular
 
 
 def _normals(model: BodyVocabulary, body: Body, axis: ArrayLike, what: str) -> list[AffineVector]:

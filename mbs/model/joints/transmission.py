@@ -2,7 +2,7 @@
 
 from mbs.common.affine import Affine
 from mbs.model.bodies import BodyVocabulary
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.model.coordinate import Coordinate
 from mbs.model.equation import Product
 

@@ -10,11 +10,11 @@ from mbs.common.checks import direction
 from mbs.common.errors import ModelError
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.ends import PointPair, different
 from mbs.model.equation import Equation, dot_products
+from mbs.model.joint_ends import PointPair, different
+from mbs.model.joint_rotation import Turning
 from mbs.model.joints.joint import Drawing, Joint, JointEnds, point_pair
 from mbs.model.joints.points import points_of, shared_point
-from mbs.model.turning import Turning
 
 _BIG = 1.0 - 1e-12
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mbs.model.bodies import BodyVocabulary
 from mbs.model.body import Body
-from mbs.model.ends import different
+from mbs.model.joint_ends import different
 from mbs.model.joints.joint import Joint, JointEnds, JointPlaces
 from mbs.model.joints.points import shared_point
 from mbs.model.joints.prismatic import no_turning, same_orientation

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import scipy.sparse as sp
 
-from ali3.echo import Echo
+from ali3.plausibility import Plausibility
 from mbs.common.errors import ModelError
 from mbs.flexible.attachment_modes import inertia_relief
-from mbs.flexible.body_echo import model_echo
+from mbs.flexible.body_plausibility import model_plausibility
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel
@@ -64,10 +64,10 @@ class FlexibleFrame:
             row[: len(reading.row)] = reading.row
         return rows
 
-    def echo(self) -> list[Echo]:
+    def plausibility(self) -> list[Plausibility]:
         """What was understood of the frame, with what rides on it, and held at its interfaces."""
         held = [self.model.reference_freedoms(self.reference), *map(self.model.freedoms, self.interfaces)]
-        return model_echo(self.model, held=np.concatenate(held))
+        return model_plausibility(self.model, held=np.concatenate(held))
 
     def place(self, joint: str) -> np.ndarray:
         """Place of a joint, m."""

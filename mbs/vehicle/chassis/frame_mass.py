@@ -3,7 +3,7 @@
 import numpy as np
 
 from mbs.common.errors import ModelError
-from mbs.flexible.body_echo import model_echo
+from mbs.flexible.body_plausibility import model_plausibility
 from mbs.vehicle.chassis.frames.frame_section import Structure
 from mbs.vehicle.chassis.section import Chassis
 
@@ -22,8 +22,8 @@ def check_mass(structure: Structure, chassis: Chassis) -> None:
     positions = np.vstack([points.positions, *(structure.joints[joint] for joint in riding)])
     total = float(masses.sum())
     if abs(total - chassis.mass) > MASS * chassis.mass:
-        (echo,) = model_echo(structure.model, modes=False, beside=chassis.mass - sum(riding.values()))
-        causes = "".join(f"{sentence} " for sentence in echo.warnings() if "would explain it" in sentence)
+        (plausibility,) = model_plausibility(structure.model, modes=False, beside=chassis.mass - sum(riding.values()))
+        causes = "".join(f"{sentence} " for sentence in plausibility.warnings() if "would explain it" in sentence)
         raise ModelError(
             f"{chassis.key('mass')} is {chassis.mass:g} kg, but the frame with the masses it carries has "
             f"{total:.6g} kg. {causes}{_REMEDY}"

@@ -9,7 +9,7 @@ from mbs.compiler.model_to_system import compiled
 from mbs.flexible.recovery import peak_tube_stress, section_force_field
 from mbs.flexible.scene_part import flexible_parts
 from mbs.model.model import Model
-from mbs.simulation.standing_system import StandingSystem
+from mbs.simulation.unstepped_system import StandingSystem
 from mbs.vehicle.chassis.flexible_chassis import COMPUTED, amplitude_names
 from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 from mbs.vehicle.chassis.gauges.reading import STRESS

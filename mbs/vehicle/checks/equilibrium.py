@@ -8,9 +8,9 @@ from mbs.common.affine import AffineVector
 from mbs.common.errors import ModelError
 from mbs.compiler.model_to_system import compiled
 from mbs.model.body import Body
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.model.model import Model
-from mbs.simulation.standing_system import StandingSystem
+from mbs.simulation.unstepped_system import StandingSystem
 from mbs.system.compiled_model import CompiledModel
 from mbs.vehicle.axes import LEFT, UP
 from mbs.vehicle.builder import CarBuilder

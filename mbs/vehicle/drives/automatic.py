@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mbs.elements.automatic_drive import AutomaticDrive
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.port_inputs import clutch_port, gear_port
 from mbs.vehicle.quantities import (

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Literal
 
 from mbs.elements.electric_drive import ElectricDrive
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.quantities import (
     AngularSpeed,

@@ -114,7 +114,7 @@ def kinematics(
 
 def wheel_by_rack(car: Car) -> WheelByRack:
     """What gives the angle of the steering wheel, rad, and its change per motion of the steering, at a motion."""
-    way = car.steering.signed(car.rack_way)
+    way = car.steering.signed(car.rack_direction)
 
     def at(travel: float) -> tuple[float, float]:
         angle, rate = car.steering.wheel_at(travel)

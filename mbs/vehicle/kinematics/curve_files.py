@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from ali3.errors import TableError
-from ali3.files import whole_file
+from ali3.files import atomic_file
+from ali3.message_text import brief
 from ali3.tables import TextTable
-from ali3.words import brief
 from mbs.vehicle.kinematics.curves import DIRECTIONS, Curve
 from mbs.vehicle.kinematics.quantities import BY_NAME
 
@@ -27,7 +27,7 @@ def write_curve(curve: Curve, file: str | PathLike[str]) -> None:
     OSError
         It cannot be written.
     """
-    with whole_file(file) as made, made.open("w", newline="", encoding="utf-8") as out:
+    with atomic_file(file) as made, made.open("w", newline="", encoding="utf-8") as out:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow([f"{name} [{unit}]" for name, unit in curve.units.items()])
         writer.writerows(np.column_stack(list(curve.columns.values())).tolist())

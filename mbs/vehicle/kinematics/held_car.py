@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from mbs.common.errors import ModelError
 from mbs.elements.road import PlaneRoad
 from mbs.model.body import Body
-from mbs.model.ends import End
+from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.simulation.evaluator import RANK_TOLERANCE, SHIFT
 from mbs.vehicle.builder import CarBuilder
@@ -59,7 +59,7 @@ def held_model(car: Car, fidelity: Fidelity) -> tuple[Model, CarBuilder, dict[st
 
     carriers: dict[str, tuple[Body, Point]] = {}
     for axle, data in car.linked_axles.items():
-        rod = car.steering.build(b, car.rack_way).tie_rod if axle == "front" else fixed
+        rod = car.steering.build(b, car.rack_direction).tie_rod if axle == "front" else fixed
         corners = data.corners(b, axle, rod)
         carriers |= {c.side.wheel: (c.carrier, c.side.point(data.wheel.centre)) for c in corners}
     return m, b, carriers

@@ -1,15 +1,14 @@
 """Draws the wheel travel and steer curves of a car: the work of ``ali3 car CAR --kinematics``."""
 
 import argparse
-import json
 import math
 import sys
 from pathlib import Path
 from typing import Any
 
 from ali3.errors import UserError
-from ali3.files import check_writable, write_text
-from ali3.warning_lines import told_warnings
+from ali3.files import check_writable, write_json, write_text
+from ali3.warning_lines import warning_lines
 from mbs.common.progress import progress_for
 from mbs.vehicle.car_file import load
 from mbs.vehicle.kinematics.axle_compliance import compliance, fidelity_of
@@ -38,7 +37,7 @@ def report(options: argparse.Namespace) -> int:
             f"--travel goes from {travel[0]:g} to {travel[1]:g} mm; it is in mm and must span "
             f"{1e3 * LEAST_RANGE:g} mm or more."
         )
-    with told_warnings():
+    with warning_lines():
         car = load(options.car)
     asked = options.fidelity
     fidelity = fidelity_of(car, int(asked) if asked is not None and asked == asked // 1 else asked)
@@ -68,7 +67,7 @@ def report(options: argparse.Namespace) -> int:
             print(f"note: no {axle}_table.csv, as the links end before their stops: {error}.", file=sys.stderr)
     write_text(folder / "kinematics.html", page(found, gives))
     if options.json:
-        write_text(options.json, json.dumps(_content(found, gives), indent=1) + "\n")
+        write_json(options.json, _content(found, gives))
     print(f"\n{folder / 'kinematics.html'} and {len(found.curves)} CSV files beside it", flush=True)
     if tables:
         print(f'{", ".join(tables)}: where the wheels stand, as kind = "curves" reads it', flush=True)

@@ -18,7 +18,7 @@ LEFT_OUT = {
 
 
 @dataclass(frozen=True)
-class Choice:
+class LevelChoice:
     """The cheapest measured way to an output."""
 
     fidelity: Fidelity
@@ -40,25 +40,25 @@ class Choice:
         return LEFT_OUT[self.fidelity]
 
 
-def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[Choice]:
+def levels(rows: Sequence[Mapping[str, Any]], outputs: Sequence[str]) -> list[LevelChoice]:
     """Each fidelity and step that was measured in all manoeuvres, with its largest errors and its cost.
 
     `rows`: with "manoeuvre", "fidelity" (name), "h_s", "us_per_step", and the error of each output; None where there is
     none.
     """
     names = {row["manoeuvre"] for row in rows}
-    found: list[Choice] = []
+    found: list[LevelChoice] = []
     for name, h in dict.fromkeys((row["fidelity"], row["h_s"]) for row in rows):
         fidelity = Fidelity.of(name)
         mine = [row for row in rows if (row["fidelity"], row["h_s"]) == (name, h)]
         known = all(row[output] is not None for row in mine for output in outputs)
         if fidelity in LEFT_OUT and known and {row["manoeuvre"] for row in mine} == names:
             errors = {output: max(row[output] for row in mine) for output in outputs}
-            found.append(Choice(fidelity, h, errors, max(1e-3 * row["us_per_step"] / h for row in mine)))
+            found.append(LevelChoice(fidelity, h, errors, max(1e-3 * row["us_per_step"] / h for row in mine)))
     return found
 
 
-def cheapest(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> Choice:
+def cheapest(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float]) -> LevelChoice:
     """The fidelity and step with the least time per simulated second that meet tolerances in all manoeuvres measured.
 
     `rows`: as for `levels`; `tolerances`: on the errors of outputs. Raises `ValueError`: a tolerance is not positive,
@@ -79,6 +79,6 @@ def cheapest(rows: Sequence[Mapping[str, Any]], tolerances: Mapping[str, float])
     raise ValueError(f"No fidelity that was measured has {asked}; the best is {' and '.join(named)} away.")
 
 
-def nearest(found: Sequence[Choice], tolerances: Mapping[str, float]) -> Choice:
+def nearest(found: Sequence[LevelChoice], tolerances: Mapping[str, float]) -> LevelChoice:
     """The level whose largest error in parts of its tolerance is the least."""
     return min(found, key=lambda c: max(c.errors[output] / most for output, most in tolerances.items()))

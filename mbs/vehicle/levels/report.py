@@ -1,7 +1,6 @@
 """Prints the table of the levels of a car and the cheapest that meets tolerances: ``ali3 car CAR --cheapest``."""
 
 import argparse
-import json
 import sys
 import warnings
 from collections.abc import Mapping, Sequence
@@ -11,16 +10,16 @@ from typing import Any
 from ali3.columns import in_columns
 from ali3.decimal_number import parse_number
 from ali3.errors import UserError
-from ali3.files import check_writable, write_text
+from ali3.files import check_writable, write_json
+from ali3.message_text import brief
 from ali3.near_names import did_you_mean
 from ali3.units import number_with_unit
-from ali3.warning_lines import told_warnings
-from ali3.words import brief
+from ali3.warning_lines import warning_lines
 from mbs.common.progress import progress_for
 from mbs.vehicle.car_file import load
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.levels.drives import own_drives, read_drive
-from mbs.vehicle.levels.level_choice import LEFT_OUT, Choice, cheapest, levels, nearest
+from mbs.vehicle.levels.level_choice import LEFT_OUT, LevelChoice, cheapest, levels, nearest
 from mbs.vehicle.levels.measure import FINE, measure, systems_of
 
 USUAL = {"path": 1.0, "loads": 3.0}
@@ -35,7 +34,7 @@ def report(options: argparse.Namespace) -> int:
     tolerances, file, speed = asked_of(options.cheapest)
     if options.json:
         check_writable(options.json)
-    with told_warnings():
+    with warning_lines():
         car = load(options.car)
     if "moment" in tolerances and Fidelity.QUASI_STATIC not in car.fidelities():
         raise UserError(f"The car '{car.name}' has no moments in a frame: it has no flexible one. Leave moments out.")
@@ -63,7 +62,7 @@ def report(options: argparse.Namespace) -> int:
             "cheapest": None if choice is None else {"fidelity": choice.fidelity.value, "h_s": choice.h},
             "rows": [row | {"fidelity": Fidelity.of(row["fidelity"]).value} for row in rows],
         }
-        write_text(options.json, json.dumps(content, indent=1) + "\n")
+        write_json(options.json, content)
     if choice is None:
         raise UserError(_none(rows, tolerances))
     print("\n" + _sentence(choice, tolerances))
@@ -131,7 +130,7 @@ def _asked(tolerances: Mapping[str, float]) -> str:
     return ", ".join(words[:-1]) + (" and " if len(words) > 1 else "") + words[-1]
 
 
-def _sentence(choice: Choice, tolerances: Mapping[str, float]) -> str:
+def _sentence(choice: LevelChoice, tolerances: Mapping[str, float]) -> str:
     return (
         f"Cheapest within {_asked(tolerances)}: fidelity {choice.fidelity.value} with steps of {1e3 * choice.h:g} ms, "
         f"{choice.ms_per_second:.1f} ms of processor time a simulated second "

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ali3.files import whole_file
+from ali3.files import atomic_file
 from mbs.vehicle.linkages.linkage import Array, Linkage, NotReachedError
 from mbs.vehicle.linkages.pose_grid import MARGIN, SPACING, compression_range, even_points, is_coupled
 from mbs.vehicle.suspensions.curve_poses import axes_of
@@ -38,7 +38,7 @@ def curve_rows(linkage: Linkage, rack_travel: float) -> dict[str, Array]:
 def write_curve_table(linkage: Linkage, rack_travel: float, file: str | PathLike[str]) -> None:
     """Write `curve_rows` as CSV, with units in the heading; an older file is replaced when the new one is whole."""
     columns = curve_rows(linkage, rack_travel)
-    with whole_file(Path(file)) as made, made.open("w", newline="", encoding="utf-8") as out:
+    with atomic_file(Path(file)) as made, made.open("w", newline="", encoding="utf-8") as out:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow([f"{name} [{COLUMNS[name]}]" for name in columns])
         writer.writerows(np.column_stack(list(columns.values())).tolist())

@@ -50,18 +50,18 @@ def _of_the_steering(car: CarContent) -> Iterator[str]:
     if not stop:
         return
     linkage = Linkage(car, "front")
-    told = []
+    notes = []
     if steering.motion == RACK and (ends := _ends(linkage, STEER)):
-        told.append(
+        notes.append(
             f"{ends[0]:+.3f} to {ends[1]:+.3f} m of the rack ({steering.lateral_travel[0]} is {steering.full:g})"
         )
     at_lock, lock = reached(linkage, STEER, np.array([steering.full]))
     if lock is None and (ends := _ends(linkage, HEAVE, at_lock[0])):
-        told.append(f"{ends[0]:+.3f} to {ends[1]:+.3f} m of wheel travel at full lock")
-    if told:
+        notes.append(f"{ends[0]:+.3f} to {ends[1]:+.3f} m of wheel travel at full lock")
+    if notes:
         yield (
             f"{stop} is missing: nothing keeps a knuckle from turning over, and the links "
-            f"of the front axle follow {' and '.join(told)}; beyond, a run fails where they would part. Add a stop "
+            f"of the front axle follow {' and '.join(notes)}; beyond, a run fails where they would part. Add a stop "
             "that acts before that."
         )
 

@@ -19,7 +19,7 @@ from scipy.interpolate import PPoly
 
 from mbs.common.affine import AffineVector
 from mbs.elements.road import PlaneRoad
-from mbs.model.ends import End
+from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.simulation.evaluator import RANK_TOLERANCE
 from mbs.vehicle.builder import CarBuilder
@@ -88,7 +88,7 @@ class Linkage(StandingModel):
         b.chassis = _held(m, car)
         ramp = PPoly(np.array([[1.0], [-FARTHEST]]), np.array([-FARTHEST, FARTHEST]))  # the rack's travel is the time
         rack = m.guide_time("rack", ramp, unit="m")
-        steered = car.steering.ends(b, rack, car.rack_way) if axle == "front" else rack_ends(b, rack)
+        steered = car.steering.ends(b, rack, car.rack_direction) if axle == "front" else rack_ends(b, rack)
         rods: list[str] = []
 
         def end(side: Side, point: Point) -> End:

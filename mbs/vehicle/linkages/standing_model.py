@@ -8,8 +8,8 @@ from mbs.compiler.model_to_system import compiled
 from mbs.kernel.binding import LoadedSystem
 from mbs.model.model import Model
 from mbs.simulation.evaluator import Evaluator
-from mbs.simulation.standing_system import start
 from mbs.simulation.system_instance import SystemInstance
+from mbs.simulation.unstepped_system import start
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from mbs.model.body import Body
-from mbs.model.carried import Spin
-from mbs.model.drawn import Owner
+from mbs.model.carried_parts import Spin
+from mbs.model.checked_shapes import Owner
 from mbs.model.model import Model
 from mbs.model.shapes import Kind
 from mbs.vehicle.builder import CarBuilder

@@ -2,9 +2,9 @@
 
 from collections.abc import Callable, Mapping
 
-from mbs.model.carried import Spin
+from mbs.model.carried_parts import Spin
 from mbs.model.flexible import FlexibleBody
-from mbs.model.tabled import TabledBody
+from mbs.model.table_bodies import TabledBody
 from mbs.system.drawing import POSE
 from mbs.vehicle.axle import Axle
 from mbs.vehicle.builder import CarBuilder

@@ -2,7 +2,7 @@
 
 import math
 
-from mbs.model.drawn import Owner
+from mbs.model.checked_shapes import Owner
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder
 from mbs.vehicle.car_content import CarContent

@@ -10,7 +10,7 @@ from mbs.elements.spring_damper import EndStops
 from mbs.elements.torsion_bar import TorsionBar
 from mbs.model.body import Body
 from mbs.model.coordinate import Coordinate
-from mbs.model.ends import End
+from mbs.model.joint_ends import End
 from mbs.model.model import Model
 from mbs.model.records import Guide, Input
 from mbs.vehicle.axes import LEFT

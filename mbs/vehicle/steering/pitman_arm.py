@@ -8,7 +8,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.model.ends import End
+from mbs.model.joint_ends import End
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model
 from mbs.model.records import Guide

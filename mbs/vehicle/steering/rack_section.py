@@ -2,7 +2,7 @@
 
 import math
 
-from mbs.model.ends import End
+from mbs.model.joint_ends import End
 from mbs.model.records import Guide
 from mbs.vehicle.axes import LEFT
 from mbs.vehicle.builder import CarBuilder

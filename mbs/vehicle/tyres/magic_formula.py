@@ -16,7 +16,7 @@ from mbs.tyre_files import TyreFileError, read_tyre
 from mbs.vehicle.errors import CarFileError
 from mbs.vehicle.files import beside
 from mbs.vehicle.quantities import Factor, InflationPressure, ReferenceFriction, ScalingFactor
-from mbs.vehicle.tyres.bore import Bore
+from mbs.vehicle.tyres.bore_torque import Bore
 from mbs.vehicle.tyres.tyre_section import TyreSection
 
 if TYPE_CHECKING:

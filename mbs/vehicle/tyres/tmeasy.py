@@ -22,7 +22,7 @@ from mbs.vehicle.quantities import (
     TyreStiffness,
 )
 from mbs.vehicle.section import Section
-from mbs.vehicle.tyres.bore import Bore
+from mbs.vehicle.tyres.bore_torque import Bore
 from mbs.vehicle.tyres.tyre_section import TyreSection
 
 

@@ -10,7 +10,7 @@ import pytest
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.task import Task, do, write_runs
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Aliases
@@ -21,7 +21,7 @@ from hosts.fmu.geometry import scene_of
 from hosts.fmu.variables import Variables
 from hosts.run.command import main as run
 from hosts.view.result_tables import read_table
-from hosts.view.view_sources import RunWishes, recordings_of
+from hosts.view.view_sources import ViewRunOptions, recordings_of
 from tests.hosts.plant.conftest import Made
 from tests.in_process import build_fmu
 
@@ -120,7 +120,7 @@ def test_run_drives_a_car_under_other_names(
         bound = 1e-7 * float(np.max(np.abs(one[name])))
         assert two[name] == pytest.approx(one[name], abs=bound), name
         assert three[name] == pytest.approx(one[name], abs=bound), name
-    (shown,), _, _ = recordings_of([again], None, RunWishes(None, None, None, Wishes([], [])))
+    (shown,), _, _ = recordings_of([again], None, ViewRunOptions(None, None, None, FmuOptions([], [])))
     assert [item["name"] for item in shown.missing] == ["steering wheel"], "which is in degrees there"
     capsys.readouterr()
     assert run([theirs, *drive, "--out", str(tmp_path / "none")]) != 0
@@ -140,7 +140,7 @@ def test_runs_of_the_catalogue_are_drawn_as_those_of_other_names(
     assert isinstance(record, TestRecord)
     write_runs(task, record)
     (table,) = tmp_path.rglob("*.csv")
-    (shown,), _, _ = recordings_of([table], None, RunWishes(None, None, None, Wishes([], [])))
+    (shown,), _, _ = recordings_of([table], None, ViewRunOptions(None, None, None, FmuOptions([], [])))
     assert shown.scene is not None
     assert shown.scene["shapes"]
     assert [item["name"] for item in shown.missing] == ["steering wheel"], "which is in degrees there"

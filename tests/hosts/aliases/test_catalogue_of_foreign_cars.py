@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.perform import missing_for, perform
+from hosts.catalogue.execution import missing_for, perform
 from hosts.catalogue.registry import standard_test
 from hosts.common.errors import HostError
 from hosts.fmu.aliases.alias import Aliases

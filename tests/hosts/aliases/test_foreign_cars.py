@@ -167,8 +167,8 @@ def test_what_drives_senses_the_derived_variables(foreign_fmu, alias_file):
         def __init__(self):
             self.seen = []
 
-        def act(self, time, senses):
-            self.seen.append((time, senses["chassis.yaw"], senses["chassis.ay"], senses["speed"]))
+        def act(self, time, observation):
+            self.seen.append((time, observation["chassis.yaw"], observation["chassis.ay"], observation["speed"]))
             return {"throttle": 0.1}
 
     pilot = Looks()

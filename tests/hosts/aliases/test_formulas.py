@@ -6,9 +6,9 @@ from scipy.spatial.transform import Rotation
 
 from hosts.common.errors import HostError
 from hosts.fmu.aliases.derivation import Derivation
+from hosts.fmu.aliases.derived_entry import parse_derived
 from hosts.fmu.aliases.file import read_aliases
 from hosts.fmu.aliases.formulas import FORMULAS
-from hosts.fmu.aliases.parse_derived import parse_derived
 
 TIME = np.linspace(0.0, 2.0, 2001)
 YAW, PITCH, ROLL = 3.0 * TIME, 0.3 * np.sin(2.0 * TIME), 0.2 * np.cos(3.0 * TIME)

@@ -87,11 +87,11 @@ class BicycleCar(TestedCar):
         gain = float((system.D - system.C @ np.linalg.solve(system.A, system.B))[1, 0])
         x, drag = np.zeros(2), 4.0 / self.top_speed**2
         speed = min(speed, self.top_speed)
-        senses = dict.fromkeys(OUTPUTS, 0.0) | {"speed": speed}
+        observation = dict.fromkeys(OUTPUTS, 0.0) | {"speed": speed}
         acts = {self.steered_by: 0.0, "throttle": 0.0, "brake": 0.0}
-        rows, failed = [[*acts.values(), *senses.values()]], 0
+        rows, failed = [[*acts.values(), *observation.values()]], 0
         for k in range(round(manoeuvre.stop_time / step)):
-            acts |= pilot.act(k * step, senses)
+            acts |= pilot.act(k * step, observation)
             rows[-1][: len(acts)] = acts.values()  # a row has the inputs with which the next step begins
             if k * step > self.refuses_after:
                 failed = 1
@@ -103,9 +103,9 @@ class BicycleCar(TestedCar):
             yaw_rate, acceleration, slip = c @ x + d[:, 0] * now
             speed += step * (4.0 * acts["throttle"] - 9.0 * acts["brake"] - drag * speed**2)
             roll = ROLL_PER_ACCELERATION * acceleration
-            senses = dict(zip(OUTPUTS, map(float, (yaw_rate, acceleration, slip, roll, speed)), strict=True))
-            rows.append([*acts.values(), *senses.values()])
-            if until((k + 1) * step, senses):
+            observation = dict(zip(OUTPUTS, map(float, (yaw_rate, acceleration, slip, roll, speed)), strict=True))
+            rows.append([*acts.values(), *observation.values()])
+            if until((k + 1) * step, observation):
                 break
         names = [*acts, *OUTPUTS]
         kept = [names.index(n) for n in (*acts, *self.shown)]

@@ -64,13 +64,13 @@ class BicycleCar(TestedCar):
         state = np.array([0.0, 0.0, 0.0, 0.0, 0.0, float(manoeuvre.start["initial.speed"])])
         act, time, rows = dict.fromkeys(INPUTS, 0.0), [], []
         for k in range(round(manoeuvre.stop_time / self.step) + 1):
-            senses = self._senses(state, act)
+            observation = self._senses(state, act)
             time.append(k * self.step)
-            if until is not None and k and until(k * self.step, senses):
-                rows.append([*act.values(), *senses.values()])
+            if until is not None and k and until(k * self.step, observation):
+                rows.append([*act.values(), *observation.values()])
                 break
-            act = act | pilot.act(k * self.step, senses)
-            rows.append([*act.values(), *senses.values()])
+            act = act | pilot.act(k * self.step, observation)
+            rows.append([*act.values(), *observation.values()])
             state = self._step(state, act)
         names = [*INPUTS, *OUTPUTS]
         units = dict.fromkeys(names, "1")

@@ -7,7 +7,7 @@ import pytest
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.circle_stop import Stop
-from hosts.catalogue.perform import perform
+from hosts.catalogue.execution import perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.standard.braking_in_a_turn import add_stops

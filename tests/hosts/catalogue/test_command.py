@@ -14,8 +14,8 @@ import pytest
 
 from hosts.catalogue.command import main
 from hosts.catalogue.registry import TESTS
-from hosts.common.options import Wishes
-from hosts.view.view_sources import RunWishes, recordings_of
+from hosts.common.options import FmuOptions
+from hosts.view.view_sources import ViewRunOptions, recordings_of
 
 FAST = ["--tests", "drop"]
 SSV = """<?xml version="1.0" encoding="UTF-8"?>
@@ -50,7 +50,7 @@ def test_cars_stand_side_by_side_and_jobs_change_nothing(
         assert (first / table).read_bytes() == (second / table).read_bytes()
         record = json.loads((first / table).with_suffix(".json").read_text(encoding="utf-8"))
         assert Path(record["fmu"]) == prototype_fmu
-        (seen,), _, _ = recordings_of([first / table], None, RunWishes(None, None, None, Wishes([], [])))
+        (seen,), _, _ = recordings_of([first / table], None, ViewRunOptions(None, None, None, FmuOptions([], [])))
         assert seen.scene is not None
         assert seen.scene["shapes"]
     peak = {r["car"]: float(r["value"]) for r in rows(first) if (r["test"], r["measure"]) == ("drop", "load.peak_FL")}

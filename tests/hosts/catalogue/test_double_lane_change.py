@@ -8,8 +8,8 @@ import pytest
 
 from ali3.iso_3888 import Gate
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.execution import missing_for, perform
 from hosts.catalogue.passage import Passage
-from hosts.catalogue.perform import missing_for, perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.standard import double_lane_change

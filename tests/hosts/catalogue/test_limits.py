@@ -10,14 +10,14 @@ from ali3.units import known_unit
 from hosts.catalogue import command
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.definition import file_of_test
+from hosts.catalogue.execution import settings_of_test
 from hosts.catalogue.finished_tests import keep
 from hosts.catalogue.limits import GivenLimits
-from hosts.catalogue.perform import settings_of_test
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import TESTS, standard_test
 from hosts.catalogue.task import Outcome, Task
 from hosts.common.errors import HostError
-from hosts.experiment.store import Kept
+from hosts.experiment.store import ResultStore
 from hosts.fmu.fmu_source import FmuSource
 from hosts.measures.limits import read_limits
 from hosts.measures.measure import Limit, Measure
@@ -109,7 +109,7 @@ def test_the_command_says_which_measure_is_outside(
     task = Task(
         "drop", TestedCar(prototype_fmu.stem, FmuSource(prototype_fmu)), settings_of_test(standard_test("drop"), {})
     )
-    with Kept[TestRecord](tmp_path, TestRecord, "does tests") as kept:
+    with ResultStore[TestRecord](tmp_path, TestRecord, "does tests") as kept:
         keep(kept, task, record(2001.0))
     file = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}\n"kerb.peak" = {max = 1}').file
     drop = [str(prototype_fmu), "--tests", "drop", "--no-runs", "--out", str(tmp_path)]

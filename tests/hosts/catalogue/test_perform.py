@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hosts.catalogue.perform import missing_for, perform, settings_of_test
+from hosts.catalogue.execution import missing_for, perform, settings_of_test
 from hosts.catalogue.record import Setting, StandardTest, TestRecord
 from hosts.common.errors import HostError
 from hosts.driving.result import Result

@@ -8,7 +8,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from ali3.isolated import Lost
+from ali3.isolated_processes import Lost
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.task import Task, do, write_runs

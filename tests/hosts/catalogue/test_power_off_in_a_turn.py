@@ -5,8 +5,8 @@ import math
 import pytest
 
 from hosts.catalogue.car import TestedCar
+from hosts.catalogue.execution import perform
 from hosts.catalogue.measure_sheet import Sheet
-from hosts.catalogue.perform import perform
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.standard.power_off_in_a_turn import add_releases, drive
 from hosts.common.errors import HostError

@@ -20,8 +20,8 @@ from hosts.catalogue.report import write_report
 from hosts.catalogue.report.numbers import difference, shown
 from hosts.catalogue.report.pictures import pictures_of
 from hosts.catalogue.report.section import command_of
-from hosts.catalogue.two_sides import mean_of_sides
-from hosts.experiment.thinning import MOST, thinned
+from hosts.catalogue.side_measures import mean_of_sides
+from hosts.experiment.line_simplification import MOST, thinned
 from hosts.measures.measure import Limit, Measure
 from tests.hosts.catalogue.synthetic_records import EVIL, record, synthetic
 

@@ -9,7 +9,7 @@ import pytest
 
 from hosts.catalogue.car import TestedCar
 from hosts.catalogue.dwell_series import DwellRun, processed, table
-from hosts.catalogue.perform import perform
+from hosts.catalogue.execution import perform
 from hosts.catalogue.registry import TESTS, standard_test
 from hosts.catalogue.steered_run import Pedals, steer
 from hosts.catalogue.steering import SteeringInput

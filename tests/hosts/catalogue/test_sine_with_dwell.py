@@ -8,7 +8,7 @@ import pytest
 from scipy.signal import lsim
 
 from hosts.catalogue.dwell_series import amplitudes, processed, table
-from hosts.catalogue.perform import perform
+from hosts.catalogue.execution import perform
 from hosts.catalogue.registry import standard_test
 from hosts.catalogue.steered_run import Pedals, steer
 from hosts.common.errors import HostError

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from hosts.catalogue.perform import perform
+from hosts.catalogue.execution import perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.common.errors import HostError

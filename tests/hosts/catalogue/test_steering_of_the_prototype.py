@@ -5,7 +5,7 @@ import math
 import pytest
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.perform import perform
+from hosts.catalogue.execution import perform
 from hosts.catalogue.registry import standard_test
 
 pytestmark = pytest.mark.slow

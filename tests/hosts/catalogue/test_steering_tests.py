@@ -8,13 +8,13 @@ import pytest
 from scipy.signal import lsim
 
 from hosts.catalogue.dwell_series import table
-from hosts.catalogue.perform import perform
+from hosts.catalogue.execution import perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
+from hosts.catalogue.side_measures import asymmetry
 from hosts.catalogue.steady_map import steady_map
 from hosts.catalogue.steered_run import Pedals, level_acceleration, steer
 from hosts.catalogue.steering import SteeringInput
-from hosts.catalogue.two_sides import asymmetry
 from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from tests.hosts.catalogue.bicycle import ROLL_PER_ACCELERATION, BicycleCar, bicycle, gains, mode

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hosts.catalogue.car import TestedCar
-from hosts.catalogue.perform import perform
+from hosts.catalogue.execution import perform
 from hosts.catalogue.record import TestRecord
 from hosts.catalogue.registry import standard_test
 from hosts.driving.result import Result

@@ -10,9 +10,9 @@ import pytest
 from hosts.catalogue.car import TestedCar
 from hosts.common.errors import HostError
 from hosts.driving.manoeuvre import Manoeuvre
-from hosts.driving.pilots.combined_pilot import Together
+from hosts.driving.pilots.combined_pilot import CombinedPilot
 from hosts.driving.pilots.speed_holder import SpeedHolder
-from hosts.driving.pilots.steering import SteeringTable
+from hosts.driving.pilots.steering_table import SteeringTable
 from hosts.driving.result import Result
 from hosts.fmu.aliases.alias import Alias, Aliases
 from hosts.fmu.fmu_source import FmuSource
@@ -48,7 +48,7 @@ def foreign(prototype_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Te
 
 
 def drive(car: TestedCar, sign: float = 1.0, record_step: float | None = None) -> Result:
-    pilot = Together(SpeedHolder(15.0), SteeringTable([0.0, 0.3, 0.6], [0.0, 0.0, sign * 0.1]))
+    pilot = CombinedPilot(SpeedHolder(15.0), SteeringTable([0.0, 0.3, 0.6], [0.0, 0.0, sign * 0.1]))
     manoeuvre = Manoeuvre("turn", np.zeros(0), {}, 2.0, {"initial.speed": 15.0})
     return car.drive(manoeuvre, pilot, lambda t, s: s["chassis.ay"] > 3.0, record_step)
 
@@ -94,15 +94,15 @@ def test_what_a_pilot_lacks_is_named(prototype: TestedCar) -> None:
         prototype.drive(still, SteeringTable([0.0], [0.0], "oars"))
 
     class Blind:
-        def act(self, time: float, senses: dict[str, float]) -> dict[str, float]:
-            return {"steering": senses["eyes"]}
+        def act(self, time: float, observation: dict[str, float]) -> dict[str, float]:
+            return {"steering": observation["eyes"]}
 
     with pytest.raises(HostError, match="needs the output 'eyes'"):
         prototype.drive(still, Blind())
 
     class Careful:
-        def act(self, time: float, senses: dict[str, float]) -> dict[str, float]:
-            return {"steering": 0.25 if senses.get("eyes") is None and "eyes" not in senses else 0.5}
+        def act(self, time: float, observation: dict[str, float]) -> dict[str, float]:
+            return {"steering": 0.25 if observation.get("eyes") is None and "eyes" not in observation else 0.5}
 
     assert prototype.drive(still, Careful())["steering"][-1] == 0.25
 

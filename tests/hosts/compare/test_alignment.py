@@ -10,8 +10,8 @@ from scipy.signal import lfilter
 
 from hosts.compare.alignment import align
 from hosts.compare.comparison import compare
+from hosts.compare.comparison_text import common_sentence
 from hosts.compare.curve import Curve
-from hosts.compare.words import common_sentence
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from hosts.compare.correlated import covariance
+from hosts.compare.correlated_residuals import covariance
 
 SIGNALS, SAMPLES, MEMORY, LOGS = 4, 300, 0.8, 300
 

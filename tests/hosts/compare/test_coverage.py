@@ -10,7 +10,7 @@ from pendulum import END, measured, measured_pull, motion
 from hosts.compare.fit import Fit, fit, overlapping
 from hosts.compare.fit_unknowns import Unknown, nuisances
 from hosts.compare.replay import Replay, inputs_of
-from hosts.compare.stretches import Stretch
+from hosts.compare.segments import Segment
 from hosts.driving.result import Result
 from hosts.fmu.fmu_source import FmuSource
 
@@ -25,7 +25,7 @@ UNKNOWNS = [
 @pytest.fixture(scope="module")
 def replay(tuned: Path) -> Iterator[Replay]:
     manoeuvre = inputs_of("log", {"pull": measured_pull()}, {}, END, STEP)
-    with Replay(FmuSource(tuned.absolute()), [Stretch(manoeuvre)], STEP) as made:
+    with Replay(FmuSource(tuned.absolute()), [Segment(manoeuvre)], STEP) as made:
         assert made.check_reset()
         yield made
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from hosts.compare.follower import demanded
+from hosts.compare.follower_demand import demanded
 from hosts.measures.signal import Signal
 
 

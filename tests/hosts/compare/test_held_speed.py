@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hosts.compare.stretch_fmu import _holder
+from hosts.compare.segment_fmu import _holder
 from hosts.measures.signal import Signal
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hosts.compare.plausibility import odd_scale
-from hosts.compare.stretches import Stretch
-from hosts.compare.windows import held_words
+from hosts.compare.segments import Segment
+from hosts.compare.windows import held_text
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
@@ -27,12 +27,12 @@ def test_what_a_driver_could_not_hold_is_told_apart() -> None:
     values = np.column_stack((20.0 - np.where(full, 0.3, 0.1), np.where(full, 1.0, 0.4), 0.0 * t))
     result = Result(["speed", "throttle", "brake"], {}, t, values, 1.0, 4.0, 0, [])
     speed = Signal("speed", "v", "m/s", t, 20.0 + 0.0 * t)
-    stretch = Stretch(Manoeuvre("log", t, {}, 4.0, {}), speed)
-    (words,) = held_words(result, [stretch])
+    segment = Segment(Manoeuvre("log", t, {}, 4.0, {}), speed)
+    (words,) = held_text(result, [segment])
     assert (
         "within 0.17 m/s rms (-0.2 on the mean), a pedal at its end for 25 % of the time and 0.1 m/s rms else" in words
     )
-    (words,) = held_words(replace(result, values=values * (1.0, 0.5, 1.0)), [stretch])
+    (words,) = held_text(replace(result, values=values * (1.0, 0.5, 1.0)), [segment])
     assert words == "The driver held the speed within 0.17 m/s rms (-0.2 on the mean)."
 
 
@@ -42,6 +42,6 @@ def test_how_long_the_driver_eased_the_throttle_is_told() -> None:
     slips = [np.where(t < part * 4.0, 0.12, 0.02) for part in (0.1, 0.2)]
     values = np.column_stack((20.0 + 0.0 * t, 0.5 + 0.0 * t, 0.0 * t, *slips))
     result = Result(["speed", "throttle", "brake", "wheel_RL.slip", "wheel_RR.slip"], {}, t, values, 1.0, 4.0, 0, [])
-    stretch = Stretch(Manoeuvre("log", t, {}, 4.0, {}), Signal("speed", "v", "m/s", t, 20.0 + 0.0 * t))
-    (words,) = held_words(result, [stretch])
+    segment = Segment(Manoeuvre("log", t, {}, 4.0, {}), Signal("speed", "v", "m/s", t, 20.0 + 0.0 * t))
+    (words,) = held_text(result, [segment])
     assert words.endswith(", eased the throttle over a sliding axle for 10 % of the time.")

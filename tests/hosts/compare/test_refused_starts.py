@@ -11,8 +11,8 @@ from hosts.common.errors import HostError
 from hosts.compare.command import main
 from hosts.compare.cross_validation import parts_of
 from hosts.compare.fit import fit
+from hosts.compare.fit_text import fit_notes
 from hosts.compare.fit_unknowns import Unknown
-from hosts.compare.fit_words import fit_notes
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.driving.result import Result

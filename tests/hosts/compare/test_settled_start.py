@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hosts.compare.command import main
-from hosts.compare.stretch_fmu import smoothed
+from hosts.compare.segment_fmu import smoothed
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.fmu import Fmu

@@ -8,11 +8,11 @@ from matplotlib import pyplot as plt
 
 from hosts.common.display_units import axis_shown, number_in, shown_number, titled
 from hosts.compare.comparison import Comparison, compare
+from hosts.compare.comparison_text import common_sentence, common_text, table
 from hosts.compare.curve import Curve
 from hosts.compare.page import comparison_figure
 from hosts.compare.report import bin_rows
 from hosts.compare.windows import bins
-from hosts.compare.words import common_sentence, common_words, table
 from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 
@@ -47,7 +47,7 @@ def test_a_drift_is_told_where_it_is_one(comparison: Comparison) -> None:
         "All signals together: the log is 10 ± 0.1 ms late; the clock of its outputs runs 300 ± 10 ppm slow against "
         "that of its inputs, which explains 90 % of what a delay leaves."
     )
-    assert common_words(Comparison(comparison.signals, clock))[-1] == words
+    assert common_text(Comparison(comparison.signals, clock))[-1] == words
     model = Comparison(comparison.signals, replace(clock, explained=0.05))
     assert common_sentence(model) == (
         "All signals together: the log is 10 ± 0.1 ms late. "

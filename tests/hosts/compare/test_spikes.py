@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from benchmarks.validation.drive import read_drive
-from hosts.compare.spikes import spike_words, spikes
+from hosts.compare.spikes import spike_text, spikes
 
 TIME = 0.01 * np.arange(2000)
 FORM = Path(__file__).parents[3] / "benchmarks/validation/ferrari_250_lm_log.toml"
@@ -50,7 +50,7 @@ def test_short_and_constant_signals_have_none() -> None:
 
 
 def test_words_count_and_name_them() -> None:
-    words = spike_words("'angle' (wheel_FL.steer)", "rad", TIME[[5, 7, 9, 11]], np.array([0.1, 0.2, 0.3, 0.4]))
+    words = spike_text("'angle' (wheel_FL.steer)", "rad", TIME[[5, 7, 9, 11]], np.array([0.1, 0.2, 0.3, 0.4]))
     assert words.startswith("4 samples of 'angle' (wheel_FL.steer)")
     assert "0.1 rad at 0.05 s, 0.2 rad at 0.07 s, 0.3 rad at 0.09 s and 1 more" in words
 

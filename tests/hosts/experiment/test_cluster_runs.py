@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 from distributed import KilledWorker
 
-from ali3.isolated import Lost
+from ali3.isolated_processes import Lost
 from hosts.experiment.cluster_runs import WORK, ChunkSize, ClusterRuns, SchedulerLostError
-from hosts.experiment.cluster_worker import Brought
+from hosts.experiment.cluster_worker import UnpackedFmu
 
 
 class Given(Future[Any]):
@@ -47,7 +47,7 @@ class Client:
 
 
 def runs_on(client: Client, count: int, size: ChunkSize) -> ClusterRuns[int, int]:
-    brought = Brought("key", "none.fmu", "", "", lambda path: SimpleNamespace())  # type: ignore[arg-type, return-value]
+    brought = UnpackedFmu("key", "none.fmu", "", "", lambda path: SimpleNamespace())  # type: ignore[arg-type, return-value]
     return ClusterRuns(client, brought, count, size)  # type: ignore[arg-type]
 
 

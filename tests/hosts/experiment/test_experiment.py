@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 
 from ali3.errors import FileError
-from ali3.isolated import Lost
+from ali3.isolated_processes import Lost
 from ali3.processes import store
 from hosts.experiment.experiment import Experiment
-from hosts.experiment.store import Kept, tell_kept
+from hosts.experiment.store import ResultStore, report_resumed
 
 
 def half(task: float, tell: Callable[[Any], None]) -> float:
@@ -75,19 +75,19 @@ def test_a_result_is_finished_out_of_the_store_and_of_a_lost_one_that_is_kept() 
 def test_a_result_is_found_by_its_name_while_its_key_is_the_same(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    with Kept[float](tmp_path, float, "counts") as kept:
+    with ResultStore[float](tmp_path, float, "counts") as kept:
         kept.add("a", "key", 1.0)
         kept.add("b", "key", 2.0)
         kept.add("b", "other", 3.0)
         with pytest.raises(FileError, match=r"Another program counts in .*; wait for it, or give another --out\."):
-            Kept[float](tmp_path, float, "counts")
-    with Kept[float](tmp_path, float, "counts") as kept:
+            ResultStore[float](tmp_path, float, "counts")
+    with ResultStore[float](tmp_path, float, "counts") as kept:
         assert [kept.find("a", "key"), kept.find("b", "key"), kept.find("b", "other")] == [1.0, None, 3.0]
-    with Kept[float](tmp_path, float, "counts", again=True) as kept:
+    with ResultStore[float](tmp_path, float, "counts", again=True) as kept:
         assert kept.find("a", "key") is None
         kept.add("a", "key", 4.0)
-    with Kept[float](tmp_path, float, "counts") as kept:
+    with ResultStore[float](tmp_path, float, "counts") as kept:
         assert [kept.find("a", "key"), kept.find("b", "other")] == [4.0, 3.0]
-    tell_kept(0, 2, "counts")
-    tell_kept(1, 2, "counts")
+    report_resumed(0, 2, "counts")
+    report_resumed(1, 2, "counts")
     assert capsys.readouterr().out == "1 of 2 counts are there; --again repeats them.\n"

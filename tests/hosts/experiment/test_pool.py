@@ -11,12 +11,12 @@ import psutil
 import pytest
 
 from ali3.errors import UserError
-from ali3.isolated import Lost
+from ali3.isolated_processes import Lost
 from hosts.driving.co_simulation import run
 from hosts.driving.manoeuvre import Manoeuvre
 from hosts.experiment.pool import Pool
 from hosts.fmu.fmu_source import FmuSource
-from tests.commands.test_isolated import Counter
+from tests.commands.test_isolated_processes import Counter
 
 Tell = Callable[[Any], None]
 
@@ -49,7 +49,7 @@ def test_processes_that_stay_are_the_same_in_the_next_round_and_end_where_it_is_
 class Slow:
     """A driver that takes a tenth of a second for each step."""
 
-    def act(self, time_: float, senses: Mapping[str, float]) -> dict[str, float]:
+    def act(self, time_: float, observation: Mapping[str, float]) -> dict[str, float]:
         time.sleep(0.1)
         return {"pull": 0.0}
 

@@ -10,7 +10,7 @@ from gymnasium.utils.env_checker import check_env
 from hosts.fmu.fmu import StepRefusedError
 from hosts.plant.lap import LapDriver, ProvingGroundLap, ring
 from mbs.worlds.make_world import read_world
-from mbs.worlds.shipped import WORLDS
+from mbs.worlds.package_worlds import WORLDS
 from tests.hosts.plant.seeds import check_seeds
 
 LAP = "ali3/ProvingGroundLap-v0"

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from hosts.common.errors import HostError
-from hosts.simulator.guard import Guard
-from hosts.simulator.input_arbiter import Hands
+from hosts.simulator.access_control import AccessControl
+from hosts.simulator.input_arbiter import InputArbiter
 from hosts.simulator.server import Server
 from hosts.simulator.server_needs import Content
 from hosts.simulator.web import listening_socket
@@ -74,13 +74,13 @@ class FakeCar:
 
 
 @contextmanager
-def serving(car: Any, guard: Guard | None = None, address: str = "127.0.0.1") -> Iterator[Any]:
+def serving(car: Any, access: AccessControl | None = None, address: str = "127.0.0.1") -> Iterator[Any]:
     """A server that runs; yields its port, hands, and what it told."""
-    hands, told = Hands(car.want, car.inputs), []
+    arbiter, told = InputArbiter(car.want, car.inputs), []
     hello = {"columns": [*car.inputs, "speed"], "step": car.step, "recording": ""}
     content = Content("<!DOCTYPE html><title>page</title>", WORLD, hello, PLACES)
-    guard = guard or Guard.of(address)
-    server = Server(car, hands, content, guard, lambda kind, text: told.append(text))
+    access = access or AccessControl.of(address)
+    server = Server(car, arbiter, content, access, lambda kind, text: told.append(text))
     listening: socket.socket = listening_socket(address, 0)
     port = listening.getsockname()[1]
     ready, error = threading.Event(), []
@@ -101,9 +101,9 @@ def serving(car: Any, guard: Guard | None = None, address: str = "127.0.0.1") ->
     running.start()
     try:
         assert ready.wait(10)
-        key = f"?token={guard.token}"
+        key = f"?token={access.token}"
         url = f"ws://127.0.0.1:{port}/drive{key}"
-        yield SimpleNamespace(server=server, port=port, hands=hands, told=told, key=key, url=url, error=error)
+        yield SimpleNamespace(server=server, port=port, arbiter=arbiter, told=told, key=key, url=url, error=error)
     finally:
         if not error:
             ends["loop"].call_soon_threadsafe(ends["stop"].set)

@@ -18,7 +18,7 @@ import pytest
 
 from hosts.common.errors import HostError
 from hosts.simulator import process
-from hosts.simulator.car import Car, CarSettings, Event, Moment
+from hosts.simulator.car import Car, CarSettings, CarState, Event
 from hosts.simulator.driven_fmu import DrivenFmu
 from hosts.simulator.shared_values import SharedValues, Sizes
 
@@ -46,7 +46,7 @@ def make(fmu: Callable[[str], Path]) -> object:
         made.close()
 
 
-def until(car: Car, reached: Callable[[Moment], bool]) -> Moment:
+def until(car: Car, reached: Callable[[CarState], bool]) -> CarState:
     """The first moment seen that is as asked."""
     end = time.perf_counter() + PATIENCE
     while not reached(moment := car.latest()):
@@ -55,7 +55,7 @@ def until(car: Car, reached: Callable[[Moment], bool]) -> Moment:
     return moment
 
 
-def steps(car: Car, count: int) -> Moment:
+def steps(car: Car, count: int) -> CarState:
     """So many more steps, and the moment after them."""
     goal = car.latest().count + count
     car.command("step", count)

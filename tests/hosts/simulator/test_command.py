@@ -20,8 +20,8 @@ from ali3 import bars
 from ali3.scene.scene import scene_errors
 from hosts.common import commands
 from hosts.common.errors import HostError
-from hosts.common.options import Wishes
-from hosts.driving.wild_driver import WildDriver
+from hosts.common.options import FmuOptions
+from hosts.driving.random_driver import RandomDriver
 from hosts.fmu import built_fmu
 from hosts.fmu.aliases.alias import Aliases
 from hosts.fmu.aliases.file import read_aliases
@@ -32,8 +32,8 @@ from hosts.recordings.written_tables import ParquetTable
 from hosts.simulator.aliased_car import AliasedCar
 from hosts.simulator.car import Car, CarSettings
 from hosts.simulator.command import main
-from hosts.simulator.headless import headless_driver, run_headless
-from hosts.simulator.preparation import Asked, prepare
+from hosts.simulator.headless_driving import headless_driver, run_headless
+from hosts.simulator.preparation import DriveRequest, prepare
 
 TESTS = Path(__file__).parents[2]
 TURN = '"time","steering","throttle","brake"\n0,0,0,0\n1,0,1,0\n1,0.5,1,0\n3,0,1,0.5\n'
@@ -178,7 +178,7 @@ def test_a_manoeuvre_moves_the_inputs_by_the_clock_of_the_car(fmus, tmp_path):
 
 
 def test_a_driver_without_sense_moves_them_too(fmus):
-    wanted = WildDriver(5, ("steering", "throttle", "brake")).act(0.0, {})
+    wanted = RandomDriver(5, ("steering", "throttle", "brake")).act(0.0, {})
     assert any(wanted.values())
     with started(fmus["sledge"]) as car:
         assert run_headless(car, headless_driver(car, None, 5), 0.1, lambda *_: None)
@@ -267,7 +267,7 @@ def test_an_alias_file_gives_it_our_names(renamed, told, tmp_path):
 
 def test_a_hello_has_our_names(renamed, tmp_path):
     (tmp_path / "names.toml").write_text(ALIASES)
-    asked = Asked(renamed, None, None, None, Wishes([], []), tmp_path / "names.toml", None)
+    asked = DriveRequest(renamed, None, None, None, FmuOptions([], []), tmp_path / "names.toml", None)
     prepared = prepare(asked, lambda text: None)
     hello = prepared.hello({}, ("steering",), 0.002, "")
     names = {v["name"] for v in hello["description"]["variables"]}

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from hosts.fmu.aliases.alias import Alias, Aliases
-from hosts.fmu.aliases.parse_derived import parse_derived
+from hosts.fmu.aliases.derived_entry import parse_derived
 from hosts.fmu.fmu_source import FmuSource
 from hosts.simulator.aliased_car import AliasedCar
-from hosts.simulator.moments import Moment
+from hosts.simulator.car_events import CarState
 
 ALIASES = Aliases(
     (Alias("steering", "StrAng", -540.0), Alias("chassis.x", "X", 1000.0)),
@@ -30,8 +30,8 @@ class Sledge:
         self.time = 0.0
 
     def latest(self):
-        moment = Moment.__new__(Moment)
-        for name in Moment.__dataclass_fields__:
+        moment = CarState.__new__(CarState)
+        for name in CarState.__dataclass_fields__:
             object.__setattr__(moment, name, 0)
         return replace(moment, time=self.time, values=np.array([270.0, 2000.0 * self.time]))
 

@@ -27,7 +27,7 @@ class Hands:
     """Wants that depend on the step only, so that they can be repeated."""
 
     def __init__(self, car: DrivenFmu) -> None:
-        self.car, self.wish = car, 0
+        self.car, self.request = car, 0
 
     def drive(self, first: int, last: int) -> list[np.ndarray]:
         """Steps `first` to `last`; values after each."""
@@ -43,8 +43,8 @@ class Hands:
         random = np.random.default_rng(k)
         table = np.zeros((len(self.car.inputs.values), 3))
         table[:, 0], table[:, 1] = random.uniform(0, 1, len(table)), random.uniform(0.5, 5.0, len(table))
-        self.wish += 1
-        table[:, 2] = self.wish
+        self.request += 1
+        table[:, 2] = self.request
         self.car.inputs.want(table.ravel())
 
 
@@ -63,7 +63,7 @@ def test_back_and_on_is_as_without(fmu: Callable[[str], Path], sledge: DrivenFmu
     again.drive(0, 1000 - back)
     for driven in (hands, again):
         driven.want(7)
-        driven.wish += 100
+        driven.request += 100
     first = hands.drive(begin, begin + 300)
     second = again.drive(begin, begin + 300)
     other.close()
@@ -84,7 +84,7 @@ def test_more_than_is_kept_goes_as_far_as_it_can_and_says_so(sledge: DrivenFmu) 
 def test_a_reset_is_the_start_and_can_be_taken_back(sledge: DrivenFmu) -> None:
     start, hands = sledge.values.copy(), Hands(sledge)
     rows = hands.drive(0, 299)
-    told = sledge.reset(wish=hands.wish)
+    told = sledge.reset(request=hands.request)
     assert told.details["start"] == {"initial.speed": 10.0}
     assert (sledge.time, sledge.epoch, sledge.count) == (0.0, 1, 300)
     assert np.array_equal(sledge.values, start)
@@ -102,23 +102,23 @@ def test_a_reset_is_the_start_and_can_be_taken_back(sledge: DrivenFmu) -> None:
 
 def test_a_start_after_a_reset_is_the_first_drive_again(sledge: DrivenFmu) -> None:
     rows = Hands(sledge).drive(0, 300)
-    sledge.reset(wish=1e9)
+    sledge.reset(request=1e9)
     sledge.inputs.restart(0.0)
     assert all(np.array_equal(a, b) for a, b in zip(rows, Hands(sledge).drive(0, 300), strict=True))
 
 
 def test_upright_stays_where_it_is_and_time_goes_on(sledge: DrivenFmu) -> None:
-    sledge.restart({"initial.yaw": 1.0, "initial.y": -3.0}, wish=0.0)
+    sledge.restart({"initial.yaw": 1.0, "initial.y": -3.0}, request=0.0)
     Hands(sledge).drive(0, 700)
     places = [sledge.names.index(n) for n in ("chassis.x", "chassis.y", "chassis.yaw")]
     before, time = sledge.values[places], sledge.time
-    told = sledge.upright(wish=100.0)
+    told = sledge.upright(request=100.0)
     assert sledge.values[places] == pytest.approx(before, abs=1e-9)
     assert sledge.values[sledge.names.index("speed")] == 0.0
     assert (sledge.time, sledge.epoch) == (time, 2)
     assert told.details["start"]["initial.speed"] == 0.0
     hands = Hands(sledge)
-    hands.wish = 100
+    hands.request = 100
     hands.drive(0, 20)
     assert sledge.time == pytest.approx(time + 21 * H)
     sledge.rewind(23 * H)
@@ -126,11 +126,11 @@ def test_upright_stays_where_it_is_and_time_goes_on(sledge: DrivenFmu) -> None:
 
 
 def test_other_start_values_stay_for_later_resets(sledge: DrivenFmu) -> None:
-    sledge.restart({"initial.x": 40.0, "throttle": 0.25}, wish=0.0)
+    sledge.restart({"initial.x": 40.0, "throttle": 0.25}, request=0.0)
     x, throttle = sledge.names.index("chassis.x"), sledge.names.index("throttle")
     assert (sledge.values[x], sledge.values[throttle]) == (40.0, 0.25)
     Hands(sledge).drive(0, 50)
-    sledge.reset(wish=100.0)
+    sledge.reset(request=100.0)
     assert (sledge.values[x], sledge.values[throttle]) == (40.0, 0.25)
     assert sledge.start == {"initial.speed": 10.0, "initial.x": 40.0, "throttle": 0.25}
 
@@ -141,13 +141,13 @@ def test_a_start_that_is_refused_changes_nothing(fmu: Callable[[str], Path]) -> 
         car.advance()
     before, time = car.values.copy(), car.time
     with pytest.raises(HostError, match="no parameter or input 'nothing'"):
-        car.restart({"nothing": 1.0}, wish=0.0)
+        car.restart({"nothing": 1.0}, request=0.0)
     assert (car.start, car.time, car.epoch) == ({}, time, 0)
     assert np.array_equal(car.values, before)
     car.advance()
     assert car.time == pytest.approx(time + 0.01)
     with pytest.raises(HostError, match=r"no chassis.x; a reset"):
-        car.upright(wish=0.0)
+        car.upright(request=0.0)
     car.close()
 
 
@@ -208,12 +208,12 @@ def test_an_fmu_that_saves_no_state_can_be_reset_and_set_upright_but_not_rewound
         car.rewind(0.1)
     assert (car.saved, car.epoch) == (0.0, 0)
     assert np.array_equal(car.values, rows[-1])
-    car.upright(wish=100.0)
+    car.upright(request=100.0)
     assert car.time == 101 * H
-    car.reset(wish=100.0)
+    car.reset(request=100.0)
     assert np.array_equal(car.values, start)
     with pytest.raises(HostError, match="starts again as at first"):
-        car.restart({"step_size": 1e-30}, wish=100.0)
+        car.restart({"step_size": 1e-30}, request=100.0)
     assert np.array_equal(car.values, start)
     assert (car.time, car.epoch) == (0.0, 3)
     car.close()

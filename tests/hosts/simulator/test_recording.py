@@ -14,12 +14,12 @@ from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
 from hosts.recordings.last_drive import last_drive
 from hosts.recordings.load_manoeuvre import load_manoeuvre
+from hosts.recordings.manoeuvre_export import to_manoeuvre
 from hosts.recordings.recorded_columns import recorded_columns
 from hosts.recordings.recorded_drive import RecordedDrive, read_recording
 from hosts.recordings.recording import Recorder, recording_meta
 from hosts.recordings.replay import Repeater, replay
 from hosts.recordings.tables import joined
-from hosts.recordings.to_manoeuvre import to_manoeuvre
 from tests.hosts.simulator.recorded_sledge import STEP, TABLES, Drive, whole_drive
 
 

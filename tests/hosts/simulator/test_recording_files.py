@@ -14,16 +14,16 @@ import pytest
 
 from ali3.processes import module_command
 from hosts.common.errors import HostError
-from hosts.common.options import Wishes
+from hosts.common.options import FmuOptions
+from hosts.recordings.manoeuvre_export import to_manoeuvre
 from hosts.recordings.recorded_drive import RecordedDrive, read_recording
 from hosts.recordings.recorded_view import recorded_view
 from hosts.recordings.recording import Recorder
 from hosts.recordings.replay import replay
 from hosts.recordings.tables import Rows, joined
-from hosts.recordings.to_manoeuvre import to_manoeuvre
 from hosts.recordings.written_tables import ParquetTable
 from hosts.simulator.command import main
-from hosts.view.view_sources import RunWishes, recordings_of
+from hosts.view.view_sources import ViewRunOptions, recordings_of
 from tests.hosts.simulator.recorded_sledge import TABLES, Drive, whole_drive
 
 WRITER = """
@@ -290,8 +290,8 @@ def test_options_of_driving_are_refused_beside_a_recording(tmp_path: Path, capfd
 
 def test_a_recording_is_viewed_in_the_time_of_the_driver(fmus: dict[str, Path], tmp_path: Path) -> None:
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
-    wishes = RunWishes(None, None, None, Wishes([], []))
-    (recording,), told, _ = recordings_of([folder], None, wishes)
+    fmu_options = ViewRunOptions(None, None, None, FmuOptions([], []))
+    (recording,), told, _ = recordings_of([folder], None, fmu_options)
     assert told == []
     assert recording.scene is not None
     assert len(recording.t) == 183
@@ -301,8 +301,8 @@ def test_a_recording_is_viewed_in_the_time_of_the_driver(fmus: dict[str, Path], 
     meta = json.loads((folder / "recording.json").read_text())
     (folder / "recording.json").write_text(json.dumps(meta | {"fmu": "gone.fmu"}))
     with pytest.raises(HostError, match="gone.fmu, which is not there any more; name it by --geometry FMU"):
-        recordings_of([folder], None, wishes)
-    (recording,), _, _ = recordings_of([folder], fmus["sledge"], wishes)
+        recordings_of([folder], None, fmu_options)
+    (recording,), _, _ = recordings_of([folder], fmus["sledge"], fmu_options)
     assert recording.scene is not None
 
 

@@ -13,8 +13,8 @@ from websockets.sync.client import connect
 
 from hosts.common.errors import HostError
 from hosts.simulator import connected_page, web
+from hosts.simulator.access_control import AccessControl
 from hosts.simulator.connected_page import ConnectedPage
-from hosts.simulator.guard import Guard
 from tests.hosts.simulator.pages import read_to_the_end, texts, until
 from tests.hosts.simulator.raw_client import RawClient, request
 from tests.hosts.simulator.served import WORLD, FakeCar, serving
@@ -62,27 +62,27 @@ def test_what_is_not_there_and_what_is_no_websocket(served):
 @pytest.mark.parametrize("address", ["127.0.0.1", "0.0.0.0"])
 def test_nobody_is_answered_without_the_token(address):
     """Other users of this machine reach 127.0.0.1 too."""
-    guard = Guard.of(address)
-    assert len(guard.token) >= 32
-    assert Guard.of(address).token != guard.token
-    with serving(FakeCar(), guard) as served:
+    access = AccessControl.of(address)
+    assert len(access.token) >= 32
+    assert AccessControl.of(address).token != access.token
+    with serving(FakeCar(), access) as served:
         for path in (
             "/",
             "/world",
             "/drive",
             "/?token=",
-            f"/?token={guard.token}x",
+            f"/?token={access.token}x",
             "/?token=%C3%A9",
-            f"/?x={guard.token}",
+            f"/?x={access.token}",
         ):
             status, _, body = request(served.port, path, {}, upgrade=path == "/drive")
             assert status == 403
             assert b"guarded" in body
-        for path in ("/drive", "/drive?token=", f"/drive?token={guard.token[:-1]}"):
+        for path in ("/drive", "/drive?token=", f"/drive?token={access.token[:-1]}"):
             with pytest.raises(InvalidStatus, match="403"):
                 connect(f"ws://127.0.0.1:{served.port}{path}")
         assert request(served.port, f"/{served.key}", {})[0] == 200
-        elsewhere = 403 if guard.is_local else 200
+        elsewhere = 403 if access.is_local else 200
         assert request(served.port, f"/{served.key}", {"Host": "192.168.1.5:80"})[0] == elsewhere
         assert request(served.port, f"/{served.key}", {"Host": "evil.example"})[0] == 403
         with connect(served.url) as page:
@@ -90,8 +90,8 @@ def test_nobody_is_answered_without_the_token(address):
 
 
 def test_addresses_that_only_this_machine_reaches():
-    assert all(Guard.of(name).is_local for name in ("127.0.0.1", "::1", "localhost", "127.3.2.1"))
-    assert not any(Guard.of(name).is_local for name in ("0.0.0.0", "::", "192.168.0.2", "carbox"))
+    assert all(AccessControl.of(name).is_local for name in ("127.0.0.1", "::1", "localhost", "127.3.2.1"))
+    assert not any(AccessControl.of(name).is_local for name in ("0.0.0.0", "::", "192.168.0.2", "carbox"))
 
 
 def refused_with(page):

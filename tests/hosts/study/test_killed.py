@@ -22,7 +22,7 @@ from distributed.comm import CommClosedError
 from hosts.common.errors import HostError
 from hosts.experiment.cluster import bring
 from hosts.experiment.cluster_runs import ClusterRuns
-from hosts.experiment.cluster_worker import Brought
+from hosts.experiment.cluster_worker import UnpackedFmu
 from hosts.experiment.journal import Journal
 from hosts.study.command import main
 from hosts.study.outcome_table import Row
@@ -32,7 +32,7 @@ from hosts.study.worker_data import Outcome, Run
 
 ROOT = Path(__file__).parents[3]
 RUNS = 140
-Kept: TypeAlias = tuple[str, Row]
+ResultStore: TypeAlias = tuple[str, Row]
 SLOW = """
 import time
 
@@ -108,7 +108,7 @@ def test_the_command_is_killed(slow_study: Path, tmp_path: Path) -> None:
     process.send_signal(signal.SIGKILL)
     process.communicate()
     before = rows(out)
-    made = len(before) + len(Journal[Kept](out / "done", Kept).read())
+    made = len(before) + len(Journal[ResultStore](out / "done", ResultStore).read())
     assert 0 < len(before) < RUNS
     assert psutil.wait_procs(children, timeout=30.0)[1] == []  # the workers end with the command
     process = command(slow_study, "--out", out, "--jobs", 2)
@@ -132,7 +132,7 @@ def test_a_kill_loses_only_the_runs_in_hand(
         time.sleep(0.01)
     process.kill()
     process.communicate()
-    made = len(Journal[Kept](journal, Kept).read()) + len(rows(out))
+    made = len(Journal[ResultStore](journal, ResultStore).read()) + len(rows(out))
     assert made > 0
     assert main([str(slow_study), "--out", str(out), "--jobs", "2", "--no-report"]) == 0
     told = capsys.readouterr().out
@@ -300,7 +300,7 @@ def test_a_worker_that_ends_too_early_is_told_as_such() -> None:
         def register_plugin(self, _: object) -> None:
             raise CommClosedError("in <TCP local=...>: Stream is closed")
 
-    brought = Brought("a", "none.fmu", "", "", lambda path: None)  # type: ignore[arg-type, return-value]
+    brought = UnpackedFmu("a", "none.fmu", "", "", lambda path: None)  # type: ignore[arg-type, return-value]
     with pytest.raises(HostError, match="A worker has ended or was cut off before it had what is run") as caught:
         bring(Lost(), brought, Path(__file__))  # type: ignore[arg-type]
     assert "version" not in str(caught.value)

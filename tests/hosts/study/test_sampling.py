@@ -9,8 +9,8 @@ import pytest
 from SALib.sample import sobol
 from scipy.stats import qmc
 
-from hosts.study.drawn_points import Places, latin_hypercube, saltelli, sobol_sequence
 from hosts.study.points import grid
+from hosts.study.random_points import Places, latin_hypercube, saltelli, sobol_sequence
 
 
 def in_blocks(places: Places, count: int, size: int) -> np.ndarray:

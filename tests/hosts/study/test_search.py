@@ -5,10 +5,10 @@ from collections.abc import Callable
 
 import pytest
 
-from hosts.study.target_search import Found, seek
+from hosts.study.target_search import SearchResult, seek
 
 
-def sought(function: Callable[[float], float], wanted: float, low: float, high: float, **more: float) -> Found:
+def sought(function: Callable[[float], float], wanted: float, low: float, high: float, **more: float) -> SearchResult:
     found = seek(lambda x: (function(x), "" if math.isfinite(function(x)) else "failed"), wanted, low, high, **more)
     assert len({run.x for run in found.runs}) == len(found.runs)  # no run twice
     return found

@@ -9,7 +9,7 @@ from pythonfmu import FmuBuilder
 
 from hosts.common.numbers import Value
 from hosts.systems import CoupledFmus
-from hosts.systems.coupled import Inputs, Order
+from hosts.systems.coupled_fmus import Inputs, Order
 from tests.hosts.systems.trailer import passing_folder
 from tests.hosts.systems.weak_coupling import car_fmu
 from tests.vehicle.test_ports import WHEELS

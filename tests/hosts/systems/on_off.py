@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 
 from hosts.systems import CoupledFmus
-from hosts.systems.coupled import INPUTS, Inputs
+from hosts.systems.coupled_fmus import INPUTS, Inputs
 from tests.hosts.systems.controlled import INNER, SLIP_WIRES
 from tests.hosts.systems.weak_coupling import car_fmu, partner_fmu, percent
 

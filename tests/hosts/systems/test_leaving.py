@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from ali3.temporary import PREFIX
+from ali3.temporary_folder import PREFIX
 
 ROOT = Path(__file__).parents[3]
 PROGRAM = """

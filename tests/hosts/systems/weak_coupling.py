@@ -15,7 +15,7 @@ import mbs
 from hosts.fmu import built_fmu
 from hosts.fmu.built_fmu import fmu_of_car
 from hosts.systems import CoupledFmus
-from hosts.systems.coupled import Inputs, Order
+from hosts.systems.coupled_fmus import Inputs, Order
 from mbs.vehicle import load
 from tests.hosts.systems import trailer
 from tests.hosts.systems.fmus.second_road import ANSWER

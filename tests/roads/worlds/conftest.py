@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from mbs.worlds.command import main
-from mbs.worlds.shipped import WORLDS
+from mbs.worlds.package_worlds import WORLDS
 
 
 @pytest.fixture(scope="session")

@@ -11,11 +11,11 @@ import pytest
 import mbs
 from mbs.roads.road_header import RoadFileError
 from mbs.scenes import prototype_car
-from mbs.worlds import stored
+from mbs.worlds import world_cache
 from mbs.worlds.command import main
 from mbs.worlds.course_file import read_course
 from mbs.worlds.make_world import read_world
-from mbs.worlds.shipped import ROADS
+from mbs.worlds.package_worlds import ROADS
 from mbs.worlds.terrain import Terrain
 from tests.roads.worlds.harness import drawn, opened
 
@@ -354,13 +354,13 @@ def test_a_thin_world_is_off_by_what_it_says(folder, own_cache, tmp_path, capsys
 
 
 def test_another_range_of_what_is_told_makes_another_world(tmp_path, monkeypatch):
-    for place in stored.CODE:
-        source, copy = stored.ROOT / place, tmp_path / place
+    for place in world_cache.CODE:
+        source, copy = world_cache.ROOT / place, tmp_path / place
         copy.parent.mkdir(parents=True, exist_ok=True)
         (shutil.copytree if source.is_dir() else shutil.copyfile)(source, copy)
-    before = stored.key_of([])
-    monkeypatch.setattr(stored, "ROOT", tmp_path)
-    assert stored.key_of([]) == before
-    with (tmp_path / "ali3/echo/quantities.csv").open("a", encoding="utf-8") as table:
+    before = world_cache.key_of([])
+    monkeypatch.setattr(world_cache, "ROOT", tmp_path)
+    assert world_cache.key_of([]) == before
+    with (tmp_path / "ali3/plausibility/quantities.csv").open("a", encoding="utf-8") as table:
         table.write("\n")
-    assert stored.key_of([]) != before
+    assert world_cache.key_of([]) != before

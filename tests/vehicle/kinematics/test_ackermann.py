@@ -29,7 +29,7 @@ def angle(rack):
 @pytest.fixture(scope="module")
 def curve():
     car = LINKS.car(tie_rod_inner=(*INNER, 0.15), tie_rod_outer=(*OUTER, 0.15))
-    assert car.rack_way == -1.0  # rods behind the axle
+    assert car.rack_direction == -1.0  # rods behind the axle
     return car, steer_curve(Linkage(car, "front"), RACK, wheel_by_rack(car))
 
 

@@ -71,7 +71,7 @@ def test_wheel_travel(car, axle):
 def test_steering(car):
     link = linkage(car, "front")
     steering = link.car.steering
-    per_rack = link.car.rack_way * 2.0 * np.pi / steering.rack_per_turn
+    per_rack = link.car.rack_direction * 2.0 * np.pi / steering.rack_per_turn
     curve = steer_curve(link, np.linspace(-steering.rack_travel, steering.rack_travel, 9), wheel_by_rack(link.car))
     assert np.all(np.diff(curve["steering_wheel_angle"]) > 0.0)
     assert np.all(np.diff(curve["mean_steer_angle"]) > 0.0)  # to the left is positive

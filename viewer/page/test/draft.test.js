@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { levelsWithin, ROUGH } from "../src/looks/terrain.js";
-import { thinned, within } from "../src/looks/draft/thinned.js";
-import { nextLevel, nextShare, Pace } from "../src/looks/pace.js";
+import { thinned, within } from "../src/looks/draft/vertex_clustering.js";
+import { nextLevel, nextShare, PictureQuality } from "../src/looks/picture_quality.js";
 import { coilTriangles } from "../src/shapes/coil.js";
 
 /** A closed ball of squares cut in two, with outward normals. */
@@ -105,7 +105,7 @@ function paced(t, driven, quality, timeOf, between = 5) {
   let reads = 0;
   t.mock.method(performance, "now", () => clock);
   const gl = { readPixels: () => (reads += 1) };
-  const pace = new Pace(/** @type {any} */ ({ getContext: () => gl }), quality, { software: true, driven });
+  const pace = new PictureQuality(/** @type {any} */ ({ getContext: () => gl }), quality, { software: true, driven });
   const draw = (pictures) => {
     for (let k = 0; k < pictures; k++) {
       pace.before();

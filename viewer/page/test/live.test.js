@@ -3,10 +3,10 @@ import test from "node:test";
 import { Blend } from "../src/sources/blend.js";
 import { Engine, scriptAt } from "../src/live/engine.js";
 import { Gamepad, readSource, withDeadZone } from "../src/live/gamepad.js";
-import { Hand } from "../src/live/hand.js";
-import { paceWords } from "../src/instruments/pace.js";
+import { LimitedInputs } from "../src/live/input_rates.js";
+import { realTimeText } from "../src/instruments/real_time_factor.js";
 import { Keyboard } from "../src/live/keyboard.js";
-import { Pacer } from "../src/live/pacer.js";
+import { RealTimeClock } from "../src/live/real_time_clock.js";
 import { choicesOf, fromSlider, rangeOf, toSlider } from "../src/live/ranges.js";
 import { between, Record } from "../src/live/record.js";
 import { movedRoads } from "../src/live/roads.js";
@@ -14,7 +14,7 @@ import { missingParts } from "../src/bytes.js";
 import { Runner } from "../src/live/worker.js";
 
 test("a pacer keeps absolute deadlines: a late wake makes up for what it missed", () => {
-  const pacer = new Pacer(0.002);
+  const pacer = new RealTimeClock(0.002);
   pacer.start(100, 0, 1);
   assert.equal(pacer.due(100.0019), 0);
   assert.equal(pacer.due(100.1), 50);
@@ -25,21 +25,21 @@ test("a pacer keeps absolute deadlines: a late wake makes up for what it missed"
 });
 
 test("a pacer tells a machine that does not keep up, and slow motion is none", () => {
-  const pacer = new Pacer(0.01);
+  const pacer = new RealTimeClock(0.01);
   pacer.start(0, 0, 1);
   for (let n = 1; n <= 300; n++) pacer.reached(0.01 * n, Math.floor(0.4 * n)); // 0.4 of real time
   assert.ok(Math.abs(pacer.factor() - 0.4) < 0.02, String(pacer.factor()));
   assert.ok(pacer.slow > 0);
   const words = { running: true };
-  assert.match(paceWords({ ...words, speed: 1, factor: pacer.factor() }).warn, /does not keep up: 0\.40 s of the run a second, 1 asked/);
-  assert.equal(paceWords({ ...words, speed: 0.1, factor: 0.1 }).warn, "");
-  assert.match(paceWords({ ...words, speed: 0.1, factor: 0.1 }).text, /slow motion/);
+  assert.match(realTimeText({ ...words, speed: 1, factor: pacer.factor() }).warn, /does not keep up: 0\.40 s of the run a second, 1 asked/);
+  assert.equal(realTimeText({ ...words, speed: 0.1, factor: 0.1 }).warn, "");
+  assert.match(realTimeText({ ...words, speed: 0.1, factor: 0.1 }).text, /slow motion/);
   pacer.start(10, 120, 0.5);
   assert.equal(pacer.due(11), 120 + 50);
 });
 
 test("a hand moves at a limited rate and reaches what is wanted exactly", () => {
-  const hand = new Hand([0, 1]);
+  const hand = new LimitedInputs([0, 1]);
   hand.want(0, 0.3, 2);
   const seen = [];
   for (let n = 0; n < 4; n++) seen.push(hand.move(0.05)[0]);

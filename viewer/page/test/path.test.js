@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { ribbonEdges, ribbonTriangles, waysOf } from "../src/effects/path.js";
-import { LIFT } from "../src/looks/lifted.js";
+import { LIFT } from "../src/looks/ground_offset.js";
 
 const UP = [0, 0, 1];
 

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { Blend, turnsOf } from "../src/sources/blend.js";
-import { Hands } from "../src/live/hands.js";
-import { Trailing } from "../src/scene/trailing.js";
+import { InputArbiter } from "../src/live/input_arbiter.js";
+import { TrailingDirection } from "../src/scene/trailing_direction.js";
 import { Beat, Frames } from "../src/sources/frames.js";
 import { Trail } from "../src/instruments/map.js";
 import { Factor } from "../src/sources/factor.js";
@@ -10,7 +10,7 @@ import { Surfaces, frictionOf } from "../src/instruments/surfaces.js";
 import { useColour, wheelsOf } from "../src/instruments/tyres.js";
 import { besides } from "../src/common/labels.js";
 import { cameraActs } from "../src/common/views.js";
-import { Wants } from "../src/sources/wants.js";
+import { InputRequests } from "../src/sources/input_requests.js";
 
 const frame = (time, more = {}) => ({ epoch: 1, running: true, speed: 1, count: Math.round(time / 0.002), time, values: [time], ...more });
 
@@ -112,7 +112,7 @@ test("between frames: quaternions turn the short way, angles too, turns are coun
 
 test("wishes are told with all that their source holds; after a new start the selector is the car's", () => {
   const sent = [];
-  const wants = new Wants({ want: (source, values) => sent.push([source, structuredClone(values)]) });
+  const wants = new InputRequests({ want: (source, values) => sent.push([source, structuredClone(values)]) });
   wants.want("keys", [["steering", 0.50004, 1.6], ["selector", -1]]); // prettier-ignore
   wants.want("keys", [["throttle", 1, 2.5]]);
   wants.want("gamepad", [["steering", -0]]);
@@ -128,7 +128,7 @@ test("hands: keys that are let go and a gamepad that is pulled out leave nothing
   const asked = [];
   let pads = [{ id: "pad", mapping: "standard", connected: true, axes: [-0, 0], buttons: Array.from({ length: 8 }, () => ({ value: 0 })) }];
   const inputs = ["steering", "throttle", "brake"];
-  const hands = new Hands({ inputs, constants: {}, pads: () => pads, want: (source, wants) => asked.push([source, Object.fromEntries(wants)]) });
+  const hands = new InputArbiter({ inputs, constants: {}, pads: () => pads, want: (source, wants) => asked.push([source, Object.fromEntries(wants)]) });
   hands.key({ code: "KeyW", type: "keydown" }, 0);
   assert.deepEqual(asked.at(-1), ["keys", { steering: 0, throttle: 1, brake: 0 }]);
   hands.letKeysGo();
@@ -213,7 +213,7 @@ test("what a tyre can hold: friction of the road, of its axle's curves on a road
 
 test("a camera on a rope: it follows a turn in its time, stays level, and jumps where the car does", () => {
   let now = 0;
-  const trailing = new Trailing(0.2, () => now);
+  const trailing = new TrailingDirection(0.2, () => now);
   const up = [0, 0, 1];
   const angle = (/** @type {number[]} */ [x, y]) => Math.atan2(y, x);
   assert.deepEqual(trailing.along([1, 0, 0], up), [1, 0, 0]);
@@ -225,7 +225,7 @@ test("a camera on a rope: it follows a turn in its time, stays level, and jumps 
   assert.ok(z === 0 && Math.abs(Math.hypot(x, y) - 1) < 1e-12);
   trailing.snap();
   assert.deepEqual(trailing.along([0, 1, 0], up), [0, 1, 0]);
-  assert.deepEqual(new Trailing(0).along([0, -1, 0], up), [0, -1, 0]);
+  assert.deepEqual(new TrailingDirection(0).along([0, -1, 0], up), [0, -1, 0]);
 });
 
 test("words stand beside their dots, over no others, within the picture, and stay where they are", () => {

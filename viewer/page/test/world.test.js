@@ -1,7 +1,7 @@
 // The terrain and the paint on it, against heights in closed form.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { apronQuads, borderStations, straightened } from "../src/looks/apron.js";
+import { borderQuads, borderStations, straightened } from "../src/looks/terrain_border.js";
 import { HeightField, SURFACES, SurfaceRaster, surfaceOf } from "../src/looks/heights.js";
 import { arrowStrips, dashes, edges } from "../src/looks/scenery/ribbon.js";
 import { squares } from "../src/looks/scenery/index.js";
@@ -100,7 +100,7 @@ test("beyond the border its heights go on, around the focus and far away", () =>
   /** @type {(low: number[], high: number[], at: number[]) => boolean} */
   const inside = ([x0, y0], [x1, y1], [x, y]) => x >= x0 && x <= x1 && y >= y0 && y <= y1;
   for (const centre of [[5, 5], [90000, -50000], [-3000, 4]]) {
-    const quads = apronQuads(field, stations, centre);
+    const quads = borderQuads(field, stations, centre);
     for (const [dx, dy] of [[0, 0], [1200, 300], [-900, -1100], [40, 1300]]) {
       const at = [centre[0] + dx + 0.25, centre[1] + dy + 0.25];
       const on = quads.filter(([a, , c]) => inside(a, c, at));

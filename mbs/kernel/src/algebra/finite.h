@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "stretch.h"
+#include "number_pairs.h"
 
 /* Products that begin with 0 stay 0 with finite numbers and become NaN with others; four, so that they need not wait for
  * each other. */

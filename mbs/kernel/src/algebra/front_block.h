@@ -4,9 +4,9 @@
 #include <math.h>
 
 #include "../instance.h"
+#include "number_pairs.h"
 #include "processor.h"
 #include "real.h"
-#include "stretch.h"
 
 enum { PANEL = 4 };
 

@@ -14,7 +14,7 @@
 #include "../methods/whole_step.h"
 #include "../sensors/sensors.h"
 #include "../start/initialise.h"
-#include "../start/settle.h"
+#include "../start/settled_start.h"
 #include "../start/start_on_road.h"
 #include "../state/inputs.h"
 #include "../state/road_files.h"

@@ -7,8 +7,8 @@
 #include "../tabled/tabled.h"
 #include "defect.h"
 #include "element.h"
+#include "element_fours.h"
 #include "forces.h"
-#include "fours.h"
 #include "signals.h"
 
 /* Arguments that are the same for all elements. */

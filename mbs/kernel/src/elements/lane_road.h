@@ -1,4 +1,4 @@
-/* A road as laws see it that are computed for several discs at once: of instances (../lanes/) or of one (fours.h). */
+/* A road as laws see it that are computed for several discs at once: of instances (../lanes/) or of one (element_fours.h). */
 #ifndef ALI3_LANE_ROAD_H
 #define ALI3_LANE_ROAD_H
 #include "../algebra/real.h"
@@ -6,9 +6,9 @@
 enum { ALI3_MOST_LANES = 8 };
 
 typedef struct ali3_lane_road {
-  int32_t type;                                   /* ALI3_ROAD_COUNT where the lanes have roads of several types */
-  const struct ali3_road *lane[ALI3_MOST_LANES];  /* NULL: none, nothing is touched */
-  real *numbers, *friction_factor;                /* of ali3_road_numbers */
+  int32_t type; /* ALI3_ROAD_COUNT where the lanes have roads of several types */
+  const struct ali3_road *lane[ALI3_MOST_LANES]; /* NULL: none, nothing is touched */
+  real *numbers, *friction_factor; /* of ali3_road_numbers */
 } ali3_lane_road;
 
 /* What ali3_road_contacts gives in each lane, two contacts. */

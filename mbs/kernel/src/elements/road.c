@@ -4,9 +4,9 @@
 #include "../algebra/small_vectors.h"
 #include "../roads/grid.h"
 #include "disc_on_grid.h"
+#include "grid_exit.h"
 #include "plane_and_kerb.h"
 #include "road_port.h"
-#include "way_out_of_grid.h"
 
 enum { GRID_NX, GRID_NY, GRID_X0, GRID_Y0, GRID_DX, GRID_DY, GRID_FRICTION, GRID_DATA };
 
@@ -144,7 +144,7 @@ static int grid_clearance(const ali3_road *road, const double point[3], ali3_cle
     y = point[1] - reach * under.normal[1];
   }
   double foot[2];
-  if (out->distance < -INSIDE && ali3_way_out_of_grid(&g, point, -STEEP * out->distance, foot)) {
+  if (out->distance < -INSIDE && ali3_grid_exit(&g, point, -STEEP * out->distance, foot)) {
     const ali3_surface face = ali3_grid_at(&g, foot[0], foot[1]);
     const double q[3] = {foot[0], foot[1], face.height};
     ali3_clearance aside = {.friction = face.friction};

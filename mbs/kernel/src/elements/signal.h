@@ -1,7 +1,7 @@
 /* Signals: affine functions of the coordinates. */
 #ifndef ALI3_SIGNAL_H
 #define ALI3_SIGNAL_H
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../instance.h"
 
 /* Of coordinates x, or the rate of the signal where x are rates (or accelerations). */

@@ -1,8 +1,8 @@
 /* From coordinates to the signals of elements, and from the tangents of signals back to coordinates. */
 #include <string.h>
 
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "signals.h"
 

@@ -3,9 +3,9 @@
 #define ALI3_BODY_ARRAYS_H
 #include <string.h>
 
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
 #include "../algebra/real.h"
-#include "../algebra/stretch.h"
 #include "../instance.h"
 
 enum {

@@ -1,8 +1,8 @@
 /* M x of the constant mass matrix. */
 #include <stdbool.h>
 
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "mass.h"
 

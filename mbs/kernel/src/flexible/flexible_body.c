@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "../algebra/fronts.h"
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "body_arrays.h"
 #include "flexible_body.h"

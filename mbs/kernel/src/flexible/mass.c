@@ -1,7 +1,7 @@
 /* M x: the constant mass matrix and what flexible bodies add to it. */
 #include "mass.h"
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "../tabled/tabled.h"
 #include "flexible_body.h"

@@ -49,7 +49,7 @@ typedef struct {
   ali3_system *system;
   double *val, *constant, *entry, *mass, *speed;
   ali3_tabled *tabled;
-} ali3_turned_axes;
+} ali3_parametric_axes;
 
 /* Roads, nr each. */
 typedef struct {

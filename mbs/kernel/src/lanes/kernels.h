@@ -45,7 +45,7 @@ static inline real lane_cosine(real x) {
 #include "../rows/constraints.c"
 #include "../rows/row_products.c"
 #include "../rows/velocity_rows.c"
-#include "../state/work_ways.c"
+#include "../state/signal_displacements.c"
 #include "../tabled/table.c"
 #include "../tabled/tabled.c"
 #include "../tabled/tabled_inertia.c"

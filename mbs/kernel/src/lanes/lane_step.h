@@ -334,7 +334,7 @@ static void step(ali3_lane_group *in) {
   *in->weight = *in->mass.gravity_const;
   for (int32_t i = 0; i < nq; i++) *in->weight -= in->mass.gravity[i] * in->next.q[i];
   speed_squares(in, h, in->now.qd, in->now.qdd, in->next.qd, in->squares);
-  ali3_work_ways(in, in->ways);
+  ali3_signal_displacements(in, in->ways);
 }
 #endif
 #endif

@@ -2,9 +2,9 @@
  * unsymmetric part (friction depends on the load), which costs a factor per iteration and mostly along one
  * direction. The last two corrections show that direction. Where Newton converges quadratically the corrections
  * shrink faster than SLOW and nothing is mixed. */
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
 #include "../algebra/real.h"
-#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "newton.h"
 

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../instance.h"
 #include "../method.h"
 #include "../rows/assembly_mode.h"

@@ -2,7 +2,7 @@
 #include "check_method.h"
 #include "../elements/element.h"
 #include "../instance.h"
-#include "../system/without_states.h"
+#include "../system/state_coordinates.h"
 
 static bool conservative(const ali3_instance *in, int32_t e) {
   const ali3_element_type *type = in->system->el_kind[e];
@@ -23,5 +23,5 @@ bool ali3_conservative(const ali3_instance *in) {
 
 /* ALI3_WRONG_METHOD where stages inside a step need more than q, qd and the time. */
 ali3_status ali3_needs_no_states(const ali3_instance *in) {
-  return ali3_without_states(in->system) ? ALI3_OK : ALI3_WRONG_METHOD;
+  return ali3_states_are_coordinates(in->system) ? ALI3_OK : ALI3_WRONG_METHOD;
 }

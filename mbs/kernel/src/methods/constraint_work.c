@@ -14,8 +14,8 @@
  * Guides that follow an input begin to move within a step, and their acceleration changes much in it. Where one moves,
  * lam0 is that before a jump of its acceleration, for which Newton's loop makes up: there the work of drives is that of
  * their rows, the force of the step times its own travel, with what (24) adds; so too where nothing is projected. */
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
 #include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/constraints.h"

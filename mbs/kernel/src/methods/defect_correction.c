@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "../algebra/fronts.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../elements/defect.h"
 
 enum { CORRECTIONS = 2 }; /* of a correction, at most */

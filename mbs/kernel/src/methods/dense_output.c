@@ -14,7 +14,7 @@
 #include "../state/inputs.h"
 #include "../state/vectors.h"
 #include "../state/work.h"
-#include "../system/without_states.h"
+#include "../system/state_coordinates.h"
 #include "energy_balance.h"
 #include "error_control.h"
 
@@ -124,7 +124,7 @@ ali3_status ali3_dense_output(ali3_instance *in, const ali3_measure *measure, do
   const bool relative = ali3_method_of(in)->relative;
   const bool at_end = when >= t + h - NEAR * h;
   const bool sums = in->system->n_work + in->system->n_guide_work > 0; /* work is known at the ends of steps */
-  const bool smooth = ali3_without_states(in->system) && (at_end || !sums);
+  const bool smooth = ali3_states_are_coordinates(in->system) && (at_end || !sums);
   if (at_end && !relative) {
     look(in, out, positions);
     return ALI3_OK;

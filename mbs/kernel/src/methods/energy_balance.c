@@ -2,8 +2,8 @@
  * the simplest prediction. They do not influence the steps. */
 #include <math.h>
 
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
 #include "../flexible/bodies.h"
 #include "../flexible/mass.h"
 #include "../instance.h"

@@ -9,7 +9,7 @@
 
 #include "../algebra/finite.h"
 #include "../algebra/fronts.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../elements/forces.h"
 #include "../flexible/discrete_inertia.h"
 #include "../flexible/mass.h"

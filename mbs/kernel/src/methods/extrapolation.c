@@ -1,8 +1,8 @@
 /* Past steps go on: Lagrange's polynomial through what they were. */
 #include "extrapolation.h"
 
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
 
 static const double SMOOTH = 0.25; /* of the change of the accelerations from the last step but one to the last */
 static const double FAR = 2.0;     /* times the last step that the next may be long */

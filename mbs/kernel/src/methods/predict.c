@@ -5,8 +5,8 @@
  * rates of the last two steps go on. */
 #include <string.h>
 
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "extrapolation.h"
 #include "history.h"

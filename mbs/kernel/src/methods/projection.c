@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "../algebra/fronts.h"
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
 

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
 #include "../elements/signal.h"
 #include "../instance.h"
 #include "assembly_mode.h"

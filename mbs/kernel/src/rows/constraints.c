@@ -2,9 +2,9 @@
 #include <string.h>
 
 #include "../algebra/elementary.h"
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
 #include "../algebra/real.h"
-#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "constraints.h"
 #include "guide_terms.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "../algebra/elementary.h"
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../instance.h"
 #include "discrete_rows.h"
 #include "switch_rows.h"

@@ -2,9 +2,9 @@
  * where a row is in triples, a step has 7 % (lane change, 10 ms) to 8.6 % (spatial chain) more instructions. */
 #include <string.h>
 
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
 #include "../algebra/real.h"
-#include "../algebra/stretch.h"
 #include "../instance.h"
 #include "constraints.h"
 

@@ -3,8 +3,8 @@
 #include <math.h>
 
 #include "../algebra/finite.h"
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
 #include "../system.h"
 #include "violation.h"
 

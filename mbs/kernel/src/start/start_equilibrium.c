@@ -95,7 +95,7 @@ ali3_status ali3_start_in_equilibrium(ali3_instance *in, double t) {
   const bool solve = changed(in);
   if (!solve && !in->start.moved) return ALI3_OK;
   memcpy(in->now.y, S->y0, (size_t)S->size.ny * sizeof(double));
-  ali3_start_of_file(in);
+  ali3_file_start(in);
   in->start.moved = false;
   if (solve) {
     const ali3_report before = in->report;

@@ -18,7 +18,7 @@
 #include "../rows/violation.h"
 #include "../state/vectors.h"
 #include "initialise.h"
-#include "settle.h"
+#include "settled_start.h"
 
 static const double LONGEST_STEP = 0.1; /* m or rad per iteration */
 static const double FIRST_C = 1e-3, LEAST_C = 1e-10, LARGEST_C = 100.0; /* s^2 */

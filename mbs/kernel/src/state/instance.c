@@ -107,7 +107,7 @@ ali3_status ali3_reset(ali3_instance *in) {
   in->start.moved = false;
   in->start.to_lift = true;
   in->start.lift = in->start.uneven = 0.0;
-  ali3_start_of_file(in);
+  ali3_file_start(in);
   memset(in->now.q, 0, in->kept.n * sizeof(double));
   copy(in->now.q, S->q0, S->size.nq);
   copy(in->now.qd, S->qd0, S->size.nq);

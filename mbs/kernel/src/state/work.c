@@ -9,8 +9,8 @@
  * the powers of the stages with Runge-Kutta, and in relative coordinates as the mean of the powers at both ends. */
 #include <string.h>
 
+#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
-#include "../algebra/stretch.h"
 #include "../elements/forces.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
@@ -74,7 +74,7 @@ void ali3_work_reopen(ali3_instance *in) {
  * ali3_forces (share = 1). */
 void ali3_work_step(ali3_instance *in, double share) {
   if (in->system->n_work == 0) return;
-  ali3_work_ways(in, in->next.step_way);
+  ali3_signal_displacements(in, in->next.step_way);
   ali3_work_along(in, share);
 }
 

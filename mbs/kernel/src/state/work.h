@@ -1,4 +1,4 @@
-/* Work of force elements and of guides, where sensors ask for it; work.c and work_ways.c describe the functions. */
+/* Work of force elements and of guides, where sensors ask for it; work.c and signal_displacements.c describe the functions. */
 #ifndef ALI3_WORK_H
 #define ALI3_WORK_H
 #include "../algebra/real.h"
@@ -17,7 +17,7 @@ void ali3_work_of_inputs(ali3_instance *in, const double *before, const double *
 /* Methods whose forces are of the ends or the middle of a step: ways (n_work_force) along in->step.D, and the work
  * along in->next.step_way. */
 void ali3_work_step(ali3_instance *in, double share);
-ALI3_PER_WIDTH void ali3_work_ways(const ali3_instance *in, real *ways);
+ALI3_PER_WIDTH void ali3_signal_displacements(const ali3_instance *in, real *ways);
 void ali3_work_along(ali3_instance *in, double share);
 
 /* Methods with stages. */

@@ -4,7 +4,7 @@
 #include "../elements/road.h"
 #include "../flexible/body_arrays.h"
 #include "../rows/assembly_mode.h"
-#include "../system/without_states.h"
+#include "../system/state_coordinates.h"
 #include "../tabled/tabled.h"
 #include "../tree/tree.h"
 #include "axes.h"
@@ -112,7 +112,7 @@ static void place_tangents(const ali3_system *s, ali3_instance *in, ali3_pool *p
 /* Of radau.c, where stages inside a step need nothing but q, qd and the time. */
 static void place_stages(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
   const ali3_sizes *z = &s->size;
-  const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, stages = ali3_without_states(s) ? ALI3_RADAU : 0;
+  const size_t nq = (size_t)z->nq, nc = (size_t)z->nc, stages = ali3_states_are_coordinates(s) ? ALI3_RADAU : 0;
   in->radau.Phi = ali3_pool_array(p, stages * nc);
   in->radau.lam = ali3_pool_array(p, stages * nc);
   in->radau.J = ali3_pool_padded(p, stages * (size_t)z->nnz_rows);

@@ -4,7 +4,7 @@
 
 #include "../algebra/processor.h"
 #include "../elements/element.h"
-#include "../elements/fours.h"
+#include "../elements/element_fours.h"
 #include "../system.h"
 #include "../tree/tree.h"
 #include "check.h"

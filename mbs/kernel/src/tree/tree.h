@@ -4,7 +4,7 @@
  * lanes have no branches and no dependence from body to body, recursions along the tree have little arithmetic. */
 #ifndef ALI3_TREE_H
 #define ALI3_TREE_H
-#include "../algebra/stretch.h"
+#include "../algebra/number_pairs.h"
 #include "../instance.h"
 
 enum { ALI3_MOST_JOINTS = 64, ALI3_LANES = 66, ALI3_MOST_CUT_ROWS = 64, ALI3_MOST_ANGLES = 64 };

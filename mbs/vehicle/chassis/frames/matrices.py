@@ -6,7 +6,7 @@ from typing import Literal
 from mbs.common.errors import ModelError
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.matrix_files import external_model, read_matrix
-from mbs.flexible.sparse import Sparse
+from mbs.flexible.sparse_matrices import Sparse
 from mbs.vehicle.chassis.frames.matrix_frame import MatrixFrame
 from mbs.vehicle.files import beside
 from mbs.vehicle.table import read_table

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from hosts.common.errors import HostError
 from hosts.simulator.devices import configuration_folder
 from hosts.simulator.devices.mapping import read_settings
-from hosts.simulator.input_arbiter import LET_GO, Hands
+from hosts.simulator.input_arbiter import LET_GO, InputArbiter
 from hosts.simulator.protocol import DEVICE_MESSAGES
 from tests.hosts.simulator.devices.virtual import ANGLE_MAX, GAMEPAD, INPUTS, OTHER, sdl2, until
 
@@ -34,14 +34,14 @@ def test_a_wheel_turns_the_steering_by_its_angle_and_presses_pedals(attach, star
     wheel.axis(0, -1.0)
     wheel.axis(2, -1.0)
     wheel.axis(3, 0.5)
-    until(lambda: run.hands.value(WHEEL, "throttle"))
-    value, rate = run.hands.by_source[WHEEL]["steering"]
+    until(lambda: run.arbiter.value(WHEEL, "throttle"))
+    value, rate = run.arbiter.by_source[WHEEL]["steering"]
     assert value == pytest.approx(math.radians(450.0) / ANGLE_MAX, rel=1e-12), "to the left is positive"
     assert rate == math.inf
-    assert run.hands.value(WHEEL, "throttle") == 1.0
-    assert run.hands.value(WHEEL, "brake") == pytest.approx((0.25 - 0.03) / 0.97, abs=1e-4)
+    assert run.arbiter.value(WHEEL, "throttle") == 1.0
+    assert run.arbiter.value(WHEEL, "brake") == pytest.approx((0.25 - 0.03) / 0.97, abs=1e-4)
     wheel.axis(0, 0.5)
-    until(lambda: run.hands.value(WHEEL, "steering") < 0.0)
+    until(lambda: run.arbiter.value(WHEEL, "steering") < 0.0)
     assert run.said("Wheel is plugged in and drives steering by axis 0, throttle by axis 2 and brake by axis 3")
 
 
@@ -50,19 +50,19 @@ def test_a_device_that_lies_untouched_moves_nothing(attach, start):
     wheel.axis(0, 0.6)
     run = start()
     wheel.axis(2, 0.0)
-    until(lambda: run.hands.value(WHEEL, "throttle"))
-    assert list(run.hands.by_source[WHEEL]) == ["throttle"]
+    until(lambda: run.arbiter.value(WHEEL, "throttle"))
+    assert list(run.arbiter.by_source[WHEEL]) == ["throttle"]
 
 
 def test_wishes_are_said_again_for_who_comes_later(attach, start):
     wheel = rested(attach())
     run = start()
     wheel.axis(2, -1.0)
-    until(lambda: run.hands.value(WHEEL, "throttle"))
-    run.hands.by_source.clear()
-    assert until(lambda: run.hands.value(WHEEL, "throttle")) == 1.0
+    until(lambda: run.arbiter.value(WHEEL, "throttle"))
+    run.arbiter.by_source.clear()
+    assert until(lambda: run.arbiter.value(WHEEL, "throttle")) == 1.0
     said, begin = [], time.monotonic()
-    run.hands.listen = lambda source, values: said.append(values)
+    run.arbiter.listen = lambda source, values: said.append(values)
     until(lambda: len(said) == 3)
     assert time.monotonic() - begin >= 0.45, "what does not move is not said at every reading"
 
@@ -71,7 +71,7 @@ def test_without_the_angle_of_the_car_a_whole_turn_is_full_steering(attach, star
     wheel = rested(attach())
     run = start(constants={})
     wheel.axis(0, -1.0)
-    assert until(lambda: run.hands.value(WHEEL, "steering")) == 1.0
+    assert until(lambda: run.arbiter.value(WHEEL, "steering")) == 1.0
     assert run.said("does not say vehicle.steering_wheel_angle_max")
 
 
@@ -80,7 +80,7 @@ def test_a_car_that_is_steered_by_an_angle_follows_it(attach, start):
     run = start(inputs=("steering_wheel_angle_demand", "throttle"), constants={})
     assert not run.said("does not say")
     wheel.axis(0, -1.0)
-    angle = until(lambda: run.hands.value(WHEEL, "steering_wheel_angle_demand"))
+    angle = until(lambda: run.arbiter.value(WHEEL, "steering_wheel_angle_demand"))
     assert angle == pytest.approx(math.radians(450.0), rel=1e-12)
 
 
@@ -91,10 +91,10 @@ def test_a_device_pulled_out_lets_go_and_says_so_and_comes_back_as_it_was(attach
     until(run.devices.state)
     run.devices.assign(run.only()["id"], "throttle", {"source": "axis 1", "inverted": True})
     wheel.axis(1, -1.0)
-    until(lambda: run.hands.value(WHEEL, "throttle"))
+    until(lambda: run.arbiter.value(WHEEL, "throttle"))
     wheel.pull_out()
     until(lambda: run.said("Wheel was pulled out; throttle let go."))
-    assert run.hands.left[-1] == WHEEL
+    assert run.arbiter.left[-1] == WHEEL
     assert run.devices.state() == []
     rested(attach())
     until(run.devices.state)
@@ -109,13 +109,13 @@ def test_a_wheel_and_separate_pedals_drive_together(attach, start):
     run = start()
     wheel.axis(0, 1.0)
     pedals.axis(1, 1.0)
-    until(lambda: run.hands.value(PEDALS, "brake") == 1.0)
-    until(lambda: run.hands.value(WHEEL, "steering"))
-    assert set(run.hands.by_source[WHEEL]) == {"steering"}
-    assert set(run.hands.by_source[PEDALS]) == {"brake"}
+    until(lambda: run.arbiter.value(PEDALS, "brake") == 1.0)
+    until(lambda: run.arbiter.value(WHEEL, "steering"))
+    assert set(run.arbiter.by_source[WHEEL]) == {"steering"}
+    assert set(run.arbiter.by_source[PEDALS]) == {"brake"}
     wheel.pull_out()
     until(lambda: run.said("Wheel was pulled out"))
-    assert run.hands.value(PEDALS, "brake") == 1.0
+    assert run.arbiter.value(PEDALS, "brake") == 1.0
 
 
 def test_two_of_a_model_are_told_apart(attach, start):
@@ -127,8 +127,8 @@ def test_two_of_a_model_are_told_apart(attach, start):
     assert {state["usb"] for state in run.devices.state()} == {"1234:5678"}
     run.devices.assign(ids["Wheel (2)"], "brake", {"source": "axis 1"})
     second.axis(2, -1.0)
-    until(lambda: run.hands.value("device Wheel (2)", "throttle"))
-    assert run.hands.value(WHEEL, "throttle") is None
+    until(lambda: run.arbiter.value("device Wheel (2)", "throttle"))
+    assert run.arbiter.value(WHEEL, "throttle") is None
     first.pull_out()
     until(lambda: len(run.devices.state()) == 1)
     assert run.only()["mapping"]["brake"]["source"] == "axis 1"
@@ -140,13 +140,13 @@ def test_a_gamepad_drives_by_its_triggers_and_buttons_move_the_selector(attach, 
     pad.axis(5, -1.0)
     run = start()
     pad.axis(5, 1.0)
-    assert until(lambda: run.hands.value("device Pad", "throttle")) == 1.0
+    assert until(lambda: run.arbiter.value("device Pad", "throttle")) == 1.0
     pad.axis(0, -1.0)
-    assert until(lambda: run.hands.value("device Pad", "steering")) == 1.0
+    assert until(lambda: run.arbiter.value("device Pad", "steering")) == 1.0
     pad.button(0, True)
-    until(lambda: run.hands.by_source["device Pad"].get("hand_brake") == (1.0, 8.0))
+    until(lambda: run.arbiter.by_source["device Pad"].get("hand_brake") == (1.0, 8.0))
     pad.button(12, True)
-    assert until(lambda: run.hands.value("device Pad", "selector")) == -1.0
+    assert until(lambda: run.arbiter.value("device Pad", "selector")) == -1.0
 
 
 def test_a_press_moves_the_selector_once(attach, start):
@@ -154,11 +154,11 @@ def test_a_press_moves_the_selector_once(attach, start):
     run = start()
     run.devices.assign(run.only()["id"], "selector reverse", {"source": "hat 0 down"})
     moved = []
-    run.hands.listen = lambda source, values: moved.append(values["selector"][0]) if "selector" in values else None
+    run.arbiter.listen = lambda source, values: moved.append(values["selector"][0]) if "selector" in values else None
     wheel.hat(0, 4)
     until(lambda: moved)
     wheel.axis(2, 0.0)
-    until(lambda: run.hands.value(WHEEL, "throttle"))
+    until(lambda: run.arbiter.value(WHEEL, "throttle"))
     assert moved == [-1.0]
 
 
@@ -166,11 +166,11 @@ def test_through_real_hands_a_device_shares_the_car_with_keys_and_lets_go(attach
     asked = {}
     wheel = rested(attach())
     run = start()
-    hands = Hands(asked.update, INPUTS)
-    run.devices._reader._hands = hands
+    arbiter = InputArbiter(asked.update, INPUTS)
+    run.devices._reader._arbiter = arbiter
     wheel.axis(2, -1.0)
     until(lambda: asked.get("throttle") == (1.0, math.inf))
-    hands.want("page 1 keys", {"throttle": (0.4, 2.5)})
+    arbiter.want("page 1 keys", {"throttle": (0.4, 2.5)})
     assert asked["throttle"] == (0.4, 2.5)
     wheel.axis(3, -1.0)
     until(lambda: asked.get("brake") == (1.0, math.inf))
@@ -200,12 +200,12 @@ def test_a_calibration_finds_ends_and_drives_nothing_meanwhile(attach, start):
     wheel = rested(attach())
     run = start()
     wheel.axis(2, 0.0)
-    until(lambda: run.hands.value(WHEEL, "throttle"))
+    until(lambda: run.arbiter.value(WHEEL, "throttle"))
     wheel.axis(2, 0.9)
     id = run.only()["id"]
     run.devices.message({"type": "calibrate", "device": id, "on": True})
-    assert run.hands.left == [WHEEL]
-    run.hands.by_source.clear()
+    assert run.arbiter.left == [WHEEL]
+    run.arbiter.by_source.clear()
     until(lambda: run.only()["calibration"]["stage"] == "move")
     for k, value in ((0, -0.8), (0, 0.84), (0, 0.0), (2, -0.7), (2, 0.9)):
         wheel.axis(k, value)
@@ -216,20 +216,20 @@ def test_a_calibration_finds_ends_and_drives_nothing_meanwhile(attach, start):
     assert mapping["throttle"]["low"] == pytest.approx(-0.7 + 0.02 * 1.6, abs=1e-3)
     assert run.said("the ends of steering and throttle are found")
     assert run.said("brake was not moved far enough")
-    assert run.hands.by_source == {}
+    assert run.arbiter.by_source == {}
     wheel.axis(2, -0.7)
-    assert until(lambda: run.hands.value(WHEEL, "throttle")) == 1.0
+    assert until(lambda: run.arbiter.value(WHEEL, "throttle")) == 1.0
 
 
 def test_a_pedal_that_is_held_while_it_is_assigned_anew_is_let_go(attach, start):
     wheel = rested(attach())
     run = start()
     wheel.axis(2, -1.0)
-    until(lambda: run.hands.value(WHEEL, "throttle"))
+    until(lambda: run.arbiter.value(WHEEL, "throttle"))
     run.devices.assign(run.only()["id"], "throttle", {"source": "axis 2", "inverted": True, "dead_zone": 0.2})
-    assert run.hands.left == [WHEEL]
+    assert run.arbiter.left == [WHEEL]
     wheel.axis(2, 0.0)
-    assert until(lambda: run.hands.value(WHEEL, "throttle")) == pytest.approx((0.5 - 0.2) / 0.8, abs=1e-4)
+    assert until(lambda: run.arbiter.value(WHEEL, "throttle")) == pytest.approx((0.5 - 0.2) / 0.8, abs=1e-4)
 
 
 def test_a_mapping_is_kept_and_reset(attach, start, tmp_path):
@@ -369,10 +369,10 @@ def test_an_error_in_the_thread_lets_go_and_is_said(attach, start):
     def fail(source, values):
         raise OSError("the car is gone")
 
-    run.hands.listen = fail
+    run.arbiter.listen = fail
     wheel.axis(2, -1.0)
     until(lambda: run.said("Devices are no longer read; the keyboard drives. OSError: the car is gone."))
-    until(lambda: run.hands.left == [WHEEL])
+    until(lambda: run.arbiter.left == [WHEEL])
 
 
 def test_the_folder_of_mappings(monkeypatch, tmp_path):

@@ -179,7 +179,7 @@ def test_a_refused_update_is_said_once_and_the_wheel_still_steers(attach, start,
     until(lambda: run.said("goes on without force: its motor refuses a constant force: SDL says"))
     until(lambda: not haptics.open)
     wheel.axis(0, -1.0)
-    until(lambda: run.hands.value("device Wheel", "steering"))
+    until(lambda: run.arbiter.value("device Wheel", "steering"))
     assert sum("without force" in sentence for sentence in run.told) == 1
 
 
@@ -190,7 +190,7 @@ def test_a_motor_that_hangs_holds_nothing_up(attach, start, haptics):
     haptics.hang = threading.Event()
     try:
         wheel.axis(0, -1.0)
-        until(lambda: run.hands.value("device Wheel", "steering"))
+        until(lambda: run.arbiter.value("device Wheel", "steering"))
         begin = time.monotonic()
         run.devices.close()
         assert time.monotonic() - begin < 1.0

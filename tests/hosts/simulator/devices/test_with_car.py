@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from hosts.simulator.car import Car, CarSettings
-from hosts.simulator.input_arbiter import Hands
+from hosts.simulator.input_arbiter import InputArbiter
 from tests.hosts.simulator.devices.haptics import Haptics
 from tests.hosts.simulator.devices.virtual import until
 
@@ -26,7 +26,7 @@ def test_the_car_follows_the_angle_of_the_wheel_and_pulls_it_back(prototype_fmu,
             return now("steering_wheel_torque") if car.latest().running else None
 
         run: Any = start(torque, inputs=car.inputs, constants=car.constants)
-        run.devices._reader._hands = Hands(car.want, car.inputs)
+        run.devices._reader._arbiter = InputArbiter(car.want, car.inputs)
         car.command("run")
         turned = math.radians(60.0)
         wheel.axis(0, -turned / math.radians(450.0))

@@ -55,8 +55,8 @@ class VirtualDevice:
                 return
 
 
-class Wishes:
-    """In place of `Hands`: keeps what each source wants last."""
+class FmuOptions:
+    """In place of `InputArbiter`: keeps what each source wants last."""
 
     def __init__(self) -> None:
         self.by_source: dict[str, dict[str, tuple[float, float]]] = {}

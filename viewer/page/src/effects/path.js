@@ -1,7 +1,7 @@
 // The path of a point over the ground: a ribbon up to the instant that is shown.
 import * as THREE from "three";
 import { discard } from "../looks/discard.js";
-import { laid, LIFT, MARKS, widen } from "../looks/lifted.js";
+import { laid, LIFT, MARKS, widen } from "../looks/ground_offset.js";
 import { cross, scale, subtract, unit } from "../scene/math.js";
 import { place } from "../sources/sampler.js";
 

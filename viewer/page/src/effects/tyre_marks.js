@@ -1,7 +1,7 @@
 // Tyre marks on the ground.
 import * as THREE from "three";
 import { discard } from "../looks/discard.js";
-import { laid, LIFT, MARKS } from "../looks/lifted.js";
+import { laid, LIFT, MARKS } from "../looks/ground_offset.js";
 import { atEachPixel, atEachPoint } from "../looks/vertex_code.js";
 import { subtract } from "../scene/math.js";
 import { Tracks } from "./tracks.js";

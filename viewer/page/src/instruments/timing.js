@@ -2,7 +2,7 @@
 import { el, write } from "../common/dom.js";
 import { styled } from "../styles.js";
 import { Gauge } from "./gauges.js";
-import { paceWords } from "./pace.js";
+import { realTimeText } from "./real_time_factor.js";
 import style from "./style.css";
 
 const micro = (seconds) => (seconds < 9.995e-4 ? `${(1e6 * seconds).toFixed(0)} µs` : `${(1e3 * seconds).toFixed(seconds < 0.01 ? 2 : 0)} ms`);
@@ -30,14 +30,14 @@ export class Timing {
 
   /**
    * @param {number} time s
-   * @param {Data | null} pace as `paceWords` has it, with `cost` and `deadline` of a step, s; of a simulator also `worst`,
+   * @param {Data | null} pace as `realTimeText` has it, with `cost` and `deadline` of a step, s; of a simulator also `worst`,
    *   `missed`, `lateness` and the `flow` of pictures; null: of a recording
    * @returns {string} a warning where the machine does not keep up
    */
   show(time, pace) {
     write(this._time, `${time.toFixed(2)} s`);
     if (pace === null) return "";
-    const { text, warn } = paceWords(/** @type {any} */ (pace));
+    const { text, warn } = realTimeText(/** @type {any} */ (pace));
     write(this._pace, text);
     if (!this._costs.hidden) this._show(pace);
     return warn;

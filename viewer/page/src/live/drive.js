@@ -4,7 +4,7 @@ import { DRIVING_WORDS } from "../common/key_table.js";
 import { instead } from "../common/notices.js";
 import { Shell } from "../shell/shell.js";
 import { decoded } from "../sources/decode.js";
-import { Hands } from "./hands.js";
+import { InputArbiter } from "./input_arbiter.js";
 import { inputPanel, parameterPanel } from "./panel.js";
 import { Session } from "../sources/fmu.js";
 import { Stage } from "./stage.js";
@@ -194,7 +194,7 @@ class Drive extends Shell {
     const names = this.inputs.map((v) => v.name);
     this.isCar = ACTS.every((name) => names.includes(name));
     const constants = [...session.variables.values()].filter((v) => v.variability === "constant");
-    this.hands = new Hands({
+    this.hands = new InputArbiter({
       inputs: names,
       constants: this.isCar ? Object.fromEntries(constants.map((v) => [v.name, Number(v.start)])) : null,
       want: (source, wants) => session.want(source, wants),

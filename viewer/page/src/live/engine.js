@@ -1,6 +1,6 @@
 // FMUs of one page, stepped side by side with the same inputs; saved states to go back to. Knows no page.
 import { place } from "../sources/sampler.js";
-import { Hand } from "./hand.js";
+import { LimitedInputs } from "./input_rates.js";
 
 /** Simulated time between saved states, s. */
 const SAVE_EVERY = 0.25;
@@ -86,7 +86,7 @@ export class Engine {
     this.k = 0;
     this._taken.clear();
     this._past = new Map(); // what was held in step k, as far back as the states reach
-    this.hand = new Hand(this.heldNames.map((name) => this._startOf(name)));
+    this.hand = new LimitedInputs(this.heldNames.map((name) => this._startOf(name)));
     if (!this.runs.length) this.runs = this._instances();
     else for (const run of this.runs) run.slave.reset();
     this.runs.forEach((run, which) => {

@@ -1,6 +1,6 @@
 // The pictures: one beside the other, each of an FMU that runs or of a recording that goes along.
 import { SceneView } from "../scene/scene_view.js";
-import { Effects } from "../effects/driven.js";
+import { Effects } from "../effects/car_effects.js";
 import { el } from "../common/dom.js";
 import { Instruments } from "../instruments/index.js";
 import { Timing } from "../instruments/timing.js";

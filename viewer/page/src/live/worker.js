@@ -1,7 +1,7 @@
 // The FMUs run here, in a thread of their own, so that drawing does not hold them up. `Desk` is the other side.
 import { loadFmu } from "../wasm/fmu.js";
 import { Engine } from "./engine.js";
-import { Pacer } from "./pacer.js";
+import { RealTimeClock } from "./real_time_clock.js";
 
 /** Work between two looks at the messages of the page, s of the clock. */
 const SLICE = 0.012;
@@ -63,7 +63,7 @@ export class Runner {
     this._halt();
     if (!this.engine || this.engine.fmus.some((fmu) => fmu.broken)) await this._load(step ?? this.engine.step);
     this.engine.step = step ?? this.engine.step;
-    this.pacer = new Pacer(this.engine.step);
+    this.pacer = new RealTimeClock(this.engine.step);
     this._rows = [];
     this.engine.restart(start);
     this._tellMessages();

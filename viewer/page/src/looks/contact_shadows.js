@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { add, dot, scale, subtract, unit, cross, rotate } from "../scene/math.js";
 import { discard } from "./discard.js";
-import { laid, LIFT } from "./lifted.js";
+import { laid, LIFT } from "./ground_offset.js";
 import { groundHeight } from "./road_height.js";
 import { atEachPixel, atEachPoint } from "./vertex_code.js";
 

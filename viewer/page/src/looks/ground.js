@@ -1,7 +1,7 @@
 // The ground as a surface fixed to the earth: its pattern stands still while the picture's origin moves with the focus.
 import * as THREE from "three";
 import { across, cross, dot, modulo } from "../scene/math.js";
-import { prelit } from "./draft/prelit.js";
+import { vertexLit } from "./draft/vertex_lighting.js";
 import { oneLevel } from "./noise.js";
 import { SKYLIGHT } from "./skylight.js";
 import { atEachPixel, atEachPoint, onTheEarth } from "./vertex_code.js";
@@ -88,7 +88,7 @@ export function groundMaterial({ noise, up, paint = 0, grass = false, fine = fal
   };
   /** The same pattern, lit at its points only. @param {Data} light of `lightOf` */
   const drafted = (light) =>
-    prelit(light, {}, `ground ${grass}`, (shader) => {
+    vertexLit(light, {}, `ground ${grass}`, (shader) => {
       Object.assign(shader.uniforms, uniforms, { aNoise: { value: oneLevel(noise) } });
       patterned(shader);
       if (grass) atEachPixel(shader, "#define A_GRASS", {});

@@ -2,7 +2,7 @@
 import { board } from "./board.js";
 import { outdoors } from "./outdoors.js";
 import { studio } from "./studio.js";
-import { Pace } from "./pace.js";
+import { PictureQuality } from "./picture_quality.js";
 
 const LOOKS = { board, outdoors, studio };
 
@@ -23,7 +23,7 @@ export function makeLook(view) {
   const { options, scene, renderer, software } = view;
   const name = options.look ?? lookOf(scene);
   if (LOOKS[name] === undefined) throw new Error(`There is no look '${name}'; there are ${Object.keys(LOOKS).join(", ")}.`);
-  const pace = new Pace(renderer, options.quality ?? "auto", { software, driven: options.driven ?? false });
+  const pace = new PictureQuality(renderer, options.quality ?? "auto", { software, driven: options.driven ?? false });
   renderer.shadowMap.enabled = name !== "board";
   const look = LOOKS[name](view, pace.level === "high");
   for (const sentence of look.tell) view.notes.tell(sentence);

@@ -1,8 +1,8 @@
 // Materials of a world: asphalt, grass, wet, gravel, concrete, ice and paint, drawn by noise at several scales.
 import * as THREE from "three";
 import { dot, modulo } from "../scene/math.js";
-import { prelit } from "./draft/prelit.js";
-import { lift, PAINT, widen } from "./lifted.js";
+import { vertexLit } from "./draft/vertex_lighting.js";
+import { lift, PAINT, widen } from "./ground_offset.js";
 import { oneLevel, tonesTexture } from "./noise.js";
 import { COLOURS, CREASE, DRAFT, DRAFT_HEAD, DRAFT_PLACES, DRAFT_POINT_HEAD, GLOSS, HEAD, MIRROR, NOISE, RELIEF, TONES } from "./surface_code.js";
 import { atEachPixel, atEachPoint, onTheEarth } from "./vertex_code.js";
@@ -91,7 +91,7 @@ function lay(shader, viewport, nearer) {
 }
 
 function draftMaterial({ uniforms, viewport }, light, painted) {
-  return prelit(light, settingsOf(painted), `surface ${painted}`, (shader) => {
+  return vertexLit(light, settingsOf(painted), `surface ${painted}`, (shader) => {
     Object.assign(shader.uniforms, uniforms);
     atEachPoint(shader, DRAFT_POINT_HEAD, layered(DRAFT_PLACES));
     if (painted) lay(shader, viewport, DRAFTED);

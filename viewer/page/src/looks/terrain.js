@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { dot, fromColumns } from "../scene/math.js";
 import { turn } from "../shapes/place.js";
-import { apron } from "./apron.js";
+import { terrainBorder } from "./terrain_border.js";
 import { bundles, coarsest, parts, pieceParts } from "./terrain_mesh.js";
 
 /**
@@ -33,7 +33,7 @@ export function terrain(material, axes, field, fineness) {
   const group = new THREE.Group();
   turn(group, fromColumns(...axes));
   const pieces = bundles(parts(field.patches, fineness.cells), fineness.pieces, POINTS).map((piece) => meshOf(pieceParts(piece, field), material));
-  const around = apron(field, material, fineness.least);
+  const around = terrainBorder(field, material, fineness.least);
   group.add(...pieces.map(({ mesh }) => mesh), around.mesh);
   let chosen = null;
   /** @param {number[]} origin earth position of the picture's origin @param {number[]} eye of the camera, from there */

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { across, add, cross, dot, rotate, scale, subtract, unit } from "./math.js";
-import { Trailing } from "./trailing.js";
+import { TrailingDirection } from "./trailing_direction.js";
 
 /** The driver's eyes behind and above the centre of the steering wheel, m. */
 const EYES = [0.48, 0.24];
@@ -33,7 +33,7 @@ export class Cameras {
     this.seat = shapes.find(({ kind }) => kind === "steering_wheel");
     this.names = scene.planar ? ["orbit"] : this._names(scene.focus);
     this.aspect = 1;
-    this.trailing = new Trailing(view.options.trail ?? 0);
+    this.trailing = new TrailingDirection(view.options.trail ?? 0);
     this.home();
     this.controls = new OrbitControls(this.free, element);
     this.controls.enableDamping = false;

@@ -4,7 +4,7 @@ import { Materials } from "../looks/materials.js";
 import { Arrows } from "../shapes/arrows.js";
 import { Flexible } from "../shapes/flexible.js";
 import { makeShape } from "../shapes/index.js";
-import { join } from "../shapes/joined.js";
+import { join } from "../shapes/merged_meshes.js";
 import { turn, shaded } from "../shapes/place.js";
 import { niceAbove } from "./forces.js";
 import { Frames } from "./frames.js";

@@ -1,7 +1,7 @@
 import * as THREE from "three";
 import shapes from "../../../shapes.json" with { type: "json" };
 import { across, cross, dot, fromColumns, rotate, scale, subtract, transpose, unit } from "../scene/math.js";
-import { composed } from "./composed.js";
+import { composed } from "./composite_solids.js";
 import { turn } from "./place.js";
 
 /** A steering wheel about the axis of its frame, with a mark that stands on top as drawn. @param {Data} shape */

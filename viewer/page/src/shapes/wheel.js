@@ -2,7 +2,7 @@ import * as THREE from "three";
 import shapes from "../../../shapes.json" with { type: "json" };
 import { atEachPoint } from "../looks/vertex_code.js";
 import { across, cross, dot, fromColumns, rotate, scale, subtract, transpose, unit } from "../scene/math.js";
-import { composed, profileOf } from "./composed.js";
+import { composed, profileOf } from "./composite_solids.js";
 import { turn } from "./place.js";
 import { treadTexture } from "./tread.js";
 

@@ -1,5 +1,5 @@
 // The panel of settings: forces, stress, ghosts, colours of the page, and what there is to say of the runs.
-import { QUALITIES } from "../looks/pace.js";
+import { QUALITIES } from "../looks/picture_quality.js";
 import { el, named, select } from "../common/dom.js";
 import { hint } from "../common/key_table.js";
 

@@ -4,7 +4,7 @@ import { Help } from "../common/help.js";
 import { keys } from "../common/keys.js";
 import { Notices } from "../common/notices.js";
 import { cameraActs } from "../common/views.js";
-import { HANDS_MS } from "../live/hands.js";
+import { ARBITER_MS } from "../live/input_arbiter.js";
 import { gamepadPanel } from "../live/panel.js";
 import { styled } from "../styles.js";
 import { Bar } from "./bar.js";
@@ -121,7 +121,7 @@ export class Shell {
 
   /**
    * Keys and a gamepad drive from now on. Those who extend this have `driverSpeed`, `sound` and `unseen`.
-   * @param {import("../live/hands.js").Hands} hands @param {string[]} inputs @returns {HTMLElement} the panel of the gamepad
+   * @param {import("../live/input_arbiter.js").InputArbiter} hands @param {string[]} inputs @returns {HTMLElement} the panel of the gamepad
    */
   driven(hands, inputs) {
     this.hands = hands;
@@ -130,7 +130,7 @@ export class Shell {
     for (const event of ["keydown", "pointerdown"]) window.addEventListener(event, () => this._touch(), { signal });
     window.addEventListener("blur", () => hands.letKeysGo(), { signal });
     document.addEventListener("visibilitychange", () => document.hidden && this.unseen(), { signal });
-    this._asking = setInterval(() => this.poll(), HANDS_MS);
+    this._asking = setInterval(() => this.poll(), ARBITER_MS);
     return this._gamepad.element;
   }
 

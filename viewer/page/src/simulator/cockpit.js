@@ -1,7 +1,7 @@
 // Everything that one car's page shows and takes: picture, instruments, hands, what the program says.
 import { el, short } from "../common/dom.js";
-import { Effects } from "../effects/driven.js";
-import { Hands } from "../live/hands.js";
+import { Effects } from "../effects/car_effects.js";
+import { InputArbiter } from "../live/input_arbiter.js";
 import { section } from "../live/panel.js";
 import { levers } from "../live/touch.js";
 import { Instruments } from "../instruments/index.js";
@@ -133,7 +133,7 @@ export class Cockpit extends Shell {
     const want = (source, wants) => this.source.want(source, wants);
     const constants = inputs.includes("steering") ? (hello.constants ?? {}) : null;
     const pads = () => [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad && !readByHost(pad.id, this._hosts));
-    this.hands = new Hands({ inputs, constants, pads, want });
+    this.hands = new InputArbiter({ inputs, constants, pads, want });
     this.timing = new Timing();
     this._factors = new Factor();
     this._pulled = new Set(); // levers that are held

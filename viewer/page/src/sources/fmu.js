@@ -2,7 +2,7 @@
 import { Desk } from "../live/desk.js";
 import { heldVariables, outputNames } from "../live/engine.js";
 import { between, Record } from "../live/record.js";
-import { paceActs, unitsOf } from "./acts.js";
+import { speedActions, unitsOf } from "./source_actions.js";
 import { Blend, turnsOf } from "./blend.js";
 import { clock } from "../live/worker.js";
 
@@ -44,7 +44,7 @@ export class Session {
     this.columns = unitsOf(named, (name) => this.variables.get(name)?.unit);
     this.fmus = fmus;
     this.acts = {
-      ...paceActs(this, { speed: (wish) => (this.running ? this.run(wish) : (this.speed = wish)), back: (seconds) => this.rewind(seconds) }),
+      ...speedActions(this, { speed: (wish) => (this.running ? this.run(wish) : (this.speed = wish)), back: (seconds) => this.rewind(seconds) }),
       toggle: () => (this.running ? this.pause() : this.run()),
       step: () => this.advance(),
       reset: () => this.again(),

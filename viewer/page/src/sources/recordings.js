@@ -1,5 +1,5 @@
 // Runs that were recorded, as a source of a page; see `Source` in shell/shell.js.
-import { paceActs, unitsOf } from "./acts.js";
+import { speedActions, unitsOf } from "./source_actions.js";
 import { Sampler } from "./sampler.js";
 
 /** Speeds that can be chosen. */
@@ -45,7 +45,7 @@ export class Recordings {
     const far = (/** @type {Data} */ event) => STEPS[event?.shiftKey ? 1 : 0];
     const toggle = () => this._pace(() => (this.running ? (this.running = false) : this._run()));
     const seek = (t) => this._seek(t);
-    const pace = paceActs(this, {
+    const pace = speedActions(this, {
       speed: (wish) => this._pace(() => (this.speed = Math.min(10, Math.max(0.05, wish)))),
       back: (seconds) => seek(this.time - seconds),
     });

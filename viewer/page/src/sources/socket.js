@@ -1,8 +1,8 @@
 // A car that another program drives, as a source of a page (see `Source` in shell/shell.js): its frames come by a socket.
-import { paceActs, unitsOf } from "./acts.js";
+import { speedActions, unitsOf } from "./source_actions.js";
 import { Blend, turnsOf } from "./blend.js";
 import { Frames } from "./frames.js";
-import { Wants } from "./wants.js";
+import { InputRequests } from "./input_requests.js";
 
 /** Numbers of the frames that diagrams have, in all, and points of a curve. */
 const [KEPT, MOST_POINTS] = [1e7, 1000];
@@ -26,11 +26,11 @@ export class Socket {
     const turns = { quaternions, angles: new Set([...angles, ...variables.filter((v) => v.unit === "rad").map((v) => v.name)]) };
     this._blend = new Blend(turns, new Set(variables.filter((v) => v.type === "Integer").map((v) => v.name)));
     this._fixed = new Map([...variables.map((v) => [v.name, v.start]), ...Object.entries(constants)]);
-    this.wants = new Wants(link);
+    this.wants = new InputRequests(link);
     const command = (name, value) => link.command(name, value);
     const back = (seconds) => command("rewind", seconds);
     this.acts = {
-      ...paceActs(this, { speed: (wish) => command("speed", wish), back }),
+      ...speedActions(this, { speed: (wish) => command("speed", wish), back }),
       toggle: () => command(this.running ? "pause" : "run"),
       step: () => command("step", 1),
       seek: (time, done) => done && back(this.range[1] - time), // the program goes back once it is told how far

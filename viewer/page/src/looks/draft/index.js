@@ -1,6 +1,6 @@
 // The draft quality: one call for what moves, no shadow map, ground lit at its points; for machines without a card.
-import { baked } from "./baked.js";
-import { lightOf } from "./prelit.js";
+import { baked } from "./baked_solids.js";
+import { lightOf } from "./vertex_lighting.js";
 import { leastOf } from "./tubes.js";
 
 /**

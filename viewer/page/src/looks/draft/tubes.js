@@ -28,7 +28,7 @@ export function growing(shader, least) {
 
 /**
  * @param {THREE.Matrix4[]} places of cylinders about y of radius 1 and height 1 @param {number[]} colour
- * @returns {import("./thinned.js").Surface & {thicks: number[]}}
+ * @returns {import("./vertex_clustering.js").Surface & {thicks: number[]}}
  */
 export function prisms(places, colour) {
   const made = { positions: [], normals: [], colours: [], thicks: [], index: [] };

@@ -1,6 +1,6 @@
 // Paint on the ground: lines with dashes and arrows, laid on the heights that are drawn; pure numbers.
 import looks from "../../../../looks.json" with { type: "json" };
-import { LIFT } from "../lifted.js";
+import { LIFT } from "../ground_offset.js";
 
 /** Linear colours of paint. @type {Record<string, number[]>} */
 export const PAINTS = looks.paints;

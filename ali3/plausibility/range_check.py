@@ -1,0 +1,262 @@
+"""Values of quantities of a file, compared with their ranges, and sentences on those outside."""
+
+import math
+import warnings
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.columns import in_columns
+from ali3.plausibility.quantity import WIDEST, Quantity, Range
+from ali3.units import typeset
+
+ROUNDING = 1e-9  # of the range
+FEWEST_OTHERS = 10
+MOST_KEYS, MOST_CAUSES, MOST_OTHERS, LONGEST, MOST_SHOWN = 3, 4, 1, 4, 10
+
+
+@dataclass(frozen=True)
+class Value:
+    """A quantity of something in the file."""
+
+    quantity: Quantity
+    value: float
+    """In the unit of the quantity."""
+    keys: Mapping[str, Any] = field(default_factory=dict)
+    """What it follows from: key path in the file, and what stands there."""
+    of: str = ""
+    """Of what, where there are several, as "front"."""
+
+    @property
+    def name(self) -> str:
+        """With what it belongs to."""
+        return f"{self.of} {self.quantity.name}".strip()
+
+    def inside(self, kind: str = WIDEST) -> bool:
+        """Whether it is in the range of a kind. What has no range is."""
+        return self._within(self.quantity.range(kind))
+
+    def mended(self, kind: str = WIDEST) -> bool:
+        """Whether it is where undoing a mistake must bring it."""
+        return self._within(self.quantity.near or self.quantity.range(kind))
+
+    def _within(self, bounds: Range | None) -> bool:
+        if bounds is None:
+            return True
+        slack = ROUNDING * (bounds[1] - bounds[0]) if math.isfinite(bounds[1] - bounds[0]) else 0.0
+        return bool(bounds[0] - slack <= self.value <= bounds[1] + slack)
+
+
+Undo: TypeAlias = Callable[[], "Sequence[Value] | None"]
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A common mistake that a file may have."""
+
+    words: str
+    """As "degrees in place of radians in front.alignment.toe_left"."""
+    keys: frozenset[str]
+    """What it would have changed; it is tried where a value outside its range follows from one of them."""
+    undo: Undo
+    """The values of the file without it; None where there is no such thing."""
+    guessed: bool = False
+    """Whether it is fitted to the values, as a factor: it is named only if no mistake with a name explains the same."""
+
+
+@dataclass(frozen=True)
+class Plausibility:
+    """What was understood of a file.
+
+    `values` in the order in which they are shown; `mistakes` with the commonest first.
+    """
+
+    what: str
+    """The file, for messages."""
+    values: Sequence[Value]
+    mistakes: Sequence[Mistake] = ()
+    kind: str = WIDEST
+    """Key of the ranges."""
+    title: str = ""
+    """Of its table, where a file has several."""
+    columns: Sequence[str] = ()
+    """First words of `Value.of` that have a column each, as front and rear."""
+
+    @property
+    def outside(self) -> list[Value]:
+        """Values outside their ranges."""
+        return [v for v in self.values if not v.inside(self.kind)]
+
+    def text(self) -> str:
+        """The table: a row for each quantity, with its values, of many the ends, usual range, and a mark outside.
+
+        Quantities of `columns` are below those of the whole.
+        """
+        n = max(len(self.columns), 1)
+        whole, parts = [], []
+        for q in dict.fromkeys(v.quantity for v in self.values):
+            own = [v for v in self.values if v.quantity is q]
+            inside = all(v.inside(self.kind) for v in own)
+            if q.shown_outside and inside:
+                continue
+            usual = (_range(q, self.kind), "" if inside else "<- outside")
+            cells = [_cell([v for v in own if v.of.startswith(side)], side) for side in self.columns]
+            if any(cells):
+                parts.append((q.name, *cells, *usual))
+            else:
+                whole.append((q.name, _cell(own), *[""] * (n - 1), *usual))
+        if whole:
+            whole.insert(0, ("quantity", "value", *[""] * (n - 1), "usual", ""))
+        if parts:
+            parts.insert(0, ("" if whole else "quantity", *self.columns, "" if whole else "usual", ""))
+        return "\n".join(in_columns(whole + parts))
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """A record for each value: name, of, symbol, unit, value, range (None: open), inside, follows, keys, source."""
+        return [
+            {
+                "name": v.quantity.name,
+                "of": v.of,
+                "symbol": v.quantity.symbol,
+                "unit": v.quantity.unit,
+                "value": float(v.value) if math.isfinite(v.value) else None,
+                "range": _ends(v.quantity.range(self.kind)),
+                "inside": v.inside(self.kind),
+                "follows": v.quantity.follows,
+                "keys": {
+                    key: given if isinstance(given, (int, float)) else str(given) for key, given in v.keys.items()
+                },
+                "source": v.quantity.source,
+            }
+            for v in self.values
+        ]
+
+    def warnings(self) -> list[str]:
+        """A sentence for each cause.
+
+        A mistake is named where undoing it brings inside all values that follow from what it changes, and none
+        outside; of several the one that mends most, and of those that mend the same at most two. What no mistake
+        explains is told once for what shares a key.
+        """
+        left, sentences = self.outside, []
+        undone = _undone(self.mistakes, left)
+        while left:
+            names = {v.name for v in left}
+            mended = [(m, after, self._mended(names, after, m.keys)) for m, after in undone]
+            best = max((names for *_, names in mended), key=len, default=frozenset())
+            if not best:
+                break
+            found = [(m, after) for m, after, names in mended if names == best]
+            named = [(m, after) for m, after in found if not m.guessed] or found
+            causes, after = [m.words for m, _ in named][:MOST_CAUSES], named[0][1]
+            first = next(v for v in left if v.name in best)
+            value = next(v for v in after if v.name == first.name)
+            cause = f"{' or '.join(causes)} would explain it: without that it is {value.quantity.shown(value.value)}"
+            sentences.append(self._sentence([v for v in left if v.name in best], cause))
+            left = [v for v in left if v.name not in best]
+        for group in _sharing(left):  # what follows from the fewest names says most of the cause
+            sentences.append(self._sentence(sorted(group, key=lambda v: len(v.keys)), ""))
+        return sentences
+
+    def warn(self, category: type[Warning], stacklevel: int = 2) -> None:
+        """Warn with each of the sentences. `stacklevel`: 1 is who calls this."""
+        for sentence in self.warnings():
+            warnings.warn(sentence, category, stacklevel=stacklevel + 1)
+
+    def _mended(self, names: set[str], after: Sequence[Value], changed: frozenset[str]) -> frozenset[str]:
+        """Which of some values it brings inside; none where one that follows from what it changes is outside.
+
+        Nor where one comes to lie less near than it was, nor what a key that it does not change has in common with
+        one that stays outside.
+        """
+        before = {v.name for v in self.outside}
+        wrong = {v.name for v in after if not v.inside(self.kind)}
+        own = {v.name for v in self.values if changed & set(v.keys)}
+        poor = {v.name for v in self.values if v.inside(self.kind) and not v.mended(self.kind)}
+        wrong |= {v.name for v in after if v.name in own - poor and not v.mended(self.kind)}
+        mended = (names & {v.name for v in after}) - wrong
+        left = {key for v in self.outside if v.name not in mended for key in v.keys} - changed
+        mended -= {v.name for v in self.outside if left & set(v.keys)}
+        return frozenset() if wrong & own or wrong - before else frozenset(mended)
+
+    def _sentence(self, group: Sequence[Value], cause: str) -> str:
+        first, q = group[0], group[0].quantity
+        keys = {key: given for v in group for key, given in v.keys.items()}
+        shown = [f"{key} = {_given(given)}" for key, given in list(keys.items())[:MOST_KEYS]]
+        more = f" and {len(keys) - MOST_KEYS} more" if len(keys) > MOST_KEYS else ""
+        sentence = f"{first.name} is {q.shown(first.value)}; usual is {_range(q, self.kind)}"
+        sentence += f"; {cause}" if cause else ""
+        if len(group) > 1:
+            others = (f"{v.name} {v.quantity.shown(v.value)} ({_range(v.quantity, self.kind)})" for v in group[1:])
+            left = f" and {len(group) - 1 - MOST_OTHERS} more" if len(group) - 1 > MOST_OTHERS else ""
+            sentence += f"; outside too: {', '.join(list(others)[:MOST_OTHERS])}{left}"
+        sentence += "."
+        sentence += f" It follows from {', '.join(shown)}{more}." if shown else ""
+        return (f"{self.what}: " if self.what else "") + sentence
+
+
+def far_values(values: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which of some values are the one that lies farther from the others than ten times their range."""
+    levels = np.unique(values)
+    for level, rest in ((levels[0], levels[1:]), (levels[-1], levels[:-1])):
+        if len(rest) >= FEWEST_OTHERS and np.abs(level - rest).min() > 10.0 * np.ptp(rest) > 0.0:
+            return np.asarray(values == level)
+    return np.zeros(values.shape, bool)
+
+
+def _undone(mistakes: Iterable[Mistake], outside: Sequence[Value]) -> list[tuple[Mistake, Sequence[Value]]]:
+    keys = {key for v in outside for key in v.keys}
+    tried = ((m, m.undo()) for m in mistakes if m.keys & keys)
+    return [(m, after) for m, after in tried if after is not None]
+
+
+def _sharing(values: Sequence[Value]) -> list[list[Value]]:
+    """Values in groups, each with those that share a key with its first; of one quantity, all."""
+    many = {q for q, times in Counter(v.quantity for v in values).items() if times > 1}
+    groups: list[list[Value]] = []
+    for v in values:
+        for group in groups:
+            if set(group[0].keys) & set(v.keys) or (v.quantity in many and v.quantity is group[0].quantity):
+                group.append(v)
+                break
+        else:
+            groups.append([v])
+    return groups
+
+
+def _cell(values: Sequence[Value], column: str = "") -> str:
+    """What a table shows of some values of one quantity, of many the ends. `column`: first word of their `of`."""
+    if not values:
+        return ""
+    unit = f" {typeset(values[0].quantity.unit)}".rstrip()
+    if len(values) > MOST_SHOWN:
+        ends = (pick(values, key=lambda v: v.value) for pick in (min, max))
+        return f"{' to '.join(f'{v.value:.4g}{unit} ({v.of})' for v in ends)} of {len(values)}"
+    return ", ".join(f"{v.of.removeprefix(column).strip()} {v.value:.4g}".strip() for v in values) + unit
+
+
+def _ends(limits: Range | None) -> list[float | None] | None:
+    return None if limits is None else [end if math.isfinite(end) else None for end in limits]
+
+
+def _range(quantity: Quantity, kind: str) -> str:
+    bounds = quantity.range(kind)
+    if bounds is None:
+        return ""
+    unit = f" {typeset(quantity.unit)}".rstrip()
+    low, high = bounds
+    if math.isinf(high):
+        return f"{low:g}{unit} or more"
+    return f"{high:g}{unit} or less" if math.isinf(low) else f"{low:g} to {high:g}{unit}"
+
+
+def _given(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join([*map(_given, value[:LONGEST]), *["..."] * (len(value) > LONGEST)]) + "]"
+    return str(value)

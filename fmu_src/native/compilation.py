@@ -1,0 +1,95 @@
+"""Compiles the kernel and the shell into the library of an FMU, for any platform from any platform.
+
+The compiler knows an object by the place of its source. Sources are compiled in a place that their content names, so
+that other clones and environments find what one of them has compiled.
+"""
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from ali3.files import atomic_file
+from fmu_src.native.archive import identity_of
+from fmu_src.native.sources import DETOUR, HERE, shell_files
+from fmu_src.native.universal_binary import universal
+from mbs.kernel import build
+
+_ROOMS = {build.HERE: "kernel", HERE: "shell", DETOUR: "detour"}
+_INCLUDE = ("kernel/include", "shell", "detour")
+# The kernel's own functions are not for hosts: only those of FMI are exported.
+_DEFINES = ("ALI3_INSIDE",)
+
+
+def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path, name: str) -> bytes:
+    """Compile for one platform; several targets make one universal file.
+
+    Parameters
+    ----------
+    targets : sequence of str
+        Triples as `zig cc -target` takes them.
+    face : str
+        ``fmi2``, ``fmi3`` or ``python``.
+    table : Path
+        The generated `table.c`.
+    folder : Path
+        For the compiler's output.
+    name : str
+        Of the library, with its suffix.
+    """
+    return _library(targets, *_files(face, table), folder, name)
+
+
+def compile_packed(targets: Sequence[str], sources: Path, folder: Path, name: str) -> bytes:
+    """The same from the sources that lie in an FMU. `folder`, `name`: as for `compile_library`."""
+    return _library(targets, sorted(sources.rglob("*.c")), (sources,), folder, name)
+
+
+def _library(targets: Sequence[str], files: Sequence[Path], include: Sequence[Path], folder: Path, name: str) -> bytes:
+    made = []
+    for target in targets:
+        library = folder / target / name
+        build.compile_c(
+            files, target, library, include=include, what="the FMU", defines=_DEFINES, exports=exports(files)
+        )
+        made.append(library.read_bytes())
+    return made[0] if len(made) == 1 else universal(made)
+
+
+def library_command(face: str, target: str, table: Path, library: Path) -> list[str]:
+    """Command line of the compiler by which `compile_library` makes the library for a target."""
+    files, include = _files(face, table)
+    return build.compiler_command(files, target, library, include=include, defines=_DEFINES, exports=exports(files))
+
+
+def exports(files: Sequence[Path]) -> list[str]:
+    """Functions that a WebAssembly module of these C files exports: those of FMI 2.0 and what its host needs beside."""
+    shell = [f.read_text(encoding="utf-8") for f in files if f.name.startswith("fmi2_")]
+    found = re.findall(r"^FMI2_(?:ENTRY|EXPORT .*\bFMI2_NAME)\((\w+)", "\n".join(shell), re.MULTILINE)
+    return [*found, *build.WASM_HELPERS]
+
+
+def _files(face: str, table: Path) -> tuple[list[Path], list[Path]]:
+    """C files and folders of headers: copies, but the table. All headers name their folder, each C file itself.
+
+    C files that a header includes are beside the headers too.
+    """
+    files = [*build.sources(lanes=False), *shell_files(face)]
+    headers = {_inside(file): file.read_bytes() for root in _ROOMS for file in root.rglob("*.h")}
+    named = (re.findall(rb'#include "(?:.*/)?(\w+\.c)"', data) for data in headers.values())
+    included = {name.decode() for names in named for name in names}
+    headers |= {_inside(file): file.read_bytes() for file in files if file.name in included}
+    place = build.cache_directory() / "sources" / identity_of(headers, None)[0]
+    copies, compiled = {place / name: data for name, data in headers.items()}, [table]
+    for file in files:
+        data = file.read_bytes()
+        compiled.append((place / _inside(file)).with_stem(f"{file.stem}-{identity_of({'': data}, None)[0]}"))
+        copies[compiled[-1]] = data
+    for copy, data in copies.items():
+        if not copy.is_file():
+            with atomic_file(copy) as written:
+                written.write_bytes(data)
+    return compiled, [place / name for name in _INCLUDE]
+
+
+def _inside(file: Path) -> str:
+    return next(f"{name}/{file.relative_to(r).as_posix()}" for r, name in _ROOMS.items() if file.is_relative_to(r))

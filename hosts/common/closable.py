@@ -1,0 +1,27 @@
+"""What is closed at the end of a ``with`` block."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, NoReturn
+
+if TYPE_CHECKING:
+    from typing import Self
+
+
+class Closable(ABC):
+    """Base of what holds a process, an instance or a file."""
+
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        # a copy would move, and close, the same instance
+        raise TypeError(f"A {type(self).__name__} cannot be copied or pickled; make another one.")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    @abstractmethod
+    def close(self) -> None:
+        """Give back what it holds."""

@@ -1,0 +1,153 @@
+"""A fit in lines for the terminal, and what is not good about it in sentences."""
+
+import math
+from collections.abc import Sequence
+
+from ali3.columns import in_columns
+from ali3.units import typeset
+from hosts.common.display_units import number_in, shown_number
+from hosts.compare.fit_result import Fit, FittedUnknown
+
+_WIDE = 0.5  # of the range, of half an interval that says little
+_TOGETHER = 0.95
+_ALIKE = 1.01  # residuals of two searches
+_BETTER = 0.98  # of the residuals before
+_CHANCE = 0.05
+_MISFIT = 3.0  # times the noise
+
+
+FIT_COLUMNS = ("fitted", "start", "value", "95 %", "unit", "without it", "without a fold")
+
+
+def fit_rows(fit: Fit) -> list[tuple[str, ...]]:
+    """Of all that was sought: name, start, value, half of the 95 % interval, unit, what is left without it, and its
+    least and largest value where a fold of the log is not fitted.
+    """
+    return [
+        (
+            f.unknown.name,
+            f"{f.unknown.start:.6g}",
+            *_value(f),
+            typeset(f.unknown.unit),
+            f"{100.0 * (f.without - 1.0):+.1f} %" if math.isfinite(f.without) else "-",
+            f"{min(f.folds):.4g} to {max(f.folds):.4g}" if f.folds else "-",
+        )
+        for f in fit.found
+    ]
+
+
+def _value(found: FittedUnknown) -> tuple[str, str]:
+    if not math.isfinite(found.half_width):
+        return f"{found.value:.4g}", "not determined"
+    digits = 2 if found.half_width <= 0.0 else 1 - math.floor(math.log10(found.half_width))
+    value = f"{found.value:.{digits}f}" if 0 < digits < 12 else f"{found.value:.8g}"
+    return value, f"± {found.half_width:.2g}"
+
+
+def fit_table(fit: Fit) -> str:
+    """The fit for the terminal."""
+    return "\n".join([*in_columns([FIT_COLUMNS, *fit_rows(fit)]), *result_text(fit)])
+
+
+def result_text(fit: Fit) -> list[str]:
+    """How good the fit is, and what led to it, a line each."""
+    residuals = (
+        f"residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; "
+        f"{fit.samples} samples count as {fit.effective:.0f} uncorrelated ones; criterion of Bayes {fit.criterion:.1f}"
+    )
+    return [residuals, *_omitted_text(fit), *_start_text(fit)]
+
+
+def _omitted_text(fit: Fit) -> list[str]:
+    """What is left of seconds that were left out of the fit, in a sentence; none where the log is too short for it."""
+    told = [
+        f"{name} {shown_number(left, fit.units[name], name)} "
+        f"({shown_number(fit.misfit[name], fit.units[name], name)} in the fit)"
+        for name, left in fit.left_out.items()
+        if math.isfinite(left)
+    ]
+    return [f"left of parts of the log that are left out in turn, to first order: {', '.join(told)}"] if told else []
+
+
+def _start_text(fit: Fit) -> list[str]:
+    """Where each of several searches began and led, a line each."""
+    if len(fit.starts) < 2:
+        return []
+    names = [f.unknown.name for f in fit.found]
+    return [
+        f"start {k}: residuals {start.residual:.4g}, "
+        + ", ".join(f"{n} {a:.4g} to {b:.4g}" for n, a, b in zip(names, start.begin, start.end, strict=True))
+        for k, start in enumerate(fit.starts, 1)
+    ]
+
+
+def fit_problems(fit: Fit) -> list[str]:
+    """What makes a fit no good, each in a sentence."""
+    problems = []
+    if not fit.converged:
+        problems.append("The fit has not converged; begin nearer (--set) or with fewer parameters.")
+    if fit.after > _BETTER * fit.before:
+        problems.append(
+            f"The fit is not better: what remains of the signals is {fit.after / fit.before:.3f} times what it was."
+        )
+    elif fit.chance > _CHANCE:
+        problems.append(
+            f"The fit is hardly better: noise alone would make it so with a probability of {100.0 * fit.chance:.0f} %."
+        )
+    for f in fit.found:
+        problems += _of(f)
+    return problems
+
+
+def _of(found: FittedUnknown) -> list[str]:
+    u, lines = found.unknown, []
+    if found.bound:
+        limit = u.low if found.bound == "lower" else u.high
+        lines.append(
+            f"{u.name} lies at its {found.bound} bound, {number_in(limit, u.unit)}: its interval is meaningless; give "
+            "it a wider range if that makes sense, or look for what else differs."
+        )
+    elif not math.isfinite(found.half_width):
+        lines.append(f"{u.name} cannot be identified: the compared signals do not determine it.")
+    elif math.isfinite(u.high - u.low) and found.half_width > _WIDE * (u.high - u.low) and u.kind == "parameter":
+        lines.append(
+            f"{u.name} cannot be identified: its interval of ± {number_in(found.half_width, u.unit)} is as wide as "
+            "its range."
+        )
+    return lines
+
+
+def fit_notes(fit: Fit) -> list[str]:
+    """What is worth knowing of a fit, each in a sentence."""
+    notes = []
+    for i, j in _pairs(fit):
+        a, b = fit.found[i].unknown.name, fit.found[j].unknown.name
+        notes.append(
+            f"{a} and {b} can only be determined together: their errors correlate ({fit.correlation[i, j]:.2f})."
+        )
+    idle = [f.unknown.name for f in fit.found if f.without <= 1.0]
+    if idle:
+        notes.append(
+            f"The fit of {', '.join(idle)} has no effect: parts of the log that were left out are reproduced as well "
+            "with its start value."
+        )
+    notes += [f"Another start (--starts) is left out. {words}" for words in fit.refused]
+    residuals = [start.residual for start in fit.starts]
+    if max(residuals) > _ALIKE * min(residuals):
+        notes.append(
+            f"The searches led to residuals from {min(residuals):.4g} to {max(residuals):.4g}: the best was taken; "
+            "there may be a better one (--starts)."
+        )
+    for name, left in fit.misfit.items():
+        if fit.noise[name] > 0.0 and left > _MISFIT * fit.noise[name]:
+            notes.append(
+                f"{name}: what remains is {left / fit.noise[name]:.3g} times the noise of the signal: the model "
+                "misses something there, which the intervals treat as slow noise."
+            )
+    return notes
+
+
+def _pairs(fit: Fit) -> Sequence[tuple[int, int]]:
+    count = len(fit.found)
+    pairs = [(i, j) for i in range(count) for j in range(i + 1, count)]
+    return [(i, j) for i, j in pairs if abs(fit.correlation[i, j]) > _TOGETHER]

@@ -1,0 +1,67 @@
+"""A pilot that drives as another one does and then brakes with the steering fixed."""
+
+import math
+from collections.abc import Callable, Mapping
+
+from hosts.driving.ground_marks import Mark, line_across, marks_of
+from hosts.driving.pilots.pilot import Pilot
+
+
+class Braking:
+    """From a moment on the steering stays, the throttle is released and the brake is pressed.
+
+    Parameters
+    ----------
+    before : Pilot
+        Drives until then, and acts on all inputs that this one does.
+    begins : callable
+        Of the time and the senses; braking begins at the first time at which it is true.
+    pedal : float
+        Brake, 0 to 1.
+    rise_time : float
+        From the first movement of the pedal to `pedal`, s.
+    gear : mapping of str to tuple of float
+        Inputs with their values before and while braking, such as a selector that goes to neutral.
+
+    Attributes
+    ----------
+    onset : float
+        Time of the first movement of the pedal, s; NaN while it has not begun.
+    """
+
+    def __init__(
+        self,
+        before: Pilot,
+        begins: Callable[[float, Mapping[str, float]], bool],
+        pedal: float,
+        rise_time: float,
+        gear: Mapping[str, tuple[float, float]] | None = None,
+    ) -> None:
+        self.before = before
+        self.begins = begins
+        self.pedal = pedal
+        self.rise_time = rise_time
+        self.gear = dict(gear or {})
+        self.onset = math.nan
+        self._place: tuple[float, float, float] | None = None
+        self._held: dict[str, float] = {}
+        self._last = 0.0
+
+    @property
+    def marks(self) -> list[Mark]:
+        """A line where braking begins, beside what the other pilot drives by."""
+        return marks_of(self.before) + ([] if self._place is None else [line_across(*self._place)])
+
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
+        step, self._last = time - self._last, time
+        if math.isnan(self.onset):
+            if not self._held or not self.begins(time, observation):
+                self._held = dict(self.before.act(time, observation))
+                return {"brake": 0.0, **self._held, **{name: values[0] for name, values in self.gear.items()}}
+            self.onset = time
+            if {"chassis.x", "chassis.y", "chassis.yaw"} <= set(observation):
+                self._place = observation["chassis.x"], observation["chassis.y"], observation["chassis.yaw"]
+        # The input holds through the coming step: its middle gives the same pedal whatever the step.
+        share = (time + 0.5 * step - self.onset) / self.rise_time if self.rise_time > 0.0 else 1.0
+        pedals = {"throttle": 0.0, "brake": self.pedal * min(share, 1.0)}
+        return {**self._held, **pedals, **{name: values[1] for name, values in self.gear.items()}}

@@ -1,0 +1,189 @@
+"""A driver at random: steps and sines of every control, sudden turns, and full speed at ramps.
+
+The same seed gives the same drive: the numbers come from Python's `random.Random`, whose `random()` is the same on all
+platforms, and from what the car senses.
+"""
+
+import math
+import random
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+from hosts.common.numbers import Value
+from hosts.driving.pilots.pilot import OBSERVED
+
+TOP_SPEED = 40.0
+"""m/s, above which the throttle is let go and the brake is touched."""
+
+
+_STEERING = "steering_wheel_angle_demand"
+_LOCK = 9.0  # rad, beyond which no car of ours turns its steering wheel
+
+
+@dataclass(frozen=True)
+class Target:
+    """What is driven at deliberately, such as a ramp."""
+
+    x: float
+    y: float
+    """`x`, `y`: m."""
+    yaw: float
+    """Direction in which it is to be met, rad."""
+
+
+class RandomDriver:
+    """Inputs of a car over time, at random.
+
+    Parameters
+    ----------
+    inputs : collection of str
+        Names of the FMU's inputs. Of `steering` (or a demand in rad), `throttle`, `brake`, `hand_brake` and `selector`
+        those that are there are moved.
+    targets : sequence of Target
+        What is driven at from time to time.
+    """
+
+    def __init__(self, seed: int, inputs: Collection[str], targets: Sequence[Target] = ()) -> None:
+        self._random = random.Random(seed)
+        self._inputs = set(inputs)
+        self._targets = list(targets)
+        self._until = 0.0
+        self._begin = 0.0
+        self._deed: Callable[[float, Mapping[str, float]], dict[str, float]] = self._roll
+        self._numbers: list[float] = []
+        self._target = Target(0.0, 0.0, 0.0)
+        self._deeds = [
+            self._step,
+            self._sine,
+            self._flick,
+            self._slam,
+            self._spin,
+            self._shift,
+            self._noise,
+            self._rush,
+        ]
+
+    def restart(self, time: float) -> None:
+        """Say that the car starts again at `time`, so that the next deed begins there."""
+        self._until = time
+
+    def act(self, time: float, observation: Mapping[str, float]) -> dict[str, float]:
+        """Inputs for the step that begins at `time`.
+
+        `time`: in s; `observation`: of `OBSERVED` those that the FMU has. Result: values of those of the five controls
+        that the FMU has, within their ranges.
+        """
+        if time >= self._until:
+            self._choose(time, observation)
+        wanted = {"steering": 0.0, "throttle": 0.0, "brake": 0.0, "hand_brake": 0.0, "selector": 1.0}
+        wanted |= self._deed(time - self._begin, observation)
+        if observation.get("speed", 0.0) > TOP_SPEED:
+            wanted |= {"throttle": 0.0, "brake": max(wanted["brake"], 0.1)}
+        if "steering" not in self._inputs and _STEERING in self._inputs:
+            wanted[_STEERING] = _LOCK * wanted["steering"]
+        return {name: value for name, value in wanted.items() if name in self._inputs}
+
+    def _choose(self, time: float, observation: Mapping[str, float]) -> None:
+        """The next deed, its numbers and how long it lasts."""
+        draw = self._random.random
+        self._begin = time
+        self._numbers = [draw() for _ in range(6)]
+        aims = self._targets and set(OBSERVED) <= set(observation) and draw() < 0.4
+        if aims:
+            self._target = self._targets[int(draw() * len(self._targets))]
+            self._deed = self._aim
+            self._until = time + 5.0 + 15.0 * draw()
+            return
+        self._deed = self._deeds[int(draw() * len(self._deeds))]
+        self._until = time + 0.3 + 3.7 * draw() ** 2
+
+    def _roll(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
+        return {}
+
+    def _step(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
+        """Steps of steering and one pedal."""
+        a, b, c = self._numbers[:3]
+        pedal = {"throttle": b} if c < 0.7 else {"brake": b}
+        return {"steering": 2.0 * a - 1.0, **pedal}
+
+    def _sine(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
+        """Steering, throttle and brake in sines of 0.2 to 5 Hz."""
+        a, b, c, d, _, _ = self._numbers
+        phase = 2.0 * math.pi * (0.2 + 4.8 * b * b) * t
+        push = math.sin(2.0 * math.pi * (0.2 + 3.0 * d) * t)
+        return {"steering": a * math.sin(phase), "throttle": max(c * push, 0.0), "brake": max(-c * push, 0.0)}
+
+    def _flick(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
+        """Turn the wheel from lock to lock at once."""
+        a, b, c = self._numbers[:3]
+        side = 1.0 if a < 0.5 else -1.0
+        return {"steering": side if t < 0.2 + 0.8 * b else -side, "throttle": c}
+
+    def _slam(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
+        """Full brake, straight or not."""
+        a, b = self._numbers[:2]
+        return {"steering": (2.0 * a - 1.0) if b < 0.5 else 0.0, "brake": 1.0}
+
+    def _spin(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
+        """Hand brake in a turn, then full throttle."""
+        a, b = self._numbers[:2]
+        pulled = t < 0.4 + b
+        return {"steering": 1.0 if a < 0.5 else -1.0, "hand_brake": float(pulled), "throttle": float(not pulled)}
+
+    def _shift(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
+        """Selector to reverse, neutral, drive, whatever the car does."""
+        a, b, c, d = self._numbers[:4]
+        first, then = int(3.0 * a) - 1, int(3.0 * b) - 1
+        return {"selector": float(first if t < 1.0 else then), "throttle": c, "steering": d - 0.5}
+
+    def _noise(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
+        """Other values in every step."""
+        draw = self._random.random
+        return {"steering": 2.0 * draw() - 1.0, "throttle": draw(), "brake": draw(), "hand_brake": draw()}
+
+    def _rush(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
+        """Full throttle, almost straight."""
+        return {"throttle": 1.0, "steering": 0.2 * (self._numbers[0] - 0.5)}
+
+    def _aim(self, t: float, observation: Mapping[str, float]) -> dict[str, float]:
+        """Full throttle along the line through the target; from where that cannot be met, first to a point before."""
+        x, y, yaw, speed = (observation[name] for name in OBSERVED)
+        ahead = math.cos(self._target.yaw), math.sin(self._target.yaw)
+        along = (x - self._target.x) * ahead[0] + (y - self._target.y) * ahead[1]
+        across = (y - self._target.y) * ahead[0] - (x - self._target.x) * ahead[1]
+        straight = abs(across) < 3.0 and abs(_wrapped(yaw - self._target.yaw)) < 0.5
+        point = along + 6.0 + 0.3 * speed if straight or along < -10.0 - abs(across) else -30.0
+        goal = self._target.x + point * ahead[0], self._target.y + point * ahead[1]
+        turn = _wrapped(math.atan2(goal[1] - y, goal[0] - x) - yaw)
+        slow = abs(turn) > 0.6 and speed > 12.0
+        return {
+            "steering": min(max(2.0 * turn / (1.0 + 0.05 * speed), -1.0), 1.0),
+            "throttle": 0.0 if slow else 1.0,
+            "brake": 0.5 if slow else 0.0,
+        }
+
+
+def wild_start(seed: int, targets: Sequence[Target] = ()) -> dict[str, Value]:
+    """Start values of a car for a wild drive: mostly fast before a target, often in the air, sometimes far away.
+
+    `targets`: half of the starts are 30 to 60 m before one of them, in its direction. Result: `initial.x`, `.y`, `.z`,
+    `.yaw` and `.speed`: up to 1 m high, up to 40 m/s, and one in four up to 100 km from the origin along each axis.
+    """
+    chance = random.Random(f"start {seed}")
+    draw = chance.random
+    speed = TOP_SPEED * draw()
+    height = draw() if draw() < 0.5 else 0.0
+    if targets and draw() < 0.5:
+        target = targets[int(draw() * len(targets))]
+        distance = 30.0 + 30.0 * draw()
+        x, y = target.x - distance * math.cos(target.yaw), target.y - distance * math.sin(target.yaw)
+        yaw = target.yaw
+    else:
+        span = 1e5 if draw() < 0.5 else 50.0
+        x, y, yaw = span * (2.0 * draw() - 1.0), span * (2.0 * draw() - 1.0), math.pi * (2.0 * draw() - 1.0)
+    return {"initial.x": x, "initial.y": y, "initial.z": height, "initial.yaw": yaw, "initial.speed": speed}
+
+
+def _wrapped(angle: float) -> float:
+    """An angle between -pi and pi, rad."""
+    return math.remainder(angle, 2.0 * math.pi)

@@ -1,0 +1,146 @@
+"""Runs that a person waits for and looks at, as an experiment."""
+
+import time as clock
+from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.errors import UserError
+from ali3.isolated_processes import Lost
+from ali3.processes import store
+from hosts.common.errors import FailedFmuError, HostError
+from hosts.driving.co_simulation import columns_of, run
+from hosts.driving.derived_columns import derive_columns
+from hosts.driving.ground_marks import marked
+from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.pilots.pilot import Pilot
+from hosts.driving.recorded_rows import kept_rows
+from hosts.driving.result import Result
+from hosts.driving.simulated_fmu import SimulatedFmu
+from hosts.experiment.experiment import Experiment
+from hosts.fmu.fmu_source import FmuSource
+from hosts.fmu.own_process import files_of_drives
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A manoeuvre that is driven."""
+
+    manoeuvre: Manoeuvre
+    step: float
+    """Communication step, s."""
+    driver: Pilot | None = None
+    every: int = 1
+    """Steps from row to row."""
+
+
+_Refused: TypeAlias = tuple[str, int]
+"""An error as its sentence and exit code."""
+
+
+@dataclass(frozen=True)
+class _Driving:
+    """Drives as work for a process."""
+
+    source: FmuSource
+
+    def __call__(self, drive: Drive, tell: Callable[[float], None]) -> Result | _Refused:
+        try:
+            with self.source.opened() as fmu:
+                result = run(
+                    fmu, drive.manoeuvre, drive.step, drive.driver, tell, every=drive.every, last=True, kept=store()
+                )
+        except UserError as error:  # raised, it would end the other drives
+            return str(error), error.status
+        return replace(result, values=result.values[:0])  # the rows are in the store
+
+
+def run_with_bar(
+    fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float, driver: Pilot | None = None, every: int = 1
+) -> Result:
+    """`run` as `runs_with_bar` makes it. Raises `HostError`: the FMU cannot be driven so, or gives no number;
+    `FailedFmuError`: its process has ended before the first row.
+    """
+    ((_, result),) = runs_with_bar(fmu, [Drive(manoeuvre, step, driver, every)])
+    if isinstance(result, HostError):
+        raise result
+    return result
+
+
+def runs_with_bar(
+    fmu: SimulatedFmu, drives: Sequence[Drive], jobs: int = 1
+) -> Generator[tuple[int, Result | HostError]]:
+    """`run` for each drive, with a progress bar on the terminal and with marks on the ground; its number and result.
+
+    The last step of a drive always has a row. `fmu`: is not loaded here; where a process ends, the rows until then are
+    the result, or an error where there are none; an error of one drive does not end the others; `jobs`: processes.
+    """
+    experiment: Experiment[Drive, Result | _Refused] = Experiment(
+        fmu.path.stem,
+        _Driving(FmuSource.of(fmu)),
+        Result | _Refused,
+        lambda drive: f"{fmu.path.stem}, {drive.manoeuvre.name}",
+        files_of_drives(fmu.path, [drive.manoeuvre.start for drive in drives]),
+        lambda drive: max(1, round(drive.manoeuvre.stop_time / drive.step)),
+        finish=partial(_with_rows, fmu),
+    )
+    begin = clock.perf_counter()
+    with closing(experiment.results(drives, experiment.pool(jobs))) as results:
+        for number, drive, done in results:
+            result: Result | HostError
+            if isinstance(done, Lost):
+                result = _rest(fmu, drive, done, clock.perf_counter() - begin)
+            elif isinstance(done, tuple):
+                result = _error(*done)
+            else:
+                result = done
+            if isinstance(result, Result):
+                derive_columns(result, fmu, drive.every > 1)
+                result = marked(result, drive.driver)
+            yield number, result
+            begin = clock.perf_counter()
+
+
+def _with_rows(
+    fmu: SimulatedFmu, drive: Drive, result: Result | _Refused | None, place: Path
+) -> Result | _Refused | NDArray[np.float64]:
+    """The result with its rows, or an error; of a run whose process has ended, the rows."""
+    if isinstance(result, tuple):
+        return result
+    rows = kept_rows(place, len(_names(fmu, drive)))
+    return rows if result is None else replace(result, values=rows[: len(result.time)])
+
+
+def _error(words: str, status: int) -> HostError:
+    error = HostError(words)
+    error.status = status
+    return error
+
+
+def _names(fmu: SimulatedFmu, drive: Drive) -> list[str]:
+    return [name for part in columns_of(fmu, with_names_of(drive.manoeuvre, fmu.variables)) for name in part]
+
+
+def _rest(fmu: SimulatedFmu, drive: Drive, lost: Lost, wall: float) -> Result | FailedFmuError:
+    """What is there of a run whose process has ended."""
+    rows, interval, names = lost.kept, drive.step * drive.every, _names(fmu, drive)
+    if not len(rows):
+        return FailedFmuError(f"The process of the FMU {lost.how}; no row was recorded.")
+    return Result(
+        names,
+        {name: fmu.variables[name].unit or "1" for name in names},
+        interval * np.arange(len(rows), dtype=np.float64),
+        rows,
+        wall,
+        interval * max(0, len(rows) - 1),
+        1,
+        [],
+        start=dict(drive.manoeuvre.start),
+        ended=f"The process of the FMU {lost.how}; {len(rows)} rows were kept.",
+    )

@@ -1,0 +1,45 @@
+"""Reads how a variable is derived, as an alias file has it."""
+
+import re
+from collections.abc import Mapping
+
+from ali3.near_names import did_you_mean
+from hosts.common.errors import HostError
+from hosts.fmu.aliases.derived_variable import Derived
+from hosts.fmu.aliases.formulas import FORMULAS
+
+_CALL = re.compile(r"\s*(\w+)\s*\(([^()]*)\)\s*")
+
+
+def parse_derived(ours: str, text: str, constants: Mapping[str, float], where: str) -> Derived:
+    """A formula as an alias file has it.
+
+    `constants`: their names in `text` become numbers; `where`: how messages call it. Raises `HostError`: there is no
+    such formula, or it takes other arguments.
+    """
+    call = _CALL.fullmatch(text)
+    if call is None:
+        raise HostError(f"{where}: from is '{text}'; it must be a formula such as sideslip(chassis.vx, chassis.vy).")
+    name, inside = call.groups()
+    if name not in FORMULAS:
+        hint = did_you_mean(name, FORMULAS, f"there are {', '.join(sorted(FORMULAS))}")
+        raise HostError(f"{where}: there is no formula '{name}'{hint}")
+    arguments = tuple(_argument(word.strip(), constants, where) for word in inside.split(","))
+    formula = FORMULAS[name]
+    if not formula.takes(len(arguments)):
+        raise HostError(
+            f"{where}: {name} takes ({', '.join(formula.arguments)}), {len(formula.arguments)} in number; "
+            f"it is given {len(arguments)}."
+        )
+    return Derived(ours, name, arguments)
+
+
+def _argument(word: str, constants: Mapping[str, float], where: str) -> str | float:
+    if word in constants:
+        return constants[word]
+    try:
+        return float(word)
+    except ValueError:
+        if not word:
+            raise HostError(f"{where}: an argument of the formula is empty.") from None
+        return word

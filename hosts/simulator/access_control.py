@@ -1,0 +1,74 @@
+"""Who may talk to the server: whoever has the token, and of pages those that came from it."""
+
+from __future__ import annotations
+
+import ipaddress
+import secrets
+import socket
+from collections.abc import Mapping
+from dataclasses import dataclass
+from urllib.parse import parse_qs, urlsplit
+
+_LOCAL_NAMES = ("localhost",)
+
+
+@dataclass(frozen=True)
+class AccessControl:
+    """What a request must bring."""
+
+    address: str
+    """That the server listens on."""
+    token: str
+    """Other users of this machine reach its ports too."""
+
+    @classmethod
+    def of(cls, address: str) -> AccessControl:
+        """The guard of an address, with a new token."""
+        return cls(address, secrets.token_urlsafe(24))
+
+    @property
+    def is_local(self) -> bool:
+        """Whether only this machine reaches the server."""
+        return _is_local(self.address)
+
+    def refusal(self, path: str, headers: Mapping[str, str]) -> str:
+        """Why a request is refused, one sentence; empty where it is not.
+
+        `path`: with its query; `headers`: ``Host`` and, of browsers, ``Origin``; where one stands several times it must
+        be left out before.
+        """
+        host = headers.get("Host", "")
+        if not self._is_ours(host):
+            # a name of a foreign page may be made to lead here (DNS rebinding); then it stands in Host
+            return f"A request must name this server by its own address, not {host[:80]!r}."
+        origin = headers.get("Origin")
+        if origin is not None and origin.lower() != f"http://{host.lower()}":
+            return f"Only pages of this server may talk to it; the request is from a page of {origin[:80]!r}."
+        given = parse_qs(urlsplit(path).query).get("token", [""])
+        if not secrets.compare_digest(given[0].encode(), self.token.encode()):
+            return "This server is guarded; open the address with the token that it printed when it was started."
+        return ""
+
+    def _is_ours(self, host: str) -> bool:
+        try:
+            name = urlsplit(f"//{host}").hostname or ""
+        except ValueError:
+            return False
+        if _is_local(name):
+            return True
+        if self.is_local:
+            return False
+        names = (socket.gethostname().lower(), socket.getfqdn().lower())
+        return name == self.address or name in names or _address(name) is not None
+
+
+def _is_local(name: str) -> bool:
+    found = _address(name)
+    return name in _LOCAL_NAMES if found is None else found.is_loopback
+
+
+def _address(name: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
+    try:
+        return ipaddress.ip_address(name)
+    except ValueError:
+        return None

@@ -1,0 +1,133 @@
+"""Driving without a page: inputs are held, or come from a manoeuvre or from a driver at random."""
+
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Protocol
+
+from ali3.bars import bar
+from hosts.common.errors import HostError
+from hosts.driving.driver import Driver, check_drivable, make_driver
+from hosts.driving.manoeuvre import Manoeuvre, with_names_of
+from hosts.driving.pilots.pilot import ACTS, OBSERVED
+from hosts.driving.random_driver import RandomDriver
+from hosts.recordings.load_manoeuvre import load_manoeuvre
+from hosts.simulator.aliased_car import AliasedCar
+from hosts.simulator.preparation import DriveRequest
+
+_PERIOD = 0.005
+_BAR = "{n:.1f} of {total:.1f} s simulated |{bar}| {elapsed}<{remaining}"
+_STILL = 10.0  # s: a car that computes no step for so long is given up
+
+
+class HeadlessDriver(Protocol):
+    """Who moves the inputs."""
+
+    def act(self, time: float, observation: Mapping[str, float]) -> Mapping[str, float]:
+        """Values of inputs at a time, s."""
+
+
+class Held:
+    """Inputs stay as the FMU starts with them."""
+
+    def act(self, time: float, observation: Mapping[str, float]) -> Mapping[str, float]:
+        return {}
+
+
+class OfManoeuvre:
+    """Inputs of a manoeuvre: of its table, and of its driver where it has one.
+
+    Raises `HostError`: the car has not what it needs.
+    """
+
+    def __init__(self, manoeuvre: Manoeuvre, car: AliasedCar) -> None:
+        if (unknown := next((name for name in manoeuvre.inputs if name not in car.inputs), None)) is not None:
+            raise HostError(
+                f"The manoeuvre '{manoeuvre.name}' has a column '{unknown}', which is not an input of this FMU; the "
+                f"simulator moves inputs only: {', '.join(car.inputs) or 'none'}."
+            )
+        if manoeuvre.find_throttle:
+            raise HostError(
+                f"The manoeuvre '{manoeuvre.name}' finds its throttle in a run before, which the simulator does not "
+                "make; give the table that 'ali3 run' writes of it."
+            )
+        self._manoeuvre = manoeuvre
+        self._driver: Driver | None = None
+        if manoeuvre.driver:
+            check_drivable(car.inputs, car.names, "this FMU")
+            self._driver = make_driver(manoeuvre.driver, car.constants)
+
+    def act(self, time: float, observation: Mapping[str, float]) -> Mapping[str, float]:
+        found = self._manoeuvre.at(time)
+        return found if self._driver is None else {**found, **self._driver.act(time, observation)}
+
+
+def manoeuvre_of(given: str | None, tell: Callable[[str], None]) -> Manoeuvre | None:
+    """The manoeuvre that ``--manoeuvre`` names, if it was given; see `load_manoeuvre`."""
+    manoeuvre = None if given is None else load_manoeuvre(given)
+    if manoeuvre is not None and (late := manoeuvre.late_begin(ACTS if manoeuvre.driver else ())):
+        tell(": ".join(late))
+    return manoeuvre
+
+
+def with_start_of(asked: DriveRequest, manoeuvre: Manoeuvre | None) -> DriveRequest:
+    """What is asked for, with the start values of a manoeuvre, if there is one."""
+    if manoeuvre is None:
+        return asked
+    return replace(asked, manoeuvre=manoeuvre.name, start=lambda names: with_names_of(manoeuvre, names).start)
+
+
+def headless_driver(car: AliasedCar, manoeuvre: Manoeuvre | None, wild: int | None) -> HeadlessDriver:
+    """Who moves the inputs of a car. `wild`: seed of a driver at random."""
+    if manoeuvre is not None:
+        return OfManoeuvre(manoeuvre, car)
+    return Held() if wild is None else RandomDriver(wild, car.inputs)
+
+
+def run_headless(car: AliasedCar, driver: HeadlessDriver, seconds: float, tell: Callable[[str, str], None]) -> bool:
+    """Drive for a simulated time; False where a step was refused.
+
+    Parameters
+    ----------
+    car : AliasedCar
+        Paused.
+    seconds : float
+        Simulated time.
+    tell : callable
+        Takes kind and text of what there is to be said.
+
+    Raises
+    ------
+    HostError
+        The car computes no steps any more.
+    """
+    places = [(name, car.names.index(name)) for name in OBSERVED if name in car.names]
+    _act(car, driver, places)
+    car.command("step", max(1, round(seconds / car.step)))
+    last, since = -1, time.monotonic()
+    try:
+        with bar(total=seconds, bar_format=_BAR) as progress:
+            while True:
+                moment = car.latest()
+                for event in car.events():
+                    progress.clear()
+                    tell(event.kind, event.text)
+                progress.update(min(moment.time, seconds) - progress.n)
+                if moment.refused or moment.time >= seconds - 0.5 * car.step:
+                    return not moment.refused
+                now = time.monotonic()
+                if moment.count != last:
+                    last, since = moment.count, now
+                elif now - since > _STILL:
+                    raise HostError(f"The car has computed no step for {_STILL:g} s; the run is aborted.")
+                _act(car, driver, places)
+                time.sleep(_PERIOD)
+    finally:
+        car.command("pause")
+
+
+def _act(car: AliasedCar, driver: HeadlessDriver, places: Sequence[tuple[str, int]]) -> None:
+    moment = car.latest()
+    if wanted := driver.act(moment.time, {name: float(moment.values[k]) for name, k in places}):
+        car.want({name: (value, math.inf) for name, value in wanted.items()})

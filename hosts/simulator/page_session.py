@@ -1,0 +1,133 @@
+"""Driving from pages: the server, the devices of this machine, and the browser."""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import socket
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from ali3.extras import missing_module
+from ali3.signals import handled, heeded
+from ali3.temporary_folder import temporary_folder
+from hosts.common.errors import HostError
+from hosts.simulator.access_control import AccessControl
+from hosts.simulator.aliased_car import AliasedCar
+from hosts.simulator.input_arbiter import InputArbiter
+from hosts.simulator.server import Server
+from hosts.simulator.server_needs import Content
+from viewer.open_browser import open_secretly
+
+if TYPE_CHECKING:
+    from hosts.simulator.run_report import RunReport
+    from hosts.simulator.server_needs import ShownDevices
+
+_TORQUE = "steering_wheel_torque"
+_OLD = 0.1
+_EVERYWHERE = ("0.0.0.0", "::")
+
+
+@dataclass(frozen=True)
+class Opened:
+    """Where pages come from."""
+
+    listening: socket.socket
+    access: AccessControl
+    browser: bool
+    """Whether to open one."""
+    devices: bool
+    """Whether wheels and gamepads of this machine drive."""
+
+    @property
+    def address(self) -> str:
+        """What a browser opens."""
+        host, port = self.listening.getsockname()[:2]
+        if host in _EVERYWHERE:
+            host = socket.gethostname()
+        name = f"[{host}]" if ":" in host else host
+        return f"http://{name}:{port}/?token={self.access.token}"
+
+
+def drive_with_pages(
+    car: AliasedCar,
+    content: Content,
+    opened: Opened,
+    report: RunReport,
+) -> None:
+    """Serve pages until Ctrl-C. `car`: paused; it runs from the first frame of the first page on.
+
+    Raises `HostError`: the car has ended.
+    """
+    arbiter = InputArbiter(car.want, car.inputs)
+    server = Server(car, arbiter, content, opened.access, report.event)
+
+    def told_ready() -> None:
+        report.ready()
+        report.tell(f"Drive at {opened.address}")
+        if not opened.access.is_local:
+            report.tell("Whoever has this address can drive; its traffic is not encrypted.")
+        if opened.browser and not open_secretly(opened.address, folder):
+            report.tell("No browser could be opened from here; open the address in one, on this machine.")
+        report.tell("Ctrl-C ends with the report.")
+
+    def seen() -> None:
+        report.first_frame()
+        car.command("run")
+
+    async def work() -> None:
+        stop = asyncio.Event()
+        with _interrupted_by_signals(asyncio.get_running_loop(), stop):
+            await server.run(opened.listening, stop, told_ready, seen)
+
+    with ExitStack() as stack:
+        folder = stack.enter_context(temporary_folder())
+        if opened.devices:
+            _add_devices(stack, server, arbiter, car)
+        asyncio.run(work())
+
+
+def _add_devices(stack: ExitStack, server: Server, arbiter: InputArbiter, car: AliasedCar) -> None:
+    """Wheels and gamepads, where their packages are installed."""
+    try:
+        from hosts.simulator.devices import Devices, configuration_folder
+    except ModuleNotFoundError as error:
+        server.say(f"Wheels and gamepads of this machine are not read. {missing_module(error)}")
+        return
+    torque = _torque(car) if _TORQUE in car.names else None
+    devices: ShownDevices = stack.enter_context(
+        Devices(arbiter, car.inputs, car.constants, server.say, configuration_folder(), torque)
+    )
+    server.devices = devices
+
+
+def _torque(car: AliasedCar) -> Callable[[], float | None]:
+    """The torque at the steering wheel while the car runs."""
+    place = car.names.index(_TORQUE)
+
+    def torque() -> float | None:
+        try:
+            moment = car.latest()
+        except HostError:
+            return None
+        if not moment.running or moment.refused or time.perf_counter() - moment.wall > _OLD:
+            return None
+        return float(moment.values[place])
+
+    return torque
+
+
+@contextmanager
+def _interrupted_by_signals(loop: asyncio.AbstractEventLoop, stop: asyncio.Event) -> Iterator[None]:
+    """The first Ctrl-C, or a signal to end, sets `stop`; a second one interrupts."""
+
+    def end(number: signal.Signals, before: Any) -> None:
+        if number.name != "SIGHUP":
+            signal.signal(number, before)
+        loop.call_soon_threadsafe(stop.set)
+
+    with handled(end, heeded()):
+        yield

@@ -1,0 +1,166 @@
+"""The motion of a block of closed loops with one freedom, once around: predictor along its direction, corrector to
+the rows. At a singular position the predictor goes on along the smooth branch.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg.lapack import dgesv
+
+from mbs.compiler.block_rows import Quadratics
+
+Array = NDArray[np.float64]
+
+TURN = 0.14
+"""Largest turn of an angle in one step, rad."""
+MOST_STEPS = 1000
+SMALL = 1e-6
+"""Singular values below this part of the largest are zero."""
+NEAR = 0.05
+"""Below this part of its median on the way the second singular value says that a branch crosses."""
+CLOSED = 1e-7
+"""Rows hold to this part of the size of the block."""
+
+
+@dataclass(frozen=True)
+class BlockMotion:
+    """Once around: sines and cosines of the angles, shape (steps + 1, angles), turns in each step, shape (steps,
+    angles), rad, and whether a branch crosses.
+    """
+
+    sines: Array
+    cosines: Array
+    steps: Array
+    branches: bool
+
+
+def sine_cosine(vectors: Array, turned: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """Of the angle from b to c seen along n; `vectors` has the shape (angles, 3, 3): n, b, c."""
+    products = vectors @ vectors.transpose(0, 2, 1)
+    nn, nb, nc, bc = products[:, 0, 0], products[:, 0, 1], products[:, 0, 2], products[:, 1, 2]
+    sine = np.sqrt(nn) * np.linalg.det(vectors)
+    cosine = nn * bc - nb * nc  # (n x b) . (n x c)
+    size = np.maximum(np.hypot(sine, cosine), 1e-300)
+    sine, cosine = sine / size, cosine / size
+    return np.where(turned, cosine, sine), np.where(turned, -sine, cosine)
+
+
+def trace(phi: Quadratics, offset: Array, slope: Array, turned: NDArray[np.bool_], x: Array) -> BlockMotion | None:
+    """Follow the motion from x until it comes back; None if it has not one freedom or does not come back.
+
+    `offset`, `slope`: the vectors of the angles, ``offset + slope x``; `turned`: angles from the perpendicular of their
+    second arm.
+    """
+
+    def angles(at: Array) -> tuple[Array, Array]:
+        return sine_cosine((offset + slope @ at).reshape(-1, 3, 3), turned)
+
+    found = _first_direction(phi.at(x)[1], slope)
+    if found is None:
+        return None
+    vectors = (offset + slope @ x).reshape(-1, 3, 3)
+    size = float(np.max(np.linalg.norm(vectors[:, 1], axis=1)))  # of the longest arm
+    first, t_first, t, step, travelled = x, found, found, 0.05 * size, 0.0
+    sine, cosine = angles(x)
+    sines, cosines, steps, seconds = [sine], [cosine], [], []
+    for _ in range(MOST_STEPS):
+        corrected = _corrected(phi, x + step * t, t, CLOSED * size)
+        if corrected is not None:
+            y, J = corrected
+            s, c = angles(y)
+            turn = np.arctan2(s * cosine - c * sine, c * cosine + s * sine)
+            largest = float(abs(turn).max())
+        if corrected is None or largest > TURN:
+            step *= 0.5
+            if step < 1e-6 * size:
+                return None
+            continue
+        went = y - x
+        length = math.sqrt(went @ went)
+        new = _next_direction(J, went / length)
+        if new is None:
+            return None
+        sines.append(s)
+        cosines.append(c)
+        steps.append(turn)
+        seconds.append(new[1])
+        along = float((first - x) @ went) / length**2
+        passes = travelled > 2.0 * length and 0.0 <= along <= 1.0 and t @ t_first > 0.0
+        if passes and np.linalg.norm(first - x - along * went) < 0.3 * length:
+            crossed = bool(np.min(seconds) < NEAR * np.median(seconds))
+            return BlockMotion(np.array(sines), np.array(cosines), np.array(steps), crossed)
+        travelled += length
+        x, t, sine, cosine = y, new[0], s, c
+        step *= min(1.5, max(0.5, 0.8 * TURN / max(largest, 1e-6)))
+    return None
+
+
+def _corrected(phi: Quadratics, x: Array, t: Array, tolerance: float) -> tuple[Array, Array] | None:
+    """The position on the rows across the direction, and their gradients there."""
+    for _ in range(8):
+        value, J = phi.at(x)
+        move = _solved(J, t, -value, 0.0)
+        x = x + move
+        if move @ move < CLOSED**2 * (x @ x):
+            break
+    value, J = phi.at(x)
+    return (x, J) if abs(value).max() <= tolerance else None
+
+
+def _solved(J: Array, t: Array, values: Array, along: float) -> Array:
+    """x of ``J x = values`` and ``t x = along``, by elimination where that will do, else by least squares: of redundant
+    rows and where branches cross.
+    """
+    if len(J) == len(t) - 1:
+        x = _eliminated(J, t, values, along)
+        if x is not None and x @ x <= 100.0 * (values @ values + along**2):
+            return x
+    return np.asarray(np.linalg.lstsq(np.vstack([J, t]), np.append(values, along), rcond=1e-8)[0])
+
+
+def _eliminated(J: Array, t: Array, values: Array, along: float) -> Array | None:
+    """The same of as many rows as unknowns; None where they are singular."""
+    A, b = np.empty((len(t), len(t)), order="F"), np.empty(len(t))
+    A[:-1], A[-1], b[:-1], b[-1] = J, t, values, along
+    _, _, x, singular = dgesv(A, b, overwrite_a=True, overwrite_b=True)
+    return None if singular else np.asarray(x)
+
+
+def _first_direction(J: Array, slope: Array) -> Array | None:
+    """The one direction in which an angle changes; turns that none sees, of a rod about itself, do not count."""
+    _, values, right = np.linalg.svd(J)
+    values = np.append(values, np.zeros(J.shape[1] - len(values)))
+    null = right[values <= SMALL * values[0]]
+    if len(null) == 0:
+        return None
+    _, size, turn = np.linalg.svd(slope @ null.T, full_matrices=False)
+    if size[0] < SMALL or np.sum(size > SMALL * size[0]) > 1:
+        return None
+    t: Array = turn[0] @ null
+    return t / np.linalg.norm(t)
+
+
+def _next_direction(J: Array, went: Array) -> tuple[Array, float] | None:
+    """Unit direction of the motion next to the way that was made, and the smallest singular value that is not of it,
+    as a part of the largest.
+
+    Of several directions at a singular position the one that goes straight on.
+    """
+    values = np.linalg.svd(J, compute_uv=False)
+    tight = int((values > SMALL * values[0]).sum())
+    free = J.shape[1] - tight
+    if free == 0:
+        return None
+    second = float(values[tight - 1] / values[0]) if tight > 0 else 1.0
+    if free == 1 and len(J) == len(went) - 1:
+        # one elimination in place of all singular vectors
+        t = _eliminated(J, went, np.zeros(len(J)), 1.0)
+        if t is None or t @ t >= 4.0:  # not the smooth branch
+            return None
+        return t / math.sqrt(t @ t), second
+    null = np.linalg.svd(J)[2][-free:]
+    t = null.T @ (null @ went)
+    length = float(np.linalg.norm(t))
+    return (t / length, second) if length > 0.5 else None

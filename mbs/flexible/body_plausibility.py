@@ -1,0 +1,172 @@
+"""Plausibility of a flexible body: its mass, size and frequencies, and the mistakes in units that would explain odd
+ones.
+"""
+
+from collections.abc import Iterator, Mapping
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.linalg import eigh, null_space
+from scipy.spatial import ConvexHull
+
+from ali3.plausibility import Mistake, Plausibility, Value, plausibility_of, quantities_of
+from mbs.common.errors import ModelError
+from mbs.flexible.fe_model import FiniteElementModel
+from mbs.flexible.frequencies import natural_modes
+from mbs.flexible.reduced_body import ReducedBody
+
+RIGID = 6
+SLIM = 0.05
+"""Least ratio of the smallest to the largest side at which the volume of the convex hull is used."""
+QUANTITIES = quantities_of("flexible")
+
+
+class FlexibleWarning(UserWarning):
+    """A flexible body that is possible but unlikely; the message says which mistake in units would explain it."""
+
+
+class Units(NamedTuple):
+    """Factors from the numbers of a file to SI units."""
+
+    length: float = 1.0
+    mass: float = 1.0
+    stiffness: float = 1.0
+
+
+UNDONE = (
+    ("t, mm and N in place of kg, m and N", Units(1e-3, 1e3, 1e3)),
+    ("g in place of kg in the mass", Units(mass=1e-3)),
+    ("t in place of kg in the mass", Units(mass=1e3)),
+    ("mm in place of m in the places of the nodes", Units(length=1e-3)),
+    ("kg, mm and N in place of kg, m and N", Units(1e-3, 1.0, 1e3)),
+    ("kg, mm and ms in place of kg, m and s", Units(1e-3, 1.0, 1e6)),
+    ("g, mm and ms in place of kg, m and s", Units(1e-3, 1e-3, 1e3)),
+    ("pounds in place of kg in the mass", Units(mass=0.45359237)),
+)
+"""Mistakes in units, the most common first. Consistent units change no frequency."""
+
+
+@plausibility_of.register
+def model_plausibility(
+    model: FiniteElementModel, what: str = "", modes: bool = True, beside: float = 0.0, held: ArrayLike = ()
+) -> list[Plausibility]:
+    """Quantities of a finite-element model with their usual ranges.
+
+    `what`: the file, in messages; `modes`: whether its frequencies are computed; `beside`: mass that is given apart
+    from the model, kg; `held`: degrees of freedom of its interfaces.
+    """
+    x, masses = model.positions, model.mass.masses
+    free = _lowest(model, RIGID) if modes else None
+    supported = _lowest(model, 0, held) if modes and np.size(held) else None
+    moment, hull = masses @ model.mass.positions, _hull(x)
+    values = partial(_values, x, hull, masses, moment, free, supported, model.given, beside)
+    return [_plausibility(what, values, alone=not modes)]
+
+
+@plausibility_of.register
+def reduced_plausibility(body: ReducedBody) -> list[Plausibility]:
+    """Quantities of a reduced body with their usual ranges, from its reference node; frequencies are by its modes."""
+    x, moment = body.node_positions, body.masses @ body.mass_positions
+    values = partial(_values, x, _hull(x), body.masses, moment, _free(body), _supported(body), {}, 0.0)
+    return [_plausibility("", values)]
+
+
+def _plausibility(what: str, values: partial[list[Value]], alone: bool = False) -> Plausibility:
+    """An echo with the mistakes of `UNDONE`. `alone`: only those in one of nodes, mass and stiffness."""
+    changed = [(words, frozenset(_changed(units)), units) for words, units in UNDONE]
+    mistakes = [Mistake(w, keys, partial(values, units)) for w, keys, units in changed if not alone or len(keys) == 1]
+    return Plausibility(what, values(Units()), mistakes)
+
+
+def _changed(units: Units) -> Iterator[str]:
+    for key, factor, plain in zip(("nodes", "mass", "stiffness"), units, Units(), strict=True):
+        if factor != plain:
+            yield key
+
+
+def _values(
+    x: np.ndarray,
+    hull: float,
+    masses: np.ndarray,
+    moment: np.ndarray,
+    free: float | None,
+    supported: float | None,
+    given: Mapping[str, Mapping[str, float]],
+    beside: float,
+    units: Units,
+) -> list[Value]:
+    total, sides = units.mass * float(masses.sum()), units.length * np.ptp(x, axis=0)
+    size, centre = float(sides.max()), units.length * moment / max(float(masses.sum()), np.finfo(float).tiny)
+    mass, nodes = {"mass": total}, {"nodes": f"{len(x)} within {_three(sides)} m"}
+    found = [Value(QUANTITIES["mass"], total, mass), Value(QUANTITIES["size"], size, nodes)]
+    for name, three in (("extent", sides), ("centre", np.round(centre, 9) + 0.0)):
+        found += [Value(QUANTITIES[name], float(v), nodes, axis) for axis, v in zip("xyz", three, strict=True)]
+    volume = units.length**3 * hull
+    if volume > 0.0:
+        found.append(Value(QUANTITIES["dense"], total / volume, mass | nodes))
+    if beside:
+        found.append(Value(QUANTITIES["beside"], total / beside, mass | {"mass beside it": beside}))
+    faster = float(np.sqrt(units.stiffness / units.mass))
+    if free is not None:
+        keys: dict[str, Any] = {"stiffness": f"a first free frequency of {faster * free:.4g} Hz"} | mass | nodes
+        c = 2.0 * size * faster * free
+        found += [Value(QUANTITIES["free"], faster * free, keys), Value(QUANTITIES["wave"], c, keys)]
+        if volume > 0.0 and total > 0.0:
+            found.append(Value(QUANTITIES["stiff"], c**2 * volume / total, keys))
+    if supported is not None:
+        found.append(Value(QUANTITIES["supported"], faster * supported))
+    for quantity, of in given.items():
+        found += [Value(QUANTITIES[quantity], float(v), {}, name) for name, v in of.items()]
+    return found
+
+
+def _three(sides: np.ndarray) -> str:
+    return " x ".join(f"{side:.4g}" for side in sides)
+
+
+def _hull(x: np.ndarray) -> float:
+    """Volume of the convex hull, m3; 0 for a body that is flat or slim, see `SLIM`."""
+    centred = x - x.mean(axis=0)
+    sides = np.ptp(centred @ np.linalg.svd(centred.T @ centred)[0], axis=0)
+    return float(ConvexHull(x).volume) if sides.min() > SLIM * sides.max() else 0.0
+
+
+def _lowest(model: FiniteElementModel, number: int, held: ArrayLike = ()) -> float | None:
+    """Natural frequency by its number from 0, Hz; None: the modes cannot be computed."""
+    try:
+        return float(natural_modes(model, number + 1, held)[0][-1])
+    except ModelError:
+        return None
+
+
+def _free(body: ReducedBody) -> float | None:
+    """First free frequency of a reduced body, by its modes beside the rigid motions, Hz."""
+    p, m = len(body.masses), body.n_modes
+    rigid = np.zeros((p, 3, RIGID))
+    rigid[:, range(3), range(3)] = 1.0
+    for axis, spin in enumerate(np.eye(3)):
+        rigid[:, :, 3 + axis] = np.cross(spin, body.mass_positions)
+    shapes = np.concatenate([rigid, body.mass_shapes], axis=2).reshape(3 * p, -1)
+    M = shapes.T @ (np.repeat(body.masses, 3)[:, None] * shapes)
+    K = np.zeros((RIGID + m, RIGID + m))
+    K[RIGID:, RIGID:] = body.K
+    return _first(K, M, RIGID)
+
+
+def _supported(body: ReducedBody) -> float | None:
+    """First frequency with all interfaces held, Hz; None where no mode is left."""
+    rows = [body.node_translations[i.node] for i in body.interfaces.values()]
+    rows += [body.node_rotations[i.node] for i in body.interfaces.values() if i.rotation is not None]
+    Z = null_space(np.vstack(rows)) if rows else np.eye(body.n_modes)
+    return _first(Z.T @ body.K @ Z, Z.T @ body.M @ Z, 0) if Z.shape[1] else None
+
+
+def _first(K: np.ndarray, M: np.ndarray, number: int) -> float | None:
+    """Frequency by its number, from 0, Hz."""
+    try:
+        squares = eigh(K, M, eigvals_only=True)
+    except np.linalg.LinAlgError:
+        return None
+    return float(np.sqrt(max(squares[number], 0.0)) / (2 * np.pi)) if number < len(squares) else None

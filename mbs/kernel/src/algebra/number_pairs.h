@@ -1,0 +1,334 @@
+/* Numbers that lie side by side, two at a time, which compilers turn into one instruction. Each has the bits that it has
+ * alone, and sums are added up in the order of the numbers. */
+#ifndef ALI3_NUMBER_PAIRS_H
+#define ALI3_NUMBER_PAIRS_H
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "real.h"
+
+/* Before a loop that is short or already written for two numbers. */
+#if defined(__clang__)
+#define ALI3_SHORT _Pragma("clang loop unroll(disable) vectorize(disable)")
+#else
+#define ALI3_SHORT
+#endif
+
+/* Before a loop of constant length whose numbers stay in registers. */
+#if defined(__clang__)
+#define ALI3_UNROLLED _Pragma("clang loop unroll(full)")
+#else
+#define ALI3_UNROLLED
+#endif
+
+/* Before a loop over few numbers, four of which are one instruction of AVX2 and two of others. */
+#if defined(__clang__) && !defined(ALI3_WIDTH)
+#define ALI3_BY_FOURS _Pragma("clang loop vectorize_width(4) interleave_count(1)")
+#else
+#define ALI3_BY_FOURS
+#endif
+
+/* A number of which the compiler takes nothing for granted: addresses that follow from it are found where they are used,
+ * as loops around that carry many along have no registers left. */
+#define ALI3_OPAQUE(number) __asm__("" : "+r"(number))
+
+/* Whether n places that ascend lie side by side, as those of modes mostly do. */
+static inline bool ali3_together(const int32_t *place, int32_t n) { return n > 0 && place[n - 1] - place[0] == n - 1; }
+
+enum { ALI3_LARGE = 12 }; /* coordinates of a front from which on it is worth while to count in fours */
+
+/* The first entry of a column of a front, of length n, that is worked on for the sake of those from `from` on: so that a
+ * whole number of fours is left, up to three above the diagonal, which nobody reads. */
+static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
+#ifdef ALI3_WIDTH
+  (void)n;
+  return from;
+#else
+  const int32_t more = (from - n) & 3;
+  return from >= more ? from - more : from;
+#endif
+}
+
+/* The same from an entry on that is no less than three. */
+static inline int64_t ali3_by_fours_below(int64_t from, int64_t n) {
+#ifdef ALI3_WIDTH
+  (void)n;
+  return from;
+#else
+  return n - ((n - from + 3) & ~(int64_t)3);
+#endif
+}
+
+#ifndef ALI3_WIDTH
+typedef double ali3_four __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double ali3_pair __attribute__((vector_size(16), aligned(8), may_alias));
+#endif
+
+/* statement for each i from a number on to n, where ALI3_AT(x) is entry i of x, or the four from i on while there are so
+ * many, then two: without what compilers put around a loop that they make vectors of. */
+#define ALI3_AT(x) (*(entry *)((x) + i))
+#ifdef ALI3_WIDTH
+#define ALI3_EACH(from, n, statement)                                                                                  \
+  for (int64_t i = from; i < (n); i++) {                                                                               \
+    typedef real entry;                                                                                                \
+    statement;                                                                                                         \
+  }
+#else
+#define ALI3_EACH(from, n, statement)                                                                                  \
+  {                                                                                                                    \
+    int64_t i = from;                                                                                                  \
+    ALI3_SHORT                                                                                                         \
+    for (const int64_t whole = (n) - 3; i < whole; i += 4) {                                                           \
+      typedef ali3_four entry;                                                                                         \
+      statement;                                                                                                       \
+    }                                                                                                                  \
+    if (i + 1 < (n)) {                                                                                                 \
+      typedef ali3_pair entry;                                                                                         \
+      statement;                                                                                                       \
+      i += 2;                                                                                                          \
+    }                                                                                                                  \
+    if (i < (n)) {                                                                                                     \
+      typedef double entry;                                                                                            \
+      statement;                                                                                                       \
+    }                                                                                                                  \
+  }
+#endif
+
+/* y += a x */
+static inline void ali3_add_multiple(real *restrict y, const real *restrict x, real a, int64_t n) {
+  ALI3_EACH(0, n, ALI3_AT(y) += a * ALI3_AT(x))
+}
+
+/* y += x */
+static inline void ali3_add(real *restrict y, const real *restrict x, int64_t n) {
+  ALI3_EACH(0, n, ALI3_AT(y) += ALI3_AT(x))
+}
+
+static inline void ali3_copy(real *restrict y, const real *restrict x, int64_t n) {
+  for (int64_t i = 0; i < n; i++) y[i] = x[i];
+}
+
+/* The same of few numbers, for which a call of memcpy is long. */
+static inline void ali3_copy_few(real *restrict y, const real *restrict x, int64_t n) {
+  ALI3_EACH(0, n, ALI3_OPAQUE(i); ALI3_AT(y) = ALI3_AT(x))
+}
+
+/* y -= a x + b z */
+static inline void ali3_take_two(real *restrict y, const real *restrict x, real a, const real *restrict z, real b,
+                                 int64_t n) {
+  ALI3_EACH(0, n, ALI3_AT(y) -= ALI3_AT(x) * a + ALI3_AT(z) * b)
+}
+
+/* x y in two sums, by turns, so that additions need not wait for each other. In loops of their own: as a pair of numbers
+ * y[0], which a back substitution has just written alone, would be waited for until it is in the cache. */
+static inline real ali3_product_in_two(const real *restrict x, const real *restrict y, int64_t n) {
+  real even = {0}, odd = {0};
+  ALI3_SHORT
+  for (int64_t i = 0; i < n; i += 2) even += x[i] * y[i];
+  ALI3_SHORT
+  for (int64_t i = 1; i < n; i += 2) odd += x[i] * y[i];
+  return even + odd;
+}
+
+#ifndef ALI3_WIDTH
+typedef int64_t ali3_four_bits __attribute__((vector_size(32), aligned(8)));
+
+/* The larger ones of the sizes of x and of `most` go to *most. */
+static inline void ali3_take_larger(ali3_four *most, const ali3_four *x) {
+  const ali3_four size = (ali3_four)((ali3_four_bits)*x & INT64_MAX);
+  const ali3_four_bits larger = (ali3_four_bits)(size > *most);
+  *most = (ali3_four)((larger & (ali3_four_bits)size) | (~larger & (ali3_four_bits)*most));
+}
+
+/* x y in four sums from the far end on: what is nearest, which a back substitution has found last, is waited for by the
+ * last additions only. */
+static inline double ali3_product_from_far(const double *restrict x, const double *restrict y, int64_t n) {
+  ali3_four sum = {0};
+  int64_t i = n;
+  ALI3_SHORT
+  for (; i >= 4; i -= 4) sum += *(const ali3_four *)(x + i - 4) * *(const ali3_four *)(y + i - 4);
+  double all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  ALI3_SHORT
+  while (i-- > 0) all += x[i] * y[i];
+  return all;
+}
+
+#define ali3_numbers_from_far ali3_product_from_far /* x the same for all lanes */
+
+/* (x + z) y in the same way */
+static inline double ali3_sum_product_from_far(const double *restrict x, const double *restrict z,
+                                               const double *restrict y, int64_t n) {
+  ali3_four sum = {0};
+  int64_t i = n;
+  ALI3_SHORT
+  for (; i >= 4; i -= 4)
+    sum += (*(const ali3_four *)(x + i - 4) + *(const ali3_four *)(z + i - 4)) * *(const ali3_four *)(y + i - 4);
+  double all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  ALI3_SHORT
+  while (i-- > 0) all += (x[i] + z[i]) * y[i];
+  return all;
+}
+
+/* The same of x and four columns, `apart` from each other, from entry `from` to n, a number of whole fours. */
+static inline void ali3_products_from_far(const double *restrict column, int64_t apart, const double *restrict x,
+                                          int64_t from, int64_t n, double sum[4]) {
+  ali3_four a = {0}, b = {0}, c = {0}, d = {0};
+  const double *second = column + apart, *third = second + apart, *fourth = third + apart;
+  ALI3_SHORT
+  for (int64_t i = n - 4; i >= from; i -= 4) {
+    const ali3_four at = *(const ali3_four *)(x + i);
+    a += *(const ali3_four *)(column + i) * at;
+    b += *(const ali3_four *)(second + i) * at;
+    c += *(const ali3_four *)(third + i) * at;
+    d += *(const ali3_four *)(fourth + i) * at;
+  }
+  sum[0] = (a[0] + a[1]) + (a[2] + a[3]);
+  sum[1] = (b[0] + b[1]) + (b[2] + b[3]);
+  sum[2] = (c[0] + c[1]) + (c[2] + c[3]);
+  sum[3] = (d[0] + d[1]) + (d[2] + d[3]);
+}
+#else
+/* The same in the order of the sums of one instance. */
+#define ALI3_FROM_FAR(name, declared, term)                                                                            \
+  static inline real name declared {                                                                                   \
+    real sum[4] = {0};                                                                                                 \
+    int64_t i = n;                                                                                                     \
+    for (; i >= 4; i -= 4)                                                                                             \
+      for (int k = 0; k < 4; k++) sum[k] += term(i - 4 + k);                                                           \
+    real all = (sum[0] + sum[1]) + (sum[2] + sum[3]);                                                                  \
+    while (i-- > 0) all += term(i);                                                                                    \
+    return all;                                                                                                        \
+  }
+#define ALI3_PRODUCT(i) x[i] * y[i]
+#define ALI3_SUM_PRODUCT(i) (x[i] + z[i]) * y[i]
+ALI3_FROM_FAR(ali3_product_from_far, (const real *restrict x, const real *restrict y, int64_t n), ALI3_PRODUCT)
+ALI3_FROM_FAR(ali3_numbers_from_far, (const double *restrict x, const real *restrict y, int64_t n), ALI3_PRODUCT)
+ALI3_FROM_FAR(ali3_sum_product_from_far,
+              (const real *restrict x, const double *restrict z, const real *restrict y, int64_t n), ALI3_SUM_PRODUCT)
+#endif
+
+/* The largest size of n numbers with these factors; NaN count as nothing. */
+static inline real ali3_largest_product(const real *x, const double *factor, int64_t n) {
+  real most = {0};
+  int64_t i = 0;
+#ifndef ALI3_WIDTH
+  ali3_four largest = {0};
+  ALI3_SHORT
+  for (; i + 3 < n; i += 4) {
+    const ali3_four product = *(const ali3_four *)(x + i) * *(const ali3_four *)(factor + i);
+    ali3_take_larger(&largest, &product);
+  }
+  for (int k = 0; k < 4; k++) most = largest[k] > most ? largest[k] : most;
+#endif
+  ALI3_SHORT
+  for (; i < n; i++) {
+    const real size = ali3_abs(x[i] * factor[i]);
+    most = ali3_where(size > most, size, most);
+  }
+  return most;
+}
+
+/* The largest size of n numbers. */
+static inline real ali3_largest(const real *x, int64_t n) {
+  real most = {0};
+  int64_t i = 0;
+#ifndef ALI3_WIDTH
+  ali3_four largest = {0};
+  ALI3_SHORT
+  for (; i + 3 < n; i += 4) ali3_take_larger(&largest, (const ali3_four *)(x + i));
+  for (int k = 0; k < 4; k++) most = largest[k] > most ? largest[k] : most;
+#endif
+  ALI3_SHORT
+  for (; i < n; i++) most = ali3_where(ali3_abs(x[i]) > most, ali3_abs(x[i]), most);
+  return most;
+}
+
+/* Three numbers, the components of a point or a direction. */
+static inline real ali3_triple_sum(real sum, const real *x, const real *y) {
+  return sum + x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+}
+
+/* Such three numbers in registers: of one instance as four, of which the last is what stands behind them in memory. It
+ * may be read, as whatever has coordinates has one number more (`ali3_pool_padded`), and goes nowhere. */
+#ifdef ALI3_WIDTH
+typedef struct {
+  real x, y, z;
+} ali3_three;
+
+static inline void ali3_three_begin(ali3_three *to, const double *a) {
+  *to = (ali3_three){ali3_same(a[0]), ali3_same(a[1]), ali3_same(a[2])};
+}
+
+/* to += a x, a the same for all three */
+static inline void ali3_three_add(ali3_three *to, const real *x, real a) {
+  to->x += a * x[0];
+  to->y += a * x[1];
+  to->z += a * x[2];
+}
+
+/* to += a x of each */
+static inline void ali3_three_add_each(ali3_three *to, const double *a, const real *x) {
+  to->x += a[0] * x[0];
+  to->y += a[1] * x[1];
+  to->z += a[2] * x[2];
+}
+
+static inline void ali3_three_put(real *to, const ali3_three *a) { to[0] = a->x, to[1] = a->y, to[2] = a->z; }
+
+#define ali3_three_put_first ali3_three_put /* what is behind is written afterwards, or nobody's */
+
+static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { to->x += a->x, to->y += a->y, to->z += a->z; }
+
+/* sum + a x */
+static inline real ali3_three_sum(real sum, const ali3_three *a, const real *x) {
+  return sum + a->x * x[0] + a->y * x[1] + a->z * x[2];
+}
+#else
+typedef ali3_four ali3_three;
+
+static inline void ali3_three_begin(ali3_three *to, const double *a) { *to = (ali3_three){a[0], a[1], a[2], 0.0}; }
+
+static inline void ali3_three_add(ali3_three *to, const double *x, double a) { *to += a * *(const ali3_four *)x; }
+
+static inline void ali3_three_add_each(ali3_three *to, const double *a, const double *x) {
+  *to += *(const ali3_four *)a * *(const ali3_four *)x;
+}
+
+static inline void ali3_three_put(double *to, const ali3_three *a) {
+  to[0] = (*a)[0], to[1] = (*a)[1], to[2] = (*a)[2];
+}
+
+static inline void ali3_three_put_first(double *to, const ali3_three *a) { *(ali3_four *)to = *a; }
+
+static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { *to += *a; }
+
+static inline double ali3_three_sum(double sum, const ali3_three *a, const double *x) {
+  const ali3_four product = *a * *(const ali3_four *)x;
+  return sum + product[0] + product[1] + product[2];
+}
+#endif
+
+/* sum + x y of the components of a point in Phi_q and of coordinates. */
+static inline real ali3_points_sum(real sum, const real *x, const real *y) {
+#ifdef ALI3_WIDTH
+  return ali3_triple_sum(sum, x, y);
+#else
+  return ali3_three_sum(sum, (const ali3_three *)x, y);
+#endif
+}
+
+/* Sums of n triples at columns of x with factors. */
+static inline void ali3_three_rows(const double *val, const int32_t *col, int32_t n, const real *x, real *out) {
+  ali3_three sum = {0};
+  ALI3_SHORT
+  for (int32_t k = 0; k < n; k++) ali3_three_add(&sum, x + col[k], ali3_same(val[k]));
+  ali3_three_put(out, &sum);
+}
+
+/* y += a x of three numbers */
+static inline void ali3_triple_add(real *restrict y, const real *restrict x, real a) {
+  y[0] += a * x[0];
+  y[1] += a * x[1];
+  y[2] += a * x[2];
+}
+#endif

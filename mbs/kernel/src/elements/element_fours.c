@@ -1,0 +1,103 @@
+/* Forces of elements that are evaluated four at a time. */
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+
+#define ALI3_WIDTH 4
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC target("avx2")
+#endif
+#include "laws.h"
+
+#include "../algebra/lane_copies.h"
+#include "element_fours.h"
+
+typedef struct { /* of four elements, as ali3_element_args has them */
+  real u[ALI3_MAX_SIGNALS], ud[ALI3_MAX_SIGNALS], f[ALI3_MAX_SIGNALS], S[ALI3_MAX_SIGNALS * ALI3_MAX_SIGNALS];
+  real numbers[ALI3_FOUR_REALS], y_old[ALI3_FOUR_STATES], y_new[ALI3_FOUR_STATES], out[ALI3_FOUR_OUTPUTS];
+} four_numbers;
+
+static ali3_lane_road road_of(const ali3_instance *in, int32_t number, real *numbers, real *factor) {
+  double own[ALI3_ROAD_NUMBERS], friction;
+  ali3_lane_road road = {.numbers = numbers, .friction_factor = factor};
+  const struct ali3_road *same = ali3_fours_road(in, number, &road.type, own, &friction);
+  for (int l = 0; l < ALI3_FOUR; l++) road.lane[l] = same;
+  for (int i = 0; i < ALI3_ROAD_NUMBERS; i++) numbers[i] = ali3_same(own[i]);
+  *factor = ali3_same(friction);
+  return road;
+}
+
+static void evaluate(ali3_instance *in, const ali3_force_call *call, const int32_t e[ALI3_FOUR], four_numbers *to) {
+  const ali3_system *S = in->system;
+  const ali3_element_size *size = S->el_size + e[0];
+  const int32_t n = size->nsig, *signal[ALI3_FOUR];
+  const bool tangent = call->tangent && S->el_front[e[0]] >= 0;
+  const double *own[ALI3_FOUR], *old[ALI3_FOUR];
+  double *f[ALI3_FOUR], *T[ALI3_FOUR], *y_new[ALI3_FOUR], *out[ALI3_FOUR];
+  real numbers[ALI3_ROAD_NUMBERS], factor;
+  int32_t integer[ALI3_FOUR_INTEGERS];
+  for (int l = 0; l < ALI3_FOUR; l++) {
+    const ali3_element_size *of = S->el_size + e[l];
+    signal[l] = S->el_sig + S->el_sig_ptr[e[l]];
+    own[l] = in->parameters.el_real + of->real;
+    old[l] = call->y_old + of->state;
+    f[l] = in->element.force + S->el_sig_ptr[e[l]];
+    T[l] = in->element.S + S->el_S_off[e[l]];
+    y_new[l] = call->y_new + of->state;
+    out[l] = call->out + of->out;
+  }
+  for (int32_t i = 0; i < n; i++)
+    for (int l = 0; l < ALI3_FOUR; l++)
+      to->u[i][l] = in->element.u[signal[l][i]], to->ud[i][l] = in->element.ud[signal[l][i]];
+  put_side_by_side((double *)to->numbers, own, size->nreal);
+  put_side_by_side((double *)to->y_old, old, size->nstate);
+  memset(to->f, 0, (size_t)n * sizeof *to->f);
+  if (tangent) memset(to->S, 0, (size_t)(n * n) * sizeof *to->S);
+  memcpy(integer, S->el_int + size->integer, (size_t)size->nint * sizeof *integer);
+  ali3_lane_road road;
+  if (S->el_kind[e[0]]->depth != NULL) road = road_of(in, integer[0], numbers, &factor), integer[0] = 0;
+  ali3_element_args a = {.nsig = n,
+                         .nreal = size->nreal,
+                         .nint = size->nint,
+                         .nstate = size->nstate,
+                         .nout = size->nout,
+                         .u = to->u,
+                         .ud = to->ud,
+                         .y_old = to->y_old,
+                         .y_new = to->y_new,
+                         .h = call->h,
+                         .reach = ali3_same(call->reach),
+                         .wC = call->wC,
+                         .wK = call->wK,
+                         .real = to->numbers,
+                         .integer = integer,
+                         .roads = &road,
+                         .f = to->f,
+                         .S = tangent ? to->S : NULL,
+                         .out = to->out};
+  law_of(S->el_kind[e[0]])(&a);
+  take_apart(f, (const double *)to->f, n);
+  if (tangent) take_apart(T, (const double *)to->S, n * n);
+  take_apart(y_new, (const double *)to->y_new, size->nstate);
+  take_apart(out, (const double *)to->out, size->nout);
+  for (int l = 0; l < ALI3_FOUR; l++) call->potential[e[l]] = a.potential[l], in->element.idle[e[l]] = a.idle != 0;
+}
+
+/* Laws of lanes compute branches that are not chosen: what these raise is neither trapped nor left to the host. */
+void ali3_fours_forces(ali3_instance *in, const ali3_force_call *call) {
+  four_numbers numbers;
+  const unsigned before = _mm_getcsr();
+  _mm_setcsr(before | _MM_MASK_MASK);
+  for (int32_t k = 0; k < in->system->n_four; k++) evaluate(in, call, in->system->four + k * ALI3_FOUR, &numbers);
+  _mm_setcsr(before);
+}
+
+#if defined(__clang__)
+#pragma clang attribute pop
+#endif
+#else
+#include "element_fours.h"
+
+void ali3_fours_forces(ali3_instance *in, const ali3_force_call *call) { (void)in, (void)call; } /* there are none */
+#endif

@@ -1,0 +1,54 @@
+/* Which elements are evaluated four at a time. */
+#include <string.h>
+
+#include "element.h"
+#include "element_fours.h"
+#include "laws.h"
+#include "road.h"
+
+/* It has a law that goes in fours, and no more numbers than element_fours.c has room for. */
+static bool goes_in_fours(const ali3_system *s, int32_t e) {
+  const ali3_element_type *type = s->el_kind[e];
+  const ali3_element_size *z = s->el_size + e;
+  if (!s->has_avx2 || z->nreal > ALI3_FOUR_REALS || z->nstate > ALI3_FOUR_STATES || z->nout > ALI3_FOUR_OUTPUTS ||
+      z->nint > ALI3_FOUR_INTEGERS)
+    return false;
+#define ALI3_IS(name) || type == &ali3_##name
+  return false ALI3_LAWS_OF_SIGNALS(ALI3_IS);
+#undef ALI3_IS
+}
+
+/* The same law, numbers of everything and integers: what a law may ask for to choose what it computes. */
+static bool alike(const ali3_system *s, int32_t a, int32_t b) {
+  const ali3_element_size *x = s->el_size + a, *y = s->el_size + b;
+  return s->el_kind[a] == s->el_kind[b] && x->nsig == y->nsig && x->nreal == y->nreal && x->nint == y->nint &&
+         x->nstate == y->nstate && x->nout == y->nout && (s->el_front[a] >= 0) == (s->el_front[b] >= 0) &&
+         memcmp(s->el_int + x->integer, s->el_int + y->integer, (size_t)x->nint * sizeof(int32_t)) == 0;
+}
+
+void ali3_fours_derive(ali3_system *s) {
+  const int32_t ne = s->size.ne;
+  int32_t *four = s->four;
+  unsigned char *taken = s->el_in_four;
+  memset(taken, 0, (size_t)ne);
+  s->n_four = s->n_alone = 0;
+  for (int32_t e = 0; e < ne; e++) {
+    int32_t m = 0;
+    for (int32_t k = e; k < ne && m < ALI3_FOUR && !taken[e] && goes_in_fours(s, e); k++)
+      if (!taken[k] && alike(s, e, k)) four[m++] = k;
+    if (m < 2) {
+      if (!taken[e]) s->alone[s->n_alone++] = e;
+      continue;
+    }
+    for (int32_t l = 0; l < m; l++) taken[four[l]] = 1;
+    for (; m < ALI3_FOUR; m++) four[m] = e; /* once more, with the same result */
+    four += ALI3_FOUR;
+    s->n_four++;
+  }
+}
+
+const struct ali3_road *ali3_fours_road(const ali3_instance *in, int32_t number, int32_t *type, double *numbers,
+                                        double *friction_factor) {
+  *type = ali3_road_numbers(in->roads.used + number, numbers, friction_factor);
+  return in->roads.used + number;
+}

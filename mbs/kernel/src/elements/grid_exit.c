@@ -1,0 +1,70 @@
+/* Level rays from the point are followed to where the surface falls below it; the nearest such place is the foot, with
+ * the direction of the best ray refined. The distance is then continuous in the point and its gradient the normal of the
+ * face, so that what a face takes up it also gives back. It has a kink where two faces are equally far: there the normal
+ * jumps from one to the other, the distance does not. */
+#include "grid_exit.h"
+
+#include <math.h>
+
+#include "../algebra/elementary.h"
+
+/* MOST: places that are looked at on a ray. The distance is that of the tangent plane at the foot, so that what is left
+ * of a halving or of an angle is in it to second order only. */
+enum { RAYS = 16, MOST = 64, HALVINGS = 24, SECTIONS = 10 };
+
+static int is_out(const ali3_grid *g, ali3_cell *cell, const double point[3], const double way[2], double r) {
+  return ali3_grid_is_below(g, cell, point[0] + r * way[0], point[1] + r * way[1], point[2]);
+}
+
+/* Distance along a way to the first place out of the surface, `reach` where none is nearer. */
+static double crossing(const ali3_grid *g, ali3_cell *cell, const double point[3], const double way[2], double step,
+                       double reach) {
+  double in = 0.0, out = 0.0;
+  do {
+    in = out;
+    out += step;
+    if (!(in < reach)) return reach;
+  } while (!is_out(g, cell, point, way, out));
+  for (int i = 0; i < HALVINGS && in < reach; i++) {
+    const double middle = 0.5 * (in + out);
+    if (is_out(g, cell, point, way, middle))
+      out = middle;
+    else
+      in = middle;
+  }
+  return fmin(out, reach);
+}
+
+static double crossing_at(const ali3_grid *g, ali3_cell *cell, const double point[3], double angle, double step,
+                          double reach) {
+  const double way[2] = {ali3_cos(angle), ali3_sin(angle)};
+  return crossing(g, cell, point, way, step, reach);
+}
+
+int ali3_grid_exit(const ali3_grid *g, const double point[3], double reach, double foot[2]) {
+  const double step = fmax(0.5 * fmin(g->dx, g->dy), reach / MOST), between = 2.0 * 3.14159265358979323846 / RAYS;
+  double nearest = reach, best = 0.0;
+  ali3_cell cell = {0};
+  for (int k = 0; k < RAYS; k++) {
+    const double r = crossing_at(g, &cell, point, between * k, step, nearest);
+    if (r < nearest) nearest = r, best = between * k;
+  }
+  if (!(nearest < reach)) return 0;
+  const double golden = 0.61803398874989485;
+  double low = best - between, high = best + between, a = high - golden * (high - low), b = low + golden * (high - low);
+  double at_a = crossing_at(g, &cell, point, a, step, reach), at_b = crossing_at(g, &cell, point, b, step, reach);
+  for (int i = 0; i < SECTIONS; i++) {
+    if (at_a < at_b) {
+      high = b, b = a, at_b = at_a, a = high - golden * (high - low);
+      at_a = crossing_at(g, &cell, point, a, step, reach);
+    } else {
+      low = a, a = b, at_a = at_b, b = low + golden * (high - low);
+      at_b = crossing_at(g, &cell, point, b, step, reach);
+    }
+  }
+  const double r = fmin(at_a, at_b);
+  if (r < nearest) nearest = r, best = at_a < at_b ? a : b;
+  foot[0] = point[0] + nearest * ali3_cos(best);
+  foot[1] = point[1] + nearest * ali3_sin(best);
+  return 1;
+}

@@ -1,0 +1,12 @@
+/* Whether q and qd are all states of a System. */
+#include "state_coordinates.h"
+#include "../rows/guides.h"
+#include "../system.h"
+
+/* No element states and no filtered guides: what a stage inside a step needs is then known from q, qd and the time. */
+bool ali3_states_are_coordinates(const ali3_system *S) {
+  if (S->size.ny > 0) return false;
+  for (int32_t g = 0; g < S->size.ng; g++)
+    if (ali3_guide_filters(S->guide_type[g])) return false;
+  return true;
+}

@@ -1,0 +1,7 @@
+/* Whether q and qd are all states of a System. */
+#ifndef ALI3_STATE_COORDINATES_H
+#define ALI3_STATE_COORDINATES_H
+#include "../system.h"
+
+bool ali3_states_are_coordinates(const ali3_system *S);
+#endif

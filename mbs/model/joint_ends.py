@@ -1,0 +1,57 @@
+"""What joints, springs and drives take as their ends, and when two ends are on one body."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from numpy.typing import ArrayLike
+
+from mbs.common.checks import shown
+from mbs.common.errors import ModelError
+from mbs.model.body import Body
+from mbs.model.carried_parts import SlidingPoint
+
+FixedEnd: TypeAlias = "tuple[Body, ArrayLike] | Body"
+"""A point of a body, earth axes in the reference configuration, m; or a body for its centre of mass."""
+End: TypeAlias = "tuple[Body, ArrayLike] | Body | SlidingPoint"
+"""The same, or a point that a guide slides."""
+PointPair: TypeAlias = "ArrayLike | tuple[ArrayLike, ArrayLike]"
+"""A point, or one per body where the drawing does not close."""
+
+
+def body_and_point(
+    end: End | FixedEnd, what: str, wanted: str = "(body, point) or a point mass"
+) -> tuple[Body, ArrayLike]:
+    """The body and the place of an end that does not slide.
+
+    `end`: a body alone stands for its centre of mass. Result: not looked at yet: it may be of another model. Raises
+    `ModelError`: the end is something else.
+    """
+    if isinstance(end, Body):
+        return end, end.com
+    if isinstance(end, (tuple, list)) and len(end) == 2 and isinstance(end[0], Body):
+        return end[0], end[1]
+    raise ModelError(f"An end of {what} must be {wanted}; got {shown(end)}.")
+
+
+def on_one_body(body_1: Body, body_2: Body) -> bool:
+    """Whether two bodies are the same rigid body, or both the ground, so that nothing can move between them.
+
+    `body_1`, `body_2`: a body with ports is the body that has them; two nodes of a flexible body are two.
+    """
+    if body_1.model is not body_2.model:
+        return False
+    if body_1 is body_2 or (body_1.is_ground and body_2.is_ground):
+        return True
+    rigid = not (body_1.is_flexible or body_2.is_flexible or body_1.is_ground or body_2.is_ground)
+    return rigid and body_1.start == body_2.start
+
+
+def different(body_1: Body, body_2: Body, what: str) -> None:
+    """Refuse a joint or a force of a body with itself. Raises `ModelError`: they are the same body."""
+    for body in (body_1, body_2):
+        if not isinstance(body, Body):
+            raise ModelError(f"The {what} needs a body, got {shown(body)}.")
+    if on_one_body(body_1, body_2):
+        name = body_1.name if body_1 is body_2 else f"{body_1.name}' and '{body_2.name}"
+        raise ModelError(f"The {what} joins body '{name}' with itself; it needs two bodies.")

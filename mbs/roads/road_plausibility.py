@@ -1,0 +1,229 @@
+"""What was understood of a road: where it lies, how high and steep it is, and whether a drive begins on it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import lru_cache, partial
+from pathlib import Path
+
+import numpy as np
+from scipy.ndimage import distance_transform_edt
+
+from ali3.plausibility import Mistake, Plausibility, Value, far_values, plausibility_of, quantities_of
+from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
+from mbs.roads.read_road import read_road
+from mbs.roads.road_file import TEXTS, RoadFile
+
+MOST_LEVELS, FEWEST_LEVELS = 4096, 5
+MOST = 0.9
+"""Of all slopes: kerbs and steps are few."""
+ROUND = (1.0, 2.0, 2.5, 5.0)
+"""Steps of number types, times powers of 10."""
+MOST_POINTS = 4e6
+"""Of a file that is read for its summary; of more its place alone is looked at."""
+UNITS = {1e-3: "mm", 1e-2: "cm", 0.0254: "inches", 0.3048: "feet", 1e3: "km"}
+"""What is taken for m, by its length in m."""
+TITLE = "road"
+KEYS, HEIGHTS = frozenset({"origin", "spacing"}), frozenset({"heights"})
+QUANTITIES = quantities_of("road")
+Start = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a grid lies: first point and spacing, m, and numbers of points."""
+
+    origin: tuple[float, ...]
+    spacing: tuple[float, ...]
+    shape: tuple[int, ...]
+
+    @property
+    def extent(self) -> list[float]:
+        """Along x and y, m."""
+        return [h * (n - 1) for h, n in zip(self.spacing, self.shape, strict=True)]
+
+    @property
+    def keys(self) -> dict[str, list[float]]:
+        """What it follows from."""
+        return {"origin": list(self.origin), "spacing": list(self.spacing)}
+
+    def distance(self, point: Start) -> float:
+        """From a point to its rectangle, m; 0 within."""
+        ends = zip(point, self.origin, self.extent, strict=True)
+        return math.hypot(*(max(low - p, p - low - side, 0.0) for p, low, side in ends))
+
+    def scaled(self, factor: float) -> Place:
+        """It with coordinates that were in another unit. `factor`: its length, m."""
+        origin, spacing = (tuple(factor * v for v in pair) for pair in (self.origin, self.spacing))
+        return replace(self, origin=origin, spacing=spacing)
+
+
+def place_of(road: GridRoad) -> Place:
+    """Where a grid lies."""
+    origin, spacing = (tuple(map(float, pair)) for pair in (road.origin, road.spacing))
+    return Place(origin, spacing, np.shape(road.heights))
+
+
+def road_plausibility(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | None = None) -> Plausibility:
+    """What was understood of a road. `what`: the file; `start`: x and y where a drive begins, m."""
+    if not isinstance(road, GridRoad):
+        return Plausibility(what, _plain_values(road), title=TITLE)
+    place, z = place_of(road), np.asarray(road.heights, float)
+    mistakes, values = [], road_values(road, place, z, start)
+    usual = any(v.quantity is QUANTITIES["slope"] and v.mended() for v in values)
+    for factor, unit in UNITS.items():
+        words, scaled = f"{unit} in place of m in", place.scaled(factor)
+        for of, keys, at, higher in (
+            ("coordinates", KEYS, scaled, 1.0),
+            ("heights", HEIGHTS, place, factor),
+            ("coordinates and heights", KEYS | HEIGHTS, scaled, factor),
+        ):
+            if not (usual and keys is HEIGHTS):  # one place that is steep has another cause
+                mistakes.append(Mistake(f"{words} {of}", keys, partial(road_values, road, at, z, start, higher)))
+    if (none := far_values(z)).any():
+        filled = partial(road_values, road, place, filled_up(z, none), start)
+        mistakes.append(Mistake(f"{z[none][0]:g} in the place of no value in heights", HEIGHTS, filled))
+    parts = partial(road_values, road, place, z, start, rougher=0.01)
+    mistakes.append(Mistake("percent in place of a ratio in frictions", frozenset({"frictions"}), parts))
+    if start is not None:
+        mistakes += start_mistakes(place, start)
+    return Plausibility(what, values, mistakes, title=TITLE)
+
+
+def start_plausibility(what: str, place: Place, start: Start) -> Plausibility:
+    """Whether a drive begins on a grid. `place`: of the grid; `start`: x and y where it begins, m."""
+    mistakes, small = start_mistakes(place, start), place.scaled(1e-3)
+    if min(small.extent) > 1.0:
+        mistakes.insert(0, Mistake("mm in place of m in coordinates", KEYS, partial(_placed, small, start)))
+    return Plausibility(what, _placed(place, start), mistakes, title=TITLE)
+
+
+def _placed(place: Place, start: Start) -> list[Value]:
+    return [*_sides(place), *_away(place, start)]
+
+
+def start_mistakes(place: Place, start: Start) -> list[Mistake]:
+    """Common mistakes by which a grid is not where a drive begins."""
+    middle = [o + 0.5 * side for o, side in zip(place.origin, place.extent, strict=True)]
+    map_text = f"coordinates of a map or another origin, of which {middle[0]:.0f}, {middle[1]:.0f} is to be taken"
+    at_start = tuple(s - 0.5 * side for s, side in zip(start, place.extent, strict=True))
+    return [
+        Mistake(words, frozenset({"origin"}), partial(_away, replace(place, origin=origin), start))
+        for words, origin in (("x and y exchanged in the origin", place.origin[::-1]), (map_text, at_start))
+    ]
+
+
+def _away(place: Place, start: Start) -> list[Value]:
+    keys = place.keys | {"extent": place.extent, "start": list(start)}
+    return [Value(QUANTITIES["away"], place.distance(start), keys)]
+
+
+def _sides(place: Place) -> list[Value]:
+    sides = zip("xy", place.extent, strict=True)
+    return [Value(QUANTITIES["extent"], side, {"spacing": list(place.spacing)}, axis) for axis, side in sides]
+
+
+def road_values(
+    road: GridRoad, place: Place, z: np.ndarray, start: Start | None, higher: float = 1.0, rougher: float = 1.0
+) -> list[Value]:
+    """Values of all quantities of a grid.
+
+    `place`, `z`: where it lies, its heights, m; `higher`, `rougher`: factors of its heights and frictions.
+    """
+    z, frictions = higher * z, rougher * np.asarray(road.frictions, float)
+    spacing = {"spacing": list(place.spacing)}
+    step = height_step(z)
+    heights = {"heights": [float(z.min()), float(z.max())]}
+    rises = [np.abs(np.diff(z, axis=k)) for k in range(2)]
+    over = max(max(float(r.max()) - h for r, h in zip(rises, place.spacing, strict=True)), 0.0)
+    slope = max(float(np.quantile(r, MOST)) / h for r, h in zip(rises, place.spacing, strict=True))
+    return [
+        *_sides(place),
+        Value(QUANTITIES["heights"], float(np.ptp(z)), heights),
+        Value(QUANTITIES["spacing"], min(place.spacing), spacing, "least"),
+        Value(QUANTITIES["rise"], over, heights | spacing),
+        Value(QUANTITIES["step"], step, {"number type of heights": step}),
+        *([Value(QUANTITIES["slope"], slope, heights | spacing)] if slope else []),
+        *_frictions(float(frictions.min()), float(frictions.max()), road.friction_factor),
+        *([] if start is None else _away(place, start)),
+    ]
+
+
+def _plain_values(road: PlaneRoad | KerbRoad) -> list[Value]:
+    steep = math.hypot(road.grade_x, road.grade_y) if isinstance(road, PlaneRoad) else 0.0
+    step = road.step if isinstance(road, KerbRoad) else 0.0
+    return [
+        Value(QUANTITIES["rise"], step),
+        Value(QUANTITIES["slope"], steep),
+        *_frictions(road.friction, road.friction, road.friction_factor),
+    ]
+
+
+def _frictions(least: float, largest: float, factor: float) -> list[Value]:
+    keys = {"frictions": [least, largest], "friction_factor": factor}
+    return [Value(QUANTITIES["friction"], v * factor, keys, of) for of, v in (("least", least), ("largest", largest))]
+
+
+def height_step(z: np.ndarray) -> float:
+    """The step of which all heights are multiples, m; 0 where there is none that can be seen, as of a few levels."""
+    levels = np.unique(z)
+    if not FEWEST_LEVELS <= len(levels) <= MOST_LEVELS:
+        return 0.0
+    gaps = np.diff(levels)
+    steps = gaps / gaps.min()
+    # a few levels of a drawing have any differences; those of a coarse number type have neighbours everywhere
+    whole = bool(np.all(np.abs(steps - np.round(steps)) < 1e-3 * np.round(steps)))
+    step = float(gaps.min())
+    mantissa = np.round(step / 10.0 ** np.floor(np.log10(step * (1.0 + 1e-6))), 3)
+    return step if whole and float(np.median(steps)) < 1.5 and mantissa in ROUND else 0.0
+
+
+def filled_up(z: np.ndarray, none: np.ndarray) -> np.ndarray:
+    """Heights with those of the nearest others where there are none."""
+    nearest = distance_transform_edt(none, return_distances=False, return_indices=True)
+    return np.asarray(z[tuple(nearest)])
+
+
+@plausibility_of.register(PlaneRoad)
+@plausibility_of.register(KerbRoad)
+@plausibility_of.register(GridRoad)
+def _plausibility_of_road(road: PlaneRoad | KerbRoad | GridRoad) -> list[Plausibility]:
+    return [road_plausibility("", road)]
+
+
+@plausibility_of.register
+def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), most: float = MOST_POINTS) -> list[Plausibility]:
+    """What was understood of a road of a file, and whether a drive begins on it.
+
+    `start`: x and y, m; `most`: points; of a file with more its place alone is looked at.
+    """
+    made = read_road(road.path) if _is_text(road) else None
+    place = _place_of_header(road) if made is None else place_of(made) if isinstance(made, GridRoad) else None
+    if place is not None and math.prod(place.shape) > most:
+        return [start_plausibility(str(road.path), place, start)]
+    return [road_plausibility(str(road.path), road.read() if made is None else made, start)]
+
+
+def place_of_file(road: RoadFile) -> Place | None:
+    """Where the grid of a file lies; None of a plane or a kerb. A table is read once, until it is another."""
+    if not _is_text(road):
+        return _place_of_header(road)
+    file = Path(road.path).absolute()
+    return _place_of_table(file, file.stat().st_mtime_ns)
+
+
+def _is_text(road: RoadFile) -> bool:
+    return Path(road.path).suffix.lower() in TEXTS
+
+
+def _place_of_header(road: RoadFile) -> Place | None:
+    head = road.header
+    return Place(head.real[:2], head.real[2:4], (head.nx, head.ny)) if head.nx * head.ny else None
+
+
+@lru_cache(maxsize=8)
+def _place_of_table(file: Path, changed: int) -> Place | None:
+    """`changed`: when the file was."""
+    made = read_road(file)
+    return place_of(made) if isinstance(made, GridRoad) else None

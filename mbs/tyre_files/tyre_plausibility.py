@@ -1,0 +1,319 @@
+"""What was understood of a tyre: its steady forces in numbers that are known of tyres, and where they usually lie."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.plausibility import Mistake, Plausibility, Value, plausibility_of, quantities_of
+from mbs.elements.magic_tyre import MagicTyre
+from mbs.elements.tyre import Tyre
+from mbs.kernel.header.magic_coefficients import MAGIC_COEFFICIENTS
+from mbs.tyre_files.fits import carcass
+from mbs.tyre_files.magic_file import TyreFile
+from mbs.tyre_files.pure_curves import at_load, cornering_stiffness, magic_lateral, magic_longitudinal, tmeasy_force
+
+Array = NDArray[np.float64]
+AnyTyre: TypeAlias = "MagicTyre | Tyre"
+DEG = math.pi / 180.0
+FARTHEST = 0.6
+"""Slip, and slip angle, rad, up to which a peak is looked for."""
+BEYOND = 0.5
+"""Slip at which a curve is compared with its peak."""
+NEAR = 0.95
+"""Of a peak: some curves rise for ever and have none."""
+SLIPS = np.linspace(0.0, FARTHEST, 1201)
+
+QUANTITIES = quantities_of("tyre")
+OWN = {  # the coefficients that a value follows from first
+    "ky": ("PKY1", "PKY2", "LKY", "FNOMIN"),
+    "muy": ("PDY1", "PDY2", "PCY1", "LMUY", "FNOMIN"),
+    "peaky": ("PCY1", "PKY1", "PDY1", "PEY1"),
+    "zeroy": ("PHY1", "PVY1", "PKY1", "LKY"),
+    "lefty": ("PCY1", "PEY1"),
+    "kx": ("PKX1", "PKX3", "LKX", "FNOMIN"),
+    "mux": ("PDX1", "PDX2", "PCX1", "LMUX", "FNOMIN"),
+    "peakx": ("PCX1", "PKX1", "PDX1", "PEX1"),
+    "zerox": ("PHX1", "PVX1", "PKX1", "LKX"),
+    "leftx": ("PCX1", "PEX1"),
+    "ratio": ("PDY1", "PCY1", "LMUY", "PDX1", "PCX1", "LMUX"),
+    "trail": ("QDZ1", "LTR"),
+}
+SCALED = (  # keys, factor that undoes the mistake, words; of a factor before the coefficient it multiplies
+    *(((key,), 1.0 / DEG, "per degree in place of per radian in") for key in ("LKY", "PKY1")),
+    (("PKX1",), 100.0, "per percent in place of per slip in"),
+    (("PHY1",), DEG, "degrees in place of radians in"),
+    *((keys, DEG, "degrees in place of radians in") for keys in (("ALPMIN", "ALPMAX"), ("CAMMIN", "CAMMAX"))),
+    *((keys, 0.01, "percent in place of a ratio in") for keys in (("KPUMIN", "KPUMAX"), ("PHX1",), ("ASPECT_RATIO",))),
+    *(((key,), -1.0, "the sign of") for key in ("PVY1", "PEY1", "PEX1", "PCY1", "PCX1", "PKY1", "QDZ1")),
+    *(((key,), 0.01, "percent in place of a ratio in") for key in ("PDY1", "PDX1", "LMUY", "LMUX", "LFZO")),
+    (("LONGVL",), 1.0 / 3.6, "km/h in place of m/s in"),
+    (("RIM_RADIUS",), 0.5, "the diameter in place of the radius in"),
+)
+RANGES = {
+    "slip_range": ("KPUMIN", "KPUMAX"),
+    "angle_range": ("ALPMIN", "ALPMAX"),
+    "camber_range": ("CAMMIN", "CAMMAX"),
+}
+FACTORS = [key for key, usual in MAGIC_COEFFICIENTS.items() if key[0] == "L" and usual == 1.0]
+LEANING = 5.0 * DEG
+"""Camber at which the friction is compared with that of an upright wheel."""
+RELATIONS: tuple[tuple[str, tuple[str, ...], str, Callable[..., float]], ...] = (  # quantity, keys, of, how it follows
+    (
+        "section",
+        ("RIM_RADIUS", "WIDTH", "ASPECT_RATIO", "UNLOADED_RADIUS"),
+        "",
+        lambda rim, width, aspect, free: (rim + width * aspect) / free,
+    ),
+    ("seat", ("RIM_WIDTH", "WIDTH"), "", lambda rim, width: rim / width),
+    ("least", ("FZMIN", "FNOMIN"), "", lambda least, nominal: least / nominal),
+    ("inflation", ("INFLPRES",), "", lambda pressure: 1e-3 * pressure),
+    ("inflation", ("NOMPRES",), "nominal", lambda pressure: 1e-3 * pressure),
+    ("inflated", ("INFLPRES", "NOMPRES"), "", lambda pressure, nominal: pressure / nominal),
+    ("measured", ("LONGVL",), "", lambda speed: speed),
+    *(
+        row
+        for axis, of in (("X", "longitudinal"), ("Y", "lateral"))
+        for row in (
+            ("shape", (f"PC{axis}1", f"LC{axis}"), of, lambda shape, factor: shape * factor),
+            ("curvature", (f"PE{axis}1", f"LE{axis}"), of, lambda bend, factor: bend * factor),
+            ("leaning", (f"PD{axis}3",), of, lambda falls: 1.0 - falls * LEANING**2),
+        )
+    ),
+)
+FORCES = ((9.80665, "kilograms"), (4.4482216, "pounds"))
+VERTICAL = {  # fields of a tyre that have no curve, with the keys of the file and that of [UNITS]
+    "nominal_load": "FNOMIN",
+    "stiffness": "VERTICAL_STIFFNESS",
+    "damping": "VERTICAL_DAMPING",
+    "radius": "UNLOADED_RADIUS",
+    "bottoming_radius": "RIM_RADIUS",
+    "largest_load": "FZMAX",
+}
+PART = {1.0: "", 0.5: "at half the nominal load"}
+"""Loads at which curves are looked at, over the nominal one."""
+
+
+@dataclass(frozen=True)
+class _Curve:
+    slope: float
+    """Over the load, 1/rad or 1."""
+    force: Array
+    """Over the load, at `SLIPS`, without shifts."""
+    at_zero: float
+    """Over the load, with shifts."""
+
+
+def magic_plausibility(
+    what: str, tyre: MagicTyre, numbers: Mapping[str, float], kind: str = "", prefix: str = ""
+) -> Plausibility:
+    """What was understood of a Magic Formula tyre.
+
+    `what`: the file; `numbers`: of the file, SI units; `kind`: of the vehicle, else the widest range; `prefix`: of its
+    keys, for those of a car.
+    """
+    tyre = replace(tyre, largest_load=numbers.get("FZMAX") or tyre.largest_load)
+    values = partial(_magic_values, prefix=prefix, numbers=numbers)
+    given, mistakes = {**numbers, **tyre.coefficients}, []
+    for keys, factor, words in SCALED:
+        changed = {key: factor * given[key] for key in keys if given.get(key)}
+        if not changed or all(key[0] == "L" and given[key] == 1.0 for key in changed):
+            continue
+        own = {key: v for key, v in changed.items() if key in tyre.coefficients}
+        ends: dict[str, Any] = {
+            f: (changed[a], changed[b]) for f, (a, b) in RANGES.items() if a in changed and b in changed
+        }
+        undone = replace(tyre, coefficients={**tyre.coefficients, **own}, **ends)
+        undo = partial(values, undone, numbers={**numbers, **changed})
+        mistakes.append(Mistake(f"{words} {' and '.join(keys)}", frozenset(prefix + key for key in keys), undo))
+    return Plausibility(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
+
+
+def tmeasy_plausibility(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Plausibility:
+    """The same of a TMeasy tyre."""
+    mistakes = []
+    for name, per in (("lateral", "degree"), ("longitudinal", "percent")):
+        factor = DEG if per == "degree" else 0.01
+        for fields, way, words in (
+            (("slope",), 1.0 / factor, f"per {per} in place of per slip in {prefix}{name}.slope"),
+            (("max_slip", "slide_slip"), factor, f"{per}s in place of a ratio in {prefix}{name}.max_slip"),
+        ):
+            curve = getattr(tyre, name)
+            changed = replace(curve, **{f: tuple(way * v for v in getattr(curve, f)) for f in fields})
+            keys = frozenset(f"{prefix}{name}.{f}" for f in fields)
+            mistakes.append(Mistake(words, keys, partial(_tmeasy_values, replace(tyre, **{name: changed}), prefix)))
+    values = partial(_tmeasy_values, prefix=prefix)
+    return Plausibility(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
+
+
+def cornering(tyre: MagicTyre | Tyre, load: float) -> float:
+    """Cornering stiffness without camber at a load, N/rad. `load`: in N."""
+    if isinstance(tyre, MagicTyre):
+        return cornering_stiffness(tyre.coefficients, tyre.nominal_load, load) * tyre.lky
+    return at_load(tyre.lateral.slope, load / tyre.nominal_load)
+
+
+def _vertical_names(tyre: AnyTyre, prefix: str) -> dict[str, str]:
+    """Keys of the fields of `VERTICAL`."""
+    return {f: prefix + (key if isinstance(tyre, MagicTyre) else f) for f, key in VERTICAL.items()}
+
+
+def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[Value]]) -> list[Mistake]:
+    """Of radii, loads and stiffness. `values`: of a tyre."""
+    names = _vertical_names(tyre, prefix)
+    found = [
+        (f"{unit} in place of newtons in {names[field]}", {field: factor})
+        for field in ("nominal_load", "stiffness", "largest_load")
+        for factor, unit in FORCES
+        if hasattr(tyre, field)
+    ]
+    found.append((f"the diameter in place of the radius in {names['radius']}", {"radius": 0.5}))
+    found.append((f"the load of an axle in place of that of a wheel in {names['nominal_load']}", {"nominal_load": 0.5}))
+    forces = [f for f in ("nominal_load", "stiffness", "damping", "largest_load") if hasattr(tyre, f)]
+    found += [
+        (f"numbers in newtons called {unit} in the unit of force", dict.fromkeys(forces, 1.0 / factor))
+        for factor, unit in FORCES
+        if isinstance(tyre, MagicTyre)
+    ]
+    return [
+        Mistake(
+            words,
+            frozenset(names[f] for f in change),
+            partial(values, replace(tyre, **{f: factor * getattr(tyre, f) for f, factor in change.items()})),
+        )
+        for words, change in found
+    ]
+
+
+def _magic_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -> list[Value]:
+    nominal = tyre.nominal_load
+    c = {**MAGIC_COEFFICIENTS, **tyre.coefficients}
+    given = {**c, "FNOMIN": nominal}
+    keys = {name: {prefix + k: given[k] for k in own if k in given} for name, own in OWN.items()}
+    curves = {part: (_lateral(tyre, part), _longitudinal(tyre, part)) for part in PART}
+    found = [*_of_curves(curves, keys), Value(QUANTITIES["trail"], c["QDZ1"] * c["LTR"], keys["trail"])]
+    slips = tyre.along[0], cornering(tyre, nominal)
+    lengths = ("PTX1", "LONGITUDINAL_STIFFNESS"), ("PTY1", "LATERAL_STIFFNESS")
+    for of, slip, across, own in zip(("longitudinal", "lateral"), slips, carcass(tyre, c), lengths, strict=True):
+        if any(c[k] for k in own):
+            told = {prefix + k: c[k] for k in own if c[k]}
+            found.append(Value(QUANTITIES["relaxation"], slip / across / tyre.radius, told, of))
+    return [*found, *_vertical(tyre, prefix), *_of_numbers(tyre, prefix, numbers)]
+
+
+def _of_numbers(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -> Iterator[Value]:
+    """Values of single numbers of the file, and of those that belong together."""
+    n = {**MAGIC_COEFFICIENTS, **numbers, **tyre.coefficients, "FNOMIN": tyre.nominal_load}
+    n |= {"UNLOADED_RADIUS": tyre.radius}
+    for name, keys, of, formula in RELATIONS:
+        given = [n.get(key, 0.0) for key in keys]
+        if all(given):
+            yield Value(QUANTITIES[name], formula(*given), {prefix + key: n[key] for key in keys}, of)
+    for key, value in tyre.coefficients.items():
+        if key in FACTORS and value:
+            yield Value(QUANTITIES["factor"], value, {prefix + key: value}, key)
+    for name, ends in RANGES.items():
+        told = {prefix + key: numbers[key] for key in ends if key in numbers}
+        yield Value(QUANTITIES[name], max(map(abs, getattr(tyre, name))) / (1.0 if ends[0] == "KPUMIN" else DEG), told)
+
+
+def _lateral(tyre: MagicTyre, part: float) -> _Curve:
+    c, nominal = {**MAGIC_COEFFICIENTS, **tyre.coefficients}, tyre.nominal_load
+    load = part * nominal
+    dfz = load / (nominal * c["LFZO"]) - 1.0
+    horizontal = (c["PHY1"] + c["PHY2"] * dfz) * c["LHY"]
+    vertical = (c["PVY1"] + c["PVY2"] * dfz) * c["LVY"] * c["LMUY"]
+    at_zero = magic_lateral(c, nominal, load, abs(horizontal)).item() / load * math.copysign(1.0, horizontal)
+    slope = cornering_stiffness(c, nominal, load) / load
+    # with 'adapted_sae' the slip angle has the other sign
+    return _Curve(
+        slope, magic_lateral(c, nominal, load, SLIPS) / load, at_zero + vertical * math.copysign(1.0, c["PKY1"])
+    )
+
+
+def _longitudinal(tyre: MagicTyre, part: float) -> _Curve:
+    c, nominal = {**MAGIC_COEFFICIENTS, **tyre.coefficients}, tyre.nominal_load
+    load = part * nominal
+    dfz = load / (nominal * c["LFZO"]) - 1.0
+    force = magic_longitudinal(c, nominal, load, np.array([1e-6, (c["PHX1"] + c["PHX2"] * dfz) * c["LHX"]])) / load
+    vertical = (c["PVX1"] + c["PVX2"] * dfz) * c["LVX"] * c["LMUX"]
+    return _Curve(force[0] / 1e-6, magic_longitudinal(c, nominal, load, SLIPS) / load, float(force[1]) + vertical)
+
+
+def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
+    nominal = tyre.nominal_load
+    curves = {}
+    for part in PART:
+        made = []
+        for curve in (tyre.lateral, tyre.longitudinal):
+            slope, most, slides = (at_load(getattr(curve, f), part) for f in ("slope", "max_force", "slide_force"))
+            at, end = (v[0] + (part - 1.0) * (v[1] - v[0]) for v in (curve.max_slip, curve.slide_slip))
+            # the lateral slip is the tangent of the angle
+            slips = np.tan(SLIPS) if curve is tyre.lateral else SLIPS
+            made.append(
+                _Curve(
+                    slope / (part * nominal), tmeasy_force(slope, most, at, slides, end, slips) / (part * nominal), 0.0
+                )
+            )
+        curves[part] = (made[0], made[1])
+    keys: dict[str, dict[str, Any]] = {}
+    for axis, name in (("y", "lateral"), ("x", "longitudinal")):
+        curve = getattr(tyre, name)
+        own: dict[str, Any] = {
+            f"{prefix}{name}.{f}": list(getattr(curve, f))
+            for f in ("slope", "max_force", "max_slip", "slide_force", "slide_slip")
+        }
+        own[f"{prefix}nominal_load"] = nominal
+        for q, used in (("k", "slope"), ("mu", "max_force"), ("peak", "max_slip"), ("zero", ""), ("left", "slide")):
+            keys[q + axis] = {
+                k: v for k, v in own.items() if (used and used in k) or (q in ("k", "mu") and "nominal" in k)
+            }
+    keys["ratio"] = keys["muy"] | keys["mux"]
+    return [*_of_curves(curves, keys), *_vertical(tyre, prefix)]
+
+
+def _of_curves(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str, Mapping[str, Any]]) -> list[Value]:
+    found = []
+    for part, pair in curves.items():
+        peaks: list[float] = []
+        for axis, curve in zip("yx", pair, strict=True):
+            to_deg, peak = 1.0 / DEG if axis == "y" else 1.0, float(np.max(curve.force))
+            peaks.append(peak)
+            k, last = int(np.argmax(curve.force >= NEAR * peak)), float(np.interp(BEYOND, SLIPS, curve.force))
+            values = {
+                "k": curve.slope / to_deg,
+                "mu": peak,
+                "peak": float(SLIPS[k]) * to_deg,
+                "zero": abs(curve.at_zero),
+                "left": last / peak if peak > 0.0 else math.nan,
+            }
+            for name, value in values.items():
+                quantity = QUANTITIES[name + axis]
+                found.append(Value(quantity, value, keys[name + axis], PART[part]))
+        ratio = peaks[0] / peaks[1] if peaks[1] > 0.0 else math.inf
+        found.append(Value(QUANTITIES["ratio"], ratio, keys["ratio"], PART[part]))
+    return found
+
+
+def _vertical(tyre: AnyTyre, prefix: str) -> Iterator[Value]:
+    """Values of radii, loads and stiffness."""
+    load, radius, names = tyre.nominal_load, tyre.radius, _vertical_names(tyre, prefix)
+    for name, value, fields in (
+        ("deflection", load / tyre.stiffness / radius, ("nominal_load", "stiffness", "radius")),
+        ("carries", 1e-3 * load / radius**3, ("nominal_load", "radius")),
+        ("rim", tyre.bottoming_radius / radius, ("bottoming_radius", "radius")),
+        ("damping", tyre.damping / tyre.stiffness, ("damping", "stiffness")),
+        ("room", getattr(tyre, "largest_load", 2.0 * load) / load, ("largest_load", "nominal_load")),
+    ):
+        if all(hasattr(tyre, f) for f in fields):
+            yield Value(QUANTITIES[name], value, {names[f]: getattr(tyre, f) for f in fields})
+
+
+@plausibility_of.register
+def _file_plausibility(file: TyreFile) -> list[Plausibility]:
+    signs = "adapted_sae" if file.values["coefficients"]["PKY1"] > 0.0 else "iso"
+    return [magic_plausibility(file.name, file.tyre(signs=signs), file.numbers)]

@@ -1,0 +1,80 @@
+"""Mass properties of a link as its URDF file gives them, with factors that undo mistakes of units."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mbs.urdf.source import INERTIA, Element
+
+THIN = 0.01
+"""Lower bound of the ratio of the second moments of mass: a plate has a thickness."""
+SOLID = 1000.0  # kg/m3
+
+
+class Factors(NamedTuple):
+    """Factors on groups of numbers of the file, by which a mistake is undone."""
+
+    lengths: float = 1.0
+    masses: float = 1.0
+    inertias: float = 1.0
+    limits: float = 1.0
+    angles: float = 1.0
+    centres: float = 1.0
+    """On origins of inertias alone."""
+    efforts: float = 1.0
+    speeds: float = 1.0
+    solid: bool = False
+    """Moments of a ball of density `SOLID` in place of 1, 0.1, ... kg m2 about all axes, which are placeholders."""
+    only: str = ""
+    """The only link that is affected; empty: all."""
+
+    def of(self, name: str) -> Factors:
+        """The factors for one link."""
+        return self if self.only in ("", name) else Factors()
+
+
+class LinkMass(NamedTuple):
+    """Mass properties of a link."""
+
+    mass: float
+    centre: NDArray[np.float64]
+    """In the frame of the link, m."""
+    inertia: NDArray[np.float64]
+    """Shape (3, 3), kg m2."""
+    line: int
+
+    @property
+    def moment(self) -> float:
+        """The largest principal one, kg m2."""
+        return float(np.linalg.eigvalsh(self.inertia)[-1])
+
+    @property
+    def density(self) -> float:
+        """That of the ellipsoid with this mass and inertia, kg/m3; 0 without inertia."""
+        seconds = 0.5 * np.trace(self.inertia) - np.linalg.eigvalsh(self.inertia)
+        if not max(seconds) > 0.0:
+            return 0.0
+        axes = np.sqrt(5.0 * np.maximum(seconds, THIN * max(seconds)) / self.mass)
+        return float(self.mass / (4.0 / 3.0 * math.pi * np.prod(axes)))
+
+
+def link_mass(link: Element, given: Factors) -> LinkMass:
+    """Of a link, with the factors applied; without `inertial` all are zero."""
+    inertial = link.first("inertial")
+    if inertial is None:
+        return LinkMass(0.0, np.zeros(3), np.zeros((3, 3)), link.line)
+    mass, origin, inertia = (inertial.first(tag) for tag in ("mass", "origin", "inertia"))
+    centre = np.zeros(3) if origin is None else given.lengths * given.centres * np.array(origin.numbers("xyz"))
+    heavy = 0.0 if mass is None else given.masses * mass.numbers("value")[0]
+    upper = np.zeros((3, 3))
+    if inertia is not None:
+        upper[np.triu_indices(3)] = [given.inertias * inertia.numbers(name)[0] for name in INERTIA]
+    tensor = upper + np.triu(upper, 1).T
+    least = tensor[0, 0]
+    if given.solid and least > 0.0 and abs(math.log10(least) % 1.0) < 1e-9 and np.all(tensor == least * np.eye(3)):
+        tensor = 0.4 * heavy * (heavy / (4.0 / 3.0 * math.pi * SOLID)) ** (2.0 / 3.0) * np.eye(3)
+    return LinkMass(heavy, centre, tensor, inertial.line)

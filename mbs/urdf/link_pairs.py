@@ -1,0 +1,57 @@
+"""Links of a left and a right side: their masses over each other, and their places as mirror images."""
+
+import re
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.plausibility import Value, quantities_of
+from mbs.urdf.link_mass import Factors, LinkMass
+
+FEW = 3
+"""Smallest number of pairs by which a drawing is seen to be symmetric."""
+SMALLEST = 1e-4  # m
+SAME = 0.01
+"""Share of the size: largest distance of a link from the mirror image of its counterpart in a symmetric drawing."""
+SIDE = re.compile(r"(left|Left|LEFT)|(?<![A-Za-z])([FHBRfhbr]?)([Ll])(?=(?:[FHBfhb]|leg|arm|LEG|ARM)?(?![A-Za-z]))")
+OTHER = {"left": "right", "Left": "Right", "LEFT": "RIGHT", "L": "R", "l": "r"}
+QUANTITIES = quantities_of("robot")
+
+
+def pair_values(
+    parts: Mapping[str, LinkMass], poses: Mapping[str, NDArray[np.float64]], scale: float, given: Factors
+) -> list[Value]:
+    """Links of a left and a right side, one over the other, and how far their centres are from each other's image."""
+    pairs = [(a, b) for a in parts if (b := other_side(a)) != a and b in parts]
+    found = []
+    for a, b in pairs:
+        left, right = parts[a], parts[b]
+        of = f"links '{a}' and '{b}',"
+        keys = {f"mass of '{n}' in line {parts[n].line}": parts[n].mass for n in (a, b)}
+        found.append(Value(QUANTITIES["sides"], _ratio(left.mass, right.mass), keys, of))
+        keys = {f"inertia of '{n}' in line {parts[n].line}": parts[n].moment for n in (a, b)}
+        found.append(Value(QUANTITIES["moments"], _ratio(left.moment, right.moment), keys, of))
+    if len(pairs) < FEW or scale <= SMALLEST:
+        return found
+    centres = {n: given.lengths * poses[n][:3, 3] + poses[n][:3, :3] @ parts[n].centre for pair in pairs for n in pair}
+    sums = np.array([centres[a] + centres[b] for a, b in pairs])
+    gaps = np.array([centres[a] - centres[b] for a, b in pairs])
+    off = np.stack([np.where(np.eye(3)[k] > 0.0, sums - np.median(sums, axis=0), gaps) for k in range(3)])
+    far = np.linalg.norm(off, axis=2) / scale
+    plane = far[int(np.argmin(np.median(far, axis=1)))]
+    if np.quantile(plane, 0.4) < SAME:  # drawn as each other's image
+        for (a, b), value in zip(pairs, plane, strict=True):
+            keys = {f"place of '{n}' in line {parts[n].line}": centres[n].tolist() for n in (a, b)}
+            found.append(Value(QUANTITIES["image"], float(value), keys, f"links '{a}' and '{b}',"))
+    return found
+
+
+def other_side(name: str) -> str:
+    """The name with right in place of left."""
+    return SIDE.sub(lambda m: f"{m[2] or ''}{OTHER[m[1] or m[3]]}", name, count=1)
+
+
+def _ratio(a: float, b: float) -> float:
+    """The larger over the smaller."""
+    return max(a, b) / min(a, b)

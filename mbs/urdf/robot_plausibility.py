@@ -1,0 +1,198 @@
+"""Plausibility of a robot's file: masses, sizes, inertias and ranges of joints."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Container, Iterator, Mapping
+from functools import partial
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.plausibility import Mistake, Plausibility, Value, quantities_of
+from mbs.urdf.link_mass import Factors, LinkMass, link_mass
+from mbs.urdf.link_pairs import pair_values
+from mbs.urdf.source import Element
+
+SMALLEST = 1e-4  # m
+GRAVITY = 9.81  # m/s2
+DEG = math.pi / 180.0
+
+NO_LIMIT = 1e4  # rad, m: a larger limit stands for none
+LEAST_SHARE = 0.02
+"""Share of the mass: lighter links are often frames with a placeholder mass,
+unless they have more than `LARGE_SHARE` of the moments of inertia."""
+LARGE_SHARE = 0.1
+FEW = 3
+"""Largest number of links to which a mistake may be confined."""
+LENGTHS = {"mm": 1e-3, "cm": 1e-2, "inches": 0.0254}
+MOMENTS = {"kg mm2": 1e-6, "g mm2": 1e-9, "g cm2": 1e-7, "kg cm2": 1e-4, "lb in2": 2.9264e-4}
+MASSES = {"grams": 1e-3, "tonnes": 1e3, "pounds": 0.45359237}
+QUANTITIES = quantities_of("robot")
+Pose: TypeAlias = NDArray[np.float64]
+
+
+UNDONE = (  # words, beginnings of keys, what undoes it
+    ("degrees in place of radians in the limits", ("limit",), Factors(limits=DEG)),
+    ("degrees in place of radians in rpy", ("rpy",), Factors(angles=DEG)),
+    ("degrees per second in place of rad/s in velocities", ("velocity",), Factors(speeds=DEG)),
+    ("1/min in place of rad/s in velocities", ("velocity",), Factors(speeds=math.pi / 30.0)),
+    ("N mm in place of N m in efforts", ("effort",), Factors(efforts=1e-3)),
+    ("kN m in place of N m in efforts", ("effort",), Factors(efforts=1e3)),
+    *((f"{unit} in place of kilograms in masses", ("mass",), Factors(masses=size)) for unit, size in MASSES.items()),
+    *((f"{unit} in place of m in all lengths", ("xyz",), Factors(lengths=size)) for unit, size in LENGTHS.items()),
+    *(
+        (f"{unit} in place of m in centres of mass", ("centre",), Factors(centres=size))
+        for unit, size in LENGTHS.items()
+    ),
+    ("moments of 1, 0.1, ... kg m2 in place of those of the parts", ("inertia",), Factors(solid=True)),
+    *((f"inertias in {unit} in place of kg m2", ("inertia",), Factors(inertias=of)) for unit, of in MOMENTS.items()),
+    ("grams in masses and g mm2 in inertias", ("mass", "inertia"), Factors(masses=1e-3, inertias=1e-9)),
+    ("mm in lengths and kg mm2 in inertias", ("xyz", "inertia"), Factors(lengths=1e-3, inertias=1e-6)),
+)
+ALONE = ("mass", "inertia", "centre")
+"""Quantities that may be wrong in a few links alone."""
+EVERYWHERE = (Factors(masses=MASSES["pounds"]),)
+"""Factors smaller than the scatter between links, which only show in all links together."""
+
+
+def robot_plausibility(
+    what: str,
+    root: Element,
+    poses: Mapping[str, NDArray[np.float64]],
+    at: Mapping[str, float],
+    turning: Container[str],
+) -> Plausibility:
+    """The quantities of a robot and the mistakes that would explain unusual ones.
+
+    `what`: the file; `root`: its elements; `poses`: of the frames of links, shape (4, 4), m; `at`: values of joints;
+    `turning`: links whose inertia has an effect.
+    """
+    values = partial(_values, root, poses, at, turning)
+    found = values(Factors())
+    keys = {key for v in found if not v.inside() for key in v.keys}
+    mistakes = []
+    for words, names, given in UNDONE:
+        own = {key for key in keys if key.split(" of ")[0] in names and (given not in EVERYWHERE or "'" not in key)}
+        single = {match[1] for key in own if (match := re.search("'(.*)'", key))}
+        few = names[0] in ALONE and 0 < len(single) <= min(FEW, len(poses) // 2)
+        if not few or len(single) > 1:
+            mistakes.append(Mistake(words, frozenset(own), partial(values, given), guessed=few))
+        for name in sorted(single) if few else ():
+            alone = frozenset(key for key in own if f"'{name}'" in key)
+            mistakes.append(Mistake(f"{words} of '{name}'", alone, partial(values, given._replace(only=name))))
+    return Plausibility(what, found, mistakes)
+
+
+@np.errstate(divide="ignore")  # of an inertia so small that its ellipsoid has no volume
+def _values(
+    root: Element, poses: Mapping[str, Pose], at: Mapping[str, float], turning: Container[str], given: Factors
+) -> list[Value]:
+    frames = np.array([pose[:3, 3] for pose in poses.values()]) * given.lengths
+    links = {link.attributes.get("name", ""): link for link in root.all("link")}
+    parts = {name: part for name, link in links.items() if (part := link_mass(link, given.of(name))).mass > 0.0}
+    total, far = sum(p.mass for p in parts.values()), [float(np.linalg.norm(p.centre)) for p in parts.values()]
+    scale = max(_spread(frames), float(np.median(far or [0.0])))
+    size = max(scale, 2.0 * max(far, default=0.0))
+    if not total > 0.0:
+        return list(_joints(root, at, given))
+    masses: dict[str, Any] = {"mass of links": total}
+    found = [Value(QUANTITIES["mass"], total, masses)]
+    if size > SMALLEST:
+        lengths = {"xyz of origins": scale, "centre of links": max(far)}
+        found.append(Value(QUANTITIES["size"], size, lengths))
+        found.append(Value(QUANTITIES["dense"], total / size**3, masses | lengths))
+    if len(parts) > 1:
+        name = max(parts, key=lambda n: parts[n].mass)
+        heaviest, others = parts[name].mass, sum(p.mass for n, p in parts.items() if n != name)
+        found.append(Value(QUANTITIES["heaviest"], heaviest / others, {f"mass of '{name}'": heaviest}))
+    least, most = LEAST_SHARE * total, LARGE_SHARE * sum(p.moment for p in parts.values())
+    own = {n: p for n, p in parts.items() if (p.mass >= least or p.moment >= most) and p.density > 0.0}
+    found += _densities({n: p for n, p in own.items() if n in turning}, masses)
+    found += _reaches(root, own, given) + pair_values(own, poses, scale, given)
+    efforts = {
+        (joint.attributes.get("name", ""), limit.line): given.efforts * limit.numbers("effort")[0]
+        for joint in root.all("joint")
+        if (limit := joint.first("limit")) is not None and joint.attributes.get("type") == "revolute"
+        if _known(limit.numbers("effort")[0])
+    }
+    if efforts and scale > SMALLEST and all(v.inside() for v in found[:3]) and max(efforts.values()) > 0.0:
+        name, line = max(efforts, key=efforts.__getitem__)
+        most = efforts[name, line]
+        keys = {f"effort of '{name}' in line {line}": most}
+        found.append(Value(QUANTITIES["effort"], most / (GRAVITY * total * scale), keys))
+    return [*found, *_joints(root, at, given)]
+
+
+def _known(limit: float) -> bool:
+    """Whether a limit is meaningful: 100, 1000, ... are placeholders."""
+    return limit < 100.0 or abs(math.log10(limit) % 1.0) > SMALLEST
+
+
+def _densities(parts: Mapping[str, LinkMass], masses: Mapping[str, Any]) -> list[Value]:
+    found = []
+    for name, p in parts.items():
+        keys = {f"inertia of '{name}' in line {p.line}": p.moment, f"mass of '{name}'": p.mass}
+        found.append(Value(QUANTITIES["density"], p.density, keys, f"link '{name}',"))
+    if len(found) > 1 and all(v.inside() for v in found):  # else those outside are reported
+        keys = {"inertia of links": max(p.moment for p in parts.values()), **masses}
+        found.append(Value(QUANTITIES["densities"], float(np.median([v.value for v in found])), keys))
+    return found
+
+
+def _reaches(root: Element, parts: Mapping[str, LinkMass], given: Factors) -> list[Value]:
+    """Centres of mass and the places of joints, over what is beside them."""
+    ends: dict[str, list[float]] = {}
+    offsets = {}
+    for joint in root.all("joint"):
+        origin, beside = joint.first("origin"), [joint.first(end) for end in ("parent", "child")]
+        if origin is not None:
+            far = given.lengths * float(np.linalg.norm(origin.numbers("xyz")))
+            for link in filter(None, beside):
+                ends.setdefault(link.attributes.get("link", ""), []).append(far)
+            offsets[f"xyz of '{joint.attributes.get('name', '')}' in line {origin.line}"] = far
+    found = []
+    for name, p in parts.items():
+        reach = max(ends.get(name, []), default=0.0) + math.sqrt(p.moment / p.mass)
+        keys: dict[str, Any] = {f"centre of '{name}' in line {p.line}": p.centre.tolist()}
+        keys[f"inertia of '{name}' in line {p.line}"] = p.moment
+        found.append(Value(QUANTITIES["centre"], float(np.linalg.norm(p.centre)) / reach, keys, f"link '{name}',"))
+    if len(offsets) > FEW and (others := sum(offsets.values()) - max(offsets.values())) > SMALLEST:
+        key = max(offsets, key=offsets.__getitem__)
+        found.append(Value(QUANTITIES["longest"], offsets[key] / others, {key: offsets[key]}))
+    return found
+
+
+def _joints(root: Element, at: Mapping[str, float], given: Factors) -> Iterator[Value]:
+    for joint in root.all("joint"):
+        name, kind = joint.attributes.get("name", ""), joint.attributes.get("type", "")
+        of, limit, origin = f"joint '{name}',", joint.first("limit"), joint.first("origin")
+        if origin is not None:
+            rpy = [given.angles * v for v in origin.numbers("rpy")]
+            key = {f"rpy of '{name}' in line {origin.line}": rpy}
+            yield Value(QUANTITIES["angle"], max(map(abs, rpy)), key, of)
+        if limit is None or kind not in ("revolute", "prismatic"):
+            continue
+        speed = limit.numbers("velocity")[0]
+        if kind == "revolute" and speed > 0.0 and _known(speed):
+            key = {f"velocity of '{name}' in line {limit.line}": [speed]}
+            yield Value(QUANTITIES["speed"], given.speeds * speed, key, of)
+        scale = given.limits if kind == "revolute" else given.lengths
+        low, high = (scale * limit.numbers(end)[0] for end in ("lower", "upper"))
+        if low == high == 0.0 or high - low > NO_LIMIT:
+            continue
+        keys: dict[str, Any] = {
+            f"{'limit' if kind == 'revolute' else 'xyz'} of '{name}' in line {limit.line}": [low, high]
+        }
+        yield Value(QUANTITIES["range" if kind == "revolute" else "slide"], high - low, keys, of)
+        value = at.get(name, 0.0)
+        if high > low:
+            beyond = max(low - value, value - high, 0.0) / (high - low)
+            yield Value(QUANTITIES["start"], beyond, keys | {"start": value}, of)
+
+
+def _spread(points: NDArray[np.float64]) -> float:
+    """Diagonal of the box of points, m."""
+    return float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0

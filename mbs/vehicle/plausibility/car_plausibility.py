@@ -1,0 +1,313 @@
+"""What was understood of a car file."""
+
+import copy
+import math
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ali3.plausibility import Mistake, Plausibility, Value
+from mbs.tyre_files.tyre_plausibility import cornering, magic_plausibility, tmeasy_plausibility
+from mbs.vehicle.axle import Axle
+from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.checks.equilibrium import Rest
+from mbs.vehicle.checks.masses import centre_of, weighed_points
+from mbs.vehicle.checks.places import centres_of, drawn_points, parts_of, points_of_the_body
+from mbs.vehicle.drives.automatic import Automatic
+from mbs.vehicle.environment import GRAVITY
+from mbs.vehicle.plausibility.axle_values import CAR, DEG, axle_rates, axle_values
+from mbs.vehicle.tyres.magic_formula import MagicFormula
+
+Data: TypeAlias = "dict[str, Any]"
+Remake: TypeAlias = Callable[[Data], "tuple[CarContent, Rest] | None"]
+"""Makes a car of the altered content of its file, and finds its rest; None where that is not a car."""
+FINAL_DRIVE = 4.0
+HEIGHT = 4.0  # m: of a truck
+KILOGRAMS = ("kilograms in place of newtons", GRAVITY)
+POUNDS = (
+    ("pounds and inches in place of N and m", 175.127),
+    ("pounds and feet in place of N and m", 14.5939),
+)
+
+
+def car_plausibility(what: str, car: CarContent, rest: Rest, data: Data, remake: Remake) -> list[Plausibility]:
+    """Plausibility of the car, then of the tyres of each axle.
+
+    `what`: the file; `rest`: the car at rest; `data`: content of the file.
+    """
+    kind = car.vehicle.category or ""
+    mistakes = [
+        Mistake(words, frozenset(keys), partial(_undone, undo, data, remake)) for words, keys, undo in _mistakes(car)
+    ]
+    whole = Plausibility(what, car_values(car, rest), mistakes, kind, columns=tuple(car.axles))
+    return [whole, *(tyre_plausibility(what, a, kind) for a in car.axles.values())]
+
+
+def tyre_plausibility(what: str, axle: Axle, kind: str) -> Plausibility:
+    """Plausibility of the tyres of an axle, with the factors of the car's file."""
+    tyre = axle.tyre
+    if isinstance(tyre, MagicFormula):
+        prefix = f"{tyre.key('UNLOADED_RADIUS').split(' of ', 1)[1]}: "
+        return magic_plausibility(what, tyre.tyre("left"), tyre.file_numbers, kind, prefix)
+    return tmeasy_plausibility(what, tyre.tyre("left"), kind, f"{tyre.path}.")
+
+
+def car_values(car: CarContent, rest: Rest) -> list[Value]:
+    """Values of all quantities of a car."""
+    rates = {name: axle_rates(car, name, rest) for name in car.axles}
+    found = [*_of_dimensions(car), *_of_masses(car)]
+    for name in car.axles:
+        found += axle_values(car, name, rest, rates[name])
+    linked = [r for r in rates.values() if r is not None]
+    if len(linked) == len(rates) and car.linked:
+        stiffness = [r.roll_stiffness for r in linked]
+        total = sum(stiffness)
+        keys: dict[str, Any] = {}
+        for spring in (axle.spring for axle in car.axles.values()):
+            keys |= spring.given | {spring.key("factor"): spring.factor}
+        found.append(Value(CAR["roll"], total / DEG, keys))
+        if total > 0.0:
+            lean = _mass(car) * GRAVITY * centre_of(car, payloads=True)[2] / total
+            found.append(Value(CAR["gradient"], lean * DEG, keys | _centre_key(car)))
+            found.append(Value(CAR["split"], stiffness[0] / total, keys))
+    return [*found, *_of_driving(car, rest)]
+
+
+def _centre_key(car: CarContent) -> dict[str, Any]:
+    return {car.chassis.key("com"): list(car.chassis.com)}
+
+
+def _mass(car: CarContent) -> float:
+    """Of all parts, kg; what the wheels carry is less where the body lies on the ground."""
+    return sum(mass for mass, _ in weighed_points(car, payloads=True))
+
+
+def _of_dimensions(car: CarContent) -> Iterator[Value]:
+    centres = {axle.wheel.key("centre"): list(axle.wheel.centre) for axle in car.axles.values()}
+    tracks = [axle.track for axle in car.axles.values()]
+    yield Value(CAR["mass"], _mass(car), {car.vehicle.key("mass"): car.vehicle.mass})
+    yield Value(CAR["wheelbase"], car.wheelbase, centres)
+    yield Value(CAR["tracks"], tracks[1] / tracks[0], centres)
+    yield Value(CAR["slender"], 0.5 * sum(tracks) / car.wheelbase, centres)
+    body = car.vehicle
+    yield Value(CAR["length"], body.length / car.wheelbase, {body.key("length"): body.length, **centres})
+    yield Value(CAR["width"], body.width / max(tracks), {body.key("width"): body.width, **centres})
+    yield from _of_points(car)
+    contact = car.chassis.ground_contact
+    points = [p for p in (contact.points if contact else ()) if not isinstance(p, str)]
+    if contact and points:
+        lowest = min(points, key=lambda p: p[2])
+        yield Value(CAR["clearance"], lowest[2], {contact.key("points"): list(lowest)})
+
+
+def _of_points(car: CarContent) -> Iterator[Value]:
+    """Of points of the body the farthest outside of its outline and the nearest to the front axle, and of all points
+    the coordinate nearest to 0."""
+    points, body = points_of_the_body(car), car.vehicle
+    middle, sides = body.reference_point[0], (0.5 * body.length, 0.5 * body.width)
+    beyond = {
+        key: max(abs(x - middle) - sides[0], abs(y) - sides[1], z - HEIGHT, -z, 0.0)
+        for key, (x, y, z) in points.items()
+    }
+    key = max(beyond, key=beyond.__getitem__)
+    yield Value(CAR["outline"], beyond[key], {key: list(points[key])})
+    ahead = {key: abs(point[0]) or math.inf for key, point in points.items()}
+    key = min(ahead, key=ahead.__getitem__)
+    yield Value(CAR["ahead"], ahead[key], {key: list(points[key])})
+    points |= drawn_points(car.front) | drawn_points(car.rear) | centres_of(car)
+    nearest = {key: min((abs(c) for c in point if c), default=math.inf) for key, point in points.items()}
+    key = min(nearest, key=nearest.__getitem__)
+    yield Value(CAR["nearest"], nearest[key], {key: list(points[key])})
+
+
+def _of_masses(car: CarContent) -> Iterator[Value]:
+    x, y, height = centre_of(car, payloads=True)
+    track, chassis = 0.5 * sum(axle.track for axle in car.axles.values()), car.chassis
+    share = (x - car.rear.wheel.centre[0]) / car.wheelbase
+    yield Value(CAR["share"], share, _centre_key(car))
+    yield Value(CAR["height"], height / track, _centre_key(car))
+    yield Value(CAR["aside"], y / track, _centre_key(car))
+    products = [abs(p) for p in chassis.products if p]
+    if products:
+        least = {chassis.key("products"): list(chassis.products)}
+        yield Value(CAR["products"], min(products) / max(chassis.inertia), least)
+    weighed = weighed_points(car, payloads=True)
+    inertia = chassis.inertia[2] + sum(m * ((px - x) ** 2 + (py - y) ** 2) for m, (px, py, _) in weighed)
+    before, behind = car.wheelbase * (1.0 - share), car.wheelbase * share
+    key = {chassis.key("inertia"): list(chassis.inertia)}
+    if before > 0.0 and behind > 0.0:
+        yield Value(CAR["yaw"], inertia / _mass(car) / (before * behind), key | {chassis.key("mass"): chassis.mass})
+    size = car.vehicle.width, car.vehicle.length, car.vehicle.length
+    sizes = {car.vehicle.key(f): getattr(car.vehicle, f) for f in ("width", "length")}
+    for axis, moment, extent in zip("xyz", chassis.inertia, size, strict=True):
+        yield Value(CAR["body_radius"], math.sqrt(moment / chassis.mass) / extent, key | sizes, f"about {axis}")
+    radii = {
+        math.sqrt(moment / part.mass): {part.key("inertia"): list(part.inertia), part.key("mass"): part.mass}
+        for part in parts_of(car)
+        for moment in part.inertia
+    }
+    for of, radius in (("least", min(radii)), ("largest", max(radii))):
+        yield Value(CAR["part_radius"], radius, radii[radius], of)
+    yield Value(CAR["pitch_yaw"], chassis.inertia[1] / chassis.inertia[2], key)
+
+
+def _of_driving(car: CarContent, rest: Rest) -> Iterator[Value]:
+    stiffness = {name: 2.0 * cornering(axle.tyre.tyre("left"), rest.load[name]) for name, axle in car.axles.items()}
+    if min(stiffness.values()) > 0.0:
+        front, rear = (2.0 * rest.load[name] / stiffness[name] * DEG for name in car.axles)
+        loads = {axle.tyre.key("nominal_load"): axle.tyre.nominal_load for axle in car.axles.values()}
+        yield Value(CAR["understeer"], front - rear, loads | _centre_key(car))
+    for name, axle in car.axles.items():
+        tyre, road = axle.tyre, car.road
+        of_grip = {tyre.key("grip"): tyre.grip, tyre.key("reference_friction"): tyre.reference_friction}
+        of_grip |= {road.key("friction"): road.friction, road.key("friction_factor"): road.friction_factor}
+        for of, share in (("least", min), ("largest", max)):
+            yield Value(CAR["grip"], share(tyre.friction) * road.grip_of(tyre), of_grip, f"{name} {of}")
+    steering = car.steering
+    key = steering.key("front_wheel_angle_max")
+    ratio = steering.wheel_angle_max / steering.front_wheel_angle_max
+    turn = {steering.key(f): getattr(steering, f) for f in ("rack_per_turn",) if hasattr(steering, f)}
+    yield Value(CAR["steering"], ratio, {key: steering.front_wheel_angle_max, **turn})
+    drive, driven = car.drive, car.axles[car.drive.wheels]
+    keys: dict[str, Any]
+    if isinstance(drive, Automatic):
+        ratios = [r * drive.ratio_factor for r in drive.ratios]
+        keys = {drive.key("ratios"): list(drive.ratios), drive.key("ratio_factor"): drive.ratio_factor}
+    else:
+        ratios, keys = [drive.ratio], {drive.key("ratio"): drive.ratio}
+    keys[drive.key("limit_speed")] = drive.limit_speed
+    for k, overall in enumerate(ratios):
+        of, speed = f"{k + 1}:", 3.6 * drive.limit_speed / overall * driven.wheel.centre[2]
+        yield Value(CAR["overall"], overall, keys, of)
+        yield Value(CAR["gear_speed"], speed, keys, of)
+        if k == 0 and len(ratios) > 1:
+            yield Value(CAR["first_speed"], speed, keys)
+        if k == len(ratios) - 1:
+            yield Value(CAR["last_speed"], speed, keys)
+    yield Value(CAR["power"], drive.max_power / _mass(car), {drive.key("max_power"): drive.max_power})
+    ratio = drive.max_power / (drive.max_torque * drive.limit_speed)
+    yield Value(CAR["torque"], ratio, {drive.key(f): getattr(drive, f) for f in ("max_power", "max_torque")})
+    air = car.aerodynamics
+    if air.drag_area:
+        yield Value(CAR["drag"], air.drag_area, {air.key("drag_area"): air.drag_area})
+    brakes, weight = car.brakes, _mass(car) * GRAVITY
+    front, rear = brakes.balance / car.front.wheel.centre[2], (1.0 - brakes.balance) / car.rear.wheel.centre[2]
+    yield Value(CAR["braking"], 2.0 * brakes.torque * (front + rear) / weight, {brakes.key("torque"): brakes.torque})
+    yield Value(CAR["balance"], front / (front + rear), {brakes.key("balance"): brakes.balance})
+
+
+Undo: TypeAlias = Callable[[Data], None]
+
+
+def _undone(undo: Undo, data: Data, remake: Remake) -> list[Value] | None:
+    altered = copy.deepcopy(data)
+    try:
+        undo(altered)
+    except (KeyError, TypeError):
+        return None  # the file has not these keys
+    made = remake(altered)
+    return None if made is None else car_values(*made)
+
+
+def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
+    """Words, keys and what undoes it in the content of the file, the commonest first."""
+    for name, axle in car.axles.items():
+        centre, alignment = axle.wheel.key("centre"), axle.alignment
+        yield f"half the track less half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 2.0)
+        yield f"the track in place of half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 0.5)
+        for angle in ("toe", "camber"):
+            keys = [alignment.key(f"{angle}_{side}") for side in ("left", "right")]
+            there = [key for key in keys if getattr(alignment, key.rsplit(".", 1)[1])]
+            yield f"degrees in place of radians in {' and '.join(there)}", set(keys), _scale(there, 1.0 / DEG)
+            for key in there if angle == "camber" else ():
+                yield f"the sign of {key}", {key}, _scale(key, -1.0)
+            yield f"the signs of {' and '.join(there)}", set(keys), _scale(there, -1.0)
+        damper, spring = axle.damper, axle.spring
+        if damper.table is not None:
+            key = damper.key("table")
+            yield f"bump and rebound exchanged in {key}", {key}, partial(_mirror, key)
+        for key, what in zip((*spring.given, *damper.given), ("springs", "dampers"), strict=True):
+            yield from _scales(key, (f"both {what} of the axle in place of one", 0.5))
+            yield from _scales(key, (f"half of one of the {what}", 2.0), *POUNDS, KILOGRAMS)
+        key = axle.wheel.key("spin_inertia")
+        yield from _scales(key, ("both wheels in place of one", 0.5), ("half of the wheel", 2.0))
+        other = axle.wheel.key("diametral_inertia")
+        yield f"{key} and {other} exchanged", {key, other}, partial(_exchange, key, other)
+    chassis, drive, steering = car.chassis, car.drive, car.steering
+    gears, limit = drive.key("ratios" if isinstance(drive, Automatic) else "ratio"), drive.key("limit_speed")
+    yield from _scales(gears, (f"ratios without a final drive, of about {FINAL_DRIVE:g},", FINAL_DRIVE))
+    yield from _scales(gears, (f"the final drive, of about {FINAL_DRIVE:g}, twice", 1.0 / FINAL_DRIVE))
+    yield from _scales(limit, ("rounds per minute in place of rad/s", math.pi / 30.0))
+    yield from _scales(limit, ("rounds per second in place of rad/s", 2.0 * math.pi))
+    yield from _scales(drive.key("max_torque"), KILOGRAMS, ("the torque of the wheels", 0.5 / FINAL_DRIVE))
+    yield from _scales(drive.key("max_power"), ("horsepower in place of W", 735.5), ("kW in place of W", 1000.0))
+    inertia, balance = chassis.key("inertia"), car.brakes.key("balance")
+    for a, b in ((0, 2), (0, 1)):
+        words = f"moments about {'xyz'[a]} and {'xyz'[b]} exchanged in {inertia}"
+        yield words, {inertia}, partial(_swap, inertia, a, b)
+    yield from _scales(inertia, ("half of the moments", 2.0), ("pounds and feet in place of kg and m", 0.04214))
+    yield f"the share of the rear wheels in {balance}", {balance}, partial(_rest_of_one, balance)
+    sides = (("the torque of one wheel in place of a side", 2.0), ("the torque of all wheels in place of a side", 0.5))
+    yield from _scales(car.brakes.key("torque"), KILOGRAMS, *sides)
+    angle = steering.key("front_wheel_angle_max")
+    yield from _scales(angle, ("the angle from lock to lock in place of one side", 0.5))
+
+
+def _scales(key: str, *mistakes: tuple[str, float]) -> Iterator[tuple[str, set[str], Undo]]:
+    """Mistakes in one number, each with its words and the factor that undoes it."""
+    for words, factor in mistakes:
+        yield f"{words} in {key}", {key}, _scale(key, factor)
+
+
+def _scale(keys: str | list[str], factor: float) -> Undo:
+    """Numbers at key paths times a factor; in tables of rows the last of each row."""
+
+    def undo(data: Data) -> None:
+        for key in [keys] if isinstance(keys, str) else keys:
+            holder, last = _holder(data, key)
+            holder[last] = _scaled(holder[last], factor)
+
+    return undo
+
+
+def _scaled(value: Any, factor: float) -> Any:
+    if isinstance(value, list):
+        if value and isinstance(value[0], list):
+            return [[*row[:-1], row[-1] * factor] for row in value]
+        return [v * factor for v in value]
+    return value * factor
+
+
+def _holder(data: Data, key: str) -> tuple[Any, Any]:
+    *path, last = key.split(".")
+    holder: Any = data
+    for part in path:
+        holder = holder[part]
+    if isinstance(holder, Mapping):
+        holder[last]  # a key that is missing has nothing to undo
+        return holder, last
+    return holder, int(last)
+
+
+def _mirror(key: str, data: Data) -> None:
+    holder, last = _holder(data, key)
+    holder[last] = [[-v, -force] for v, force in reversed(holder[last])]
+
+
+def _swap(key: str, a: int, b: int, data: Data) -> None:
+    holder, last = _holder(data, key)
+    values = list(holder[last])
+    values[a], values[b] = values[b], values[a]
+    holder[last] = list(np.array(values, float))
+
+
+def _exchange(key: str, other: str, data: Data) -> None:
+    (one, a), (two, b) = _holder(data, key), _holder(data, other)
+    one[a], two[b] = two[b], one[a]
+
+
+def _rest_of_one(key: str, data: Data) -> None:
+    holder, last = _holder(data, key)
+    holder[last] = 1.0 - holder[last]

@@ -1,0 +1,102 @@
+"""Worlds that were made before are kept: the same description and files give the same world."""
+
+import hashlib
+import os
+import shutil
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from ali3.cache import cache_folder
+from ali3.files import atomic_file, make_folder
+from ali3.folders import atomic_folder, forget_oldest
+from ali3.reading import read_bytes
+from ali3.temporary_folder import temporary_folder
+from mbs.roads.grid_files import MOST_BYTES
+from mbs.roads.road_header import RoadFileError
+
+ROOT = Path(__file__).parents[2]
+CODE = (
+    *("mbs/roads", "mbs/worlds", "mbs/kernel/header", "ali3/plausibility"),
+    *("ali3/scene/road_types.py", "ali3/scene/base64_numbers.py", "ali3/iso_3888.py", "ali3/cones.py"),
+)
+"""What worlds are made by."""
+MOST_KEPT = 12
+MADE = "made"
+
+
+def key_of(files: Iterable[Path]) -> str:
+    """A name for what is made of files: another content or another version of the code, another name."""
+    digest = hashlib.sha256()
+    sources = [path for entry in CODE for path in _sources(ROOT / entry)]
+    for path in (*sources, *files):
+        data = read_bytes(path, MOST_BYTES, RoadFileError)
+        digest.update(f"{path.name} {len(data)} ".encode())
+        digest.update(data)
+    return digest.hexdigest()[:32]
+
+
+def _sources(place: Path) -> list[Path]:
+    return sorted(p for p in place.iterdir() if p.suffix in (".py", ".csv")) if place.is_dir() else [place]
+
+
+def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list[Path], bool]:
+    """The files of a world in a folder, from those that are kept, or made.
+
+    `key`: from `key_of`; `make`: writes the files into an empty folder.
+
+    Returns
+    -------
+    files : list of Path
+        In `out`.
+    kept : bool
+        Whether they had been made before.
+    """
+    make_folder(out)
+    home = cache_folder("worlds")
+    entry = home / key
+    if kept := (entry / MADE).is_file():
+        try:
+            os.utime(entry)  # used now
+            return _copied(entry, out), kept
+        except FileNotFoundError:  # removed by another run just now
+            pass
+    with temporary_folder(out) as made:
+        make(made)
+        _keep(made, home, entry)
+        return _copied(made, out), False
+
+
+def _copied(folder: Path, out: Path) -> list[Path]:
+    names = sorted(path.name for path in folder.iterdir() if path.suffix in (".road", ".json"))
+    for name in names:
+        with atomic_file(out / name) as target:
+            shutil.copyfile(folder / name, target)
+    return [out / name for name in names]
+
+
+def _keep(made: Path, home: Path, entry: Path) -> None:
+    """Copy what was made into the cache, whole or not at all; without one it is made again next time."""
+    try:
+        with atomic_folder(entry) as place:
+            for path in made.iterdir():
+                shutil.copyfile(path, place / path.name)
+            (place / MADE).touch()
+        forget_oldest(home, MOST_KEPT)
+    except OSError as error:
+        print(f"The world is not kept for the next time: {str(error).rstrip('.')}.", file=sys.stderr)
+
+
+def add_file(key: str, name: str, make: Callable[[Path], None], out: Path) -> None:
+    """One more file of a world that is kept, such as its map; `make` writes it where there is none."""
+    entry = cache_folder("worlds") / key
+    stored: Any = entry / name
+    with atomic_file(out) as target:
+        if stored.is_file():
+            shutil.copyfile(stored, target)
+        else:
+            make(target)
+            if entry.is_dir():
+                with atomic_file(stored) as copy:
+                    shutil.copyfile(target, copy)

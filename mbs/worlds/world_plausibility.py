@@ -1,0 +1,243 @@
+"""What was understood of a world: whether each thing in it is there for a wheel or an eye."""
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ali3.plausibility import Mistake, Plausibility, Value, plausibility_of, quantities_of
+from mbs.roads.road_header import RoadFileError
+from mbs.worlds.centre_line import of_segments
+from mbs.worlds.layers import AreaLayer
+from mbs.worlds.obstacles import added, footprint
+from mbs.worlds.world_types import FRICTIONS, Area, Band, Course, Kerb, Ramp, Washboard, WorldDescription
+
+MOST = 400
+"""Points along a side of a thing that are looked at; of a longer one not all."""
+FELT = 1e-6  # m
+LEAST_MM, MM = 0.5, 1e-3
+"""m: coordinates that were in mm are farther from 0, or 0."""
+Places: TypeAlias = list[tuple[float, float]]
+ON_ROADS = {"obstacles": "beside", "bands": "beside", "arrows": "beside", "buildings": "clear"}
+"""What lies on roads or beside them, with the quantity that says so."""
+Thing: TypeAlias = Kerb | Ramp | Washboard | Band | Area
+
+QUANTITIES = quantities_of("world")
+MOVED: dict[str, Callable[[float, float], tuple[float, float]]] = {
+    "x and y exchanged": lambda x, y: (y, x),
+    "mm in place of m": lambda x, y: (MM * x, MM * y) if MM * min(abs(c) or 1e9 for c in (x, y)) > LEAST_MM else (x, y),
+    "the sign of x": lambda x, y: (-x, y),
+    "the sign of y": lambda x, y: (x, -y),
+}
+"""Common mistakes of places, and what undoes each."""
+
+
+@plausibility_of.register
+def _plausibility_of_world(world: WorldDescription) -> list[Plausibility]:
+    return [world_plausibility("", world)]
+
+
+def world_plausibility(what: str, world: WorldDescription) -> Plausibility:
+    """What was understood of a world. `what`: its file."""
+    values, mistakes = _values(world), []
+    outside = {v.of for v in values if not v.inside()}
+    for key, thing in _things(world):
+        for words, altered in _undone(thing) if key in outside else ():
+            keys = frozenset({f"{key}.{name}" for name in ("at", "left", "right", "length")})
+            mistakes.append(Mistake(f"{words} in {key}", keys, partial(_with, world, key, altered)))
+    for key, places in _seen(world):
+        for words, moved in MOVED.items() if key in outside else ():
+            elsewhere = _outside(world, key, [moved(x, y) for x, y in places])
+            mistakes.append(Mistake(f"{words} in {key}", frozenset({key}), partial(_replaced, values, elsewhere)))
+    finer = world.model_copy(update={"spacing": (0.01 * world.spacing[0], 0.01 * world.spacing[1])})
+    mistakes.append(Mistake("cm in place of m in spacing", frozenset({"spacing"}), partial(_values, finer)))
+    return Plausibility(what, values, mistakes, title="world")
+
+
+def _values(world: WorldDescription) -> list[Value]:
+    x0, y0, x1, y1 = world.bounds
+    sides = {"x": x1 - x0, "y": y1 - y0}
+    values = [Value(QUANTITIES["size"], side, {"bounds": list(world.bounds)}, axis) for axis, side in sides.items()]
+    values += [*_ground(world), *_stands(world)]
+    values += [_points(world, key, thing) for key, thing in _things(world)]
+    return values + [_outside(world, key, places) for key, places in _seen(world)]
+
+
+def _ground(world: WorldDescription) -> Iterator[Value]:
+    """Waves of the ground, frictions, and where and how steep the courses are."""
+    if (waves := world.ground.variation) is not None:
+        keys = {"ground.variation.height": waves.height, "ground.variation.length": waves.length}
+        yield Value(QUANTITIES["waves"], waves.height / waves.length, keys)
+    for name, friction in world.frictions.items():
+        keys = {f"frictions.{name}": friction}
+        yield Value(QUANTITIES["friction"], friction / FRICTIONS[name], keys, name)
+    for k, course in enumerate(world.courses):
+        key, places = f"courses.{k}", _line(course)
+        if places:
+            yield _outside(world, key, places)
+            long = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
+            for j, barrier in enumerate(world.barriers):
+                if barrier.course == course.name:
+                    keys = {f"barriers.{j}.begin": barrier.begin, f"barriers.{j}.end": barrier.end}
+                    yield Value(QUANTITIES["stretch"], (barrier.end - barrier.begin) / long, keys, f"barriers.{j}")
+        if course.heights:
+            s, z = np.array(course.heights, float).T
+            steep = float(np.abs(np.diff(z) / np.maximum(np.diff(s), FELT)).max(initial=0.0))
+            yield Value(QUANTITIES["grade"], steep, {f"{key}.heights": course.heights}, key)
+
+
+def _line(course: Course) -> Places:
+    """Points of the middle of a course; none where a file beside the description has them."""
+    if isinstance(course.points, list):
+        return list(course.points)
+    if not course.segments:
+        return []
+    try:
+        line = of_segments(course.start or (0.0, 0.0, 0.0), course.segments, course.closed, course.name)
+    except RoadFileError:
+        return []  # it is refused where the course is made
+    return [(x, y) for x, y in line.points.tolist()]
+
+
+def _stands(world: WorldDescription) -> Iterator[Value]:
+    """What stands as nothing does: beside all roads, in one, twice, larger than the world, finer than its points."""
+    lines = [np.array(_line(course), float) for course in world.courses]
+    if all(map(len, lines)) and (lines or world.areas):
+        for name, quantity in ON_ROADS.items():
+            for k, thing in enumerate(getattr(world, name)):
+                at = np.array(thing.at[:2])
+                off = [_far(line, at) - 0.5 * course.width for line, course in zip(lines, world.courses, strict=True)]
+                off += [float(AreaLayer(area).near(*at)[0]) for area in world.areas]
+                yield Value(QUANTITIES[quantity], min(off), {f"{name}.{k}.at": list(thing.at)}, f"{name}.{k}")
+    for k, course in enumerate(world.courses):
+        yield Value(QUANTITIES["width"], course.width, {f"courses.{k}.width": course.width}, f"courses.{k}")
+    strips = [(f"courses.{k}.shoulder", course.shoulder) for k, course in enumerate(world.courses)]
+    for key, wide in [*strips, *((f"barriers.{k}.offset", b.offset) for k, b in enumerate(world.barriers))]:
+        yield Value(QUANTITIES["strip"], wide, {key: wide}, key)
+    hills = 3.0 * world.ground.variation.height if world.ground.variation is not None else 0.0
+    for k, area in enumerate(world.areas) if world.ground.heights is None else ():
+        over = max(abs(area.height - world.ground.height) - hills, 0.0)
+        keys = {f"areas.{k}.height": area.height, f"areas.{k}.blend": area.blend}
+        yield Value(QUANTITIES["slope"], over / area.blend, keys, f"areas.{k}")
+    for k, house in enumerate(world.buildings):
+        for side, axis in zip(house.size, ("length", "width", "height"), strict=True):
+            yield Value(QUANTITIES["house"], side, {f"buildings.{k}.size": list(house.size)}, f"buildings.{k} {axis}")
+    for k, thing in enumerate(world.obstacles):
+        name = "wavelength" if isinstance(thing, Washboard) else "face"
+        if not isinstance(thing, Ramp):
+            given, spacing = getattr(thing, name), list(world.spacing)
+            fine: dict[str, Any] = {f"obstacles.{k}.{name}": given, "spacing": spacing}
+            yield Value(QUANTITIES["fine"], given / max(spacing), fine, f"obstacles.{k}")
+    if world.trees is not None:
+        x0, y0, x1, y1 = world.bounds
+        least: dict[str, Any] = {"trees.distance": world.trees.distance, "bounds": list(world.bounds)}
+        yield Value(QUANTITIES["trees"], world.trees.distance / min(x1 - x0, y1 - y0), least)
+    for name in ("courses", "obstacles", "areas", "bands", "places", "signs", "buildings"):
+        things = getattr(world, name)
+        twice = [k for k, thing in enumerate(things) if thing in things[:k]]
+        if things:
+            yield Value(QUANTITIES["twice"], float(len(twice)), {f"{name}.{k}": "as before" for k in twice}, name)
+
+
+def _far(line: NDArray[np.float64], at: NDArray[np.float64]) -> float:
+    """Distance of a place from a line through points, m."""
+    first, step = line[:-1], np.diff(line, axis=0)
+    along = np.clip(((at - first) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), FELT), 0.0, 1.0)
+    return float(np.linalg.norm(first + along[:, None] * step - at, axis=1).min(initial=np.inf))
+
+
+def _outside(world: WorldDescription, key: str, places: Sequence[tuple[float, float]]) -> Value:
+    """How far the farthest of some places is outside."""
+    x0, y0, x1, y1 = world.bounds
+    off, x, y = max((float(np.hypot(max(x0 - x, x - x1, 0.0), max(y0 - y, y - y1, 0.0))), x, y) for x, y in places)
+    return Value(QUANTITIES["outside"], off, {key: [x, y], "bounds": list(world.bounds)}, key)
+
+
+def _with(world: WorldDescription, key: str, thing: Thing) -> list[Value]:
+    """The values with another thing in place of one."""
+    name, k = key.split(".")
+    things = [thing if j == int(k) else other for j, other in enumerate(getattr(world, name))]
+    return _values(world.model_copy(update={name: things}))
+
+
+def _replaced(values: list[Value], changed: Value) -> list[Value]:
+    return [changed if v.name == changed.name else v for v in values]
+
+
+def _things(world: WorldDescription) -> Iterator[tuple[str, Thing]]:
+    for name in ("obstacles", "bands", "areas"):
+        for k, thing in enumerate(getattr(world, name)):
+            yield f"{name}.{k}", thing
+
+
+def _points(world: WorldDescription, key: str, thing: Thing) -> Value:
+    found = changed_points(world, thing)
+    keys = {
+        f"{key}.{n}": getattr(thing, n)
+        for n in ("at", "left", "right", "length", "width", "radius")
+        if hasattr(thing, n)
+    }
+    return Value(QUANTITIES["points"], float(found), {**keys, "spacing": list(world.spacing)}, key)
+
+
+def _box(thing: Thing) -> tuple[float, float, float, float]:
+    """x and y of the two corners of the box around a thing, m."""
+    if not isinstance(thing, Area):
+        return footprint(thing).box()
+    (x, y), r = thing.at, thing.radius
+    a, b = (r, r) if r is not None else (0.5 * side for side in thing.size or (0.0, 0.0))
+    return x - a, y - b, x + a, y + b
+
+
+def changed_points(world: WorldDescription, thing: Thing) -> int:
+    """How many points of the grid of a world a thing raises or colours; of a large one a part of them."""
+    box, axes = _box(thing), []
+    for k in range(2):
+        first, step, last = world.bounds[k], world.spacing[k], world.bounds[k + 2]
+        low, high = (max(box[k], first) - first) / step, (min(box[k + 2], last) - first) / step
+        numbers = np.arange(np.ceil(low - 1e-9), np.floor(high + 1e-9) + 1.0)
+        axes.append(first + step * numbers[:: max(1, len(numbers) // MOST)])
+    x, y = np.meshgrid(*axes, indexing="ij")
+    if isinstance(thing, Area):
+        (cx, cy), r = thing.at, thing.radius
+        return x.size if r is None else int((np.hypot(x - cx, y - cy) <= r).sum())
+    inside = footprint(thing).inside(x, y)
+    return int(inside.sum() if isinstance(thing, Band) else (inside & (np.abs(added(thing, x, y)) > FELT)).sum())
+
+
+def _undone(thing: Thing) -> Iterator[tuple[str, Thing]]:
+    """Common mistakes of a thing, and it without each."""
+    if isinstance(thing, (Band, Kerb)):
+        yield "left and right exchanged", thing.model_copy(update={"left": thing.right, "right": thing.left})
+    x, y, *yaw = thing.at
+    for words, moved in MOVED.items():
+        yield words, thing.model_copy(update={"at": (*moved(x, y), *yaw)})
+    if not isinstance(thing, Area):
+        smaller = {
+            name: 1e3 * getattr(thing, name) for name in ("length", "width", "left", "right") if hasattr(thing, name)
+        }
+        yield "km in place of m", thing.model_copy(update=smaller)
+
+
+def _seen(world: WorldDescription) -> Iterator[tuple[str, Places]]:
+    """Places of scenery by their keys, and the corners of what wheels feel."""
+    for key, thing in _things(world):
+        (x0, y0, x1, y1), (left, low, right, high) = _box(thing), world.bounds
+        if x0 < right and x1 > left and y0 < high and y1 > low:  # else no point of it is felt, which is told
+            yield f"{key}.size", [(x0, y0), (x1, y1)]
+    for k, line in enumerate(world.lines):
+        if line.centre is not None and line.radius is not None:
+            (x, y), far = line.centre, line.radius
+            yield f"lines.{k}.radius", [(x - far, y - far), (x + far, y + far)]
+    for k, cones in enumerate(world.cones):
+        if cones.start is not None and cones.slalom is not None:
+            (x, y, yaw), far = cones.start, cones.distance * (cones.slalom - 1)
+            yield f"cones.{k}.distance", [(x + far * np.cos(np.radians(yaw)), y + far * np.sin(np.radians(yaw)))]
+    for name in ("cones", "lines", "signs", "arrows", "barriers", "buildings"):
+        for k, thing in enumerate(getattr(world, name)):
+            given = [p for n in ("at", "points", "start", "centre") if (p := getattr(thing, n, None))]
+            places = [p[:2] for one in given for p in (one if isinstance(one[0], tuple) else (one,))]
+            if places and getattr(thing, "course", None) is None:
+                yield f"{name}.{k}", places

@@ -1,0 +1,26 @@
+"""What the page of trust is made of: the closed form of a period, and rows in its tables."""
+
+import pytest
+
+from benchmarks.car import error_limits
+from benchmarks.shared.figures import rows_of
+
+
+@pytest.mark.parametrize("steps", error_limits.IN_A_PERIOD)
+def test_the_computed_motion_is_slower_by_what_the_trapezoidal_rule_says(steps):
+    """Its frequency is 2 atan(omega h / 2) / h: (omega h)^2 / 12 less, and no more than the next term of the series."""
+    row = error_limits.frequency(steps)
+    phase = 2.0 * 3.141592653589793 / steps
+    assert row["frequency_error"] == pytest.approx(row["closed_form"], rel=0.2 * phase**2 + 1e-3)
+
+
+def test_rows_of_each_table_have_its_columns():
+    made = error_limits.trust_blocks([{"table": "frequency", **error_limits.frequency(20)}])["trust frequency"]
+    (row,) = rows_of(made)
+    assert row["steps in a period"] == "20"
+    assert float(row["frequency error"]) == pytest.approx(0.0081, rel=0.02)
+
+
+def test_a_kerb_at_speed_is_right_with_divided_steps():
+    row = error_limits.kerb(20.0)
+    assert row["2 ms"] < row["10 ms"] < 0.02

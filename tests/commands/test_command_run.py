@@ -1,0 +1,149 @@
+"""How a command ends: one sentence, one line, an exit code."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from ali3 import processes
+from ali3.command_run import run_command
+from ali3.errors import FileError, UserError
+from ali3.message_text import shortened
+from ali3.processes import module_command
+from mbs.kernel import build
+
+
+def raiser(error: BaseException) -> int:
+    raise error
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "words"),
+    [
+        (UserError("The step is 0 s."), 2, "error: The step is 0 s.\n"),
+        (ValueError("No such scene."), 2, "error: No such scene.\n"),
+        (OSError(28, "No space left on device", "a.csv"), 2, "error: a.csv: no space left on device.\n"),
+        (ModuleNotFoundError("No module named 'fmpy.x'", name="fmpy.x"), 2, 'python -m pip install "ali3[hosts]"\n'),
+        (KeyboardInterrupt(), 130, "stopped by Ctrl-C\n"),
+        (MemoryError(), 2, "raise the limit (ulimit -v).\n"),
+        (RuntimeError("can't start new thread"), 2, "raise the limit (ulimit -u).\n"),
+        (OSError("sources.so: failed to map segment from shared object"), 2, "from shared object\n"),
+    ],
+)
+def test_errors_are_one_line(error: BaseException, status: int, words: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_command(lambda: raiser(error), (ValueError,)) == status
+    said = capsys.readouterr()
+    assert said.err.endswith(words)
+    assert said.err.count("\n") == 1
+    assert said.out == ""
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        RuntimeError("can't start new thread"),
+        OSError("sources.so: failed to map segment from shared object"),
+        ImportError("etree.so: failed to map segment from shared object"),
+    ],
+)
+def test_memory_is_the_cause_where_there_is_none(
+    error: Exception, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(processes, "_SPARE", 1 << 60)
+    assert run_command(lambda: raiser(error)) == 2
+    assert capsys.readouterr().err.endswith("raise the limit (ulimit -v).\n")
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        UserError(f"'{'x' * 100_000}' is not a number."),
+        UserError(f"The value is {'1 2 ' * 50_000}."),
+        OSError(36, "File name too long", "a/" * 50_000),
+    ],
+)
+def test_no_value_makes_a_sentence_endless(error: Exception, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_command(lambda: raiser(error)) == 2
+    said = capsys.readouterr().err
+    assert len(said) < 2200
+    assert said.endswith((" number.\n", "1 2 .\n", "file name too long.\n"))
+
+
+def test_a_usual_sentence_is_told_whole() -> None:
+    sentence = f"/{'folder/' * 25}car.fmu is not an FMU; its inputs are: {', '.join(f'input_{k}' for k in range(99))}."
+    assert shortened(sentence) == sentence
+
+
+def test_no_name_of_a_file_tells_a_terminal_what_to_do(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_command(lambda: raiser(UserError("m.toml has '\x1b[2J\x9b' in\nits second line."))) == 2
+    assert capsys.readouterr().err == "error: m.toml has '\\x1b[2J\\x9b' in\nits second line.\n"
+
+
+@pytest.mark.slow
+def test_errors_of_ours_keep_their_traceback() -> None:
+    for error in (ZeroDivisionError(), ModuleNotFoundError("No module named 'x'", name="x")):
+        with pytest.raises(type(error)):
+            run_command(lambda error=error: raiser(error))
+
+
+def test_a_module_starts_with_the_same_search_path(tmp_path: Path) -> None:
+    (tmp_path / "json.py").write_text("raise SystemExit('the file of the user')\n")
+    command = module_command("json.tool", "--help")
+    assert subprocess.run(command, cwd=tmp_path, capture_output=True, check=False).returncode == 0
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT for one process there")
+def test_ctrl_c_during_a_drive_is_one_line_and_leaves_nothing(swing_fmu: Path, tmp_path: Path) -> None:
+    (tmp_path / "m.csv").write_text('"time","torque"\n0,0\n100000,1\n')
+    (tmp_path / "temporary").mkdir()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "ali3", "run", str(swing_fmu), "-m", "m.csv"],
+        cwd=tmp_path,
+        env=os.environ | {"TMPDIR": str(tmp_path / "temporary")},
+        stderr=subprocess.PIPE,
+        text=True,
+        # a shell that started these tests in the background lets all their children ignore it
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    said = ""
+    while "%" not in said:  # the bar: the drive has begun
+        letter = process.stderr.read(1)
+        assert letter, said
+        said += letter
+    process.send_signal(signal.SIGINT)
+    rest = process.communicate(timeout=60)[1]
+    assert process.returncode == 130
+    assert rest.splitlines()[-1] == "stopped by Ctrl-C"
+    assert "Traceback" not in rest
+    assert list((tmp_path / "temporary").iterdir()) == []
+    assert not (tmp_path / "out").exists()
+
+
+def test_without_a_home_the_compiler_leaves_nothing_in_the_temporary_folder(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    text = (
+        "from mbs.kernel.build import cache_directory as where; (where() / 'big').write_text('x');"
+        "print(where() == where(), where())"
+    )
+    environment = {k: v for k, v in os.environ.items() if k != "ZIG_GLOBAL_CACHE_DIR"}
+    environment |= {"HOME": str(tmp_path / "file" / "none"), "USERPROFILE": str(tmp_path / "file" / "none")}
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    environment |= {"TMPDIR": str(temporary), "TEMP": str(temporary), "TMP": str(temporary)}
+    done = subprocess.run([sys.executable, "-c", text], env=environment, check=True, capture_output=True, text=True)
+    same, folder = done.stdout.split()
+    assert same == "True"
+    assert Path(folder).parent == temporary
+    assert list(temporary.iterdir()) == []
+
+
+def test_a_cache_that_cannot_be_written_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("ZIG_GLOBAL_CACHE_DIR", str(tmp_path / "file"))
+    build.cache_directory.cache_clear()
+    with pytest.raises(FileError, match=r"ZIG_GLOBAL_CACHE_DIR is '.*file', which cannot be written: "):
+        build.cache_directory()
+    build.cache_directory.cache_clear()

@@ -1,0 +1,70 @@
+"""The same command takes tests that are done as they are; another test, program or FMU is done again."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from hosts.catalogue import command
+from hosts.catalogue.car import TestedCar
+from hosts.catalogue.execution import settings_of_test
+from hosts.catalogue.finished_tests import find, keep
+from hosts.catalogue.output import measures_csv
+from hosts.catalogue.record import TestRecord
+from hosts.catalogue.registry import standard_test
+from hosts.catalogue.task import Task, do, write_runs
+from hosts.experiment.store import ResultStore
+from hosts.fmu.fmu_source import FmuSource
+
+SETTINGS = {"height": 0.05, "duration": 4.0}
+
+
+def kept(task: Task, out: Path) -> TestRecord | None:
+    with ResultStore[TestRecord](out, TestRecord, "does tests") as there:
+        return find(there, task)
+
+
+@pytest.mark.slow
+def test_what_is_kept_is_what_was_done(
+    prototype_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    drop = standard_test("drop")
+    task = Task(
+        "drop", TestedCar(prototype_fmu.stem, FmuSource(prototype_fmu)), settings_of_test(drop, SETTINGS), tmp_path
+    )
+    assert kept(task, tmp_path) is None
+    record = do(task, lambda part: None)
+    assert isinstance(record, TestRecord)
+    write_runs(task, record)
+    with ResultStore[TestRecord](tmp_path, TestRecord, "does tests") as there:
+        keep(there, task, record)
+    again = kept(task, tmp_path)
+    assert again is not None
+    assert measures_csv([drop], {"drop": {"p": again}}) == measures_csv([drop], {"drop": {"p": record}})
+    assert [list(x.runs) for x in (again, record)] == [["drop"], ["drop"]]
+    assert list(again.notes) == list(record.notes)
+    for ours, theirs in zip(again.plots, record.plots, strict=True):
+        assert (ours.title, ours.x, ours.y, ours.equal) == (theirs.title, theirs.x, theirs.y, theirs.equal)
+        for a, b in zip(ours.lines, theirs.lines, strict=True):
+            assert (a.label, a.x.tobytes(), a.y.tobytes()) == (b.label, b.x.tobytes(), b.y.tobytes())
+
+    def undone(tasks: list[Task], *_: object) -> object:
+        yield from (pytest.fail("it was done again") for _ in tasks)
+
+    monkeypatch.setattr(command, "_done", undone)
+    given = [part for name, x in SETTINGS.items() for part in ("--test-setting", f"drop.{name}={x}")]
+    assert command.main([str(prototype_fmu), "--tests", "drop", "--out", str(tmp_path), *given]) == 0
+    told = capsys.readouterr().out
+    assert "1 of 1 tests are there; --again repeats them." in told
+    assert "load.peak_FL" in told
+
+    assert kept(replace(task, settings={**task.settings, "height": 0.06}), tmp_path) is None
+    assert kept(replace(task, car=replace(task.car, start={"front.tyre.grip": 0.9})), tmp_path) is None
+    assert kept(task, tmp_path) is not None
+    file = tmp_path / "done"
+    content = file.read_bytes()
+    file.write_bytes(content[:-9])
+    assert kept(task, tmp_path) is None
+    file.write_bytes(content)
+    next((tmp_path / "runs" / "drop").glob("*.csv")).unlink()
+    assert kept(task, tmp_path) is None

@@ -1,0 +1,187 @@
+"""Cars and tyres that are right in form and wrong in meaning are told, with the mistake that explains it."""
+
+import json
+import warnings
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ali3.plausibility import Mistake, Plausibility, Quantity, Value
+from mbs.model.model import Model
+from mbs.tyre_files.tyre_plausibility import tmeasy_plausibility
+from mbs.vehicle import built_car, car_names, load
+from mbs.vehicle.car import car_from
+from mbs.vehicle.car_content import CarContent
+from mbs.vehicle.changed_content import changed_content
+from mbs.vehicle.checks.equilibrium import Rest, settled
+from mbs.vehicle.command import main
+from mbs.vehicle.errors import CarWarning
+from mbs.vehicle.summary import summary
+from tests.vehicle.content import told
+
+DEG = 57.29577951308232
+
+
+def at(name: str, key: str) -> Any:
+    value: Any = load(name)._data
+    for part in key.split("."):
+        value = value[int(part)] if isinstance(value, list) else value[part]
+    return value
+
+
+def times(name: str, key: str, factor: float) -> dict[str, Any]:
+    value = at(name, key)
+    return {key: [factor * v for v in value] if isinstance(value, list) else factor * value}
+
+
+def turned(name: str, key: str) -> dict[str, Any]:
+    return {key: [[-v, -force] for v, force in reversed(at(name, key))]}
+
+
+TOE = [f"front.alignment.toe_{side}" for side in ("left", "right")]
+PLANTED: dict[str, tuple[str, Callable[[], dict[str, Any]], str]] = {
+    "half the track": ("hatchback", lambda: times("hatchback", "rear.wheel.centre.1", 0.5), "half the track less half"),
+    "half of another": ("saloon", lambda: times("saloon", "rear.wheel.centre.1", 0.5), "half the track less half"),
+    "toe in degrees": ("saloon", lambda: dict.fromkeys(TOE, 0.15), "degrees in place of radians in front"),
+    "toe of one": ("hatchback", lambda: {TOE[0]: 0.18}, "degrees in place of radians in front.alignment.toe_left"),
+    "camber in degrees": (
+        "saloon",
+        lambda: {"rear.alignment.camber_left": -0.18, "rear.alignment.camber_right": -0.18},
+        "degrees in place of radians in rear.alignment.camber",
+    ),
+    "bump for rebound": ("hatchback", lambda: turned("hatchback", "front.damper.table"), "bump and rebound exchanged"),
+    "no final drive": ("saloon", lambda: times("saloon", "drive.ratios", 0.27), "ratios without a final drive"),
+    "no final drive too": ("ferrari_250_lm", lambda: times("ferrari_250_lm", "drive.ratios", 0.25), "final drive"),
+    "final drive twice": ("saloon", lambda: times("saloon", "drive.ratios", 4.0), "twice in drive.ratios"),
+    "x for z": ("saloon", lambda: {"chassis.inertia": at("saloon", "chassis.inertia")[::-1]}, "x and z exchanged"),
+    "damping in lbf s/in": (
+        "saloon",
+        lambda: times("saloon", "front.damper.damping", 1.0 / 20.0),
+        "front damping ratio in bump is 0.01",
+    ),
+    "horsepower": ("saloon", lambda: times("saloon", "drive.max_power", 1.0 / 50.0), "power over mass is 1.7"),
+    "share of the rear": ("saloon", lambda: {"brakes.balance": 0.2}, "the share of the rear wheels in brakes.balance"),
+    "lock to lock": ("prototype", lambda: times("prototype", "steering.rack_per_turn", 6.0), "steering ratio is 2.8"),
+    "a soft wheel": ("saloon", lambda: times("saloon", "front.wheel.spin_inertia", 0.3), "gyration of the wheel about"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", PLANTED)
+def test_a_mistake_of_a_car_is_told(case: str) -> None:
+    name, changes, words = PLANTED[case]
+    lines = told(changes(), name)
+    assert any(words in line for line in lines), lines
+
+
+@pytest.mark.parametrize("name", car_names())
+def test_cars_of_the_package_lie_inside(name: str) -> None:
+    for kind in ("", "racing_car" if name in ("prototype", "ferrari_250_lm") else "passenger_car"):
+        for plausibility in load(name).plausibility(name):
+            assert replace(plausibility, kind=kind).warnings() == []
+
+
+def test_the_kind_of_a_car_narrows_its_ranges() -> None:
+    changes = {"front.wheel.centre.1": 0.97, "rear.wheel.centre.1": 0.97, "vehicle.width": 2.1}
+    lines = {kind: told(changes | {"vehicle.category": kind}, "hatchback") for kind in ("passenger_car", "truck")}
+    assert any("front track is 1.94 m; usual is 1 to 1.85 m" in line for line in lines["passenger_car"])
+    assert not any("track is" in line for line in lines["truck"])
+
+
+def test_the_command_shows_and_writes_the_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["saloon", "--json", str(tmp_path / "saloon.json")]) == 0
+    shown = capsys.readouterr().out
+    table = json.loads((tmp_path / "saloon.json").read_text(encoding="utf-8"))
+    (wheelbase,) = (row for row in table["car"] if row["name"] == "wheelbase")
+    assert wheelbase["value"] == pytest.approx(2.5789)
+    assert (wheelbase["inside"], wheelbase["unit"]) == (True, "m")
+    assert "front.wheel.centre" in wheelbase["keys"]
+    assert {"wheelbase", "2.579", "tyres"} <= set(shown.split())
+
+
+def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found: list[CarContent] = []
+
+    def counted(model: Model, car: CarContent) -> Rest:
+        found.append(car)
+        return settled(model, car)
+
+    monkeypatch.setattr(built_car, "settled", counted)
+    told = {}
+    for ports in ({}, {"ports.tyre": "hub"}):
+        car = load("hatchback").changed(ports)
+        found.clear()
+        told[len(ports)] = [
+            summary(car),
+            car.summary(),
+            [plausibility.to_json() for plausibility in car.plausibility()],
+        ]
+        assert len(found) == 1, "its rest is found once for all of them"
+    assert told[1] == told[0]
+
+
+@pytest.mark.parametrize(
+    ("curve", "field", "factor", "words"),
+    [
+        ("lateral", "slope", 1.0 / DEG, "per degree in place of per slip in lateral.slope"),
+        ("longitudinal", "slope", 0.01, "per percent in place of per slip in longitudinal.slope"),
+        ("lateral", "max_slip", DEG, "degrees in place of a ratio in lateral.max_slip"),
+        ("lateral", "max_force", 0.2, "lateral.max_force = "),
+    ],
+)
+def test_a_mistake_of_tmeasy_is_told(curve: str, field: str, factor: float, words: str) -> None:
+    t = load("hatchback").front.tyre.tyre()
+    fields = [field, "slide_slip"] if field == "max_slip" else [field]
+    made = {f: tuple(factor * v for v in getattr(getattr(t, curve), f)) for f in fields}
+    lines = tmeasy_plausibility("t", replace(t, **{curve: replace(getattr(t, curve), **made)})).warnings()
+    assert any(words in line for line in lines), lines
+
+
+def test_a_mistake_is_named_only_where_undoing_it_mends() -> None:
+    length = Quantity("length", "l", "m", "", {"small": (0.0, 1.0), "large": (1.0, 10.0)}, "")
+    values = [Value(length, 5e3, {"a": 5e3}, "first"), Value(length, 2.0, {"b": 2.0}, "second")]
+
+    def plausibility(undone: list[float] | None) -> Plausibility:
+        made = None if undone is None else [replace(v, value=x) for v, x in zip(values, undone, strict=True)]
+        return Plausibility("f", values, [Mistake("mm in place of m", frozenset({"a"}), lambda: made)], "")
+
+    assert "mm in place of m would explain it: without that it is 5 m" in plausibility([5.0, 2.0]).warnings()[0]
+    for undone in (None, [500.0, 2.0], [5.0, 200.0]):  # none, not enough, another one outside
+        (sentence,) = plausibility(undone).warnings()
+        assert sentence == "f: first length is 5000 m; usual is 0 to 10 m. It follows from a = 5000."
+
+
+def test_the_table_is_one_screen_with_a_column_for_each_axle() -> None:
+    """Places of points are shown where they lie outside alone."""
+    table = load("prototype").summary()
+    assert len(table.splitlines()) < 50
+    (row,) = (line.split() for line in table.splitlines() if line.startswith("bounce frequency"))
+    assert (row[3], row[5]) == ("Hz", "Hz")
+    plausibility = load("prototype").plausibility()[0]
+    values = {v.of: v.value for v in plausibility.values if v.quantity.name == "bounce frequency"}
+    assert [f"{values[side]:.4g}" for side in ("front", "rear")] == [row[2], row[4]]
+    hidden = next(v for v in plausibility.values if v.quantity.name == "point outside of the outline")
+    assert hidden.quantity.name not in table
+    far = replace(hidden, value=5.0)
+    shown = replace(plausibility, values=[far if v is hidden else v for v in plausibility.values]).text()
+    (line,) = (line for line in shown.splitlines() if line.startswith(hidden.quantity.name))
+    assert line.endswith("<- outside")
+
+
+def test_a_car_that_lies_on_its_body_has_its_mass() -> None:
+    """None of it is on the wheels."""
+    whole = load("prototype")
+    points = at("prototype", "chassis.ground_contact.points")
+    low = {f"chassis.ground_contact.points.{k}.2": -0.6 for k, p in enumerate(points) if not isinstance(p, str)}
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", CarWarning)
+        car = car_from(changed_content(whole._data, low, "x"), whole.folder, "x", warn=True)
+    assert any("ground clearance is -0.6 m" in str(w.message) for w in caught)
+    mass, own = (c.plausibility()[0].values[0] for c in (car, whole))
+    assert mass.quantity.name == "mass"
+    assert mass.value == own.value == pytest.approx(597.0, abs=0.1)
+    assert "0 N, 0.0%" in summary(car)

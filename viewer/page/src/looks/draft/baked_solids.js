@@ -1,0 +1,142 @@
+// The solid parts of a scene in one call: fewer triangles, colours at their points.
+import * as THREE from "three";
+import { vertexLit } from "./vertex_lighting.js";
+import { within } from "./vertex_clustering.js";
+import { growing, prisms } from "./tubes.js";
+
+/** Triangles of all solid parts and of those that change their form together, at most; solid parts have half of them. */
+export const MOST = 12000;
+/** The finest lattice, beside the size of the drawing. */
+const FINEST = 1.5e-3;
+/** Cameras do not see this layer. */
+const UNSEEN = 1;
+
+/** Whether a mesh is drawn by itself: see-through, or of a form or a look that changes. @param {THREE.Mesh} mesh */
+const stays = (mesh) => /** @type {THREE.Material} */ (mesh.material).transparent || mesh.userData.alone || mesh.userData.cover;
+
+const colourOf = (mesh) => /** @type {THREE.MeshStandardMaterial} */ (mesh.material).color.toArray();
+
+/** Numbers of a mesh in the axes of a group. @param {THREE.Mesh} mesh @param {THREE.Matrix4} toGroup */
+function surfaceOf(mesh, toGroup) {
+  const geometry = mesh.geometry.clone().applyMatrix4(toGroup.multiply(mesh.matrixWorld));
+  const { position, normal } = geometry.attributes;
+  const colour = colourOf(mesh);
+  const index = geometry.index?.array ?? [...Array(position.count).keys()];
+  geometry.dispose();
+  return { positions: position.array, normals: normal.array, colours: Array.from(position.array, (_, k) => colour[k % 3]), index };
+}
+
+function together(surfaces) {
+  const made = { positions: [], normals: [], colours: [], index: [] };
+  for (const { positions, normals, colours, index } of surfaces) {
+    const from = made.positions.length / 3;
+    for (const value of index) made.index.push(from + value);
+    for (const value of positions) made.positions.push(value);
+    for (const value of normals) made.normals.push(value);
+    for (const value of colours) made.colours.push(value);
+  }
+  return made;
+}
+
+function geometryOf({ positions, normals, colours, index }, tubes) {
+  const geometry = new THREE.BufferGeometry();
+  const thicks = [...Array(positions.length / 3).fill(0), ...tubes.thicks];
+  const whole = together([{ positions, normals, colours, index }, tubes]);
+  for (const [name, values] of Object.entries({ position: whole.positions, normal: whole.normals, color: whole.colours, thick: thicks })) {
+    geometry.setAttribute(name, new THREE.BufferAttribute(Float32Array.from(values), name === "thick" ? 1 : 3));
+  }
+  return geometry.setIndex(whole.index);
+}
+
+const sumOf = (surfaces, name) => surfaces.reduce((sum, surface) => sum + surface[name].length, 0);
+
+/**
+ * @param {import("../../scene/parts.js").Parts} parts
+ * @param {Data} light of `lightOf` @param {number} extent
+ */
+export function baked(parts, light, extent) {
+  parts.group.updateMatrixWorld(true);
+  const hidden = [];
+  const movers = [];
+  const single = new Map();
+  const thinner = new Set();
+  const gather = (object, bends) => {
+    const meshes = [];
+    object.traverse((part) => {
+      if (!(part instanceof THREE.Mesh)) return;
+      if (part.userData.coarse !== undefined) thinner.add(part);
+      if (!stays(part)) meshes.push(part);
+      else if (!bends || !part.userData.alone) single.set(part, part.material);
+    });
+    return meshes;
+  };
+  const carriers = parts.moving.map(([, carrier]) => carrier);
+  for (const carrier of carriers) movers.push({ object: carrier, meshes: gather(carrier, true) });
+  for (const { object, update } of parts.shapes) if (update) for (const mesh of gather(object, false)) movers.push({ object: mesh, meshes: [mesh] });
+  const solid = movers.filter(({ meshes }) => meshes.length > 0);
+  const tubes = solid.map(({ object, meshes }) => {
+    const inverse = object.matrixWorld.clone().invert();
+    const places = (mesh) => mesh.userData.tubes.map((tube) => inverse.clone().multiply(mesh.matrixWorld).multiply(tube));
+    const made = meshes.filter(({ userData }) => userData.tubes).map((mesh) => prisms(places(mesh), colourOf(mesh)));
+    return { ...together(made), thicks: made.flatMap(({ thicks }) => thicks) };
+  });
+  const others = [...thinner].reduce((sum, { userData }) => sum + (userData.coarse.count ?? userData.coarse.length) / 3, 0) + sumOf(tubes, "index") / 3;
+  const surfaces = within(solid.map(({ object, meshes }) => {
+    const inverse = object.matrixWorld.clone().invert();
+    return together(meshes.filter(({ userData }) => !userData.tubes).map((mesh) => surfaceOf(mesh, inverse.clone())));
+  }), Math.max(MOST / 2, MOST - others), FINEST * extent); // prettier-ignore
+  for (const { meshes } of solid) hidden.push(...meshes);
+  const drawn = solid.map((mover, k) => ({ ...mover, surface: surfaces[k], tubes: tubes[k] })).filter(({ surface, tubes: { index } }) => surface.index.length + index.length > 0);
+  const [points, corners] = ["positions", "index"].map((name) => sumOf(surfaces, name) + sumOf(tubes, name));
+  const grown = (shader) => growing(shader, light.aLeast);
+  const material = vertexLit(light, { vertexColors: true, side: THREE.DoubleSide }, "baked", grown);
+  const batch = new THREE.BatchedMesh(Math.max(1, drawn.length), Math.max(3, points / 3), Math.max(3, corners), material);
+  Object.assign(batch, { frustumCulled: false, perObjectFrustumCulled: false, sortObjects: false });
+  for (const mover of drawn) mover.id = batch.addInstance(batch.addGeometry(geometryOf(mover.surface, mover.tubes)));
+  const twins = new Map();
+  for (const own of new Set(single.values())) {
+    const { color, opacity, side, transparent, depthWrite } = own;
+    twins.set(own, vertexLit(light, { color, opacity, side, transparent, depthWrite }, `single ${transparent}`));
+  }
+  const steel = new Map(parts.flexible.map((body) => [body, vertexLit(light, { color: body.plain.color }, "steel", grown)]));
+  return {
+    mesh: batch,
+    /** Draw this in place of the parts, or the parts again. @param {boolean} on */
+    show(on) {
+      batch.visible = on;
+      if (!on) for (const { least } of parts.flexible) least.value = 0;
+      for (const mesh of hidden) mesh.layers.set(on ? UNSEEN : 0);
+      for (const [mesh, own] of single) mesh.material = on ? twins.get(own) : own;
+      for (const mesh of thinner) {
+        const { coarse, fine = mesh.geometry.index } = mesh.userData;
+        mesh.userData.fine = fine;
+        mesh.geometry.setIndex(on ? coarse : fine);
+      }
+    },
+    /** After the parts have their places. */
+    follow() {
+      parts.group.updateMatrixWorld(true);
+      for (const [own, twin] of twins) {
+        const { opacity, transparent, depthWrite } = own;
+        if (twin.transparent !== transparent) twin.needsUpdate = true;
+        Object.assign(twin, { opacity, transparent, depthWrite });
+      }
+      for (const [body, plain] of steel) {
+        body.least.value = light.aLeast.value;
+        if (body.object.material === body.plain) body.object.material = plain;
+      }
+      for (const { id, object } of drawn) {
+        let shown = true;
+        for (let at = object; at !== null && at !== parts.group; at = at.parent) shown &&= at.visible;
+        batch.setVisibleAt(id, shown);
+        batch.setMatrixAt(id, object.matrixWorld);
+      }
+    },
+    dispose() {
+      batch.dispose();
+      material.dispose();
+      for (const twin of [...twins.values(), ...steel.values()]) twin.dispose();
+      batch.removeFromParent();
+    },
+  };
+}

@@ -1,0 +1,123 @@
+// Chooses the quality of pictures by the measured time that the machine needs for one.
+
+/**
+ * From the coarsest. draft: see draft/index.js; low: without shadows of the sun, a world's ground and scenery as coarse
+ * as in a draft; medium: all, with a pixel for each of the page and a smaller shadow map.
+ */
+export const LEVELS = ["draft", "low", "medium", "high"];
+/** What a person can choose, finest first. */
+export const QUALITIES = ["auto", ...[...LEVELS].reverse()];
+/** Time of a picture above which the next level is coarser, and below which a draft becomes finer, ms. */
+const [SLOW, QUICK] = [40, 12];
+/** Time between pictures of a driven car above which drafts get fewer pixels, and above which the page stood still, ms. */
+const [SELDOM, STOOD] = [55, 250];
+/** Pictures that are skipped at first, since they compile shaders and load textures, and pictures that are measured. */
+const [SKIPPED, MEASURED] = [3, 5];
+/** While a car is driven, one of so many pictures is measured: other places of a world may have more to draw. */
+const EVERY = 20;
+/** Least resolution of a draft, share by side, and the factor by which it changes. */
+const [LEAST_SHARE, COARSER] = [0.5, 0.8];
+
+/** @param {number[]} values */
+const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
+
+/** Chooses between the levels. */
+export class PictureQuality {
+  /**
+   * @param {import("three").WebGLRenderer} renderer
+   * @param {string} quality
+   * @param {{software: boolean, driven: boolean}} machine software: the processor draws; driven: pictures must keep up
+   *   with something that moves now, so that they may be drafts
+   */
+  constructor(renderer, quality, { software, driven }) {
+    this.gl = renderer.getContext();
+    this.software = software;
+    this.driven = driven;
+    this.changed = () => {};
+    this.choose(quality);
+  }
+
+  /** @param {string} quality */
+  choose(quality) {
+    if (!QUALITIES.includes(quality)) throw new Error(`There is no quality '${quality}'; there are ${QUALITIES.join(", ")}.`);
+    const auto = quality === "auto";
+    this.goes = auto && this.driven;
+    /** Pixels of a draft by side, of those that it has at first. */
+    this.share = 1;
+    this.level = auto ? this._first() : quality;
+    this.tried = new Set([this.level]);
+    this._measure(auto && (this.driven || this.level === "high"));
+    this.changed();
+  }
+
+  _first() {
+    if (!this.software) return "high";
+    return this.driven ? "draft" : "medium";
+  }
+
+  _measure(wanted) {
+    this.skipped = wanted ? SKIPPED : Infinity;
+    this.every = 1;
+    this.times = [];
+    this.gaps = [];
+  }
+
+  before() {
+    const now = performance.now();
+    if (this.goes && now - this.drawn < STOOD) this.gaps.push(now - this.drawn);
+    this.drawn = now;
+    this.looks = this.skipped <= 0;
+    if (this.looks) this.began = now;
+  }
+
+  /** Waits for the card where a picture is measured; after several it decides. A finer level is tried once. */
+  after() {
+    this.skipped -= 1;
+    if (!this.looks) return;
+    this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
+    this.times.push(performance.now() - this.began);
+    this.skipped = this.every - 1;
+    if (this.times.length < MEASURED) return;
+    // What else the machine does for a picture is not in its time.
+    const time = median(this.times);
+    this._decide(this.level === "draft" && median(this.gaps) > SELDOM ? Math.max(time, SLOW + 1) : time);
+  }
+
+  /** @param {number} time of a picture, ms */
+  _decide(time) {
+    this.times = [];
+    this.gaps = [];
+    this.every = EVERY;
+    if (!this.goes) this.skipped = Infinity;
+    const level = nextLevel(this.level, time, this.driven);
+    const finer = LEVELS.indexOf(level) > LEVELS.indexOf(this.level);
+    const share = this.goes && this.level === "draft" ? nextShare(this.share, time) : this.share;
+    if (share !== this.share) this.share = share;
+    else if (level === this.level || (finer && this.tried.has(level))) return;
+    else {
+      this.level = level;
+      this._measure(this.goes || !this.tried.has(level));
+      this.tried.add(level);
+    }
+    this.changed();
+  }
+}
+
+/**
+ * Pixels of a draft by side after a measurement, of those that it has at first.
+ * @param {number} share @param {number} time of a picture, ms
+ */
+export function nextShare(share, time) {
+  if (time > SLOW) return Math.max(LEAST_SHARE, share * COARSER);
+  return time < SLOW / 3 ? Math.min(1, share / COARSER) : share;
+}
+
+/**
+ * The level after a measurement.
+ * @param {string} level @param {number} time of a picture, ms @param {boolean} driven
+ */
+export function nextLevel(level, time, driven) {
+  const at = LEVELS.indexOf(level);
+  if (time > SLOW) return LEVELS[Math.max(driven ? 0 : Math.min(at, LEVELS.indexOf("medium")), at - 1)];
+  return level === "draft" && time < QUICK ? "low" : level;
+}
