@@ -58,7 +58,7 @@ slave_status slave_set_asked(slave *s, const uint32_t *reference, size_t n, cons
 /* What the run lies beyond that a host may want to know within a step. */
 static bool turned_over(slave *s) {
   const bool before = s->overturned_said;
-  s->outputs_fresh = false;
+  s->outputs = SLAVE_STALE;
   return slave_outputs(s) && s->overturned_said && !before;
 }
 
