@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.errors import reason
-from ali3.files import check_writable, whole_file
+from ali3.files import check_writable, atomic_file
 from ali3.scene.base64_numbers import encoded
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import Recording
 from ali3.scene.scene_columns import pose_columns
-from ali3.scene.thinning import chosen_times
+from ali3.scene.decimation import chosen_times
 from ali3.scene.written_file import WrittenGltf
-from ali3.temporary import temporary_folder
+from ali3.temporary_folder import temporary_folder
 from viewer.bundle import GLTF, bundle
 from viewer.morph_targets import morph_targets
 from viewer.page_build import node
@@ -94,7 +94,7 @@ def write_gltf(
     answer, content = _answer(question, np.array(numbers))
     if not content:
         raise ViewerError(f"{recording.name!r} has no shape that can be drawn; there is nothing to write to {path}.")
-    with whole_file(path) as made:
+    with atomic_file(path) as made:
         made.write_bytes(content)
     notes = list(recording.notes)
     notes += [f"{item['name']} is not drawn: {item['why']}" for item in recording.missing]

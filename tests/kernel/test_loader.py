@@ -278,12 +278,21 @@ def test_fronts_of_impossible_size_are_refused_without_asking_for_memory() -> No
         ({"ported_const": [0.0]}, "'ported_const' has 1 items instead of 5"),
         ({"ported_ptr": []}, "'ported_row' has 3 items instead of 0"),
         ({"ported_ptr": [], "ported_row": [], "ported_val": []}, "'ported_const' has 5 items instead of 0"),
+        ({"ported_lam_ptr": [0, 1, 3]}, "'ported_lam_ptr' runs from 0 to 3 instead of 0 to 2"),
+        ({"ported_lam_row": [0, 3]}, "'ported_lam_row' is 3"),
+        ({"ported_lam_val": [1.0]}, "'ported_lam_val' has 1 items instead of 2"),
+        ({"ported_force_ptr": [0, 1]}, "'ported_force_ptr' has 2 items instead of 4"),
+        ({"ported_force_ptr": [0, 1, 1, 2]}, "'ported_force_ptr' runs from 0 to 2 instead of 0 to 1"),
+        ({"ported_force_col": [5]}, "'ported_force_col' is 5"),
+        ({"ported_force_val": []}, "'ported_force_val' has 0 items instead of 1"),
     ],
 )
 def test_a_map_of_ports_that_points_elsewhere_is_refused(changes: dict[str, list[float]], said: str) -> None:
     good = {"ported_ptr": [0, 1, 3], "ported_row": [0, 1, 2], "ported_val": [1.0] * 3, "ported_const": [0.0] * 5}
+    good |= {"ported_lam_ptr": [0, 1, 2], "ported_lam_row": [0, 1], "ported_lam_val": [1.0] * 2}
+    good |= {"ported_force_ptr": [0, 0, 0, 1], "ported_force_col": [0], "ported_force_val": [1.0]}
     arrays = sleigh().arrays()
-    assert len(arrays["q0"]) == 5
+    assert (len(arrays["q0"]), len(arrays["row_const"])) == (5, 3)
     LoadedSystem(pack(arrays | good))
     assert said in refused(pack(arrays | good | changes))
 

@@ -75,7 +75,7 @@ static bool initial_change(slave *s, uint32_t reference, double seed, bool left_
   bool good = true;
   for (int side = 0; side < 2 && good; side++) {
     s->value[reference] = side == 0 ? up : down;
-    good = slave_initialise(s) && slave_outputs(s) && (!left_out || slave_follow(s));
+    good = slave_initialise(s) && slave_outputs(s) && (!left_out || slave_follow(s, NULL, 0));
     const double weight = (side == 0 ? seed : -seed) / (up - down);
     for (size_t i = t->n_known; i < t->n_variables && good; i++)
       if (t->variable[i].source == SLAVE_SENSOR) out[i] += weight * s->value[i];

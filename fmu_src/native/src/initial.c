@@ -139,7 +139,7 @@ bool slave_initialise(slave *s) {
   s->calls.capped_residual = 0.0;
   s->made.n = 0;
   slave_half_steps_begin(s);
-  s->outputs_fresh = false;
+  s->outputs = SLAVE_STALE;
   if (status != ALI3_OK && settling != NULL) {
     if (status == ALI3_BAD_ARGUMENT)
       slave_say(s, SLAVE_ERROR, "No body of this scene has a direction that can be held; set '%.64s' to 0.",

@@ -58,7 +58,7 @@ slave_status slave_set_asked(slave *s, const uint32_t *reference, size_t n, cons
 /* Whether the car has turned over since the last inner step, which ends a step early where the host allows it. */
 static bool turned_over(slave *s) {
   const bool before = s->overturned_said;
-  s->outputs_fresh = false;
+  s->outputs = SLAVE_STALE;
   return slave_outputs(s) && s->overturned_said && !before;
 }
 

@@ -8,10 +8,12 @@
 static bool take_arrays(slave *s) {
   const slave_table *t = &slave_the_table;
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
-  const size_t numbers = t->n_variables + 2 * t->n_known * SLAVE_TERMS + (size_t)z.ns + (size_t)z.nu;
+  const size_t numbers = 2 * t->n_variables + 2 * t->n_known * SLAVE_TERMS + (size_t)z.nu;
   const size_t rhythms = t->n_known * sizeof *s->rhythm;
   const size_t texts = t->n_texts * sizeof *s->text;
-  double *pool = s->memory.allocate(1, numbers * sizeof(double) + rhythms + 2 * t->n_known + (size_t)z.ns + texts + 1);
+  const size_t marks = 2 * t->n_known + t->n_variables + (size_t)z.ns;
+  const size_t lists = t->n_variables * (sizeof *s->number + sizeof *s->place);
+  double *pool = s->memory.allocate(1, numbers * sizeof(double) + rhythms + texts + lists + marks + 1);
   if (pool == NULL) {
     slave_say(s, SLAVE_ERROR, "There is not enough memory for an instance.");
     return false;
@@ -20,12 +22,15 @@ static bool take_arrays(slave *s) {
   s->slope = s->value + t->n_variables;
   s->made_slope = s->slope + t->n_known * SLAVE_TERMS;
   s->sensors = s->made_slope + t->n_known * SLAVE_TERMS;
-  s->direction = s->sensors + z.ns;
+  s->direction = s->sensors + t->n_variables;
   s->rhythm = (slave_rhythm *)(s->direction + z.nu);
-  s->pending = (unsigned char *)(s->rhythm + t->n_known);
+  s->text = (slave_text_value *)(s->rhythm + t->n_known);
+  s->number = (int32_t *)(s->text + t->n_texts);
+  s->place = (uint32_t *)(s->number + t->n_variables);
+  s->pending = (unsigned char *)(s->place + t->n_variables);
   s->said = s->pending + t->n_known;
-  s->known = s->said + t->n_known;
-  s->text = (slave_text_value *)(s->known + z.ns);
+  s->fresh = s->said + t->n_known;
+  s->known = s->fresh + t->n_variables;
   return true;
 }
 
@@ -62,7 +67,8 @@ static void start_values(slave *s) {
   s->asked.n = 0;
   slave_half_steps_free(s);
   slave_forget_refusal(s);
-  s->outputs_fresh = s->uncomputed_said = s->overturned_said = s->rim_said = s->event_said = s->unchecked_said = false;
+  s->outputs = SLAVE_STALE;
+  s->uncomputed_said = s->overturned_said = s->rim_said = s->event_said = s->unchecked_said = false;
   memset(s->pending, 0, t->n_known);
   memset(s->said, 0, t->n_known);
   memset(s->rhythm, 0, t->n_known * sizeof *s->rhythm);

@@ -141,8 +141,8 @@ static slave_status add(slave *s, replay *r, double part, double weight, bool le
         s, SLAVE_ERROR,
         "There is no directional derivative of this communication step: a force changes abruptly in it, and "
         "its inner steps are divided there otherwise with inputs a little higher than lower.");
-  s->outputs_fresh = false;
-  if (!slave_outputs(s) || (left_out && !slave_follow(s))) return SLAVE_ERROR;
+  s->outputs = SLAVE_STALE;
+  if (!slave_outputs(s) || (left_out && !slave_follow(s, NULL, 0))) return SLAVE_ERROR;
   for (size_t i = t->n_known; i < t->n_variables; i++)
     if (t->variable[i].source == SLAVE_SENSOR) out[i] += weight * s->value[i];
   return SLAVE_OK;
@@ -182,7 +182,7 @@ slave_status slave_step_derivative(slave *s, const double *direction, bool left_
   if (r.size > 0.0 && status == SLAVE_OK) status = add(s, &r, r.minus, -weight, left_out, out);
   ali3_set_settings(s->fidelity.kernel, &r.settings);
   ali3_snapshot_restore(s->fidelity.kernel, r.end);
-  s->outputs_fresh = false;
+  s->outputs = SLAVE_STALE;
   s->memory.release(r.end);
   return status;
 }

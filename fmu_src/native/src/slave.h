@@ -188,6 +188,9 @@ typedef struct { /* a System of the FMU at work */
   void *start; /* the same of the last good communication step */
 } slave_fidelity;
 
+/* Outputs of the present state: none, those that were read, all but those that the System at work leaves out. */
+typedef enum { SLAVE_STALE, SLAVE_SOME, SLAVE_FRESH } slave_freshness;
+
 struct slave {
   void *host; /* what the face needs for its logger */
   slave_logger *logger;
@@ -211,12 +214,16 @@ struct slave {
   unsigned char *pending; /* per known variable: set and not yet with the kernel */
   unsigned char *said; /* per known variable: SLAVE_GIVEN and what was said once */
   slave_text_value *text; /* per text variable: the one whose road the kernel has */
-  bool outputs_fresh, followed; /* followed: with what the follower computes */
+  slave_freshness outputs;
+  bool followed; /* the follower is at the present state */
   bool uncomputed_said; /* that an output was read which is not computed, once a run */
   /* once a run: that the vehicle lies upside down, that a rim was pressed in, that a contact or a stop was too quick */
   bool overturned_said, rim_said, event_said, unchecked_said; /* and that steps are not made twice */
-  double *sensors, *direction; /* work: ns, nu */
-  unsigned char *known;
+  double *sensors, *direction; /* work: n_variables, nu */
+  int32_t *number; /* work: n_variables, sensors that are evaluated */
+  uint32_t *place; /* work: n_variables, the outputs that they are */
+  unsigned char *fresh; /* per variable: an output of the present state, where SLAVE_SOME are */
+  unsigned char *known; /* work: ns */
   size_t step_reference, iterations_reference, lead_reference;
   size_t fidelity_reference; /* n_variables where there is no choice */
   int64_t work_left; /* of the present call, see work.c */
@@ -258,9 +265,14 @@ void slave_fidelity_take(slave *s, const slave_fidelity *loaded);
 void slave_fidelity_free(const slave *s, slave_fidelity *loaded);
 bool slave_fidelity_choose(slave *s);
 
+/* read_sensors.c */
+void slave_will_read(slave *s, size_t *n, uint32_t reference);
+bool slave_read_sensors(slave *s, ali3_instance *kernel, size_t n);
+
 /* omitted_outputs.c */
 bool slave_left_out(const slave *s, const slave_variable *v);
-bool slave_follow(slave *s);
+bool slave_has_follower(const slave *s);
+bool slave_follow(slave *s, const uint32_t *reference, size_t n);
 
 /* texts.c: n numbers of text variables, the first of which is `first`, and as many texts */
 slave_status slave_get_text(slave *s, uint32_t first, const uint32_t *reference, size_t n, const char **value);
@@ -283,7 +295,7 @@ slave_status slave_reset(slave *s);
 /* What was computed is no longer that of the values: the start is sought again, outputs are computed again. */
 static inline void slave_stale(slave *s) {
   s->calls.initialised = 0;
-  s->outputs_fresh = false;
+  s->outputs = SLAVE_STALE;
 }
 
 /* work.c: the bound of a call; the kernel takes what it does off it */

@@ -210,7 +210,7 @@ static slave_status restore(slave *s, const unsigned char *bytes, size_t size) {
   get(s->pending, &p, n);
   get(s->said, &p, n);
   get(s->text, &p, texts_size());
-  s->outputs_fresh = false;
+  s->outputs = SLAVE_STALE;
   return SLAVE_OK;
 }
 

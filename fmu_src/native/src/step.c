@@ -168,7 +168,7 @@ static slave_status try_step(slave *s, double time, double step) {
   forget_slopes(s);
   slave_watch_ports(s, now);
   memset(s->pending, 0, slave_the_table.n_known);
-  s->outputs_fresh = false;
+  s->outputs = SLAVE_STALE;
   s->calls.phase = SLAVE_STEPPING;
   s->calls.capped_residual = left;
   slave_forget_refusal(s);

@@ -24,23 +24,69 @@ void slave_ahead(const slave *s, double *derivative) {
     if (t->variable[i].source == SLAVE_AHEAD) derivative[i] = ahead(s, &t->variable[i], derivative);
 }
 
+/* The value of an output of the present state; `sensor`: that of the kernel, of a sensor. */
+static double output(const slave *s, const slave_variable *v, double sensor) {
+  return v->source == SLAVE_SENSOR   ? v->scale * sensor
+         : v->source == SLAVE_SOLVER ? ali3_solver_value(s->fidelity.kernel, v->index)
+         : v->source == SLAVE_AHEAD  ? ahead(s, v, s->value) /* of sensors, which stand before */
+                                     : s->calls.capped_residual;
+}
+
+/* Before outputs are computed; false where there is no state. */
+static bool begin(slave *s) {
+  if (!s->calls.initialised && !slave_initialise(s)) return false;
+  memset(s->fresh, 0, slave_the_table.n_variables);
+  s->followed = false;
+  return true;
+}
+
 bool slave_outputs(slave *s) {
   const slave_table *t = &slave_the_table;
-  if (s->outputs_fresh) return true;
-  if (!s->calls.initialised && !slave_initialise(s)) return false;
-  if (ali3_sensors(s->fidelity.kernel, s->sensors) != ALI3_OK) return false;
+  const bool first = s->outputs == SLAVE_STALE;
+  if (s->outputs == SLAVE_FRESH) return true;
+  if (!begin(s) || ali3_sensors(s->fidelity.kernel, s->sensors) != ALI3_OK) return false;
   for (size_t i = t->n_known; i < t->n_variables; i++) {
     const slave_variable *v = &t->variable[i];
     if (v->source == SLAVE_CONSTANT) break; /* they come last */
-    s->value[i] = v->source == SLAVE_SENSOR   ? v->scale * s->sensors[v->index]
-                  : v->source == SLAVE_SOLVER ? ali3_solver_value(s->fidelity.kernel, v->index)
-                  : v->source == SLAVE_AHEAD  ? ahead(s, v, s->value) /* of sensors, which stand before */
-                                              : s->calls.capped_residual;
+    s->value[i] = output(s, v, s->sensors[v->index]);
   }
-  s->outputs_fresh = true;
-  s->followed = false;
+  s->outputs = SLAVE_FRESH;
+  if (!first) return true;
   slave_watch_outputs(s);
   slave_watch_answers(s);
+  return true;
+}
+
+/* Whether answers of other programs are watched, by outputs of each step. */
+static bool watches_answers(void) {
+  for (size_t i = 0; i < slave_the_table.n_known; i++)
+    if (slave_the_table.variable[i].role == SLAVE_ANSWER || slave_the_table.variable[i].role == SLAVE_HUB) return true;
+  return false;
+}
+
+/* The outputs among these, but for those of a follower. */
+static bool some_outputs(slave *s, const uint32_t *reference, size_t n) {
+  const slave_table *t = &slave_the_table;
+  const bool first = s->outputs == SLAVE_STALE;
+  size_t wanted = 0;
+  if (s->outputs == SLAVE_FRESH || watches_answers()) return slave_outputs(s);
+  if (first && !begin(s)) return false;
+  const bool followed = slave_has_follower(s); /* of the fidelity, which `begin` may change */
+  if (first && t->roll < t->n_variables) slave_will_read(s, &wanted, (uint32_t)t->roll);
+  for (size_t k = 0; k < n; k++) {
+    const slave_variable *v = &t->variable[reference[k]];
+    if (!slave_is_output(reference[k])) continue;
+    if (v->source == SLAVE_SENSOR && !(followed && slave_left_out(s, v))) slave_will_read(s, &wanted, reference[k]);
+    if (v->source == SLAVE_AHEAD) slave_will_read(s, &wanted, (uint32_t)v->index);
+    if (v->source == SLAVE_AHEAD) slave_will_read(s, &wanted, (uint32_t)v->other);
+  }
+  if (!slave_read_sensors(s, s->fidelity.kernel, wanted)) return false;
+  s->outputs = SLAVE_SOME;
+  for (size_t k = 0; k < n; k++) {
+    const slave_variable *v = &t->variable[reference[k]];
+    if (slave_is_output(reference[k]) && v->source != SLAVE_SENSOR) s->value[reference[k]] = output(s, v, 0.0);
+  }
+  if (first) slave_watch_outputs(s);
   return true;
 }
 
@@ -49,7 +95,7 @@ static bool left_out(slave *s, const uint32_t *reference, size_t n) {
   for (size_t i = 0; i < n; i++) {
     const slave_variable *v = &slave_the_table.variable[reference[i]];
     if (!slave_left_out(s, v)) continue;
-    if (slave_the_table.follower[s->fidelity.number] >= 0) return slave_follow(s);
+    if (slave_has_follower(s)) return slave_follow(s, reference, n);
     if (!s->uncomputed_said) slave_say_uncomputed(s, v);
     s->uncomputed_said = true;
     return true;
@@ -69,7 +115,7 @@ slave_status slave_get(slave *s, const uint32_t *reference, size_t n, double *va
                        t->variable[reference[i]].name);
     outputs = true;
   }
-  if (outputs && !(slave_outputs(s) && left_out(s, reference, n))) return SLAVE_ERROR;
+  if (outputs && !(some_outputs(s, reference, n) && left_out(s, reference, n))) return SLAVE_ERROR;
   for (size_t i = 0; i < n; i++) value[i] = s->value[reference[i]];
   return SLAVE_OK;
 }

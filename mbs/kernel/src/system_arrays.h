@@ -39,6 +39,9 @@
   X(n_tabled, tabled_size, 3, "tables") \
   X(n_ported_ptr, ported_ptr, 1, "coordinates without ports, and 1") \
   X(n_ported, ported_row, 1, "entries of the map from these") \
+  X(n_ported_lam_ptr, ported_lam_ptr, 1, "rows without ports, and 1") \
+  X(n_ported_lam, ported_lam_row, 1, "entries of the map from their multipliers") \
+  X(n_ported_force, ported_force_col, 1, "entries of the map to the forces at ports") \
   X(n_pose, pose_0, 1, "coordinates of a scene that is not tied to the ground") \
   X(n_static, static_par, 1, "parameters that a search for the equilibrium sets") \
   X(n_mode, flex_mode, 1, "modes of all flexible bodies") \
@@ -242,6 +245,15 @@
   X(INTEGERS, ported_row, MAY, ANY_IF(n_ported_ptr), BELOW(nq), "coordinate") \
   X(REALS, ported_val, MAY, n_ported, FINITE, "entry of T") \
   X(REALS, ported_const, MAY, IF_ANY(n_ported_ptr, nq), FINITE, "const") \
+  X(INTEGERS, ported_lam_ptr, MAY, ANY_IF(n_ported_ptr), OFFSETS(ported_lam_row), \
+    "its multipliers, but for those of the ports, by those without them, the matrix by columns") \
+  X(INTEGERS, ported_lam_row, MAY, ANY_IF(n_ported_lam_ptr), BELOW(nc), "row") \
+  X(REALS, ported_lam_val, MAY, n_ported_lam, FINITE, "entry") \
+  X(INTEGERS, ported_force_ptr, MAY, IF_ANY(n_ported_ptr, nc + 1), OFFSETS(ported_force_col), \
+    "multipliers of the rows of ports by the generalised forces that they balance, the matrix by rows, of which " \
+    "those of other rows are empty") \
+  X(INTEGERS, ported_force_col, MAY, ANY_IF(n_ported_ptr), BELOW(nq), "coordinate") \
+  X(REALS, ported_force_val, MAY, n_ported_force, FINITE, "entry") \
   /* Start */ \
   X(REALS, pose_0, MUST, OR_NONE(nq), FINITE, \
     "initial pose of a scene that is not tied to the ground: q = pose_0 + cos(yaw) pose_cos + sin(yaw) pose_sin +" \

@@ -2,9 +2,9 @@
  *
  * Left: a loop is in none of its modes, as after a dead centre that it was not meant to reach.
  * Jump: where all arms of a ring lie nearly in line branches cross, or nearly. A step there in which a triad changes
- * its sign is repeated in 4 parts and, where these do not change it, in 8: where these agree with each other and not with
- * it, the step has jumped. On the smooth branch all three agree. The state and what the step left behind are those of
- * the whole step. */
+ * its sign is repeated in 4 parts, up to that behind which it has changed, and, where these do not change it, in 8:
+ * where these agree with each other and not with it, the step has jumped. On the smooth branch all three agree. The
+ * state and what the step left behind are those of the whole step. */
 #include <math.h>
 #include <string.h>
 
@@ -23,6 +23,7 @@ static const double IN_LINE = 0.25; /* square of the largest sine of a ring whos
 static const double APART = 0.5; /* of the change in the step: the parts come out elsewhere; of that: they agree */
 static const double MOST_TURNED = 0.2; /* sine of a ring in a controlled step past a place where branches may be near */
 static const double SAFE = 0.65, APART_AGAIN = 0.25; /* of MOST_TURNED; of a step that ends elsewhere than its parts */
+static const double CLEAR = 0.01; /* of the squared sine at the end: parts that crossed so far stay across */
 enum { FEW = 4, MANY = 8, LOOKS = 8 };
 
 enum { RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
@@ -89,8 +90,23 @@ static void again(ali3_instance *in) {
   in->clock.now = ali3_time(in); /* that of the last whole step */
 }
 
-/* The step from in->kept.near_branch in n equal parts, the angles at its end; false where a part fails. */
-static bool in_parts(ali3_instance *in, const ali3_request *step, int n) {
+/* Whether a step made triad k of a loop with the triads first to end change its sign where branches may be near. */
+static bool crossed(const ali3_instance *in, int32_t k, int32_t first, int32_t end) {
+  return in->branch.sine_before[k] * in->branch.sine_after[k] < 0.0 &&
+         in_line(in, in->branch.sine_before, k, first, end) && in_line(in, in->branch.sine_after, k, first, end);
+}
+
+/* Whether every triad of those that the step made change its sign, where branches may be near, changed it in the angles
+ * of now too, and turned on as far as the step did. */
+static bool all_crossed(const ali3_instance *in, int32_t first, int32_t end) {
+  for (int32_t k = first; k < end; k++)
+    if (crossed(in, k, first, end) && !(in->branch.sine[k] / in->branch.sine_after[k] > CLEAR)) return false;
+  return true;
+}
+
+/* The step from in->kept.near_branch in n equal parts, the angles at its end, or at that of the first part behind which
+ * all triads from first to end have crossed; false where a part fails. */
+static bool in_parts(ali3_instance *in, const ali3_request *step, int n, int32_t first, int32_t end) {
   ali3_request part = *step;
   part.h = step->h / n;
   part.depth = 0;
@@ -99,15 +115,10 @@ static bool in_parts(ali3_instance *in, const ali3_request *step, int n) {
     in->kept.backed_up = false;
     part.t = step->t - step->h + step->h * (double)i / n;
     if (ali3_advance(in, &part) != ALI3_OK) return false;
+    ali3_mode_angles(in, in->now.q);
+    if (all_crossed(in, first, end)) return true;
   }
-  ali3_mode_angles(in, in->now.q);
   return true;
-}
-
-/* Whether a step made triad k of a loop with the triads first to end change its sign where branches may be near. */
-static bool crossed(const ali3_instance *in, int32_t k, int32_t first, int32_t end) {
-  return in->branch.sine_before[k] * in->branch.sine_after[k] < 0.0 &&
-         in_line(in, in->branch.sine_before, k, first, end) && in_line(in, in->branch.sine_after, k, first, end);
 }
 
 /* Whether parts of the step, with these sines at their end, keep the sign of triad k that the whole changed. */
@@ -118,11 +129,11 @@ static bool keeps(const ali3_instance *in, const double *sine, int32_t k, int32_
 /* The first triad, counted in its loop, whose sign the step changed otherwise than its parts do, or -1. */
 static int32_t jumped(ali3_instance *in, const ali3_request *step, int32_t first, int32_t end) {
   const size_t all = (size_t)ali3_triad_count(in->system) * sizeof(double);
-  if (!in_parts(in, step, FEW)) return -1;
+  if (!in_parts(in, step, FEW, first, end)) return -1;
   memcpy(in->branch.sine_few, in->branch.sine, all);
   int32_t k = first;
   while (k < end && !keeps(in, in->branch.sine_few, k, first, end)) k++;
-  if (k == end || !in_parts(in, step, MANY)) return -1;
+  if (k == end || !in_parts(in, step, MANY, first, end)) return -1;
   for (; k < end; k++) {
     const double before = root(in->branch.sine_before[k]), after = root(in->branch.sine_after[k]),
                  few = root(in->branch.sine_few[k]), many = root(in->branch.sine[k]), apart = fabs(many - after);

@@ -143,8 +143,8 @@ static double value_element_output(const ali3_instance *in, const int32_t *v, co
   return real[0] * in->now.out[in->system->el_out_ptr[v[0]] + v[1]];
 }
 
-static double value_energy(const ali3_instance *in, const int32_t *v, const double *real) {
-  (void)real;
+/* Kinetic energy, that of gravity and of elements, their sum. */
+static void energies(const ali3_instance *in, double kinds[4]) {
   const ali3_system *S = in->system;
   double kinetic = 0.0, gravity = in->mass.gravity_const, elastic = 0.0;
   ali3_bodies_prepare(in, in->now.q);
@@ -155,7 +155,16 @@ static double value_energy(const ali3_instance *in, const int32_t *v, const doub
     gravity -= in->mass.gravity[i] * in->now.q[i];
   }
   for (int32_t e = 0; e < S->size.ne; e++) elastic += in->now.potential[e];
-  const double kinds[4] = {kinetic, gravity, elastic, kinetic + gravity + elastic};
+  kinds[0] = kinetic;
+  kinds[1] = gravity;
+  kinds[2] = elastic;
+  kinds[3] = kinetic + gravity + elastic;
+}
+
+static double value_energy(const ali3_instance *in, const int32_t *v, const double *real) {
+  (void)real;
+  double kinds[4];
+  energies(in, kinds);
   return kinds[v[0]];
 }
 
@@ -300,14 +309,25 @@ static void prepare(const ali3_instance *in) {
   ali3_tabled_extend(in, in->now.q, in->now.qd, in->now.qdd, true);
 }
 
-void ali3_sensors_evaluate(const ali3_instance *in, double *out) {
+/* Of n sensors; `number` NULL: the first n. Energies, of which each takes all, are found once. */
+static void evaluate(const ali3_instance *in, int32_t n, const int32_t *number, double *out) {
+  const ali3_system *S = in->system;
+  double kinds[4];
+  bool known = false;
   prepare(in);
-  for (int32_t i = 0; i < in->system->size.ns; i++) out[i] = value(in, i);
+  for (int32_t k = 0; k < n; k++) {
+    const int32_t i = number != NULL ? number[k] : k;
+    const bool energy = S->sen_type[i] == ALI3_SENSOR_ENERGY;
+    if (energy && !known) energies(in, kinds);
+    known = known || energy;
+    out[k] = energy ? kinds[S->sen_int[S->sen_int_ptr[i]]] : value(in, i);
+  }
 }
 
+void ali3_sensors_evaluate(const ali3_instance *in, double *out) { evaluate(in, in->system->size.ns, NULL, out); }
+
 void ali3_sensors_some(const ali3_instance *in, int32_t n, const int32_t *number, double *out) {
-  prepare(in);
-  for (int32_t i = 0; i < n; i++) out[i] = value(in, number[i]);
+  evaluate(in, n, number, out);
 }
 
 void ali3_record_row(const ali3_instance *in, int64_t row, double *out, double *positions) {

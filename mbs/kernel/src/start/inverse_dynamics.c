@@ -1,15 +1,14 @@
-/* What a rigid body carries at its ports while the same model runs without them: the motion is that of the model without
- * ports, and the equations of index one, with a row for each component of a port, give the forces there. */
+/* What a rigid body carries at its ports while the same model runs without them: motion, accelerations and multipliers are
+ * those of the model without ports, and the forces at the ports balance what M qdd + Phi_q' lam = Q then leaves open. */
 #include <string.h>
 
+#include "../algebra/finite.h"
 #include "../elements/forces.h"
 #include "../elements/road.h"
+#include "../flexible/mass.h"
 #include "../instance.h"
 #include "../rows/constraints.h"
 #include "../state/parameters.h"
-#include "index_one.h"
-
-static const double TOLERANCE = 1e-10; /* relative, of accelerations and multipliers */
 
 static void copy(double *to, const double *from, int64_t n) {
   if (n > 0) memcpy(to, from, (size_t)n * sizeof(double));
@@ -18,9 +17,9 @@ static void copy(double *to, const double *from, int64_t n) {
 /* Whether `ported` tells its coordinates by those of `without`, and all else that a state has is the same. */
 static bool same_model(const ali3_system *ported, const ali3_system *without) {
   const ali3_sizes *a = &ported->size, *b = &without->size;
-  return ported->n_ported_ptr == (int64_t)b->nq + 1 && a->nu == b->nu && a->np == b->np && a->ng == b->ng &&
-         a->ne == b->ne && a->ny == b->ny && a->nout == b->nout && a->n_switch == b->n_switch &&
-         ported->nr == without->nr;
+  return ported->n_ported_ptr == (int64_t)b->nq + 1 && ported->n_ported_lam_ptr == (int64_t)b->nc + 1 &&
+         a->nu == b->nu && a->np == b->np && a->ng == b->ng && a->ne == b->ne && a->ny == b->ny && a->nout == b->nout &&
+         a->n_switch == b->n_switch && ported->nr == without->nr;
 }
 
 /* to = T from + offset; offset may be NULL: of rates. */
@@ -31,7 +30,15 @@ static void follow(const ali3_system *S, const double *from, const double *offse
       to[S->ported_row[k]] += S->ported_val[k] * from[j];
 }
 
-/* The state of the model without ports, but for accelerations and multipliers. */
+/* Multipliers of the rows that are no ports; those of ports are 0. */
+static void follow_rows(const ali3_system *S, const double *from, double *to) {
+  memset(to, 0, (size_t)S->size.nc * sizeof(double));
+  for (int64_t j = 0; j + 1 < S->n_ported_lam_ptr; j++)
+    for (int32_t k = S->ported_lam_ptr[j]; k < S->ported_lam_ptr[j + 1]; k++)
+      to[S->ported_lam_row[k]] += S->ported_lam_val[k] * from[j];
+}
+
+/* The state of the model without ports, but for the multipliers of ports. */
 static ali3_status take_state(ali3_instance *in, const ali3_instance *without) {
   const ali3_system *S = in->system;
   const ali3_sizes *z = &S->size;
@@ -43,6 +50,8 @@ static ali3_status take_state(ali3_instance *in, const ali3_instance *without) {
   }
   follow(S, from->q, S->ported_const, v->q);
   follow(S, from->qd, NULL, v->qd);
+  follow(S, from->qdd, NULL, v->qdd);
+  follow_rows(S, from->lam, v->lam);
   copy(v->y, from->y, z->ny);
   copy(v->y_last, from->y_last, z->ny);
   copy(v->s, from->s, z->ng);
@@ -71,18 +80,28 @@ static void forces(ali3_instance *in) {
   ali3_forces(in, &call);
 }
 
+/* The multipliers of ports, of what is open without them. */
+static void balance(ali3_instance *in) {
+  const ali3_system *S = in->system;
+  double *open = in->step.r;
+  ali3_constraints(in, in->now.q, in->now.s, in->step.Phi, in->tangent.J);
+  ali3_rows_transposed(S, in->tangent.J, in->now.lam, in->step.x);
+  ali3_mass_times(in, in->now.qdd, open);
+  for (int32_t i = 0; i < S->size.nq; i++) open[i] = in->step.Q[i] - open[i] - in->step.x[i];
+  for (int32_t r = 0; r < S->size.nc; r++)
+    for (int32_t k = S->ported_force_ptr[r]; k < S->ported_force_ptr[r + 1]; k++)
+      in->now.lam[r] += S->ported_force_val[k] * open[S->ported_force_col[k]];
+}
+
 ali3_status ali3_ports_follow(ali3_instance *in, const ali3_instance *without) {
   if (in == NULL || without == NULL || !same_model(in->system, without->system)) return ALI3_BAD_ARGUMENT;
   if (!without->start.initialised) return ALI3_NOT_INITIALISED;
-  ali3_vectors *v = &in->now;
-  ali3_status status = take_state(in, without);
+  const ali3_status status = take_state(in, without);
   if (status != ALI3_OK) return status;
   memcpy(in->roads.used, without->roads.used,
          (size_t)in->system->nr * sizeof *in->roads.used); /* tiles that are in memory */
   forces(in);
   memcpy(in->roads.used, in->roads.own, (size_t)in->system->nr * sizeof *in->roads.used);
-  ali3_constraints(in, v->q, v->s, in->step.Phi, in->tangent.J);
-  ali3_constraint_gamma(in, v->q, v->qd, v, in->step.gamma);
-  status = ali3_index_one_factorise(in, v->q);
-  return status == ALI3_OK ? ali3_index_one_solve(in, in->step.Q, in->step.gamma, TOLERANCE, v->qdd, v->lam) : status;
+  balance(in);
+  return ali3_finite(in->now.lam, in->system->size.nc) ? ALI3_OK : ALI3_NOT_FINITE;
 }
