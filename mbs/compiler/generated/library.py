@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ali3.temporary import temporary_folder
 from mbs.common.errors import ModelError
-from mbs.compiler.generated.source import source
+from mbs.compiler.generated.source import TABLE, source
 from mbs.kernel import build
 from mbs.kernel.binding import LoadedSystem
 from mbs.system.system import System
@@ -19,6 +19,13 @@ def code_of(system: System) -> str:
     """C of the algebra of a System, for the processor this runs on."""
     loaded = LoadedSystem(system.kernel_bytes(modes=False))
     return source(system.arrays, loaded.structure, avx2=loaded.has_avx2)
+
+
+def named_code_of(system: System) -> tuple[str, str]:
+    """Name of the table, which names the structure, and C that compilers of any processor take."""
+    loaded = LoadedSystem(system.kernel_bytes(modes=False))
+    name = f"{TABLE}_{loaded.structure:08x}"
+    return name, source(system.arrays, loaded.structure, avx2=True, table=name)
 
 
 def library_of(system: System) -> Path:
