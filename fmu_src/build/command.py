@@ -84,6 +84,12 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         help="names and units of variables as in another program: carmaker, carsim, chrono, osi, "
         "vehicle_interfaces, or an alias file",
     )
+    parser.add_argument(
+        "--plain",
+        action="store_true",
+        help="without the C that is generated for the algebra of this one model: the same bits, more time a step, "
+        "less for the build, a smaller file",
+    )
     add_option(parser, "--fidelity", "the FMU of a car offers all; with N it has this one alone")
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
@@ -175,7 +181,7 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     for file in (*files.values(), beside):
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
-    builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin, names)
+    builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin, names, options.plain)
     _tell_names(builder.renamed, len(builder.renamed.table))
     wanted = [p for p in TARGETS if p in first or p in rest]
     able = {kind: [p for p in wanted if _able(kind, p)] for kind in kinds}

@@ -3,13 +3,36 @@
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-VECTORS = '#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)'
-"""Vectors of four are one instruction from here on."""
+VECTORS = """\
+#ifdef __x86_64__
+#define AVX2 1
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#endif
+#else
+#define AVX2 0
+#endif
+"""
+"""Vectors of four are one instruction from here on, where the processor can have them."""
+NO_VECTORS = "#define AVX2 0\n"
+END = """\
+#if AVX2 && defined(__clang__)
+#pragma clang attribute pop
+#elif AVX2
+#pragma GCC pop_options
+#endif
+#endif
+"""
 HEAD = """\
+/* Generated for one System: the algebra of its steps. */
 #include <math.h>
 
 #include "generated.h"
 
+#ifdef ALI3_GENERATES
 INSTRUCTIONS
 typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double two __attribute__((vector_size(16), aligned(8), may_alias));
