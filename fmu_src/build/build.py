@@ -187,7 +187,8 @@ class FmuBuilder:
             reach = probe(systems, table)
         table = with_nominal(table, drive_sizes(systems, table), reach.size)
         version = importlib.metadata.version("ali3")
-        code = [] if plain else [named_code_of(s) for s in systems]
+        with told("writing C for the model"):
+            code = [] if plain else [named_code_of(s) for s in systems]
         scene = geometry(systems[fidelity], table, fmu_name(name), description)
         self.renamed = Renamed(table, {}) if names is None else renamed(table, names)
         table = self.renamed.table

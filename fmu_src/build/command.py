@@ -99,6 +99,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         parser.error("--ports are of a car: name it, as in ali3 build prototype")
     if options.fidelity is not None and options.car is None:
         parser.error("--fidelity is of a car: name it, as in ali3 build prototype")
+    if options.plain and (options.kernel or options.fmu is not None):
+        other = "the kernel has no code of one model" if options.kernel else "--fmu compiles the C that lies in the FMU"
+        parser.error(f"--plain is of a CAR or a scene that is built; {other}")
     if options.kernel:
         return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
     options.out = options.out or Path("dist")

@@ -43,7 +43,7 @@ void slave_fidelity_free(const slave *s, slave_fidelity *loaded) {
 
 /* False, and said, if it cannot be loaded; then `loaded` is empty. */
 bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
-  char file[32], message[256] = "", code[256];
+  char file[32], message[256] = "", code[256] = "";
   const char *why;
   size_t size = 0;
   memset(loaded, 0, sizeof *loaded);

@@ -91,6 +91,11 @@ def vector(array: str, places: Sequence[int | None], most: int | None = None) ->
     return "(four){" + ", ".join(words + ["0.0"] * (4 - len(words))) + "}"
 
 
+def room(name: str, numbers: int) -> str:
+    """Declares an array; one number that is never used where there is none, which compilers want to have a value."""
+    return f"  double {name}[{numbers}];" if numbers else f"  double {name}[1] = {{0.0}};"
+
+
 def function(head: str, lines: Iterable[str]) -> list[str]:
     """A function of the file."""
     return [f"{head} {{", *lines, "}", ""]
