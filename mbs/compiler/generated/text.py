@@ -34,6 +34,8 @@ HEAD = """\
 
 #ifdef ALI3_GENERATES
 INSTRUCTIONS
+/* A System without rows, or whose fronts have one coordinate, needs not all that a function is given. */
+#pragma GCC diagnostic ignored "-Wunused-parameter"
 typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double two __attribute__((vector_size(16), aligned(8), may_alias));
 #define V(p) (*(const four *)(p))
