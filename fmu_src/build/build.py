@@ -29,6 +29,7 @@ from fmu_src.variables.renamed_variables import Renamed, renamed
 from fmu_src.variables.texts import check_texts
 from fmu_src.variables.variables import check_fidelities, variable_table, with_uncomputed
 from mbs.common.checks import instance_of
+from mbs.compiler.generated.library import named_code_of
 from mbs.compiler.ports import following
 
 Say = Callable[[str], None]
@@ -72,6 +73,7 @@ def build_fmu(
     copyright: str = "",
     licence: str = "",
     names: Content | None = None,
+    plain: bool = False,
 ) -> Path:
     """Build the FMU of a System.
 
@@ -97,6 +99,8 @@ def build_fmu(
         Of the model, for its description; empty: the solver's.
     names : Content, optional
         An alias file, as `ali3.alias_file.read_content` reads it: names, and units, of another program.
+    plain : bool
+        Without code that is generated for the Systems; the same bits.
 
     Raises
     ------
@@ -115,7 +119,13 @@ def build_fmu(
     # one library is there soon enough
     with compiled_ahead([(face_name(kind), platform) for platform in chosen] if len(chosen) > 1 else []):
         builder = FmuBuilder(
-            system, name, fidelity, (author, copyright, licence), functools.partial(_told, say), names=names
+            system,
+            name,
+            fidelity,
+            (author, copyright, licence),
+            functools.partial(_told, say),
+            names=names,
+            plain=plain,
         )
         return builder.build(kind, chosen, file)
 
@@ -139,6 +149,8 @@ class FmuBuilder:
         Files that the model was made from, by their paths in the FMU.
     names : Content, optional
         As for `build_fmu`.
+    plain : bool
+        As for `build_fmu`.
     """
 
     def __init__(
@@ -151,6 +163,7 @@ class FmuBuilder:
         description: str = "",
         origin: Mapping[str, bytes] | None = None,
         names: Content | None = None,
+        plain: bool = False,
     ) -> None:
         offered = systems_by_number(system)
         systems, followers = following(list(offered.values()))
@@ -174,13 +187,15 @@ class FmuBuilder:
             reach = probe(systems, table)
         table = with_nominal(table, drive_sizes(systems, table), reach.size)
         version = importlib.metadata.version("ali3")
+        with told("writing C for the model"):
+            code = [] if plain else [named_code_of(s) for s in systems]
         scene = geometry(systems[fidelity], table, fmu_name(name), description)
         self.renamed = Renamed(table, {}) if names is None else renamed(table, names)
         table = self.renamed.table
         if scene is not None and names is not None:
             scene = with_renamed_columns(scene, self.renamed.named)
         self._contents = NativeContents(
-            "", description, version, systems, table, reach, fidelity, followers, *rights, origin or {}
+            "", description, version, systems, table, reach, fidelity, followers, *rights, origin or {}, code
         )
         self._scene = scene
         self._libraries: dict[tuple[str, str], bytes] = {}

@@ -84,6 +84,12 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         help="names and units of variables as in another program: carmaker, carsim, chrono, osi, "
         "vehicle_interfaces, or an alias file",
     )
+    parser.add_argument(
+        "--plain",
+        action="store_true",
+        help="without the C that is generated for the algebra of this one model: the same bits, more time a step, "
+        "less for the build, a smaller file",
+    )
     add_option(parser, "--fidelity", "the FMU of a car offers all; with N it has this one alone")
     parser.add_argument("--author", default="", help="of the model, for its description; default: the solver's authors")
     parser.add_argument("--copyright", default="", help="of the model; default: the solver's")
@@ -93,6 +99,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "python build_fmu.p
         parser.error("--ports needs a car, as in ali3 build prototype")
     if options.fidelity is not None and options.car is None:
         parser.error("--fidelity needs a car, as in ali3 build prototype")
+    if options.plain and (options.kernel or options.fmu is not None):
+        other = "the kernel has no code of a model" if options.kernel else "--fmu compiles the C in the FMU"
+        parser.error(f"--plain needs a car or a scene to build; {other}")
     if options.kernel:
         return run_command(lambda: _build_kernel(options.platforms, options.out), (RuntimeError,))
     options.out = options.out or Path("dist")
@@ -175,7 +184,7 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     for file in (*files.values(), beside):
         check_writable(file)
     rights = (options.author, options.copyright, options.license)
-    builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin, names)
+    builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin, names, options.plain)
     _report_names(builder.renamed, len(builder.renamed.table))
     wanted = [p for p in TARGETS if p in first or p in rest]
     able = {kind: [p for p in wanted if _able(kind, p)] for kind in kinds}

@@ -13,6 +13,7 @@ from fmu_src.native.compilation import compile_library, compile_packed
 from fmu_src.native.package import Telling, first_time
 from fmu_src.native.platforms import SUFFIXES, TARGETS
 from fmu_src.native.sources import packed_sources
+from mbs.compiler.generated.source import TABLE
 
 _SOURCES = ("sources/table.c", "sources/fmi2_direct.c", "sources/fmi2_alone.c")
 
@@ -76,6 +77,7 @@ def _compiled(files: dict[str, bytes], targets: Sequence[str], folder: Path, lib
         (folder / "sources" / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / "sources" / path).write_bytes(data)
     table = folder / "sources" / "table.c"
-    if sources == packed_sources("fmi2", sources["table.c"].decode()):
-        return compile_library(targets, "fmi2", table, folder, library)
+    generated = {p.removesuffix(".c"): data.decode() for p, data in sources.items() if p.startswith(f"{TABLE}_")}
+    if sources == packed_sources("fmi2", sources["table.c"].decode(), generated):
+        return compile_library(targets, "fmi2", table, generated, folder, library)
     return compile_packed(targets, folder / "sources", folder, library)

@@ -5,7 +5,7 @@ that other clones and environments find what one of them has compiled.
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ali3.files import atomic_file
@@ -15,12 +15,14 @@ from fmu_src.native.universal_binary import universal
 from mbs.kernel import build
 
 _ROOMS = {build.HERE: "kernel", HERE: "shell", DETOUR: "detour"}
-_INCLUDE = ("kernel/include", "shell", "detour")
+_INCLUDE = ("kernel/include", "kernel/src", "shell", "detour")
 # The kernel's own functions are not for hosts: only those of FMI are exported.
 _DEFINES = ("ALI3_INSIDE",)
 
 
-def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path, name: str) -> bytes:
+def compile_library(
+    targets: Sequence[str], face: str, table: Path, generated: Mapping[str, str], folder: Path, name: str
+) -> bytes:
     """Compile for one platform; several targets make one universal file.
 
     Parameters
@@ -31,12 +33,14 @@ def compile_library(targets: Sequence[str], face: str, table: Path, folder: Path
         ``fmi2``, ``fmi3`` or ``python``.
     table : Path
         The generated `table.c`.
+    generated : mapping of str to str
+        C that was generated for Systems, by name.
     folder : Path
         For the compiler's output.
     name : str
         Of the library, with its suffix.
     """
-    return _library(targets, *_files(face, table), folder, name)
+    return _library(targets, *_files(face, table, generated), folder, name)
 
 
 def compile_packed(targets: Sequence[str], sources: Path, folder: Path, name: str) -> bytes:
@@ -57,7 +61,7 @@ def _library(targets: Sequence[str], files: Sequence[Path], include: Sequence[Pa
 
 def library_command(face: str, target: str, table: Path, library: Path) -> list[str]:
     """Command line of the compiler by which `compile_library` makes the library for a target."""
-    files, include = _files(face, table)
+    files, include = _files(face, table, {})
     return build.compiler_command(files, target, library, include=include, defines=_DEFINES, exports=exports(files))
 
 
@@ -68,7 +72,7 @@ def exports(files: Sequence[Path]) -> list[str]:
     return [*found, *build.WASM_HELPERS]
 
 
-def _files(face: str, table: Path) -> tuple[list[Path], list[Path]]:
+def _files(face: str, table: Path, generated: Mapping[str, str]) -> tuple[list[Path], list[Path]]:
     """C files and folders of headers: copies, but the table. All headers name their folder, each C file itself.
 
     C files that a header includes are beside the headers too.
@@ -83,6 +87,10 @@ def _files(face: str, table: Path) -> tuple[list[Path], list[Path]]:
     for file in files:
         data = file.read_bytes()
         compiled.append((place / _inside(file)).with_stem(f"{file.stem}-{identity_of({'': data}, None)[0]}"))
+        copies[compiled[-1]] = data
+    for name, text in generated.items():
+        data = text.encode()
+        compiled.append(place / "generated" / f"{name}-{identity_of({'': data}, None)[0]}.c")
         copies[compiled[-1]] = data
     for copy, data in copies.items():
         if not copy.is_file():

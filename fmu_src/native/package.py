@@ -54,6 +54,8 @@ class NativeContents:
     """`author`, `copyright`, `licence`: of the model, for its description; empty: the solver's."""
     origin: Mapping[str, bytes] = field(default_factory=dict)
     """Files that the model was made from, by their paths in the FMU."""
+    code: Sequence[tuple[str, str]] = ()
+    """Per System the name of the C that was generated for it, and that C; empty: there is none."""
     geometry: bytes = b""
     """The scene of the FMU, JSON; empty: none."""
 
@@ -108,7 +110,13 @@ class NativeContents:
         sensors, judged = [sensor["name"] for sensor in self.system.meta["sensors"]], compared_sensors(self.system)
         numbered = {number: judged[name] for number, name in enumerate(sensors) if name in judged}
         length = length_of(self.system)
-        return c_table(self.table, self.names, identity, token, self.texts, self.followers, numbered, length)
+        code = [name for name, _ in self.code]
+        return c_table(self.table, self.names, identity, token, self.texts, self.followers, numbered, length, code)
+
+    @property
+    def generated(self) -> dict[str, str]:
+        """C that was generated for Systems by its name; those of one structure share it."""
+        return dict(self.code)
 
     @property
     def parameters(self) -> ParameterSet:
@@ -143,7 +151,7 @@ class NativeContents:
     def identity(self, face: str) -> tuple[str, str]:
         """Hash of the content, and the GUID made from it."""
         return identity_of(
-            packed_sources(face, self.table_c("0" * 32, "")) | self.resources,
+            packed_sources(face, self.table_c("0" * 32, ""), self.generated) | self.resources,
             [
                 *(self.model_name, self.description, self.version, self.stop_time, table_records(self.table)),
                 *(self.author, self.copyright, self.licence),
@@ -199,7 +207,7 @@ def pack_native(
     name = contents.model_name
     identity, guid = contents.identity(face.name)
     table_c = face.tables(contents, identity, guid)
-    sources = packed_sources(face.name, table_c)
+    sources = packed_sources(face.name, table_c, contents.generated)
     files = {
         **{f"sources/{path}": data for path, data in sources.items()},
         **contents.resources,
@@ -215,7 +223,7 @@ def pack_native(
             for folder, targets in face.binaries[platform].items():
                 if (name, folder) not in libraries:
                     with told(f"{face.name}: compiling for {folder}", first_time(platform)):
-                        made = compile_library(targets, face.name, table, Path(temporary), library)
+                        made = compile_library(targets, face.name, table, contents.generated, Path(temporary), library)
                     libraries[name, folder] = made
                 files[f"binaries/{folder}/{library}"] = libraries[name, folder]
     head = contents.description_head(

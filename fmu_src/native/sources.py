@@ -1,5 +1,6 @@
 """The C files of the shell: which face needs which, and where they lie in an FMU."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from mbs.kernel import build
@@ -20,8 +21,11 @@ def shell_files(face: str) -> list[Path]:
     return sorted(f for f in HERE.glob("*.c") if not f.name.startswith(_OTHER[face]))
 
 
-def packed_sources(face: str, table_c: str) -> dict[str, bytes]:
-    """All sources as they lie in the FMU's folder ``sources``, headers too. Result: by path with forward slashes."""
+def packed_sources(face: str, table_c: str, generated: Mapping[str, str] | None = None) -> dict[str, bytes]:
+    """All sources as they lie in the FMU's folder ``sources``, headers too. Result: by path with forward slashes.
+
+    `generated`: C that was generated for Systems, by name.
+    """
     files = {f.name: f.read_bytes() for f in shell_files(face)}
     files |= {f.name: f.read_bytes() for f in HERE.glob("*.h") if not f.name.startswith(_OTHER[face])}
     rooms = [*(build.HERE / "src").rglob("*.h"), *build.sources(lanes=False)]
@@ -30,5 +34,8 @@ def packed_sources(face: str, table_c: str) -> dict[str, bytes]:
     header = (KERNEL_INCLUDE / "ali3.h").read_bytes()
     # every compiler of source FMUs looks beside the shell's files only
     files |= {"kernel/include/ali3.h": header, "ali3.h": b'#include "kernel/include/ali3.h"\n'}
+    if generated:
+        files["generated.h"] = b'#include "kernel/src/generated.h"\n'
+        files |= {f"{name}.c": text.encode() for name, text in generated.items()}
     files["table.c"] = table_c.encode()
     return dict(sorted(files.items()))

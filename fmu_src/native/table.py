@@ -39,6 +39,7 @@ def c_table(
     followers: Sequence[int] = (-1,),
     judged: Mapping[int, Compared] | None = None,
     length: float = 1.0,
+    generated: Sequence[str] = (),
 ) -> str:
     """`table.c` of the shell.
 
@@ -60,6 +61,8 @@ def c_table(
         What two motions are compared by: sensors by their numbers.
     length : float
         Of the model, m.
+    generated : sequence of str
+        Per System the name of its generated code; empty: there is none.
     """
     units = [unit_text(v.unit) for v in table]
     uncomputed = [sum(1 << k for k in v.uncomputed) for v in table]
@@ -83,10 +86,11 @@ def c_table(
         f"static const slave_variable variables[] = {{\n{variables}\n}};\n\n"
         f"{_texts(texts)}{_names('row', names['row'])}{_names('element', names['element'])}"
         f"{_names('coordinate', names['coordinate'])}{_names('notice', names['notice'])}"
+        f"{_generated(generated, len(names['row']))}"
         f"static const int32_t follower[] = {{{', '.join(map(str, followers))}}};\n\n"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
         f"{len(table)}, {known},\n    row, first_row, element, first_element, coordinate, first_coordinate, "
-        f"notice, first_notice, {len(names['row'])}, follower,\n"
+        f"notice, first_notice, {len(names['row'])}, follower, generated,\n"
         f"    texts, {len(texts)}, {roll}, {ground}, {_number(length, '1.0')},\n}};\n"
     )
 
@@ -102,6 +106,18 @@ def _texts(texts: Sequence[TextVariable]) -> str:
         or "    {NULL, 0, NULL},"
     )
     return f"static const slave_text texts[] = {{\n{lines}\n}};\n\n"
+
+
+def _generated(names: Sequence[str], systems: int) -> str:
+    none = f"static const ali3_generated *const generated[{systems}] = {{NULL}};\n"
+    if not names:
+        return f"{none}\n"
+    declared = "".join(f"extern const ali3_generated {name};\n" for name in dict.fromkeys(names))
+    listed = ", ".join(f"&{name}" for name in names)
+    return (
+        f'#include "generated.h"\n\n#ifdef ALI3_GENERATES\n{declared}'
+        f"static const ali3_generated *const generated[] = {{{listed}}};\n#else\n{none}#endif\n\n"
+    )
 
 
 def _names(what: str, of_systems: Sequence[Sequence[str]]) -> str:

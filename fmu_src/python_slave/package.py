@@ -95,7 +95,9 @@ def pack_python(
             library = name + SUFFIXES[platform]
             if (name, platform) not in libraries:
                 with told(f"python: compiling for {platform}", first_time(platform)):
-                    made = compile_library(TARGETS[platform], "python", table, Path(temporary), library)
+                    made = compile_library(
+                        TARGETS[platform], "python", table, contents.generated, Path(temporary), library
+                    )
                 libraries[name, platform] = made
             files[f"binaries/{platform}/{library}"] = libraries[name, platform]
     with told("python: packing"):

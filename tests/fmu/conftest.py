@@ -146,7 +146,7 @@ class Host:
         self._callbacks.logger = fmi2CallbackLoggerTYPE(lambda e, n, s, c, text: self.messages.append(text.decode()))
         self.slave = self.instance(guid)
 
-    def instance(self, guid: str | None = None, name: str = "test") -> Any:
+    def instance(self, guid: str | None = None, name: str = "test", *, logged: bool = False) -> Any:
         given = {
             "guid": guid or self.description.guid,
             "unzipDirectory": str(self.folder),
@@ -156,10 +156,10 @@ class Host:
         if self.three:
             sizes = {v.valueReference: math.prod(v.shape or (1,)) for v in self.description.modelVariables}
             slave = Slave3(sizes, **given)
-            slave.instantiate(logMessage=lambda *a: self.messages.append(a[-1].decode()))
+            slave.instantiate(logMessage=lambda *a: self.messages.append(a[-1].decode()), loggingOn=logged)
         else:
             slave = FMU2Slave(**given)
-            slave.instantiate(callbacks=self._callbacks)
+            slave.instantiate(callbacks=self._callbacks, loggingOn=logged)
         return slave
 
     def wishes_end(self) -> bool:

@@ -134,9 +134,23 @@ def test_folders_with_the_same_sources_share_their_objects(monkeypatch: pytest.M
     assert given() & here == {str(tmp_path / "table.c")}
 
 
+def test_kinds_share_the_objects_of_generated_code(tmp_path: Path) -> None:
+    """The compiler knows an object by the place of its source, its headers and its options."""
+
+    def given(face: str, code: str) -> str:
+        files, include = compile._files(face, tmp_path / "table.c", {"code": code})
+        (file,) = (file for file in files if file.parent.name == "generated")
+        assert file.read_text() == code
+        return f"{file} {include}"
+
+    first = given("fmi2", "int one;")
+    assert given("fmi3", "int one;") == given("python", "int one;") == first
+    assert given("fmi2", "int two;") != first
+
+
 @pytest.mark.slow
 @unoptimised()
-def test_a_second_model_compiles_its_table_only(tmp_path: Path, empty: Path) -> None:
+def test_a_second_model_compiles_its_table_and_its_code_only(tmp_path: Path, empty: Path) -> None:
     def objects() -> int:
         return len(list((empty / "o").rglob("*.o")))
 
@@ -147,4 +161,4 @@ def test_a_second_model_compiles_its_table_only(tmp_path: Path, empty: Path) -> 
     before = objects()
     assert before > 90
     build_fmu(mbs.compile(scenes.sled()), "sled", tmp_path, [PLATFORM])
-    assert objects() == before + 1
+    assert objects() == before + 2

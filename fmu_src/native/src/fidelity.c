@@ -21,6 +21,18 @@ static bool table_fits(const ali3_system *system, size_t fidelity) {
   return true;
 }
 
+/* Code that was generated for the System is called from now on, and why not. The same bits either way. */
+static void attach(ali3_system *system, size_t number, char *words, size_t size) {
+  const ali3_generated *code = slave_the_table.generated[number];
+  char why[200];
+  if (code == NULL)
+    snprintf(words, size, "Its steps take the loops of the kernel, as no code was generated for it");
+  else if (ali3_system_attach(system, code, why, sizeof why) == ALI3_OK)
+    snprintf(words, size, "Its steps take the code that was generated for it");
+  else
+    snprintf(words, size, "Its steps take the loops of the kernel: %s", why);
+}
+
 void slave_fidelity_free(const slave *s, slave_fidelity *loaded) {
   if (loaded->snapshot != NULL) s->memory.release(loaded->snapshot);
   if (loaded->start != NULL) s->memory.release(loaded->start);
@@ -31,7 +43,7 @@ void slave_fidelity_free(const slave *s, slave_fidelity *loaded) {
 
 /* False, and said, if it cannot be loaded; then `loaded` is empty. */
 bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
-  char file[32], message[256] = "";
+  char file[32], message[256] = "", code[256] = "";
   const char *why;
   size_t size = 0;
   memset(loaded, 0, sizeof *loaded);
@@ -52,6 +64,7 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
     slave_fidelity_free(s, loaded);
     return false;
   }
+  if (status == ALI3_OK) attach(loaded->system, number, code, sizeof code);
   if (status == ALI3_OK) status = ali3_instance_new(loaded->system, &loaded->kernel);
   if (status == ALI3_OK) {
     loaded->snapshot = s->memory.allocate(1, ali3_snapshot_size(loaded->system));
@@ -67,8 +80,8 @@ bool slave_fidelity_load(slave *s, size_t number, slave_fidelity *loaded) {
   ali3_count_work(loaded->kernel, &s->work_left);
   loaded->number = number;
   const ali3_sizes z = ali3_system_sizes(loaded->system);
-  slave_say(s, SLAVE_OK, "System loaded: %d coordinates, %d rows, %d inputs, %d outputs.", (int)z.nq, (int)z.nc,
-            (int)z.nu, (int)z.ns);
+  slave_say(s, SLAVE_OK, "System loaded: %d coordinates, %d rows, %d inputs, %d outputs. %s.", (int)z.nq, (int)z.nc,
+            (int)z.nu, (int)z.ns, code);
   return true;
 }
 

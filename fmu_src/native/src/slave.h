@@ -69,6 +69,7 @@ typedef struct {
   const size_t *first_notice; /* n_systems + 1 */
   size_t n_systems; /* to choose from by the fidelity */
   const int32_t *follower; /* n_systems: the one with ports that computes what each leaves out; -1: none */
+  const ali3_generated *const *generated; /* n_systems: code for the algebra of each; NULL: there is none */
   const slave_text *text; /* variables that are text; numbered by themselves */
   size_t n_texts;
   size_t

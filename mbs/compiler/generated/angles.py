@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from mbs.compiler.generated.pattern import Pattern
+from mbs.compiler.generated.text import room
 
 
 def _terms(pattern: Pattern, i: int) -> Iterator[tuple[int, int | None, int | None]]:
@@ -31,8 +32,7 @@ def places(pattern: Pattern) -> Iterator[tuple[int, int]]:
 
 def lines(pattern: Pattern) -> list[str]:
     """C that writes these numbers to `angle`, as the kernel finds them (rows/constraints.c)."""
-    count = sum(1 for _ in places(pattern))
-    found = [f"  double angle[{max(count, 1)}];"]
+    found = [room("angle", sum(1 for _ in places(pattern)))]
     at = 0
     for i, row in enumerate(pattern.array["angle_row"]):
         theta = f"parts->q[{pattern.row_col[_theta(pattern, i)]}]"

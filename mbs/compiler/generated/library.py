@@ -5,7 +5,7 @@ from pathlib import Path
 
 from ali3.temporary_folder import temporary_folder
 from mbs.common.errors import ModelError
-from mbs.compiler.generated.source import source
+from mbs.compiler.generated.source import TABLE, source
 from mbs.kernel import build
 from mbs.kernel.binding import LoadedSystem
 from mbs.system.system import System
@@ -17,6 +17,14 @@ def code_of(system: System) -> str:
     """C of the algebra of a System, for the processor this runs on."""
     loaded = LoadedSystem(system.kernel_bytes(modes=False))
     return source(system.arrays, loaded.structure, avx2=loaded.has_avx2)
+
+
+def named_code_of(system: System) -> tuple[str, str]:
+    """C that compilers for any processor take, and before it the name of its table, which no other C shares."""
+    loaded = LoadedSystem(system.kernel_bytes(modes=False))
+    text = source(system.arrays, loaded.structure, avx2=True)
+    name = f"{TABLE}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+    return name, text.replace(TABLE, name)
 
 
 def library_of(system: System) -> Path:

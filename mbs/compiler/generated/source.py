@@ -5,10 +5,10 @@ from typing import Any
 
 from mbs.compiler.generated import fronts, products, rows, solve, tangent
 from mbs.compiler.generated.pattern import Pattern
-from mbs.compiler.generated.text import HEAD, VECTORS
+from mbs.compiler.generated.text import END, HEAD, NO_VECTORS, VECTORS
 
 TABLE = "ali3_generated_code"
-"""The name of the table in the library."""
+"""The name of the table in a library that has one."""
 LONGEST = 10_000
 """Lines of a function above which loops are better."""
 
@@ -36,13 +36,13 @@ def source(arrays: Mapping[str, Any], structure: int, *, avx2: bool) -> str:
     structure : int
         Its hash by the kernel, `LoadedSystem.structure`.
     avx2 : bool
-        Whether the code is compiled for processors with AVX2.
+        Whether the code is compiled for processors with AVX2 where it is for x86-64.
     """
     pattern = Pattern(arrays)
     common = _written(pattern, _FRONTS | ({} if len(pattern.array["flex_front"]) else _ROWS))
     own = _written(pattern, _of_signals(pattern))
     lines = [line for body in (common | own).values() for line in body]
-    head = [f"  .version = ALI3_GENERATED_VERSION, .structure = 0x{structure:08x}u, .avx2 = {int(avx2)},"]
+    head = [f"  .version = ALI3_GENERATED_VERSION, .structure = 0x{structure:08x}u, .avx2 = AVX2,"]
     tail = []
     if len(pattern.array["axis_signal"]):
         other = Pattern(arrays, turned=True)
@@ -50,12 +50,13 @@ def source(arrays: Mapping[str, Any], structure: int, *, avx2: bool) -> str:
         lines += [line for body in turned.values() for line in body]
         tail = _table("static const ali3_generated turned", [*head, *_members(common), *_members(turned, other.suffix)])
         head.append("  .turned = &turned,")
-    shown = f'__attribute__((visibility("default"))) extern const ali3_generated {TABLE};'
-    tail += [shown, *_table(f"const ali3_generated {TABLE}", [*head, *_members(common), *_members(own)])]
+    shown = ["#ifndef ALI3_INSIDE", '__attribute__((visibility("default")))', "#endif"]
+    whole = _table(f"const ali3_generated {TABLE}", [*head, *_members(common), *_members(own)])
+    tail += [*shown, f"extern const ali3_generated {TABLE};", *whole]
     most = max([0, *(len(e.signals) for e in pattern.elements)])
     nothing = f"__attribute__((unused)) static const double nothing[{most * most + 4}];\n"
-    begin, end = (VECTORS, "#pragma clang attribute pop") if avx2 else ("", "")
-    return "\n".join([HEAD.replace("INSTRUCTIONS", begin), nothing, *lines, *tail, end, ""])
+    begin = VECTORS if avx2 else NO_VECTORS
+    return "\n".join([HEAD.replace("INSTRUCTIONS", begin), nothing, *lines, *tail, END])
 
 
 def _of_signals(pattern: Pattern) -> dict[str, _Function]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from mbs.compiler.generated import angles
 from mbs.compiler.generated.fronts import pieces
 from mbs.compiler.generated.pattern import Element, Front, Pattern
-from mbs.compiler.generated.text import follow, function, vector
+from mbs.compiler.generated.text import follow, function, room, vector
 
 FRONT = (
     "APART void tangent{0}_{1}(const ali3_tangent_parts *restrict parts, const double *restrict w, "
@@ -31,7 +31,9 @@ def tangent(pattern: Pattern) -> list[str]:
         lines += _OfFront(pattern, front).function()
     n, guides = len(pattern.row_col), len(pattern.array["gterm_row"])
     body = [
-        f"  double w[{n + 1}], factor[{max(pattern.nc, 1)}], guide[{max(guides, 1)}];",
+        f"  double w[{n + 1}];",
+        room("factor", pattern.nc),
+        room("guide", guides),
         f"  for (int i = 0; i < {n}; i++) w[i] = parts->square * parts->J[i];",
         f"  w[{n}] = 0.0;",
         f"  for (int i = 0; i < {pattern.nc}; i++) factor[i] = parts->geometric * parts->lam[i];",

@@ -3,14 +3,39 @@
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-VECTORS = '#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)'
-"""Vectors of four are one instruction from here on."""
+VECTORS = """\
+#ifdef __x86_64__
+#define AVX2 1
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#endif
+#else
+#define AVX2 0
+#endif
+"""
+"""Vectors of four are one instruction from here on, where the processor can have them."""
+NO_VECTORS = "#define AVX2 0\n"
+END = """\
+#if AVX2 && defined(__clang__)
+#pragma clang attribute pop
+#elif AVX2
+#pragma GCC pop_options
+#endif
+#endif
+"""
 HEAD = """\
+/* Generated for one System: the algebra of its steps. */
 #include <math.h>
 
 #include "generated.h"
 
+#ifdef ALI3_GENERATES
 INSTRUCTIONS
+/* A System without rows, or whose fronts have one coordinate, needs not all that a function is given. */
+#pragma GCC diagnostic ignored "-Wunused-parameter"
 typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double two __attribute__((vector_size(16), aligned(8), may_alias));
 #define V(p) (*(const four *)(p))
@@ -66,6 +91,11 @@ def vector(array: str, places: Sequence[int | None], most: int | None = None) ->
         return f"{array}[{first}]"
     words = ["0.0" if p is None else f"{array}[{p}]" for p in places]
     return "(four){" + ", ".join(words + ["0.0"] * (4 - len(words))) + "}"
+
+
+def room(name: str, numbers: int) -> str:
+    """Declares an array; one number that is never used where there is none, which compilers want to have a value."""
+    return f"  double {name}[{numbers}];" if numbers else f"  double {name}[1] = {{0.0}};"
 
 
 def function(head: str, lines: Iterable[str]) -> list[str]:

@@ -11,6 +11,11 @@
 
 enum { ALI3_GENERATED_VERSION = 1 };
 
+/* Vectors of four as GCC and Clang write them; by other compilers and in WebAssembly a step takes the loops. */
+#if (defined(__x86_64__) || defined(__aarch64__)) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12))
+#define ALI3_GENERATES
+#endif
+
 /* What the tangent is the sum of; names as in the System and its instance. */
 typedef struct {
   const double *front_mass, *J, *lam, *s, *hess_val, *gterm_h, *angle_hc, *angle_hs, *sig_val, *S;
