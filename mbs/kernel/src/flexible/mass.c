@@ -12,12 +12,6 @@ void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
   if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out);
 }
 
-void ali3_mass_times_both(const ali3_instance *in, const double *x, const double *y, double *out_x, double *out_y) {
-  ali3_constant_mass_times_both(in, x, y, out_x, out_y);
-  if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out_x), ali3_flexible_mass_times(in, y, out_y);
-  if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out_x), ali3_tabled_mass_times(in, y, out_y);
-}
-
 /* a' M b, M of the last q prepared; M b stays in `work` (nq). */
 double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work) {
   double sum = 0.0;

@@ -133,37 +133,6 @@ ALI3_INLINED void rows_times(const ali3_system *S, const real *J, const real *x,
 
 ALI3_BY_PROCESSOR(S, void, rows_times, (const ali3_system *S, const real *J, const real *x, real *out), (S, J, x, out))
 
-ALI3_INLINED void rows_times_both(const ali3_system *S, const real *J, const real *x, const real *y, real *out_x,
-                                  real *out_y) {
-  if (ALI3_GENERATED(S, rows_times, (J, x, out_x)) && ALI3_GENERATED(S, rows_times, (J, y, out_y))) return;
-  const int32_t *ptr = S->row_ptr, *col = S->row_col, *stretch = S->n_flexible > 0 ? S->row_stretch : ptr + 1;
-  for (int32_t k = 0; k < S->size.nc; k++) {
-    real sum_x = {0}, sum_y = {0};
-    int32_t i = ptr[k];
-    const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
-    ALI3_SHORT
-    for (; i < triples; i += 3) {
-      sum_x = ali3_points_sum(sum_x, J + i, x + col[i]);
-      sum_y = ali3_points_sum(sum_y, J + i, y + col[i]);
-    }
-    ALI3_SHORT
-    for (; i < stretch[k]; i++) {
-      sum_x += J[i] * x[col[i]];
-      sum_y += J[i] * y[col[i]];
-    }
-    if (i < ptr[k + 1]) {
-      sum_x += ali3_product_from_far(J + i, x + col[i], ptr[k + 1] - i);
-      sum_y += ali3_product_from_far(J + i, y + col[i], ptr[k + 1] - i);
-    }
-    out_x[k] = sum_x, out_y[k] = sum_y;
-  }
-}
-
-/* The same of x and y with entries loaded once. */
-ALI3_BY_PROCESSOR(S, void, rows_times_both,
-                  (const ali3_system *S, const real *J, const real *x, const real *y, real *out_x, real *out_y),
-                  (S, J, x, y, out_x, out_y))
-
 /* Row by row. `stretches`: rows end with modes side by side. */
 ALI3_INLINED void transposed_by_rows(const ali3_system *S, const real *J, const real *w, real *out, bool stretches) {
   const int32_t *ptr = S->row_ptr, *col = S->row_col, *end = ptr + 1, *stretch = stretches ? S->row_stretch : end;
