@@ -131,15 +131,6 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
 }
 
 #ifndef ALI3_WIDTH
-typedef int64_t ali3_four_bits __attribute__((vector_size(32), aligned(8)));
-
-/* The larger ones of the sizes of x and of `most` go to *most. */
-static inline void ali3_take_larger(ali3_four *most, const ali3_four *x) {
-  const ali3_four size = (ali3_four)((ali3_four_bits)*x & INT64_MAX);
-  const ali3_four_bits larger = (ali3_four_bits)(size > *most);
-  *most = (ali3_four)((larger & (ali3_four_bits)size) | (~larger & (ali3_four_bits)*most));
-}
-
 /* x y in four sums from the far end on: what is nearest, which a back substitution has found last, is waited for by the
  * last additions only. */
 static inline double ali3_product_from_far(const double *restrict x, const double *restrict y, int64_t n) {
@@ -210,18 +201,7 @@ ALI3_FROM_FAR(ali3_sum_product_from_far,
 /* The largest size of n numbers with these factors; NaN count as nothing. */
 static inline real ali3_largest_product(const real *x, const double *factor, int64_t n) {
   real most = {0};
-  int64_t i = 0;
-#ifndef ALI3_WIDTH
-  ali3_four largest = {0};
-  ALI3_SHORT
-  for (; i + 3 < n; i += 4) {
-    const ali3_four product = *(const ali3_four *)(x + i) * *(const ali3_four *)(factor + i);
-    ali3_take_larger(&largest, &product);
-  }
-  for (int k = 0; k < 4; k++) most = largest[k] > most ? largest[k] : most;
-#endif
-  ALI3_SHORT
-  for (; i < n; i++) {
+  for (int64_t i = 0; i < n; i++) {
     const real size = ali3_abs(x[i] * factor[i]);
     most = ali3_where(size > most, size, most);
   }
@@ -231,15 +211,7 @@ static inline real ali3_largest_product(const real *x, const double *factor, int
 /* The largest size of n numbers. */
 static inline real ali3_largest(const real *x, int64_t n) {
   real most = {0};
-  int64_t i = 0;
-#ifndef ALI3_WIDTH
-  ali3_four largest = {0};
-  ALI3_SHORT
-  for (; i + 3 < n; i += 4) ali3_take_larger(&largest, (const ali3_four *)(x + i));
-  for (int k = 0; k < 4; k++) most = largest[k] > most ? largest[k] : most;
-#endif
-  ALI3_SHORT
-  for (; i < n; i++) most = ali3_where(ali3_abs(x[i]) > most, ali3_abs(x[i]), most);
+  for (int64_t i = 0; i < n; i++) most = ali3_where(ali3_abs(x[i]) > most, ali3_abs(x[i]), most);
   return most;
 }
 
