@@ -46,7 +46,6 @@ typedef struct {
 typedef struct {
   ali3_term term;
   int32_t row, guide, power;
-  int32_t pairs; /* terms from this one on of its row and guide with power 1 and two coordinates each */
 } ali3_guide_term;
 
 typedef struct { /* of an element, outputs that are forces of a contact or a stop */
@@ -84,7 +83,6 @@ struct ali3_system {
   int32_t n_tabled, n_dependent; /* tabled bodies and numbers, their coordinates */
   int32_t n_tabled_base, n_tabled_parameter, n_tabled_group, tabled_square; /* the last: numbers that a group needs */
   bool senses_rows; /* a sensor reads multipliers or violations */
-  bool by_columns; /* more than two thirds of the entries of Phi_q are in columns of triples, and no row has modes */
   bool has_avx2; /* the processor, see algebra/processor.h */
   /* derived at load, in one block */
   void *derived;
@@ -97,8 +95,6 @@ struct ali3_system {
   double largest_round; /* of these */
   double fine; /* factor of tolerances in m: of a very small or large drawing not 1 */
   double fall; /* acceleration of coordinates by their weight: root of the mean square, m/s2 */
-  int32_t *column_ptr, *column_entry, *column_row; /* nq + 1: entries of Phi_q at a coordinate, with ascending rows */
-  unsigned char *column_triple; /* nq: 1: the next two have the same rows, with entries that follow; see mass_alike */
   unsigned char *row_triples; /* not 0: its coordinates are points and directions, three neighbours each */
   int32_t *row_stretch; /* nc: entry from which the coordinates of the row lie side by side and have second derivatives
                            with the same ones, those of modes; they stand by columns. Else the end of the row */
