@@ -129,7 +129,6 @@ struct ali3_system {
   unsigned char *active_triple, *el_triple,
       *triad_triple; /* n_active, as el_sig, as mode_triad: 1: it is the first of a triple that follows in turn */
   int32_t *mass_mirror; /* as mass_col: entry (j, i) of an entry (i, j) */
-  int32_t *front_side; /* nf: entry of a front, behind its pivots, from which on its coordinates lie side by side */
   int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */
   const ali3_element_type **el_kind;
   ali3_element_size *el_size; /* ne */

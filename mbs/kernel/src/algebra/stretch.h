@@ -35,8 +35,6 @@
 /* Whether n places that ascend lie side by side, as those of modes mostly do. */
 static inline bool ali3_together(const int32_t *place, int32_t n) { return n > 0 && place[n - 1] - place[0] == n - 1; }
 
-enum { ALI3_LARGE = 12 }; /* coordinates of a front from which on it is worth while to count in fours */
-
 /* The first entry of a column of a front, of length n, that is worked on for the sake of those from `from` on: so that a
  * whole number of fours is left, up to three above the diagonal, which nobody reads. */
 static inline int32_t ali3_by_fours(int32_t from, int32_t n) {
@@ -160,24 +158,6 @@ static inline double ali3_sum_product_from_far(const double *restrict x, const d
   return all;
 }
 
-/* The same of x and four columns, `apart` from each other, from entry `from` to n, a number of whole fours. */
-static inline void ali3_products_from_far(const double *restrict column, int64_t apart, const double *restrict x,
-                                          int64_t from, int64_t n, double sum[4]) {
-  ali3_four a = {0}, b = {0}, c = {0}, d = {0};
-  const double *second = column + apart, *third = second + apart, *fourth = third + apart;
-  ALI3_SHORT
-  for (int64_t i = n - 4; i >= from; i -= 4) {
-    const ali3_four at = *(const ali3_four *)(x + i);
-    a += *(const ali3_four *)(column + i) * at;
-    b += *(const ali3_four *)(second + i) * at;
-    c += *(const ali3_four *)(third + i) * at;
-    d += *(const ali3_four *)(fourth + i) * at;
-  }
-  sum[0] = (a[0] + a[1]) + (a[2] + a[3]);
-  sum[1] = (b[0] + b[1]) + (b[2] + b[3]);
-  sum[2] = (c[0] + c[1]) + (c[2] + c[3]);
-  sum[3] = (d[0] + d[1]) + (d[2] + d[3]);
-}
 #else
 /* The same in the order of the sums of one instance. */
 #define ALI3_FROM_FAR(name, declared, term)                                                                            \

@@ -52,7 +52,6 @@ ALI3_INLINED void square_of_four(const ali3_system *S, const int32_t *rows, cons
   for (int64_t j = 0; j < length; j++) {
     const real factor[4] = {weight * a[j], weight * b[j], weight * c[j], weight * d[j]};
     int64_t from = j < 3 ? j : ali3_by_fours_below(j, length);
-    ALI3_OPAQUE(from);
     real *column = block + (loc[first[k]] + j) * n + loc[first[k]] + from;
     add_four(column, a + from, b + from, c + from, d + from, factor, length - from);
   }

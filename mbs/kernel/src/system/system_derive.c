@@ -28,7 +28,6 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->mass_alike = ali3_pool_items(p, nq, sizeof(int32_t));
   s->mass_stretch = ali3_pool_items(p, nq, 2 * sizeof(int32_t));
   s->mass_mirror = ali3_pool_items(p, (size_t)s->n_mass_col, sizeof(int32_t));
-  s->front_side = ali3_pool_items(p, (size_t)s->size.nf, sizeof(int32_t));
   s->diagonal_pos = ali3_pool_items(p, nq, sizeof(int32_t));
   s->el_kind = ali3_pool_items(p, ne, sizeof *s->el_kind);
   s->el_size = ali3_pool_items(p, ne, sizeof *s->el_size);
@@ -84,16 +83,6 @@ static void derive_mass_rows(ali3_system *s) {
   }
 }
 
-static void derive_fronts(ali3_system *s) {
-  for (int32_t f = 0; f < s->size.nf; f++) {
-    const int32_t n = s->front_ptr[f + 1] - s->front_ptr[f], n_pivot = s->front_col[f + 1] - s->front_col[f];
-    const int32_t *idx = s->front_idx + s->front_ptr[f];
-    int32_t side = n > n_pivot ? n - 1 : n;
-    while (side > n_pivot && idx[side - 1] == idx[side] - 1) side--;
-    s->front_side[f] = side;
-  }
-}
-
 static void derive_mass(ali3_system *s) {
   derive_mass_rows(s);
   for (int32_t i = 0, f = 0; i < s->size.nq; i++) {
@@ -145,7 +134,6 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   place(s, &pool, (size_t)n_entry);
   s->has_avx2 = ali3_processor_lanes() > 2;
   s->fine = s->n_fineness > 0 ? s->fineness[0] : 1.0; /* of all that follows */
-  derive_fronts(s);
   derive_mass(s);
   ali3_rows_derive(s);
   ali3_elements_derive(s);
