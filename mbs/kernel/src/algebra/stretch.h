@@ -28,10 +28,6 @@
 #define ALI3_BY_FOURS
 #endif
 
-/* A number of which the compiler takes nothing for granted: addresses that follow from it are found where they are used,
- * as loops around that carry many along have no registers left. */
-#define ALI3_OPAQUE(number) __asm__("" : "+r"(number))
-
 /* Whether n places that ascend lie side by side, as those of modes mostly do. */
 static inline bool ali3_together(const int32_t *place, int32_t n) { return n > 0 && place[n - 1] - place[0] == n - 1; }
 
@@ -104,11 +100,6 @@ static inline void ali3_add(real *restrict y, const real *restrict x, int64_t n)
 
 static inline void ali3_copy(real *restrict y, const real *restrict x, int64_t n) {
   for (int64_t i = 0; i < n; i++) y[i] = x[i];
-}
-
-/* The same of few numbers, for which a call of memcpy is long. */
-static inline void ali3_copy_few(real *restrict y, const real *restrict x, int64_t n) {
-  ALI3_EACH(0, n, ALI3_OPAQUE(i); ALI3_AT(y) = ALI3_AT(x))
 }
 
 /* y -= a x + b z */

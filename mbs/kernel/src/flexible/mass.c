@@ -31,7 +31,7 @@ ALI3_INLINED void mass_to_fronts(const ali3_instance *in, double *F) {
     for (; j + 3 < n; j += 4, to += 4 * n, from += 4 * n) {
       ALI3_EACH(ali3_by_fours(j, n), n, for (int k = 0; k < 4; k++) ALI3_AT(to + k * n) = ALI3_AT(from + k * n))
     }
-    for (; j < n; j++, to += n, from += n) ali3_copy_few(to, from, n);
+    for (; j < n; j++, to += n, from += n) ali3_copy(to, from, n);
   }
 }
 
