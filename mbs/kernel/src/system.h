@@ -137,8 +137,6 @@ struct ali3_system {
   int32_t *el_entry_ptr; /* ne+1: signal entries of the element */
   int32_t *el_entry_local; /* per entry: its coordinate within the element */
   double *el_entry_value;
-  unsigned char *el_entry_first; /* 1: no entry before it has its coordinate, nor of a triple one of the three */
-  unsigned char *el_clear; /* ne: of a triple some have and some have not; then all are 0 */
   int32_t *el_coordinate_ptr; /* ne+1 */
   int32_t *el_coordinate_loc; /* local index in the front, ascending */
   int32_t *el_apart; /* ne: coordinate of the element from which on these are neighbours */

@@ -260,14 +260,6 @@ static inline real ali3_points_sum(real sum, const real *x, const real *y) {
 #endif
 }
 
-/* Sums of n triples at columns of x with factors. */
-static inline void ali3_three_rows(const double *val, const int32_t *col, int32_t n, const real *x, real *out) {
-  ali3_three sum = {0};
-  ALI3_SHORT
-  for (int32_t k = 0; k < n; k++) ali3_three_add(&sum, x + col[k], ali3_same(val[k]));
-  ali3_three_put(out, &sum);
-}
-
 /* y += a x of three numbers */
 static inline void ali3_triple_add(real *restrict y, const real *restrict x, real a) {
   y[0] += a * x[0];

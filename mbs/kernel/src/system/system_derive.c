@@ -40,8 +40,6 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_entry_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->el_entry_local = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->el_entry_value = ali3_pool_items(p, n_entry, sizeof(double));
-  s->el_entry_first = ali3_pool_items(p, n_entry, 1);
-  s->el_clear = ali3_pool_items(p, ne, 1);
   s->el_coordinate_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->el_coordinate_loc = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->el_apart = ali3_pool_items(p, ne, sizeof(int32_t));
