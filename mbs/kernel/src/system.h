@@ -126,8 +126,8 @@ struct ali3_system {
   int32_t *four, *alone; /* elements that are evaluated four at a time (elements/fours.h), and the others */
   unsigned char *el_in_four; /* ne: 1: it is one of those */
   int32_t *el_beside; /* ne: the first signal of an element whose signals follow each other, else -1 */
-  unsigned char *active_triple, *el_triple,
-      *triad_triple; /* n_active, as el_sig, as mode_triad: 1: it is the first of a triple that follows in turn */
+  unsigned char *active_triple,
+      *el_triple; /* n_active, as el_sig: 1: it is the first of a triple that follows in turn */
   int32_t *mass_mirror; /* as mass_col: entry (j, i) of an entry (i, j) */
   int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */
   const ali3_element_type **el_kind;

@@ -218,8 +218,6 @@ static inline void ali3_three_add_each(ali3_three *to, const double *a, const re
 
 static inline void ali3_three_put(real *to, const ali3_three *a) { to[0] = a->x, to[1] = a->y, to[2] = a->z; }
 
-#define ali3_three_put_first ali3_three_put /* what is behind is written afterwards, or nobody's */
-
 static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { to->x += a->x, to->y += a->y, to->z += a->z; }
 
 /* sum + a x */
@@ -237,11 +235,8 @@ static inline void ali3_three_add_each(ali3_three *to, const double *a, const do
   *to += *(const ali3_four *)a * *(const ali3_four *)x;
 }
 
-static inline void ali3_three_put(double *to, const ali3_three *a) {
-  to[0] = (*a)[0], to[1] = (*a)[1], to[2] = (*a)[2];
-}
-
-static inline void ali3_three_put_first(double *to, const ali3_three *a) { *(ali3_four *)to = *a; }
+/* What is behind is written afterwards, or nobody's. */
+static inline void ali3_three_put(double *to, const ali3_three *a) { *(ali3_four *)to = *a; }
 
 static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { *to += *a; }
 

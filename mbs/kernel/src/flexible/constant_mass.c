@@ -43,7 +43,7 @@ ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, real *out, 
       ali3_three three = {0};
       ALI3_SHORT
       for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) ali3_three_add(&three, x + col[k], val[k]);
-      ali3_three_put_first(out + i, &three);
+      ali3_three_put(out + i, &three);
       i += 2;
       continue;
     }

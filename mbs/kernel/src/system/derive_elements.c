@@ -104,8 +104,6 @@ void ali3_elements_derive(ali3_system *s) {
   for (int32_t i = 0; i < s->size.nsig; i++)
     if (s->active_signal[i]) s->active_signal[s->n_active++] = i;
   derive_triples(s, s->active_signal, s->n_active, s->active_triple);
-  for (int64_t k = 0; k < s->n_mode_triad; k += ALI3_TRIAD_ITEMS)
-    for (int64_t i = k; i < k + 9; i += 3) derive_triples(s, s->mode_triad + i, 3, s->triad_triple + i);
   for (int32_t e = 0; e < ne; e++) {
     const int32_t first = s->el_sig_ptr[e], n = s->el_sig_ptr[e + 1] - first;
     derive_triples(s, s->el_sig + first, n, s->el_triple + first);

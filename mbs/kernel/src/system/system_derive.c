@@ -32,7 +32,6 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_kind = ali3_pool_items(p, ne, sizeof *s->el_kind);
   s->el_size = ali3_pool_items(p, ne, sizeof *s->el_size);
   s->contact = ali3_pool_items(p, ne, sizeof *s->contact);
-  s->triad_triple = ali3_pool_items(p, (size_t)s->n_mode_triad, 1);
   s->el_S_off = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->work_of = ali3_pool_items(p, ne, sizeof(int32_t));
   s->work_element = ali3_pool_items(p, ne, sizeof(int32_t));
