@@ -214,7 +214,8 @@ static void derive_hessian(ali3_system *s) {
     if (s->row_triples[k] && of_points(s, k)) s->row_triples[k] = ALI3_POINTS;
     for (int32_t i = s->row_ptr[k]; s->row_triples[k] == ALI3_POINTS && i < s->row_ptr[k + 1]; i += ALI3_TRIPLE)
       interleave(s, s->hess_ptr[i], ALI3_TRIPLE, s->hess_ptr[i + 1] - s->hess_ptr[i]);
-    const int32_t first = s->row_triples[k] ? s->row_ptr[k + 1] : stretch_of(s, k);
+    const bool none = s->row_triples[k] || s->n_flexible == 0;
+    const int32_t first = none ? s->row_ptr[k + 1] : stretch_of(s, k);
     s->row_stretch[k] = first;
     if (first < s->row_ptr[k + 1])
       interleave(s, s->hess_ptr[first], s->row_ptr[k + 1] - first, s->hess_ptr[first + 1] - s->hess_ptr[first]);
