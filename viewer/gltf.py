@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ali3.errors import reason
-from ali3.files import check_writable, atomic_file
+from ali3.files import atomic_file, check_writable
 from ali3.scene.base64_numbers import encoded
+from ali3.scene.decimation import chosen_times
 from ali3.scene.errors import ViewerError
 from ali3.scene.recording import Recording
 from ali3.scene.scene_columns import pose_columns
-from ali3.scene.decimation import chosen_times
 from ali3.scene.written_file import WrittenGltf
 from ali3.temporary_folder import temporary_folder
 from viewer.bundle import GLTF, bundle

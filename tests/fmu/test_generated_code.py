@@ -129,4 +129,4 @@ def test_systems_of_one_structure_share_it_and_others_do_not() -> None:
 def test_plain_is_of_what_is_built(option: list[str]) -> None:
     done = run(main, "--plain", *option)
     assert done.returncode == 2
-    assert "--plain is of a CAR or a scene that is built; " in done.stderr
+    assert "--plain needs a car or a scene to build; " in done.stderr

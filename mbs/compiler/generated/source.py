@@ -60,9 +60,7 @@ def source(arrays: Mapping[str, Any], structure: int, *, avx2: bool) -> str:
 
 
 def _of_signals(pattern: Pattern) -> dict[str, _Function]:
-    """Sums over many modes, and what hangs on tables, stay loops."""
-    if len(pattern.array["flex_front"]):
-        return {}
+    """What hangs on modes or on tables has no tangent of its own."""
     return (_SIGNALS if pattern.elements else {}) | (_TANGENT if pattern.is_rigid else {})
 
 

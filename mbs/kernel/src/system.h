@@ -46,7 +46,6 @@ typedef struct {
 typedef struct {
   ali3_term term;
   int32_t row, guide, power;
-  int32_t pairs; /* terms from this one on of its row and guide with power 1 and two coordinates each */
 } ali3_guide_term;
 
 typedef struct { /* of an element, outputs that are forces of a contact or a stop */
@@ -84,7 +83,6 @@ struct ali3_system {
   int32_t n_tabled, n_dependent; /* tabled bodies and numbers, their coordinates */
   int32_t n_tabled_base, n_tabled_parameter, n_tabled_group, tabled_square; /* the last: numbers that a group needs */
   bool senses_rows; /* a sensor reads multipliers or violations */
-  bool by_columns; /* more than two thirds of the entries of Phi_q are in columns of triples, and no row has modes */
   bool has_avx2; /* the processor, see algebra/processor.h */
   /* derived at load, in one block */
   void *derived;
@@ -98,8 +96,6 @@ struct ali3_system {
   double largest_round; /* of these */
   double fine; /* factor of tolerances in m: of a very small or large drawing not 1 */
   double fall; /* acceleration of coordinates by their weight: root of the mean square, m/s2 */
-  int32_t *column_ptr, *column_entry, *column_row; /* nq + 1: entries of Phi_q at a coordinate, with ascending rows */
-  unsigned char *column_triple; /* nq: 1: the next two have the same rows, with entries that follow; see mass_alike */
   unsigned char *row_triples; /* not 0: its coordinates are points and directions, three neighbours each */
   int32_t *row_stretch; /* nc: entry from which the coordinates of the row lie side by side and have second derivatives
                            with the same ones, those of modes; they stand by columns. Else the end of the row */
@@ -131,10 +127,9 @@ struct ali3_system {
   int32_t *four, *alone; /* elements that are evaluated four at a time (elements/element_fours.h), and the others */
   unsigned char *el_in_four; /* ne: 1: it is one of those */
   int32_t *el_beside; /* ne: the first signal of an element whose signals follow each other, else -1 */
-  unsigned char *active_triple, *el_triple,
-      *triad_triple; /* n_active, as el_sig, as mode_triad: 1: it is the first of a triple that follows in turn */
+  unsigned char *active_triple,
+      *el_triple; /* n_active, as el_sig: 1: it is the first of a triple that follows in turn */
   int32_t *mass_mirror; /* as mass_col: entry (j, i) of an entry (i, j) */
-  int32_t *front_side; /* nf: entry of a front, behind its pivots, from which on its coordinates lie side by side */
   int32_t *diagonal_pos; /* nq: front storage index of entry (i, i) */
   const ali3_element_type **el_kind;
   ali3_element_size *el_size; /* ne */
@@ -143,8 +138,6 @@ struct ali3_system {
   int32_t *el_entry_ptr; /* ne+1: signal entries of the element */
   int32_t *el_entry_local; /* per entry: its coordinate within the element */
   double *el_entry_value;
-  unsigned char *el_entry_first; /* 1: no entry before it has its coordinate, nor of a triple one of the three */
-  unsigned char *el_clear; /* ne: of a triple some have and some have not; then all are 0 */
   int32_t *el_coordinate_ptr; /* ne+1 */
   int32_t *el_coordinate_loc; /* local index in the front, ascending */
   int32_t *el_apart; /* ne: coordinate of the element from which on these are neighbours */

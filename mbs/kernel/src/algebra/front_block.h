@@ -30,25 +30,11 @@ static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate
 }
 #endif
 
-/* x becomes L^-1 x in the pivots, reduced by them in the rest; two columns are one sum, and two such sums are taken off
- * in turn while an entry is in hand. */
+/* x becomes L^-1 x in the pivots, reduced by them in the rest; two columns are one sum. */
 ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_t n_pivot, int32_t n) {
   int64_t p = 0;
-  for (; n >= ALI3_LARGE && p + 3 < n_pivot; p += 4) {
-    const real *a = block + p * n;
-    ALI3_OPAQUE(a);
-    const real *restrict b = a + n, *restrict c = b + n, *restrict d = c + n;
-    const real first = x[p], second = x[p + 1] - a[p + 1] * first;
-    const real third = x[p + 2] - (a[p + 2] * first + b[p + 2] * second);
-    const real fourth = (x[p + 3] - (a[p + 3] * first + b[p + 3] * second)) - c[p + 3] * third;
-    x[p + 1] = second, x[p + 2] = third, x[p + 3] = fourth;
-    ALI3_EACH(p + 4, n,
-              ALI3_AT(x) = (ALI3_AT(x) - (ALI3_AT(a) * first + ALI3_AT(b) * second)) -
-                           (ALI3_AT(c) * third + ALI3_AT(d) * fourth))
-  }
   for (; p + 1 < n_pivot; p += 2) {
     const real *a = block + p * n;
-    ALI3_OPAQUE(a);
     const real *restrict b = a + n;
     const real first = x[p], second = x[p + 1] - a[p + 1] * first;
     x[p + 1] = second;
@@ -57,18 +43,16 @@ ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_
   if (p < n_pivot) ali3_add_multiple(x + p + 1, block + p * n + p + 1, -x[p], n - p - 1);
 }
 
-/* Unknowns of a front, `width` of each coordinate: of its pivots, which lie side by side in b, then of the rest, of which
- * the last do so too. Without a rest they are worked on in b. */
+/* Unknowns of a front, `width` of each coordinate: of its pivots, which lie side by side in b, then of the rest. Without a
+ * rest they are worked on in b. */
 ALI3_INLINED real *ali3_front_unknowns(ali3_instance *in, int32_t f, int32_t width, real *b) {
   const ali3_system *S = in->system;
-  const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first, side = S->front_side[f];
+  const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
   const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
   real *restrict x = in->tangent.local;
   if (n == n_pivot) return b + width * first;
-  ali3_copy_few(x, b + width * first, width * n_pivot);
-  for (int32_t i = n_pivot; i < side; i++)
+  for (int32_t i = 0; i < n; i++)
     for (int32_t s = 0; s < width; s++) x[width * i + s] = b[width * idx[i] + s];
-  ali3_copy_few(x + width * side, b + width * idx[side], width * (n - side));
   return x;
 }
 
@@ -76,12 +60,9 @@ ALI3_INLINED real *ali3_front_unknowns(ali3_instance *in, int32_t f, int32_t wid
 ALI3_INLINED void ali3_front_put_back(const ali3_instance *in, int32_t f, int32_t width, const real *x, bool all,
                                       real *restrict b) {
   const ali3_system *S = in->system;
-  const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first, side = S->front_side[f];
+  const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f];
   const int32_t n = S->front_ptr[f + 1] - S->front_ptr[f], *idx = S->front_idx + S->front_ptr[f];
-  if (n == n_pivot) return;
-  ali3_copy_few(b + width * first, x, width * n_pivot);
-  for (int32_t i = n_pivot; all && i < side; i++)
+  for (int32_t i = 0, end = n == n_pivot ? 0 : all ? n : n_pivot; i < end; i++)
     for (int32_t s = 0; s < width; s++) b[width * idx[i] + s] = x[width * i + s];
-  if (all) ali3_copy_few(b + width * idx[side], x + width * side, width * (n - side));
 }
 #endif

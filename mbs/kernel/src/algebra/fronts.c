@@ -42,7 +42,6 @@ ALI3_INLINED void subtract_panels(real *block, const real *panel, int32_t panels
 /* target -= f[0] c + f[1] c1 + ... of less than a panel of columns of length n, in turn, from entry `from` on. */
 ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int64_t n, const real *f, int32_t count,
                            int64_t from) {
-  ALI3_OPAQUE(n);
   const real *restrict c1 = c + n, *restrict c2 = c1 + n;
   const real x = f[0], y = count > 1 ? f[1] : x, z = count > 2 ? f[2] : x;
   if (count == 3)
@@ -55,7 +54,6 @@ ALI3_INLINED void subtract(real *restrict target, const real *restrict c, int64_
 
 /* L_jp of the pivots of panels from their unscaled columns. */
 ALI3_INLINED void factors(const real *panel, const real *inverse, int32_t count, int64_t n, int32_t j, real *factor) {
-  ALI3_OPAQUE(n);
   for (int32_t k = 0; k < count; k++) factor[k] = panel[k * n + j] * inverse[k];
 }
 
@@ -222,33 +220,12 @@ ALI3_INLINED ali3_status factorise(ali3_instance *in, real *F) {
   return ALI3_OK;
 }
 
-/* The pivots of a front with sums from the far end, of one instance four columns at a time where the fours begin at one
- * entry for all: what is nearest, the columns among themselves, comes last. */
-ALI3_INLINED void pivots_back(const real *block, real *restrict x, int64_t n_pivot, int64_t n) {
-  for (int64_t p = n_pivot - 1; p >= 0;) {
-    const real *column = block + p * n;
-    ALI3_OPAQUE(column);
-#ifndef ALI3_WIDTH
-    if (((n - p - 1) & 3) == 0 && p >= 3) {
-      double sum[4];
-      ali3_products_from_far(column, -n, x, p + 1, n, sum);
-      for (int k = 0; k < 4; k++, p--, column -= n) {
-        for (int64_t i = p + k; i > p; i--) sum[k] += column[i] * x[i];
-        x[p] = x[p] * column[p] - sum[k];
-      }
-      continue;
-    }
-#endif
-    x[p] = x[p] * column[p] - ali3_product_from_far(column + p + 1, x + p + 1, n - p - 1);
-    p--;
-  }
-}
-
-/* Those of a small front, where four sums do not pay. */
-ALI3_INLINED void few_pivots_back(const real *block, real *restrict x, int64_t n_pivot, int64_t n) {
+/* The pivots of a front, in two sums or, of a large one, four. */
+ALI3_INLINED void pivots_back(const real *block, real *restrict x, int64_t n_pivot, int64_t n, bool four) {
   for (int64_t p = n_pivot - 1; p >= 0; p--) {
-    const real *after = block + p * n + p + 1;
-    x[p] = x[p] * after[-1] - ali3_product_in_two(after, x + p + 1, n - p - 1);
+    const real *after = block + p * n + p + 1, *y = x + p + 1;
+    const real sum = four ? ali3_product_from_far(after, y, n - p - 1) : ali3_product_in_two(after, y, n - p - 1);
+    x[p] = x[p] * after[-1] - sum;
   }
 }
 
@@ -267,9 +244,9 @@ ALI3_INLINED void solve(ali3_instance *in, const real *F, real *b) {
     const int32_t n_pivot = S->front_col[f + 1] - S->front_col[f], n = S->front_ptr[f + 1] - S->front_ptr[f];
     real *x = ali3_front_unknowns(in, f, 1, b);
     if (n < FOUR_SUMS)
-      few_pivots_back(F + S->front_off[f], x, n_pivot, n);
+      pivots_back(F + S->front_off[f], x, n_pivot, n, false);
     else
-      pivots_back(F + S->front_off[f], x, n_pivot, n);
+      pivots_back(F + S->front_off[f], x, n_pivot, n, true);
     ali3_front_put_back(in, f, 1, x, false, b);
   }
 }

@@ -28,14 +28,8 @@
 #define ALI3_BY_FOURS
 #endif
 
-/* A number of which the compiler takes nothing for granted: addresses that follow from it are found where they are used,
- * as loops around that carry many along have no registers left. */
-#define ALI3_OPAQUE(number) __asm__("" : "+r"(number))
-
 /* Whether n places that ascend lie side by side, as those of modes mostly do. */
 static inline bool ali3_together(const int32_t *place, int32_t n) { return n > 0 && place[n - 1] - place[0] == n - 1; }
-
-enum { ALI3_LARGE = 12 }; /* coordinates of a front from which on it is worth while to count in fours */
 
 /* The first entry of a column of a front, of length n, that is worked on for the sake of those from `from` on: so that a
  * whole number of fours is left, up to three above the diagonal, which nobody reads. */
@@ -108,11 +102,6 @@ static inline void ali3_copy(real *restrict y, const real *restrict x, int64_t n
   for (int64_t i = 0; i < n; i++) y[i] = x[i];
 }
 
-/* The same of few numbers, for which a call of memcpy is long. */
-static inline void ali3_copy_few(real *restrict y, const real *restrict x, int64_t n) {
-  ALI3_EACH(0, n, ALI3_OPAQUE(i); ALI3_AT(y) = ALI3_AT(x))
-}
-
 /* y -= a x + b z */
 static inline void ali3_take_two(real *restrict y, const real *restrict x, real a, const real *restrict z, real b,
                                  int64_t n) {
@@ -131,15 +120,6 @@ static inline real ali3_product_in_two(const real *restrict x, const real *restr
 }
 
 #ifndef ALI3_WIDTH
-typedef int64_t ali3_four_bits __attribute__((vector_size(32), aligned(8)));
-
-/* The larger ones of the sizes of x and of `most` go to *most. */
-static inline void ali3_take_larger(ali3_four *most, const ali3_four *x) {
-  const ali3_four size = (ali3_four)((ali3_four_bits)*x & INT64_MAX);
-  const ali3_four_bits larger = (ali3_four_bits)(size > *most);
-  *most = (ali3_four)((larger & (ali3_four_bits)size) | (~larger & (ali3_four_bits)*most));
-}
-
 /* x y in four sums from the far end on: what is nearest, which a back substitution has found last, is waited for by the
  * last additions only. */
 static inline double ali3_product_from_far(const double *restrict x, const double *restrict y, int64_t n) {
@@ -169,24 +149,6 @@ static inline double ali3_sum_product_from_far(const double *restrict x, const d
   return all;
 }
 
-/* The same of x and four columns, `apart` from each other, from entry `from` to n, a number of whole fours. */
-static inline void ali3_products_from_far(const double *restrict column, int64_t apart, const double *restrict x,
-                                          int64_t from, int64_t n, double sum[4]) {
-  ali3_four a = {0}, b = {0}, c = {0}, d = {0};
-  const double *second = column + apart, *third = second + apart, *fourth = third + apart;
-  ALI3_SHORT
-  for (int64_t i = n - 4; i >= from; i -= 4) {
-    const ali3_four at = *(const ali3_four *)(x + i);
-    a += *(const ali3_four *)(column + i) * at;
-    b += *(const ali3_four *)(second + i) * at;
-    c += *(const ali3_four *)(third + i) * at;
-    d += *(const ali3_four *)(fourth + i) * at;
-  }
-  sum[0] = (a[0] + a[1]) + (a[2] + a[3]);
-  sum[1] = (b[0] + b[1]) + (b[2] + b[3]);
-  sum[2] = (c[0] + c[1]) + (c[2] + c[3]);
-  sum[3] = (d[0] + d[1]) + (d[2] + d[3]);
-}
 #else
 /* The same in the order of the sums of one instance. */
 #define ALI3_FROM_FAR(name, declared, term)                                                                            \
@@ -210,18 +172,7 @@ ALI3_FROM_FAR(ali3_sum_product_from_far,
 /* The largest size of n numbers with these factors; NaN count as nothing. */
 static inline real ali3_largest_product(const real *x, const double *factor, int64_t n) {
   real most = {0};
-  int64_t i = 0;
-#ifndef ALI3_WIDTH
-  ali3_four largest = {0};
-  ALI3_SHORT
-  for (; i + 3 < n; i += 4) {
-    const ali3_four product = *(const ali3_four *)(x + i) * *(const ali3_four *)(factor + i);
-    ali3_take_larger(&largest, &product);
-  }
-  for (int k = 0; k < 4; k++) most = largest[k] > most ? largest[k] : most;
-#endif
-  ALI3_SHORT
-  for (; i < n; i++) {
+  for (int64_t i = 0; i < n; i++) {
     const real size = ali3_abs(x[i] * factor[i]);
     most = ali3_where(size > most, size, most);
   }
@@ -231,15 +182,7 @@ static inline real ali3_largest_product(const real *x, const double *factor, int
 /* The largest size of n numbers. */
 static inline real ali3_largest(const real *x, int64_t n) {
   real most = {0};
-  int64_t i = 0;
-#ifndef ALI3_WIDTH
-  ali3_four largest = {0};
-  ALI3_SHORT
-  for (; i + 3 < n; i += 4) ali3_take_larger(&largest, (const ali3_four *)(x + i));
-  for (int k = 0; k < 4; k++) most = largest[k] > most ? largest[k] : most;
-#endif
-  ALI3_SHORT
-  for (; i < n; i++) most = ali3_where(ali3_abs(x[i]) > most, ali3_abs(x[i]), most);
+  for (int64_t i = 0; i < n; i++) most = ali3_where(ali3_abs(x[i]) > most, ali3_abs(x[i]), most);
   return most;
 }
 
@@ -275,8 +218,6 @@ static inline void ali3_three_add_each(ali3_three *to, const double *a, const re
 
 static inline void ali3_three_put(real *to, const ali3_three *a) { to[0] = a->x, to[1] = a->y, to[2] = a->z; }
 
-#define ali3_three_put_first ali3_three_put /* what is behind is written afterwards, or nobody's */
-
 static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { to->x += a->x, to->y += a->y, to->z += a->z; }
 
 /* sum + a x */
@@ -294,11 +235,8 @@ static inline void ali3_three_add_each(ali3_three *to, const double *a, const do
   *to += *(const ali3_four *)a * *(const ali3_four *)x;
 }
 
-static inline void ali3_three_put(double *to, const ali3_three *a) {
-  to[0] = (*a)[0], to[1] = (*a)[1], to[2] = (*a)[2];
-}
-
-static inline void ali3_three_put_first(double *to, const ali3_three *a) { *(ali3_four *)to = *a; }
+/* What is behind is written afterwards, or nobody's. */
+static inline void ali3_three_put(double *to, const ali3_three *a) { *(ali3_four *)to = *a; }
 
 static inline void ali3_three_plus(ali3_three *to, const ali3_three *a) { *to += *a; }
 
@@ -315,14 +253,6 @@ static inline real ali3_points_sum(real sum, const real *x, const real *y) {
 #else
   return ali3_three_sum(sum, (const ali3_three *)x, y);
 #endif
-}
-
-/* Sums of n triples at columns of x with factors. */
-static inline void ali3_three_rows(const double *val, const int32_t *col, int32_t n, const real *x, real *out) {
-  ali3_three sum = {0};
-  ALI3_SHORT
-  for (int32_t k = 0; k < n; k++) ali3_three_add(&sum, x + col[k], ali3_same(val[k]));
-  ali3_three_put(out, &sum);
 }
 
 /* y += a x of three numbers */

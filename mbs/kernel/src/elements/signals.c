@@ -8,22 +8,6 @@
 
 enum { WRITTEN_OUT = 7 }; /* signals of a tyre, a brake or a bearing */
 
-/* Signals i to i + 2, the components of a point, and their rates. */
-ALI3_INLINED void three_signals(const ali3_system *S, int32_t i, const real *q, const real *qd, real *u, real *ud) {
-  const int32_t n = S->sig_ptr[i + 1] - S->sig_ptr[i], *col = S->sig_col + S->sig_ptr[i];
-  const double *val = S->sig_val + S->sig_ptr[i], *start = S->sig_const + i;
-  ali3_three place, rates = {0};
-  ali3_three_begin(&place, start);
-  ALI3_SHORT
-  for (int32_t k = 0; k < n; k++) {
-    const real v = ali3_same(val[k]);
-    ali3_three_add(&place, q + col[k], v);
-    ali3_three_add(&rates, qd + col[k], v);
-  }
-  ali3_three_put(u, &place);
-  ali3_three_put(ud, &rates);
-}
-
 /* in->element.u, in->element.ud of the signals that elements use. */
 ALI3_INLINED void active_signals(ali3_instance *in, const real *q, const real *qd) {
   const ali3_system *S = in->system;
@@ -32,11 +16,6 @@ ALI3_INLINED void active_signals(ali3_instance *in, const real *q, const real *q
   if (ALI3_GENERATED(S, signals, (val, S->sig_const, q, qd, in->element.u, in->element.ud))) return;
   for (int32_t a = 0; a < S->n_active; a++) {
     const int32_t i = S->active_signal[a];
-    if (S->active_triple[a]) {
-      three_signals(S, i, q, qd, in->element.u + i, in->element.ud + i);
-      a += 2;
-      continue;
-    }
     real u = ali3_same(S->sig_const[i]), ud = {0};
     for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
       const double v = val[k];
@@ -50,14 +29,6 @@ ALI3_INLINED void active_signals(ali3_instance *in, const real *q, const real *q
 
 ALI3_BY_PROCESSOR(in->system, void, active_signals, (ali3_instance * in, const real *q, const real *qd), (in, q, qd))
 
-/* Forces f on signals i to i + 2, the components of a point, go to its coordinates. */
-ALI3_INLINED void add_three(const ali3_system *S, int32_t i, const real *f, real *restrict Q) {
-  const int32_t n = S->sig_ptr[i + 1] - S->sig_ptr[i], *col = S->sig_col + S->sig_ptr[i];
-  const double *val = S->sig_val + S->sig_ptr[i];
-  ALI3_SHORT
-  for (int32_t k = 0; k < n; k++) ali3_triple_add(Q + col[k], f, ali3_same(val[k]));
-}
-
 /* Q += the forces f of all elements on their signals, but for idle ones. */
 ALI3_INLINED void add_forces(const ali3_instance *in, const real *f, real *Q) {
   const ali3_system *S = in->system;
@@ -68,11 +39,6 @@ ALI3_INLINED void add_forces(const ali3_instance *in, const real *f, real *Q) {
     if (some && !ali3_any(ali3_not(idle))) continue;
     for (int32_t i = S->el_sig_ptr[e]; i < S->el_sig_ptr[e + 1]; i++) {
       const int32_t signal = S->el_sig[i];
-      if (S->el_triple[i] && !some) {
-        add_three(S, signal, f + i, Q);
-        i += 2;
-        continue;
-      }
       for (int32_t k = S->sig_ptr[signal]; k < S->sig_ptr[signal + 1]; k++) {
         real *at = Q + S->sig_col[k];
         const real sum = *at + S->sig_val[k] * f[i];
@@ -154,42 +120,14 @@ ALI3_INLINED void add_columns_of_point(const place *p, int32_t j, const real *ro
   }
 }
 
-/* Columns of S B at three coordinates, or their first part where nothing stands there yet, of entries v, w, u. */
-ALI3_INLINED void three_columns(real *restrict to, const real *restrict row, int32_t n, int32_t m, double v, double w,
-                                double u, bool first) {
-  const real none = {0};
-  for (int32_t i = 0; i < n; i++, row += n, to += m) {
-    to[0] = (first ? none : to[0]) + row[0] * v;
-    to[1] = (first ? none : to[1]) + row[1] * w;
-    to[2] = (first ? none : to[2]) + row[2] * u;
-  }
-}
-
 /* SB = S B of element e: a row per signal, a column per coordinate. */
 ALI3_INLINED void tangent_times(const ali3_system *S, int32_t e, const place *p, int32_t n, const real *T,
                                 real *restrict SB) {
-  const int32_t m = p->m, begin = S->el_sig_ptr[e];
-  const double *value = S->el_entry_value;
-  const real none = {0};
-  if (S->el_clear[e]) memset(SB, 0, (size_t)(n * m) * sizeof *SB);
-  for (int32_t s = 0, k = S->el_entry_ptr[e]; s < n; s++) {
-    const int32_t signal = S->el_sig[begin + s], count = S->sig_ptr[signal + 1] - S->sig_ptr[signal], end = k + count;
-    const bool triple = S->el_triple[begin + s];
-    for (; k < end; k++) {
-      real *restrict to = SB + S->el_entry_local[k];
-      const double v = value[k];
-      const bool first = S->el_entry_first[k];
-      if (!triple && first)
-        for (int32_t i = 0; i < n; i++) to[i * m] = none + T[i * n + s] * v;
-      else if (!triple)
-        for (int32_t i = 0; i < n; i++) to[i * m] += T[i * n + s] * v;
-      else if (first)
-        three_columns(to, T + s, n, m, v, value[k + count], value[k + 2 * count], true);
-      else
-        three_columns(to, T + s, n, m, v, value[k + count], value[k + 2 * count], false);
-    }
-    if (triple) k += 2 * count, s += 2;
-  }
+  const int32_t m = p->m, *signal = S->el_sig + S->el_sig_ptr[e];
+  memset(SB, 0, (size_t)(n * m) * sizeof *SB);
+  for (int32_t s = 0, k = S->el_entry_ptr[e]; s < n; s++)
+    for (const int32_t end = k + S->sig_ptr[signal[s] + 1] - S->sig_ptr[signal[s]]; k < end; k++)
+      for (int32_t i = 0; i < n; i++) SB[i * m + S->el_entry_local[k]] += T[i * n + s] * S->el_entry_value[k];
 }
 
 /* Adds B' S B of every element to its front, B = d(signals)/d(coordinates), S from the last ali3_forces with a

@@ -123,26 +123,9 @@ ALI3_INLINED void ali3_accumulate(int32_t n, const double *restrict M, const rea
   ali3_add_product(n, M, x, out, out);
 }
 
-/* x times three rows that follow each other, each sum in the order of `ali3_product_from_far`. */
+/* x times three rows that follow each other. */
 ALI3_INLINED void ali3_three_products(int32_t n, const real *restrict rows, const real *restrict x, real out[3]) {
-#ifdef ALI3_WIDTH
   for (int k = 0; k < 3; k++) out[k] = ali3_product_from_far(rows + k * n, x, n);
-#else
-  const double *restrict second = rows + n, *restrict third = second + n;
-  ali3_four a = {0}, b = {0}, c = {0};
-  int64_t i = n;
-  ALI3_SHORT
-  for (; i >= 4; i -= 4) {
-    const ali3_four at = *(const ali3_four *)(x + i - 4);
-    a += *(const ali3_four *)(rows + i - 4) * at;
-    b += *(const ali3_four *)(second + i - 4) * at;
-    c += *(const ali3_four *)(third + i - 4) * at;
-  }
-  out[0] = (a[0] + a[1]) + (a[2] + a[3]);
-  out[1] = (b[0] + b[1]) + (b[2] + b[3]);
-  out[2] = (c[0] + c[1]) + (c[2] + c[3]);
-  while (i-- > 0) out[0] += rows[i] * x[i], out[1] += second[i] * x[i], out[2] += third[i] * x[i];
-#endif
 }
 
 /* y += the multiples of three rows that follow each other, in turn. */
@@ -156,19 +139,8 @@ static inline void ali3_gather(int32_t n, const int32_t *index, const real *from
   for (int32_t i = 0; i < n; i++) to[i] = from[index[i]];
 }
 
-/* The amplitudes of x. */
-ALI3_INLINED void ali3_amplitudes(const ali3_flexible *f, const real *x, real *to) {
-  if (ali3_together(f->mode, f->n))
-    ali3_copy_few(to, x + f->mode[0], f->n);
-  else
-    ali3_gather(f->n, f->mode, x, to);
-}
-
 /* to += weight x at the modes */
 ALI3_INLINED void ali3_add_to_modes(const ali3_flexible *f, const real *x, double weight, real *to) {
-  if (ali3_together(f->mode, f->n))
-    ali3_add_multiple(to + f->mode[0], x, ali3_same(weight), f->n);
-  else
-    for (int32_t j = 0; j < f->n; j++) to[f->mode[j]] += weight * x[j];
+  for (int32_t j = 0; j < f->n; j++) to[f->mode[j]] += weight * x[j];
 }
 #endif

@@ -31,77 +31,47 @@ ALI3_INLINED void many_rows(const ali3_instance *in, int32_t i, int32_t n, const
 
 /* Rows with the same columns, those of the modes of a flexible body, are summed side by side, column by column: as M is
  * symmetric, the entries of a column lie side by side in its row. `stretches`: rows have modes side by side, which
- * are one sum of four. `both`: M y too, entries loaded once. */
-ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y,
-                             bool stretches, bool both) {
+ * are one sum of four. */
+ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, real *out, bool stretches) {
   const ali3_system *S = in->system;
   const real *val = in->mass.val;
   const int32_t *ptr = S->mass_ptr, *col = S->mass_col;
   for (int32_t i = 0; i < S->size.nq; i++) {
     const int32_t alike = S->mass_alike[i];
-    real sum_x = {0}, sum_y = {0};
+    real sum = {0};
     if (alike == 0 && in->mass.isotropic) {
-      ali3_three three_x = {0}, three_y = {0};
+      ali3_three three = {0};
       ALI3_SHORT
-      for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) {
-        ali3_three_add(&three_x, x + col[k], val[k]);
-        if (both) ali3_three_add(&three_y, y + col[k], val[k]);
-      }
-      ali3_three_put_first(out_x + i, &three_x);
-      if (both) ali3_three_put_first(out_y + i, &three_y);
+      for (int32_t k = ptr[i]; k < ptr[i + 1]; k++) ali3_three_add(&three, x + col[k], val[k]);
+      ali3_three_put(out + i, &three);
       i += 2;
       continue;
     }
     if (stretches && alike >= MANY) {
-      many_rows(in, i, alike, x, out_x);
-      if (both) many_rows(in, i, alike, y, out_y);
+      many_rows(in, i, alike, x, out);
       i += alike - 1;
       continue;
     }
     int32_t k = ptr[i];
     if (stretches && S->mass_stretch[2 * i] < ptr[i + 1]) {
       const int32_t first = S->mass_stretch[2 * i], last = S->mass_stretch[2 * i + 1];
-      for (; k < first; k++) {
-        sum_x += val[k] * x[col[k]];
-        if (both) sum_y += val[k] * y[col[k]];
-      }
-      sum_x += ali3_product_from_far(val + first, x + col[first], last - first);
-      if (both) sum_y += ali3_product_from_far(val + first, y + col[first], last - first);
+      for (; k < first; k++) sum += val[k] * x[col[k]];
+      sum += ali3_product_from_far(val + first, x + col[first], last - first);
       k = last;
     }
     ALI3_SHORT
-    for (; k < ptr[i + 1]; k++) {
-      sum_x += val[k] * x[col[k]];
-      if (both) sum_y += val[k] * y[col[k]];
-    }
-    out_x[i] = sum_x;
-    if (both) out_y[i] = sum_y;
+    for (; k < ptr[i + 1]; k++) sum += val[k] * x[col[k]];
+    out[i] = sum;
   }
 }
 
 ALI3_INLINED void constant_mass_times(const ali3_instance *in, const real *x, real *out) {
   if (in->mass.isotropic && ALI3_GENERATED(in->system, mass_times, (in->mass.val, x, out))) return;
   if (in->system->n_flexible > 0)
-    times_mass(in, x, x, out, out, true, false);
+    times_mass(in, x, out, true);
   else
-    times_mass(in, x, x, out, out, false, false);
+    times_mass(in, x, out, false);
 }
 
 ALI3_BY_PROCESSOR(in->system, void, constant_mass_times, (const ali3_instance *in, const real *x, real *out),
                   (in, x, out))
-
-ALI3_INLINED void constant_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x,
-                                           real *out_y) {
-  if (in->mass.isotropic && ALI3_GENERATED(in->system, mass_times, (in->mass.val, x, out_x)) &&
-      ALI3_GENERATED(in->system, mass_times, (in->mass.val, y, out_y)))
-    return;
-  if (in->system->n_flexible > 0)
-    times_mass(in, x, y, out_x, out_y, true, true);
-  else
-    times_mass(in, x, y, out_x, out_y, false, true);
-}
-
-/* M x and M y of the constant part of M. */
-ALI3_BY_PROCESSOR(in->system, void, constant_mass_times_both,
-                  (const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y),
-                  (in, x, y, out_x, out_y))

@@ -17,7 +17,7 @@ ALI3_INLINED void prepare_body(const ali3_instance *in, const ali3_flexible *f, 
   const int64_t square = (int64_t)n * n;
   real *restrict eta = in->flexible.work, *restrict even = eta + n, *restrict odd = even + n;
   ali3_gather(9, f->frame + 3, q, f->A);
-  ali3_amplitudes(f, q, eta);
+  ali3_gather(n, f->mode, q, eta);
   for (int i = 0; i < 3; i++) ali3_add_product(n, f->E + i * square, eta, f->c + 4 * i * n, f->D + 4 * i * n);
   for (int p = 0; p < 3; p++) { /* the pairs yz, zx, xy: sum m phi_i phi_k' = E - H, its transpose E + H */
     const int i = (p + 1) % 3, k = (p + 2) % 3;
@@ -53,7 +53,7 @@ ALI3_INLINED void flexible_mass_times(const ali3_instance *in, const real *x, re
     real *restrict rate = in->flexible.work, *restrict force = rate + n;
     real v[12], local[3], back[3], local_r[3] = {0};
     ali3_gather(12, f.frame, x, v);
-    ali3_amplitudes(&f, x, rate);
+    ali3_gather(n, f.mode, x, rate);
     memset(force, 0, (size_t)n * sizeof *force);
     for (int i = 0; i < 4; i++) { /* r_o, then the axes */
       const real *a = v + 3 * i, *rows = i == 0 ? f.P : f.D + 3 * (i - 1) * n;
@@ -90,8 +90,8 @@ ALI3_INLINED void flexible_forces(const ali3_instance *in, const real *q, const 
     real Ad[9];
     ali3_gather(9, f.frame + 3, qd, Ad);
     for (int i = 0; i < 9; i++) Ad[i] *= turning;
-    ali3_amplitudes(&f, qd, rate);
-    ali3_amplitudes(&f, q, x);
+    ali3_gather(n, f.mode, qd, rate);
+    ali3_gather(n, f.mode, q, x);
     memset(sum, 0, (size_t)n * sizeof *sum);
     ali3_accumulate(n, f.K, x, sum);
     ali3_accumulate(n, f.C, rate, sum);
@@ -189,7 +189,7 @@ ALI3_BY_PROCESSOR(in->system, void, flexible_tangent,
 /* K eta with the amplitudes eta of x, which stay in in->flexible.work. */
 ALI3_INLINED const double *elastic_force(const ali3_instance *in, const ali3_flexible *f, const double *x) {
   double *eta = in->flexible.work, *force = eta + f->n;
-  ali3_amplitudes(f, x, eta);
+  ali3_gather(f->n, f->mode, x, eta);
   memset(force, 0, (size_t)f->n * sizeof(double));
   ali3_accumulate(f->n, f->K, eta, force);
   return force;

@@ -12,12 +12,6 @@ void ali3_mass_times(const ali3_instance *in, const double *x, double *out) {
   if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out);
 }
 
-void ali3_mass_times_both(const ali3_instance *in, const double *x, const double *y, double *out_x, double *out_y) {
-  ali3_constant_mass_times_both(in, x, y, out_x, out_y);
-  if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out_x), ali3_flexible_mass_times(in, y, out_y);
-  if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out_x), ali3_tabled_mass_times(in, y, out_y);
-}
-
 double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work) {
   double sum = 0.0;
   ali3_mass_times(in, b, work);
@@ -37,7 +31,7 @@ ALI3_INLINED void mass_to_fronts(const ali3_instance *in, double *F) {
     for (; j + 3 < n; j += 4, to += 4 * n, from += 4 * n) {
       ALI3_EACH(ali3_by_fours(j, n), n, for (int k = 0; k < 4; k++) ALI3_AT(to + k * n) = ALI3_AT(from + k * n))
     }
-    for (; j < n; j++, to += n, from += n) ali3_copy_few(to, from, n);
+    for (; j < n; j++, to += n, from += n) ali3_copy(to, from, n);
   }
 }
 

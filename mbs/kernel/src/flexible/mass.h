@@ -5,12 +5,7 @@
 #include "../instance.h"
 
 ALI3_PER_WIDTH void ali3_constant_mass_times(const ali3_instance *in, const real *x, real *out);
-ALI3_PER_WIDTH void ali3_constant_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x,
-                                                  real *out_y);
 ALI3_PER_WIDTH void ali3_mass_times(const ali3_instance *in, const real *x, real *out); /* M of the last q prepared */
-/* The same and M y. */
-ALI3_PER_WIDTH void ali3_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x,
-                                         real *out_y);
 void ali3_mass_to_fronts(const ali3_instance *in, double *F); /* the constant part of M, lower triangles */
 /* a' M b, M of the last q prepared; M b stays in `work` (nq). */
 double ali3_mass_product(const ali3_instance *in, const double *a, const double *b, double *work);

@@ -57,12 +57,6 @@ void ali3_mass_times(const ali3_instance *in, const real *x, real *out) {
   if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out);
 }
 
-void ali3_mass_times_both(const ali3_instance *in, const real *x, const real *y, real *out_x, real *out_y) {
-  ali3_constant_mass_times_both(in, x, y, out_x, out_y);
-  if (in->system->n_flexible > 0) ali3_flexible_mass_times(in, x, out_x), ali3_flexible_mass_times(in, y, out_y);
-  if (in->system->n_tabled > 0) ali3_tabled_mass_times(in, x, out_x), ali3_tabled_mass_times(in, y, out_y);
-}
-
 #include "../algebra/lane_copies.h"
 #include "lane_step.h"
 

@@ -71,7 +71,7 @@ void ali3_branch_before(ali3_instance *in) {
   if (!watches(in)) return;
   if (!in->branch.known) look(in);
   in->branch.known = true;
-  ali3_copy_few(in->branch.sine_before, in->branch.sine, ali3_triad_count(S));
+  ali3_copy(in->branch.sine_before, in->branch.sine, ali3_triad_count(S));
   if (ali3_method_of(in)->relative) return; /* its state is not always that of the last step */
   for (int64_t loop = 0; loop < ali3_loop_count(S) && !in->branch.near; loop++) {
     const int32_t first = S->mode_triad_ptr[loop] / ITEMS, end = S->mode_triad_ptr[loop + 1] / ITEMS;

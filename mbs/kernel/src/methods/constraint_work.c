@@ -61,7 +61,8 @@ ALI3_INLINED real constraint_work(ali3_instance *in, double h, real *guides) {
       in->step.drive[k] = ali3_where(own, ali3_same(0.0), in->step.drive[k]);
     }
   }
-  ali3_rows_times_both(S, in->tangent.J, in->step.D, in->next.qd, in->step.gamma, in->step.mu);
+  ali3_rows_times(S, in->tangent.J, in->step.D, in->step.gamma);
+  ali3_rows_times(S, in->tangent.J, in->next.qd, in->step.mu);
   for (int32_t k = 0; k < S->size.nc; k++) work -= 0.5 * in->step.gamma[k] * (in->next.lam[k] - in->now.lam[k]);
   for (int32_t i = 0; i < S->n_driven; i++) {
     const int32_t k = S->driven_row[i];
@@ -86,7 +87,8 @@ ALI3_INLINED real projection_work(ali3_instance *in, real *kinetic, real *end, r
   const double rate = in->rule.rate;
   ALI3_EACH(0, nq, ALI3_AT(w) = 0.5 * (rate * ALI3_AT(D) + ALI3_AT(hat) + ALI3_AT(qd));
             ALI3_AT(change) = 2.0 * (ALI3_AT(qd) - ALI3_AT(w)))
-  ali3_mass_times_both(in, w, v->qdd, x, left);
+  ali3_mass_times(in, w, x);
+  ali3_mass_times(in, v->qdd, left);
   const real given = ali3_product_from_far(change, x, nq), twice = ali3_product_from_far(w, x, nq);
   ALI3_EACH(0, nq, ALI3_AT(left) -= ALI3_AT(Q))
   real power = ali3_product_from_far(qd, left, nq), drive = {0};

@@ -121,7 +121,7 @@ static bool same_place(ali3_instance *in, const ali3_vectors *v, bool remember) 
   for (int k = 0; k < 3 && in->discrete.has_J0; at += n[k], k++) {
     const size_t size = (size_t)n[k] * sizeof(double);
     if (remember)
-      ali3_copy_few(at, part[k], n[k]);
+      ali3_copy(at, part[k], n[k]);
     else if (n[k] > 0 && memcmp(at, part[k], size) != 0)
       return false;
   }

@@ -19,7 +19,7 @@ double ali3_penalty(const ali3_instance *in, double h) {
 /* The balance r (nq) and the rows in in->step.Phi go into the report. Returns false when something is not finite. */
 bool ali3_judge(ali3_instance *in, const double *r) {
   const ali3_system *S = in->system;
-  in->report.residual = ali3_worst_size(S, r, in->mass.floor_inverse, S->size.nq, &in->report.worst_coordinate);
+  in->report.residual = ali3_worst_size(r, in->mass.floor_inverse, S->size.nq, &in->report.worst_coordinate);
   in->report.violation = ali3_violation(S, in->step.Phi, &in->report.worst_row);
   return in->report.residual < 1e300 && in->report.violation < 1e300;
 }

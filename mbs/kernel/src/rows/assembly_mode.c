@@ -26,19 +26,6 @@ ALI3_INLINED void put(int32_t kind, double ss, double cc, double lengths, double
   *cosine = scale * (kind & TURNED ? -ss : cc);
 }
 
-ALI3_INLINED void vector(const ali3_system *S, const int32_t *signal, const double *q, double *v) {
-  if (!S->triad_triple[signal - S->mode_triad]) {
-    for (int d = 0; d < 3; d++) v[d] = ali3_signal_at(S, signal[d], q, false);
-    return;
-  }
-  ali3_three sum;
-  ali3_three_begin(&sum, S->sig_const + *signal);
-  ALI3_SHORT
-  for (int32_t k = S->sig_ptr[*signal]; k < S->sig_ptr[*signal + 1]; k++)
-    ali3_three_add(&sum, q + S->sig_col[k], S->sig_val[k]);
-  ali3_three_put(v, &sum);
-}
-
 /* Of the angle from arm a to arm b seen along n. */
 ALI3_INLINED void angle(const ali3_system *S, const double *q, const int32_t *t, double *sine, double *cosine) {
   if (t[KIND] & PLANAR) {
@@ -50,7 +37,7 @@ ALI3_INLINED void angle(const ali3_system *S, const double *q, const int32_t *t,
   }
   double v[SIGNALS];
   const double *n = v, *a = v + 3, *b = v + 6;
-  for (int i = 0; i < SIGNALS; i += 3) vector(S, t + i, q, v + i);
+  for (int i = 0; i < SIGNALS; i++) v[i] = ali3_signal_at(S, t[i], q, false);
   const double nn = dot(n, n), det = n[0] * (a[1] * b[2] - a[2] * b[1]) + n[1] * (a[2] * b[0] - a[0] * b[2]) +
                                      n[2] * (a[0] * b[1] - a[1] * b[0]);
   const double c = nn * dot(a, b) - dot(n, a) * dot(n, b); /* (n x a) . (n x b) */

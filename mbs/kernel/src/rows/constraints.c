@@ -94,7 +94,7 @@ ALI3_INLINED void constraints(ali3_instance *in, const real *q, const real *s, r
         ali3_three_begin(&lin, row_lin + i);
         entry = lin;
         t = add_points(S, t, S->hess_ptr[i + 3], q, &entry);
-        ali3_three_put_first(J + i, &entry);
+        ali3_three_put(J + i, &entry);
         ali3_three_plus(&entry, &lin);
         value = ali3_three_sum(value, &entry, q + col[i]);
       }

@@ -16,8 +16,6 @@ ALI3_PER_WIDTH void ali3_geometric(ali3_instance *in, const real *q, const real 
 ALI3_PER_WIDTH void ali3_rows_square(ali3_instance *in, const real *J, double weight, real *F);
 ALI3_PER_WIDTH void ali3_rows_product(ali3_instance *in, const real *A, const real *J, double weight, real *F);
 ALI3_PER_WIDTH void ali3_rows_times(const ali3_system *S, const real *J, const real *x, real *out);
-ALI3_PER_WIDTH void ali3_rows_times_both(const ali3_system *S, const real *J, const real *x, const real *y, real *out_x,
-                                         real *out_y);
 ALI3_PER_WIDTH void ali3_rows_transposed(const ali3_system *S, const real *J, const real *w,
                                          real *out); /* out = J' w */
 #endif

@@ -35,67 +35,28 @@ static inline real guide_bend(real qa, real qb, real va, real vb, real w, real w
   return wdd * qa * qb + 2.0 * wd * (va * qb + qa * vb) + 2.0 * w * va * vb;
 }
 
-/* Phi += w q_a q_b, and Phi_q. Here and below terms with two coordinates each, of one guide and row, are a loop. */
+/* Phi += w q_a q_b, and Phi_q. */
 static inline void guide_values(const ali3_system *S, const real *q, const real *s, real *Phi, real *J) {
-  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last;) {
-    const ali3_guide_term *const end = g + g->pairs;
-    const int32_t row = g->row;
-    const real v = s[g->guide];
-    real value = Phi[row];
-    if (g == end) {
-      const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b), w = guide_factor(g, s);
-      value += w * qa * qb;
-      if (g->term.a >= 0) J[g->term.ja] += w * qb;
-      if (g->term.b >= 0) J[g->term.jb] += w * qa;
-      g++;
-    }
-    ALI3_SHORT
-    for (; g < end; g++) {
-      const real qa = q[g->term.a], qb = q[g->term.b], w = g->term.h * v;
-      value += w * qa * qb;
-      J[g->term.ja] += w * qb;
-      J[g->term.jb] += w * qa;
-    }
-    Phi[row] = value;
+  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last; g++) {
+    const real qa = value_of(q, g->term.a), qb = value_of(q, g->term.b), w = guide_factor(g, s);
+    Phi[g->row] += w * qa * qb;
+    if (g->term.a >= 0) J[g->term.ja] += w * qb;
+    if (g->term.b >= 0) J[g->term.jb] += w * qa;
   }
 }
 
 /* Phit += w' q_a q_b */
 static inline void guide_rates(const ali3_system *S, const real *q, const ali3_vectors *guides, real *Phit) {
-  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last;) {
-    const ali3_guide_term *const end = g + g->pairs;
-    const int32_t row = g->row;
-    const real vd = guides->sd[g->guide];
-    real value = Phit[row];
-    if (g == end) {
-      value += guide_rate(g, guides) * value_of(q, g->term.a) * value_of(q, g->term.b);
-      g++;
-    }
-    ALI3_SHORT
-    for (; g < end; g++) value += g->term.h * vd * q[g->term.a] * q[g->term.b];
-    Phit[row] = value;
-  }
+  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last; g++)
+    Phit[g->row] += guide_rate(g, guides) * value_of(q, g->term.a) * value_of(q, g->term.b);
 }
 
 static inline void guide_gamma(const ali3_system *S, const real *q, const real *qd, const ali3_vectors *guides,
                                real *gamma) {
-  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last;) {
-    const ali3_guide_term *const end = g + g->pairs;
-    const int32_t row = g->row;
-    const real v = guides->s[g->guide], vd = guides->sd[g->guide], vdd = guides->sdd[g->guide];
-    real value = gamma[row];
-    if (g == end) {
-      value +=
-          guide_bend(value_of(q, g->term.a), value_of(q, g->term.b), rate_of(qd, g->term.a), rate_of(qd, g->term.b),
-                     guide_factor(g, guides->s), guide_rate(g, guides), guide_second_rate(g, guides));
-      g++;
-    }
-    ALI3_SHORT
-    for (; g < end; g++)
-      value += guide_bend(q[g->term.a], q[g->term.b], qd[g->term.a], qd[g->term.b], g->term.h * v, g->term.h * vd,
-                          g->term.h * vdd);
-    gamma[row] = value;
-  }
+  for (const ali3_guide_term *g = S->gterm, *last = g + S->n_gterm_row; g < last; g++)
+    gamma[g->row] +=
+        guide_bend(value_of(q, g->term.a), value_of(q, g->term.b), rate_of(qd, g->term.a), rate_of(qd, g->term.b),
+                   guide_factor(g, guides->s), guide_rate(g, guides), guide_second_rate(g, guides));
 }
 
 /* F += weight * lam w of each, twice where a and b are the same. */

@@ -52,7 +52,6 @@ ALI3_INLINED void square_of_four(const ali3_system *S, const int32_t *rows, cons
   for (int64_t j = 0; j < length; j++) {
     const real factor[4] = {weight * a[j], weight * b[j], weight * c[j], weight * d[j]};
     int64_t from = j < 3 ? j : ali3_by_fours_below(j, length);
-    ALI3_OPAQUE(from);
     real *column = block + (loc[first[k]] + j) * n + loc[first[k]] + from;
     add_four(column, a + from, b + from, c + from, d + from, factor, length - from);
   }
@@ -133,83 +132,21 @@ ALI3_INLINED void rows_times(const ali3_system *S, const real *J, const real *x,
 
 ALI3_BY_PROCESSOR(S, void, rows_times, (const ali3_system *S, const real *J, const real *x, real *out), (S, J, x, out))
 
-ALI3_INLINED void rows_times_both(const ali3_system *S, const real *J, const real *x, const real *y, real *out_x,
-                                  real *out_y) {
-  if (ALI3_GENERATED(S, rows_times, (J, x, out_x)) && ALI3_GENERATED(S, rows_times, (J, y, out_y))) return;
-  const int32_t *ptr = S->row_ptr, *col = S->row_col, *stretch = S->n_flexible > 0 ? S->row_stretch : ptr + 1;
-  for (int32_t k = 0; k < S->size.nc; k++) {
-    real sum_x = {0}, sum_y = {0};
-    int32_t i = ptr[k];
-    const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
-    ALI3_SHORT
-    for (; i < triples; i += 3) {
-      sum_x = ali3_points_sum(sum_x, J + i, x + col[i]);
-      sum_y = ali3_points_sum(sum_y, J + i, y + col[i]);
-    }
-    ALI3_SHORT
-    for (; i < stretch[k]; i++) {
-      sum_x += J[i] * x[col[i]];
-      sum_y += J[i] * y[col[i]];
-    }
-    if (i < ptr[k + 1]) {
-      sum_x += ali3_product_from_far(J + i, x + col[i], ptr[k + 1] - i);
-      sum_y += ali3_product_from_far(J + i, y + col[i], ptr[k + 1] - i);
-    }
-    out_x[k] = sum_x, out_y[k] = sum_y;
-  }
-}
-
-/* The same of x and y with entries loaded once. */
-ALI3_BY_PROCESSOR(S, void, rows_times_both,
-                  (const ali3_system *S, const real *J, const real *x, const real *y, real *out_x, real *out_y),
-                  (S, J, x, y, out_x, out_y))
-
-/* Row by row. `stretches`: rows end with modes side by side. */
-ALI3_INLINED void transposed_by_rows(const ali3_system *S, const real *J, const real *w, real *out, bool stretches) {
-  const int32_t *ptr = S->row_ptr, *col = S->row_col, *end = ptr + 1, *stretch = stretches ? S->row_stretch : end;
-  memset(out, 0, (size_t)S->size.nq * sizeof *out);
-  for (int32_t k = 0; k < S->size.nc; k++) {
-    const real weight = w[k];
-    int32_t i = ptr[k];
-    const int32_t triples = S->row_triples[k] ? ptr[k + 1] : i;
-    ALI3_SHORT
-    for (; i < triples; i += 3) ali3_triple_add(out + col[i], J + i, weight);
-    ALI3_SHORT
-    for (; i < stretch[k]; i++) out[col[i]] += J[i] * weight;
-    if (stretches && i < end[k]) ali3_add_multiple(out + col[i], J + i, weight, end[k] - i);
-  }
-}
-
-/* Coordinate by coordinate, in the order of the rows: a sum stays in hand. By rows a step has 2.2 % (lane change at
- * 10 ms, drop) to 2.4 % (spatial chain) more instructions. */
-ALI3_INLINED void transposed_by_columns(const ali3_system *S, const real *J, const real *w, real *restrict out) {
-  const int32_t *ptr = S->column_ptr, *entry = S->column_entry, *row = S->column_row;
-  for (int32_t i = 0; i < S->size.nq; i++) {
-    const int32_t end = ptr[i + 1];
-    int32_t k = ptr[i];
-    if (S->column_triple[i]) {
-      ali3_three three = {0};
-      ALI3_SHORT
-      for (; k < end; k++) ali3_three_add(&three, J + entry[k], w[row[k]]);
-      ali3_three_put_first(out + i, &three);
-      i += 2;
-      continue;
-    }
-    real sum = {0};
-    ALI3_SHORT
-    for (; k < end; k++) sum += J[entry[k]] * w[row[k]];
-    out[i] = sum;
-  }
-}
-
 ALI3_INLINED void rows_transposed(const ali3_system *S, const real *J, const real *w, real *out) {
   if (ALI3_GENERATED(S, rows_transposed, (J, w, out))) return;
-  if (S->by_columns)
-    transposed_by_columns(S, J, w, out);
-  else if (S->n_flexible > 0)
-    transposed_by_rows(S, J, w, out, true);
-  else
-    transposed_by_rows(S, J, w, out, false);
+  const int32_t *ptr = S->row_ptr, *col = S->row_col;
+  memset(out, 0, (size_t)S->size.nq * sizeof *out);
+  for (int32_t k = 0; k < S->size.nc; k++) {
+    const int32_t end = ptr[k + 1];
+    const real weight = w[k];
+    int32_t i = ptr[k];
+    ALI3_SHORT
+    for (const int32_t points = S->row_triples[k] ? end : i; i < points; i += 3)
+      ali3_triple_add(out + col[i], J + i, weight);
+    ALI3_SHORT
+    for (; i < S->row_stretch[k]; i++) out[col[i]] += J[i] * weight;
+    if (i < end) ali3_add_multiple(out + col[i], J + i, weight, end - i);
+  }
 }
 
 ALI3_BY_PROCESSOR(S, void, rows_transposed, (const ali3_system *S, const real *J, const real *w, real *out),

@@ -13,15 +13,8 @@ ALI3_INLINED void signal_displacements(const ali3_instance *in, real *ways) {
   }
   for (int32_t k = 0; k < S->n_work; k++) {
     const int32_t *signal = S->el_sig + S->el_sig_ptr[S->work_element[k]];
-    const unsigned char *triple = S->el_triple + S->el_sig_ptr[S->work_element[k]] - S->work_ptr[k];
     for (int32_t i = S->work_ptr[k]; i < S->work_ptr[k + 1]; i++, signal++) {
       real sum = {0};
-      if (triple[i]) {
-        ali3_three_rows(S->sig_val + S->sig_ptr[*signal], S->sig_col + S->sig_ptr[*signal],
-                        S->sig_ptr[*signal + 1] - S->sig_ptr[*signal], D, ways + i);
-        i += 2, signal += 2;
-        continue;
-      }
       ALI3_SHORT
       for (int32_t t = S->sig_ptr[*signal]; t < S->sig_ptr[*signal + 1]; t++) sum += S->sig_val[t] * D[S->sig_col[t]];
       ways[i] = sum;

@@ -64,28 +64,6 @@ static void derive_element(ali3_system *s, int32_t e) {
   s->el_coordinate_ptr[e + 1] = start + unique;
 }
 
-/* Which entries of an element are the first ones of their coordinates, in the order in which its tangent meets them:
- * those of a triple three at a time. */
-static void derive_first(const ali3_system *s, int32_t e) {
-  enum { UNMET = 2 };
-  const int32_t begin = s->el_entry_ptr[e], n = s->el_entry_ptr[e + 1] - begin, *local = s->el_entry_local + begin;
-  unsigned char *first = s->el_entry_first + begin;
-  memset(first, UNMET, (size_t)n);
-  for (int32_t i = s->el_sig_ptr[e], k = 0; i < s->el_sig_ptr[e + 1]; i++) {
-    const int32_t count = s->sig_ptr[s->el_sig[i] + 1] - s->sig_ptr[s->el_sig[i]], rows = s->el_triple[i] ? 3 : 1;
-    for (int32_t j = k; j < k + count; j++)
-      for (int32_t at = j; at < j + rows * count; at += count) {
-        bool met = false;
-        for (int32_t x = 0; x < n; x++) met |= first[x] != UNMET && local[x] == local[at];
-        first[at] = !met;
-        s->el_clear[e] |= first[at] != first[j];
-      }
-    k += rows * count;
-    i += rows - 1;
-  }
-  if (s->el_clear[e]) memset(first, 0, (size_t)n);
-}
-
 /* Outputs of an element that are forces of a contact or a stop. */
 static ali3_contact_forces_of contact_of(const ali3_system *s, int32_t e) {
   enum { LOAD = 2, OF_A_TYRE = 3 }; /* output of a tyre; first outputs of what touches a road that are forces */
@@ -126,15 +104,12 @@ void ali3_elements_derive(ali3_system *s) {
   for (int32_t i = 0; i < s->size.nsig; i++)
     if (s->active_signal[i]) s->active_signal[s->n_active++] = i;
   derive_triples(s, s->active_signal, s->n_active, s->active_triple);
-  for (int64_t k = 0; k < s->n_mode_triad; k += ALI3_TRIAD_ITEMS)
-    for (int64_t i = k; i < k + 9; i += 3) derive_triples(s, s->mode_triad + i, 3, s->triad_triple + i);
   for (int32_t e = 0; e < ne; e++) {
     const int32_t first = s->el_sig_ptr[e], n = s->el_sig_ptr[e + 1] - first;
     derive_triples(s, s->el_sig + first, n, s->el_triple + first);
     s->el_beside[e] = n > 0 ? s->el_sig[first] : -1;
     for (int32_t i = 1; i < n; i++)
       if (s->el_sig[first + i] != s->el_sig[first] + i) s->el_beside[e] = -1;
-    derive_first(s, e);
   }
 }
 

@@ -11,17 +11,13 @@
 enum { MOST_TERMS = 32, MOST_IN_TURN = 2048 };
 
 void ali3_rows_place(ali3_system *s, ali3_pool *p) {
-  const size_t nq = (size_t)s->size.nq, na = (size_t)s->n_angle_row;
+  const size_t na = (size_t)s->n_angle_row;
   s->hess_ptr = ali3_pool_items(p, (size_t)s->n_row_col + 1, sizeof(int32_t));
   s->hess_col = ali3_pool_items(p, 2 * (size_t)s->n_quad_a, sizeof(int32_t));
   s->hess_val = ali3_pool_items(p, 2 * (size_t)s->n_quad_a + 1, sizeof(double)); /* as ali3_pool_padded */
   s->row_round = ali3_pool_items(p, (size_t)s->size.nc, sizeof(double));
   s->row_triples = ali3_pool_items(p, (size_t)s->size.nc, 1);
   s->row_stretch = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
-  s->column_ptr = ali3_pool_items(p, nq + 1, sizeof(int32_t));
-  s->column_entry = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
-  s->column_row = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
-  s->column_triple = ali3_pool_items(p, nq, 1);
   s->hess_run = ali3_pool_items(p, (size_t)s->n_row_col, sizeof(int32_t));
   s->front_row_ptr = ali3_pool_items(p, (size_t)s->size.nf + 1, sizeof(int32_t));
   s->front_row = ali3_pool_items(p, (size_t)s->size.nc, sizeof(int32_t));
@@ -73,12 +69,6 @@ static void derive_rows(ali3_system *s) {
                                .guide = s->gterm_guide[t],
                                .power = s->gterm_power[t]};
     s->gterm[t] = g;
-  }
-  for (int64_t t = s->n_gterm_row - 1; t >= 0; t--) {
-    ali3_guide_term *g = s->gterm + t;
-    if (g->power != 1 || g->term.b < 0) continue;
-    const bool follows = t + 1 < s->n_gterm_row && g[1].row == g->row && g[1].guide == g->guide;
-    g->pairs = follows ? g[1].pairs + 1 : 1;
   }
   for (int32_t k = 0; k < s->size.nc; k++) {
     bool driven = false;
@@ -224,7 +214,8 @@ static void derive_hessian(ali3_system *s) {
     if (s->row_triples[k] && of_points(s, k)) s->row_triples[k] = ALI3_POINTS;
     for (int32_t i = s->row_ptr[k]; s->row_triples[k] == ALI3_POINTS && i < s->row_ptr[k + 1]; i += ALI3_TRIPLE)
       interleave(s, s->hess_ptr[i], ALI3_TRIPLE, s->hess_ptr[i + 1] - s->hess_ptr[i]);
-    const int32_t first = s->row_triples[k] ? s->row_ptr[k + 1] : stretch_of(s, k);
+    const bool none = s->row_triples[k] || s->n_flexible == 0;
+    const int32_t first = none ? s->row_ptr[k + 1] : stretch_of(s, k);
     s->row_stretch[k] = first;
     if (first < s->row_ptr[k + 1])
       interleave(s, s->hess_ptr[first], s->row_ptr[k + 1] - first, s->hess_ptr[first + 1] - s->hess_ptr[first]);
@@ -309,44 +300,11 @@ static void derive_stretches(ali3_system *s) {
   }
 }
 
-/* Whether the entries of coordinates i and i + 1 stand side by side in the same rows. */
-static bool columns_follow(const ali3_system *s, int32_t i) {
-  const int32_t *a = s->column_entry + s->column_ptr[i], *b = s->column_entry + s->column_ptr[i + 1];
-  const int32_t n = s->column_ptr[i + 1] - s->column_ptr[i];
-  const int32_t *row = s->column_row + s->column_ptr[i]; /* an entry may be the last of its row, the next one's first */
-  bool follow = s->column_ptr[i + 2] - s->column_ptr[i + 1] == n;
-  for (int32_t k = 0; k < n && follow; k++) follow = b[k] == a[k] + 1 && row[k] == row[n + k];
-  return follow;
-}
-
-static void derive_columns(ali3_system *s) {
-  int32_t *end = s->column_ptr + 1; /* of a coordinate; first its begin, which moves on with each entry */
-  const int32_t nq = s->size.nq;
-  for (int64_t i = 0; i < s->n_row_col; i++)
-    if (s->row_col[i] + 1 < nq) end[s->row_col[i] + 1]++;
-  for (int32_t i = 1; i < nq; i++) end[i] += end[i - 1];
-  for (int32_t k = 0; k < s->size.nc; k++)
-    for (int32_t i = s->row_ptr[k]; i < s->row_ptr[k + 1]; i++) {
-      const int32_t at = end[s->row_col[i]]++;
-      s->column_entry[at] = i;
-      s->column_row[at] = k;
-    }
-  int32_t in_triples = 0;
-  for (int32_t i = 0; i + 2 < nq; i++) {
-    if (!columns_follow(s, i) || !columns_follow(s, i + 1)) continue;
-    s->column_triple[i] = 1;
-    in_triples += s->column_ptr[i + 3] - s->column_ptr[i];
-    i += 2;
-  }
-  s->by_columns = s->n_flexible == 0 && 3 * (int64_t)in_triples > 2 * s->n_row_col;
-}
-
 /* After the masses: they tell which angles turn with more than what they measure. */
 void ali3_rows_derive(ali3_system *s) {
   derive_rows(s);
   derive_round(s);
   derive_hessian(s);
   derive_stretches(s);
-  derive_columns(s);
   derive_turning(s);
 }

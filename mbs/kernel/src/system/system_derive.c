@@ -28,12 +28,10 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->mass_alike = ali3_pool_items(p, nq, sizeof(int32_t));
   s->mass_stretch = ali3_pool_items(p, nq, 2 * sizeof(int32_t));
   s->mass_mirror = ali3_pool_items(p, (size_t)s->n_mass_col, sizeof(int32_t));
-  s->front_side = ali3_pool_items(p, (size_t)s->size.nf, sizeof(int32_t));
   s->diagonal_pos = ali3_pool_items(p, nq, sizeof(int32_t));
   s->el_kind = ali3_pool_items(p, ne, sizeof *s->el_kind);
   s->el_size = ali3_pool_items(p, ne, sizeof *s->el_size);
   s->contact = ali3_pool_items(p, ne, sizeof *s->contact);
-  s->triad_triple = ali3_pool_items(p, (size_t)s->n_mode_triad, 1);
   s->el_S_off = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->work_of = ali3_pool_items(p, ne, sizeof(int32_t));
   s->work_element = ali3_pool_items(p, ne, sizeof(int32_t));
@@ -41,8 +39,6 @@ static void place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_entry_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->el_entry_local = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->el_entry_value = ali3_pool_items(p, n_entry, sizeof(double));
-  s->el_entry_first = ali3_pool_items(p, n_entry, 1);
-  s->el_clear = ali3_pool_items(p, ne, 1);
   s->el_coordinate_ptr = ali3_pool_items(p, ne + 1, sizeof(int32_t));
   s->el_coordinate_loc = ali3_pool_items(p, n_entry, sizeof(int32_t));
   s->el_apart = ali3_pool_items(p, ne, sizeof(int32_t));
@@ -81,16 +77,6 @@ static void derive_mass_rows(ali3_system *s) {
       const int32_t j = col[k];
       s->mass_mirror[k] = ptr[j] + ali3_find(col + ptr[j], ptr[j + 1] - ptr[j], i);
     }
-  }
-}
-
-static void derive_fronts(ali3_system *s) {
-  for (int32_t f = 0; f < s->size.nf; f++) {
-    const int32_t n = s->front_ptr[f + 1] - s->front_ptr[f], n_pivot = s->front_col[f + 1] - s->front_col[f];
-    const int32_t *idx = s->front_idx + s->front_ptr[f];
-    int32_t side = n > n_pivot ? n - 1 : n;
-    while (side > n_pivot && idx[side - 1] == idx[side] - 1) side--;
-    s->front_side[f] = side;
   }
 }
 
@@ -145,7 +131,6 @@ ali3_status ali3_system_derive(ali3_system *s, ali3_message m) {
   place(s, &pool, (size_t)n_entry);
   s->has_avx2 = ali3_processor_lanes() > 2;
   s->fine = s->n_fineness > 0 ? s->fineness[0] : 1.0; /* of all that follows */
-  derive_fronts(s);
   derive_mass(s);
   ali3_rows_derive(s);
   ali3_elements_derive(s);
