@@ -138,7 +138,7 @@ def test_kinds_share_the_objects_of_generated_code(tmp_path: Path) -> None:
     """The compiler knows an object by the place of its source, its headers and its options."""
 
     def given(face: str, code: str) -> str:
-        files, include = compile._files(face, tmp_path / "table.c", {"code": code})
+        files, include = compilation._files(face, tmp_path / "table.c", {"code": code})
         (file,) = (file for file in files if file.parent.name == "generated")
         assert file.read_text() == code
         return f"{file} {include}"

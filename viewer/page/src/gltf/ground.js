@@ -3,7 +3,7 @@ import * as THREE from "three";
 import looks from "../../../looks.json" with { type: "json" };
 import { ribbonEdges, ribbonTriangles, waysOf } from "../effects/path.js";
 import { HeightField, SurfaceRaster, gripOf, nearest, slickName } from "../looks/heights.js";
-import { LIFT } from "../looks/lifted.js";
+import { LIFT } from "../looks/ground_offset.js";
 import { groundAxes, makeRoads } from "../looks/roads.js";
 import { errorOf, strided } from "../looks/terrain_mesh.js";
 import { feetOf } from "../player/traces.js";

@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { mergeGeometries, mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { length, rotate, subtract, transpose } from "../scene/math.js";
-import { plain } from "../shapes/joined.js";
+import { plain } from "../shapes/merged_meshes.js";
 import { continuous, leastTwist } from "./motion.js";
 import { row } from "./run.js";
 

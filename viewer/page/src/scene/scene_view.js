@@ -16,7 +16,7 @@ export class SceneView {
    * @param {HTMLElement} container an element with a size; the picture fills it
    * @param {Data} scene see viewer/scene.schema.json
    * @param {object} [options]
-   * @param {string} [options.quality] of QUALITIES in looks/pace.js; auto: by the measured time of a picture
+   * @param {string} [options.quality] of QUALITIES in looks/picture_quality.js; auto: by the measured time of a picture
    * @param {boolean} [options.driven] pictures must keep up with what moves now: auto may choose a draft
    * @param {"outdoors" | "studio" | "board"} [options.look] by default after the scene
    * @param {string} [options.camera] the first camera
