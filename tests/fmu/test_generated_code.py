@@ -11,8 +11,8 @@ import pytest
 import mbs
 from fmu_src.build.build import build_fmu
 from fmu_src.build.command import main
+from fmu_src.native.added_platforms import add_platforms
 from fmu_src.native.archive import write_zip
-from fmu_src.native.more_platforms import add_platforms
 from mbs.compiler.generated.library import named_code_of
 from mbs.compiler.generated.source import TABLE
 from tests import kinds
