@@ -27,7 +27,7 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
     """
     page, out = page or HERE / "page", out or HERE / "bundle"
     if not (page / "package-lock.json").is_file():
-        if not (out / SCRIPT).is_file():
+        if not _whole(out):
             raise RuntimeError(
                 "This installation of ali3 carries no page that draws, because npm could not be reached when its wheel "
                 f"was built; install another wheel of ali3, or a clone with: {REMEDY}"
@@ -44,9 +44,13 @@ def bundle(page: Path | None = None, out: Path | None = None) -> Path:
     return out / SCRIPT
 
 
+def _whole(out: Path) -> bool:
+    return all((out / name).is_file() for name in (SCRIPT, GLTF))
+
+
 def _fresh(page: Path, out: Path) -> bool:
     try:
-        return (out / STAMP).read_text(encoding="ascii") == _hash(page) and (out / SCRIPT).is_file()
+        return (out / STAMP).read_text(encoding="ascii") == _hash(page) and _whole(out)
     except OSError:
         return False
 

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 import subprocess
 from collections.abc import Mapping
 from pathlib import Path
@@ -26,6 +27,7 @@ from viewer.page_build import node
 
 SUFFIXES = (".glb", ".gltf")
 MOST_RATE = 240.0
+_ERROR = re.compile(r"\s*(Uncaught )?\w*Error\b")
 _LOOKED_AT = 20_000  # times of a recording that errors are found at, at least two for each that is written
 
 
@@ -146,6 +148,7 @@ def _answer(question: Mapping[str, Any], numbers: NDArray[np.float64]) -> tuple[
         except OSError as error:
             raise ViewerError(f"A glTF file cannot be written: {command[0]} does not start: {reason(error)}.") from None
         if done.returncode != 0:
-            why = " ".join(done.stderr.decode(errors="replace").split())[-400:]
+            lines = done.stderr.decode(errors="replace").splitlines()  # the message stands before Node's stack
+            why = next((line.strip() for line in lines if _ERROR.match(line)), " ".join(lines)[:400])
             raise ViewerError(f"A glTF file cannot be written: the program that writes it failed ({why}).")
         return json.loads(done.stdout), written.read_bytes() if written.exists() else b""

@@ -1,4 +1,4 @@
-"""Numbers of what is drawn, which the page has too."""
+"""Colours and sizes of what is drawn, which the page reads too."""
 
 import json
 from pathlib import Path

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ali3.scene.base64_numbers import decoded
 
 MOST = 8
-"""That every reader of glTF animates."""
+"""Largest number of morph targets that every reader of glTF animates."""
 _SAMPLES = 400  # times at which the error is looked for
 
 

@@ -56,7 +56,7 @@ def margins(car: str, log: Path, aliases: Path, settings: dict[str, float]) -> l
 
 
 def moved(segment: Segment, along: float, across: float, rate: float, point: tuple[float, float]) -> Segment:
-    """A stretch that starts beside its state.
+    """A segment that starts beside its state.
 
     `along`, `across`, `rate`: m/s and rad/s, of the reference point; `point`: its place from the origin of the drawing,
     for which the start values hold, m.
@@ -71,7 +71,7 @@ def moved(segment: Segment, along: float, across: float, rate: float, point: tup
 
 
 def quickened(segment: Segment, factor: float) -> Segment:
-    """A stretch with another speed, held and at the start, and the steering as it is."""
+    """A segment with another speed, held and at the start, and the steering as it is."""
     assert segment.speed is not None
     held = replace(segment.speed, values=factor * segment.speed.values)
     name = "initial.speed"
@@ -92,7 +92,7 @@ def _driven(fmu: SegmentFmu, segments: Sequence[Segment]) -> tuple[Array, Array]
 
 def _departed(task: Task, driven: tuple[Array, Array]) -> int:
     """How many windows have departed, as ``ali3 compare`` counts them: by more than the range of what was measured."""
-    gone = np.zeros(len(task.stretches), dtype=np.bool_)
+    gone = np.zeros(len(task.segments), dtype=np.bool_)
     for name, values in zip((LATERAL, YAW), driven, strict=True):
         signal = task.outputs[name]
         measured = in_windows(signal.time, signal.values, len(values))

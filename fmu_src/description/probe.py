@@ -39,7 +39,7 @@ _SHARES = (1.0, 0.1, 0.01)
 _WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.DIRECTION)
 _SECOND = 2  # second rates need accelerations
 _ON_ROAD = (ElementType.TYRE, ElementType.MAGIC_TYRE, ElementType.CONTACT_POINTS)
-_FEEDTHROUGH, _MOTION, _FORCE = "echo", "motion", "force"
+_FEEDTHROUGH, _MOTION, _FORCE = "feedthrough", "motion", "force"
 
 
 @dataclass(frozen=True)

@@ -82,7 +82,7 @@ def _correlation(compared: ComparedSignal, curve: Curve) -> float:
 
 
 def _at_speed(segment: Segment, factor: float) -> Segment:
-    """The stretch from `factor` times the measured speed on."""
+    """The segment from `factor` times the measured speed on."""
     made, speed = segment.manoeuvre, segment.speed
     start = {n: factor * float(v) if n in (_SPEED, _ACROSS) else v for n, v in made.start.items()}
     held = None if speed is None else replace(speed, values=factor * speed.values)

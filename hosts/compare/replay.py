@@ -93,10 +93,10 @@ class Replay(Closable):
     ----------
     step : float
         Communication step, s.
-    stretches : sequence of Stretch
+    segments : sequence of Segment
         Windows that are driven one after the other, each from its start.
     jobs : int
-        Processes that share the stretches; what they give does not depend on their number.
+        Processes that share the segments; what they give does not depend on their number.
 
     Attributes
     ----------
@@ -139,9 +139,9 @@ class Replay(Closable):
         self._shown = None
 
     def run(self, values: Mapping[str, Value] | None = None) -> Result:
-        """Drive all stretches with other start values than those of their manoeuvres. `values`: by our names.
+        """Drive all segments with other start values than those of their manoeuvres. `values`: by our names.
 
-        Result: under our names; several stretches as `joined` puts them. Raises `FailedFmuError`: a process has ended.
+        Result: under our names; several segments as `joined` puts them. Raises `FailedFmuError`: a process has ended.
         """
         tasks: list[Task] = [(k, dict(values or {}), self._can_reset) for k in range(len(self.segments))]
         with Progress(self._experiment, 1.0) if self._shown is None else nullcontext(self._shown) as shown:
@@ -153,7 +153,7 @@ class Replay(Closable):
         return results[0] if len(results) == 1 else joined(results, self.segments)
 
     def check_reset(self) -> bool:
-        """Drive the first stretch twice; an FMU that does not repeat itself is loaded again for each drive from now on.
+        """Drive the first segment twice; an FMU that does not repeat itself is loaded again for each drive from now on.
 
         Returns whether it repeats itself to the last bit, after a reset or loaded again.
         """

@@ -1,4 +1,4 @@
-"""An FMU that drives stretches of a log."""
+"""An FMU that drives segments of a log."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -54,11 +54,11 @@ def _holder(speed: Signal, pedal: float, step: float) -> SpeedHolder:
 
 
 Task: TypeAlias = tuple[int, dict[str, Value], bool | None]
-"""Number of a stretch, start values by our names, and `SegmentFmu.can_reset`."""
+"""Number of a segment, start values by our names, and `SegmentFmu.can_reset`."""
 
 
 class SegmentFmu(LoadedFmu):
-    """An FMU that drives stretches of a log.
+    """An FMU that drives segments of a log.
 
     `step`: communication step, s; `segments`: those of the numbers of tasks. `can_reset`: whether it repeats itself
     after a reset; else it is loaded again for each drive. None: not known.
@@ -84,7 +84,7 @@ class SegmentFmu(LoadedFmu):
         values: Mapping[str, Value] | None = None,
         progress: Callable[[int], None] = lambda done: None,
     ) -> Result:
-        """Drive one stretch. `values`: start values by our names, in place of those of the stretch."""
+        """Drive one segment. `values`: start values by our names, in place of those of the segment."""
         if self.can_reset is False:
             self.close()
         manoeuvre = replace(segment.manoeuvre, start={**segment.manoeuvre.start, **(values or {})})

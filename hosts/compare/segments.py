@@ -1,4 +1,4 @@
-"""The stretches of a log that are driven, each from its measured start, and put one after the other."""
+"""The segments of a log that are driven, each from its measured start, and put one after the other."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -12,7 +12,7 @@ from hosts.driving.result import Result
 from hosts.measures.signal import Signal
 
 PEDALS = ("throttle", "brake")  # by which a driver holds a measured speed
-GAP = 1.0  # s between two stretches where they stand one after the other
+GAP = 1.0  # s between two segments where they stand one after the other
 Spans = tuple[tuple[float, float], ...]
 
 
@@ -68,7 +68,7 @@ def in_spans(signal: Signal, wanted: Spans | None) -> Signal:
 
 
 def one_after_the_other(signals: Mapping[str, Signal], segments: Sequence[Segment]) -> dict[str, Signal]:
-    """Signals of a log at the places of its stretches."""
+    """Signals of a log at the places of its segments."""
     made = {}
     for name, signal in signals.items():
         parts = [signal.between(s.begin, s.begin + s.end) for s in segments]
@@ -78,9 +78,9 @@ def one_after_the_other(signals: Mapping[str, Signal], segments: Sequence[Segmen
 
 
 def joined(results: Sequence[Result], segments: Sequence[Segment]) -> Result:
-    """Runs of stretches as one; one that was refused keeps its last outputs to its end.
+    """Runs of segments as one; one that was refused keeps its last outputs to its end.
 
-    Result: without refused steps; `starts` are the rows at which the stretches begin.
+    Result: without refused steps; `starts` are the rows at which the segments begin.
     """
     times, values, starts, rows = [], [], [], 0
     for result, segment in zip(results, segments, strict=True):

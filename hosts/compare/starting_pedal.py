@@ -16,7 +16,7 @@ _CLOSE = 0.005  # of the pedal
 
 
 def starting_pedals(fmu: FmuSource, segments: Sequence[Segment], step: float) -> list[Segment]:
-    """The stretches with the constant pedals at which the FMU has the measured speed half a second after the start.
+    """The segments with the constant pedals at which the FMU has the measured speed half a second after the start.
 
     `step`: communication step, s. Result: the pedal is that of the throttle, negative: of the brake; 1 or -1 where that
     is not enough.

@@ -27,6 +27,6 @@ class RenamedRun:
     def set_in(
         self, manoeuvre: Manoeuvre, fmu_options: FmuOptions, fidelity: float | None = None
     ) -> tuple[Manoeuvre, Settings]:
-        """See `hosts.driving.manoeuvre_settings.set_in`; wishes and settings are in the FMU's names and units."""
+        """See `hosts.driving.manoeuvre_settings.set_in`; options and settings are in the FMU's names and units."""
         theirs, settings = set_in(self._own, manoeuvre, fmu_options, fidelity, self._source.theirs)
         return replace(theirs, start=self._source.ours(theirs.start)), settings

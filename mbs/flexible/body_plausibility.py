@@ -74,7 +74,7 @@ def reduced_plausibility(body: ReducedBody) -> list[Plausibility]:
 
 
 def _plausibility(what: str, values: partial[list[Value]], alone: bool = False) -> Plausibility:
-    """An echo with the mistakes of `UNDONE`. `alone`: only those in one of nodes, mass and stiffness."""
+    """Plausibility with the mistakes of `UNDONE`. `alone`: only those in one of nodes, mass and stiffness."""
     changed = [(words, frozenset(_changed(units)), units) for words, units in UNDONE]
     mistakes = [Mistake(w, keys, partial(values, units)) for w, keys, units in changed if not alone or len(keys) == 1]
     return Plausibility(what, values(Units()), mistakes)

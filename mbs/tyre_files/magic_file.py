@@ -226,7 +226,7 @@ def _version(text: PropertyText, notes: list[str]) -> str:
         return FORMATS.get(form) or FORMATS[plain]
     given = f"is '{form}'" if form else "is missing"
     raise text.fault(
-        f"PROPERTY_FILE_FORMAT in [MODEL] {given}; it must be PAC2002, or MF-Tyre 5.2, 6.1 and 6.2 (FITTYP 6, 61, 62)."
+        f"PROPERTY_FILE_FORMAT in [MODEL] {given}; it must be PAC2002, or MF-Tyre 5.2, 6.1 or 6.2 (FITTYP 6, 61, 62)."
     )
 
 

@@ -19,7 +19,7 @@ from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.circle_follower import CircleFollower
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.driving.pilots.fixed_steering import FixedSteering
-from hosts.driving.pilots.run_up_pilot import CourseFromHere
+from hosts.driving.pilots.run_up_pilot import RunUpPilot
 from hosts.driving.result import Result
 from hosts.driving.runs_with_progress import run_with_bar
 from hosts.fmu.fmu import Fmu
@@ -111,7 +111,7 @@ def test_pilots_tell_what_they_drive_by() -> None:
 def test_cones_stand_along_the_course_as_it_was_laid_out() -> None:
     course = course_of("iso_3888_1", 1.6)
     steering = CourseFollower(course, DriverSettings(15.0, 2.5, 0.5, 4.0, 1.6))
-    pilot = CourseFromHere(steering, 15.0, lambda time, observation: time > 1.0)
+    pilot = RunUpPilot(steering, 15.0, lambda time, observation: time > 1.0)
     observation = {"chassis.x": 100.0, "chassis.y": 7.0, "chassis.yaw": 0.5 * math.pi, "speed": 15.0}
     pilot.act(0.0, observation)
     assert pilot.marks == []

@@ -167,6 +167,9 @@ def test_a_wheel_uses_its_script_and_one_without_it_says_so(tmp_path):
         bundle.bundle(nowhere, tmp_path / "bundle")
     script = tmp_path / "bundle" / bundle.SCRIPT
     script.write_text("var ALi3Viewer;", encoding="utf-8")
+    with pytest.raises(RuntimeError, match="carries no page that draws"):
+        bundle.bundle(nowhere, tmp_path / "bundle")
+    (tmp_path / "bundle" / bundle.GLTF).write_text("", encoding="utf-8")
     assert bundle.bundle(nowhere, tmp_path / "bundle") == script
 
 

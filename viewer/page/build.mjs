@@ -28,7 +28,7 @@ const result = await esbuild.build({ ...options, entryPoints: ["src/main.js"], f
 const gltf = await esbuild.build({ ...options, entryPoints: ["src/gltf/index.js"], format: "esm", platform: "node" });
 
 const packages = new Set();
-for (const input of Object.keys(result.metafile.inputs)) {
+for (const input of [result, gltf].flatMap(({ metafile }) => Object.keys(metafile.inputs))) {
   const found = /(?:^|\/)node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(input);
   if (found) packages.add(found[1]);
 }

@@ -17,7 +17,7 @@ from hosts.driving.courses import course_of
 from hosts.driving.pilots.course_follower import CourseFollower, DriverSettings
 from hosts.driving.pilots.line_follower import LineFollower
 from hosts.driving.pilots.pilot import Pilot
-from hosts.driving.pilots.run_up_pilot import CourseFromHere
+from hosts.driving.pilots.run_up_pilot import RunUpPilot
 from hosts.driving.planned_course import planned
 
 STEP = 0.005  # s, in which the driver holds the steering
@@ -151,7 +151,7 @@ def drive_through(car: TestedCar, layout: _Layout, speed: float, driver: str) ->
     length, width = constants["vehicle.length"], constants["vehicle.width"]
     course = course_of(layout.name, width, RUN_UP + 0.5 * length)
     run_up = RunUp(car, wanted)
-    pilot = CourseFromHere(
+    pilot = RunUpPilot(
         steering_of(driver, course, constants, wanted),
         wanted,
         run_up.is_over,

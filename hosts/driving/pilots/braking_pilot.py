@@ -15,7 +15,7 @@ class Braking:
     before : Pilot
         Drives until then, and acts on all inputs that this one does.
     begins : callable
-        Of the time and the senses; braking begins at the first time at which it is true.
+        Of the time and the observation; braking begins at the first time at which it is true.
     pedal : float
         Brake, 0 to 1.
     rise_time : float

@@ -11,7 +11,7 @@ from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.pilots.speed_holder import SpeedHolder
 
 
-class CourseFromHere:
+class RunUpPilot:
     """Drives straight until the speed is there; the course is laid out from where the car then is.
 
     Parameters
@@ -21,7 +21,7 @@ class CourseFromHere:
     speed : float
         To be held, m/s.
     begins : callable
-        Of the time and the senses; the course begins at the first time at which it is true.
+        Of the time and the observation; the course begins at the first time at which it is true.
     release_at : float
         Throttle and brake are released for good when the car is there, m along x; infinite: never.
 

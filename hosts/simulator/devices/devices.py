@@ -27,7 +27,7 @@ class Devices:
 
     Parameters
     ----------
-    hands : Hands
+    arbiter : InputArbiter
         Takes what devices want, as source ``device NAME``.
     constants : mapping of str to float
         Of the car; `vehicle.steering_wheel_angle_max` is used.

@@ -34,7 +34,7 @@ HEAD = """\
 
 #ifdef ALI3_GENERATES
 INSTRUCTIONS
-/* A System without rows, or whose fronts have one coordinate, needs not all that a function is given. */
+/* A System without rows, or whose fronts have one coordinate, does not need every argument of a function. */
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
 typedef double two __attribute__((vector_size(16), aligned(8), may_alias));

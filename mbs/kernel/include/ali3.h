@@ -207,7 +207,8 @@ typedef struct {
 enum { ALI3_BRANCH_NONE = 0, ALI3_BRANCH_LEFT, ALI3_BRANCH_JUMP }; /* ali3_report.branch_kind */
 /* ali3_report.balance. The energy balance is open where ali3_energy_balance is above ALI3_WRONG_ERROR, by more than what
  * the tolerance of the residual leaves open. It decides that the run is wrong where the method says so and no row is
- * driven: a drive whose rate jumps adds energy instantly, and correctly. A run whose balance is kept may be wrong too. */
+ * driven: a drive takes up what the rows err, and one whose rate jumps adds energy instantly. A run whose balance is
+ * kept may be wrong too. */
 enum { ALI3_BALANCE_KEPT = 0, ALI3_BALANCE_OPEN, ALI3_BALANCE_WRONG };
 
 typedef struct {
@@ -406,8 +407,9 @@ ALI3_API ali3_status ali3_refresh(ali3_instance *in);
 ALI3_API ali3_status ali3_sensors(ali3_instance *in, double *out); /* ns values at the present state */
 /* The same of n sensors by their numbers. */
 ALI3_API ali3_status ali3_some_sensors(ali3_instance *in, int32_t n, const int32_t *number, double *out);
-/* The System with ports that another run follows, ALI3_BAD_ARGUMENT where it does not belong to the other's: takes over its
- * state and finds accelerations and the forces at the ports, for ali3_sensors. `without` stays as it is. */
+/* The System with ports that another run follows, ALI3_BAD_ARGUMENT where it does not belong to the other's: takes over
+ * its state, accelerations and multipliers and finds the forces at the ports, for ali3_sensors. `without` stays as it
+ * is. */
 ALI3_API ali3_status ali3_ports_follow(ali3_instance *in, const ali3_instance *without);
 /* First time derivatives of the sensors; known[i] = 0 where sensor i depends on forces or accelerations (rates[i] =
  * 0). */

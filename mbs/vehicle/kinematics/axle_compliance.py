@@ -20,7 +20,7 @@ from mbs.vehicle.kinematics.held_car import HeldCar, HeldWheel
 
 Array = NDArray[np.float64]
 
-OBSERVED = {"same": 1.0, "opposed": -1.0}
+DIRECTIONS = {"same": 1.0, "opposed": -1.0}
 """Load of the right wheel per load of the left one, as vectors in vehicle axes for forces along x and moments about z
 of equal sense, and mirrored where opposed."""
 LOADS = ("lateral_force", "longitudinal_force", "drive_force", "aligning_torque")
@@ -103,7 +103,7 @@ def _responses(held: HeldCar, axle: str, V: Array, soft: Array) -> dict[str, flo
     left, right = (held.wheels[axle[0].upper() + side] for side in "LR")
     found = {}
     for load in LOADS:
-        for sense, sign in OBSERVED.items():
+        for sense, sign in DIRECTIONS.items():
             moved = V @ (soft @ (V.T @ (_load(left, load) + sign * _load(right, load))))
             for name, row in _responding(left).items():
                 found[f"{load}.{sense}.{name}"] = float(row @ moved) + 0.0

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 
-from mbs.vehicle.kinematics.axle_compliance import LOADS, OBSERVED, Compliance
+from mbs.vehicle.kinematics.axle_compliance import DIRECTIONS, LOADS, Compliance
 
 _DEG = 180.0 / math.pi
 _FORCE = {"angle": (1e3 * _DEG, "deg/kN"), "shift": (1e6, "mm/kN")}
@@ -37,7 +37,7 @@ def rows(found: Compliance) -> list[tuple[str, str, str, str, str]]:
     lines: list[tuple[str, str, str, str, str]] = [(title, "", "", "", "")]
     for load in LOADS if found.freedoms else ():
         units = _TORQUE if load == "aligning_torque" else _FORCE
-        for sense in OBSERVED:
+        for sense in DIRECTIONS:
             for name, kind, meaning in (*_ANGLES, *_SHOWN.get(load, ())):
                 factor, unit = units[kind]
                 front, rear = _of_axles(found, f"{load}.{sense}.{name}", factor)

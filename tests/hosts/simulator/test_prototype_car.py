@@ -36,7 +36,7 @@ def test_upright_after_a_roll_over(fmu: Callable[[str], Path]) -> None:
     car.inputs.want(wants.ravel())
     rows = drive(car, 3000)
     assert np.abs(rows[:, roll]).max() > 3.0  # on its roof
-    told = car.upright(wish=1.0)
+    told = car.upright(request=1.0)
     start = car.values.copy()
     assert start[[x, y]] == pytest.approx(rows[-1, [x, y]], abs=1e-6)
     assert math.remainder(start[yaw] - rows[-1, yaw], 2.0 * math.pi) == pytest.approx(0.0, abs=1e-6)
@@ -83,6 +83,6 @@ def test_memory_does_not_grow(fmu: Callable[[str], Path]) -> None:
         if k % 1000 == 999:
             car.rewind(1.0)
         if k % 5000 == 4999:
-            car.reset(wish=0.0)
+            car.reset(request=0.0)
     assert psutil.Process().memory_info().rss - before < 1e6
     car.close()

@@ -1,7 +1,7 @@
 /* A number of one instance, or of several that advance together: sources written in `real` are compiled once as they
  * stand and once for each width of lanes (../lanes/), where a real is a vector of one number per instance and a truth a
- * mask; laws also for elements of one instance (../elements/element_fours.c). A choice copies bits and no sum goes across lanes,
- * so that each lane has the bits that it has alone. */
+ * mask; laws also for elements of one instance (../elements/element_fours.c). A choice copies bits and no sum goes across
+ * lanes, so that each lane has the bits that it has alone. */
 #ifndef ALI3_REAL_H
 #define ALI3_REAL_H
 #include <math.h>

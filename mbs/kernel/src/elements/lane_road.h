@@ -1,4 +1,5 @@
-/* A road as laws see it that are computed for several discs at once: of instances (../lanes/) or of one (element_fours.h). */
+/* A road as laws see it that are computed for several discs at once: of instances (../lanes/) or of one
+ * (element_fours.h). */
 #ifndef ALI3_LANE_ROAD_H
 #define ALI3_LANE_ROAD_H
 #include "../algebra/real.h"

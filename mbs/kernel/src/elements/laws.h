@@ -1,6 +1,6 @@
 /* The laws of elements, compiled in vectors: a law sees an element of several instances at once, as ../lanes/kernels.h
- * compiles the step, or several elements of one (element_fours.c). Lanes that have ended see what they saw last and get the same
- * again. */
+ * compiles the step, or several elements of one (element_fours.c). Lanes that have ended see what they saw last and get
+ * the same again. */
 #ifndef ALI3_LAWS_H
 #define ALI3_LAWS_H
 

@@ -9,8 +9,8 @@
 #include "half_space.h"
 
 static const double NEAR = 0.01; /* m: shortest distance in the weights */
-static const double STEEP =
-    0.2;  /* an answer that is steeper against the plane of all answers holds at its wheel only */
+/* An answer that is steeper against the plane of all answers holds at its wheel only. */
+static const double STEEP = 0.2;
 static const double UPRIGHT = 0.02; /* least upward component of a normal */
 static const double OFF_UNIT = 0.1; /* of the length of a unit vector */
 

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../algebra/number_pairs.h"
 #include "../algebra/processor.h"
 #include "../elements/signal.h"
 #include "../instance.h"

@@ -1,7 +1,6 @@
 /* Terms h s^power q_a q_b of rows, s a guide: what they add to Phi, Phi_q, Phi_t, gamma and the geometric term. */
 #ifndef ALI3_GUIDE_TERMS_H
 #define ALI3_GUIDE_TERMS_H
-#include "../algebra/number_pairs.h"
 #include "../algebra/real.h"
 #include "../instance.h"
 

@@ -1,4 +1,5 @@
-/* Work of force elements and of guides, where sensors ask for it; work.c and signal_displacements.c describe the functions. */
+/* Work of force elements and of guides, where sensors ask for it; work.c and signal_displacements.c describe the
+ * functions. */
 #ifndef ALI3_WORK_H
 #define ALI3_WORK_H
 #include "../algebra/real.h"

@@ -45,9 +45,9 @@ class Run:
     """`Devices` that run, with what they told and want."""
 
     def __init__(self, folder: Path, torque: Any = None, **changed: Any) -> None:
-        from tests.hosts.simulator.devices.virtual import ANGLE_MAX, INPUTS, FmuOptions
+        from tests.hosts.simulator.devices.virtual import ANGLE_MAX, INPUTS, RecordedArbiter
 
-        self.arbiter, self.told = FmuOptions(), list[str]()
+        self.arbiter, self.told = RecordedArbiter(), list[str]()
         given = {"inputs": INPUTS, "constants": {"vehicle.steering_wheel_angle_max": ANGLE_MAX}} | changed
         self.devices = Devices(self.arbiter, tell=self.told.append, folder=folder, torque=torque, **given)
         self.devices.__enter__()

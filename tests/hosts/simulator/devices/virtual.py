@@ -55,7 +55,7 @@ class VirtualDevice:
                 return
 
 
-class FmuOptions:
+class RecordedArbiter:
     """In place of `InputArbiter`: keeps what each source wants last."""
 
     def __init__(self) -> None:
