@@ -34,7 +34,7 @@ DONE, TOLD, ERROR, READY, ALIVE = 0, 1, 2, 3, 4
 begin, that it goes on."""
 _START = 600.0  # s in which Python and its packages have begun, on a busy machine
 _LONGEST = 1e7  # s that a timer can wait on all platforms
-_END = 10.0  # s in which a guard ends all that is left
+_END = 10.0  # s in which a supervisor ends all that is left
 _MOST_SAID = 4000  # bytes that are kept
 _MOST_PRINTED = 200_000_000  # bytes
 
@@ -117,7 +117,7 @@ class _Process:
     def kill(self) -> None:
         """End it, and all that it has started if the system reports what that is."""
         if self._life >= 0:
-            self._close_life()  # its guard does it
+            self._close_life()  # its supervisor does it
             return
         if sys.platform != "win32":
             with suppress(OSError):
@@ -171,7 +171,7 @@ class _Process:
             life, self._life = self._life, -1
         if life >= 0:
             with suppress(OSError):
-                os.write(life, b"x")  # else its guard takes this process for dead
+                os.write(life, b"x")  # else its supervisor takes this process for dead
             os.close(life)
 
     def _listen(self) -> None:

@@ -1,6 +1,6 @@
-"""The guard of a process that may do anything: it ends with all that it has started.
+"""The supervisor of a process that may do anything: it ends with all that it has started.
 
-On Linux the process is forked from its guard, to which all that it starts is given when what has started it ends.
+On Linux the process is forked from its supervisor, to which all that it starts is given when what has started it ends.
 """
 
 import ctypes
@@ -20,21 +20,21 @@ _PATIENCE = 5.0  # s until processes are gone that were killed
 
 
 def begin_supervisor(life: int, folder: Path) -> None:
-    """Go on in a new process; the old one stays as its guard, ends with it, and as it did.
+    """Go on in a new process; the old one stays as its supervisor, ends with it, and as it did.
 
     `life`: a pipe that says a word, or ends, when the process is to end; `folder`: of the process, which goes where
     nobody else removes it.
-    Elsewhere than on Linux the process goes on without a guard.
+    Elsewhere than on Linux the process goes on without a supervisor.
     """
     if sys.platform != "linux":
         return
     control = ctypes.CDLL(None).prctl
     control(_SUBREAPER, 1, 0, 0, 0)
-    guard = os.getpid()
+    supervisor = os.getpid()
     process = os.fork()
     if process == 0:
         control(_PARENT_DEATH, signal.SIGKILL, 0, 0, 0)
-        if os.getppid() != guard:
+        if os.getppid() != supervisor:
             os._exit(1)
         os.close(life)
         os.setsid()

@@ -32,14 +32,14 @@ def templates(annotation: Any) -> list[Table]:
     return []
 
 
-def by_name(annotation: Any) -> Any | None:
-    """What stands under each name of a table whose keys are names that the user chooses, None where it is no such."""
+def value_type_of(annotation: Any) -> Any | None:
+    """Type of the values of a table whose keys the user chooses; None for any other type."""
     found = _dict_of(annotation)
     return None if found is None else found[1]
 
 
-def key_of(annotation: Any) -> Any:
-    """Type of the names that the user chooses; see `by_name`."""
+def key_type_of(annotation: Any) -> Any:
+    """Type of the keys of such a table; text for any other type."""
     found = _dict_of(annotation)
     return str if found is None else found[0]
 
@@ -65,7 +65,7 @@ def annotation_at(top: Any, path: Sequence[str], data: Any) -> Any | None:
     """
     annotation: Any = top
     for key in path:
-        inner = by_name(annotation)
+        inner = value_type_of(annotation)
         if inner is not None:
             annotation, data = inner, item_of(data, key)
             continue
@@ -109,7 +109,7 @@ def all_keys(table: Table, path: str = "") -> Iterator[str]:
     for key, field in keys_of(table).items():
         place = f"{path}.{key}" if path else key
         yield place
-        inner = by_name(field.annotation)
+        inner = value_type_of(field.annotation)
         within = field.annotation if inner is None else inner
         for below in templates(_element(within, "0") or within):
             yield from all_keys(below, place if inner is None else f"{place}.NAME")
@@ -123,7 +123,7 @@ def title_of(annotation: Any) -> str:
 def holds_keys(top: Any, path: Sequence[str], data: Any) -> bool:
     """Whether a table, or one whose keys the user chooses, is to stand at a key path."""
     annotation = annotation_at(top, path, data)
-    return bool(templates(annotation)) or by_name(annotation) is not None
+    return bool(templates(annotation)) or value_type_of(annotation) is not None
 
 
 def words(annotation: Any) -> str:
@@ -131,7 +131,7 @@ def words(annotation: Any) -> str:
     title = title_of(annotation)
     if title:
         return title
-    if templates(annotation) or by_name(annotation) is not None:
+    if templates(annotation) or value_type_of(annotation) is not None:
         return "a table"
     told = next((item.range for item in _metadata(annotation) if hasattr(item, "range")), None)
     if told is not None:  # a physical quantity
@@ -159,7 +159,7 @@ def _limit_text(limits: Sequence[Any]) -> str:
     shown = {name: f"{end:.12g}" if isinstance(end, float) else str(end) for name, end in ends.items()}
     if shown.keys() == {"ge", "le"}:
         return f" from {shown['ge']} to {shown['le']}"
-    return "".join(f" {words} {shown[name]}" for name, words in names.items() if name in shown)
+    return "".join(f" {word} {shown[name]}" for name, word in names.items() if name in shown)
 
 
 def _list_text(inner: tuple[Any, ...]) -> str:

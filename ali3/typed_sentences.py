@@ -13,7 +13,7 @@ from ali3.typed_paths import (
     annotation_at,
     holds_keys,
     item_of,
-    key_of,
+    key_type_of,
     keys_of,
     kinds_of,
     table_at,
@@ -83,7 +83,7 @@ class Sentences:
         kind, loc = item["type"], item["loc"]
         path = self._path(loc)
         if loc and loc[-1] == "[key]":
-            right = words(key_of(annotation_at(self.top, path[:-1], self.data)))
+            right = words(key_type_of(annotation_at(self.top, path[:-1], self.data)))
             right = self.names if right == "text" else right
             return f"{self.place(path[:-1])} has the name {value_text(path[-1])}; a name is {right}."
         if kind == MISSING and isinstance(loc[-1], str):

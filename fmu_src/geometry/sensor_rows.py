@@ -45,7 +45,7 @@ class SensorRows:
         }
 
     def body(self, place: BodyPlace) -> Body:
-        """Rows of a body in space; those of a planar one are filled up."""
+        """A body's position and axes as linear functions of the coordinates, also of a planar body."""
         planar, turns = place.kind.startswith("planar"), not place.kind.endswith("point")
         d = 2 if planar else 3
         origin = np.zeros((3, self._nq + 1))

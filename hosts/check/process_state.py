@@ -15,7 +15,9 @@ from typing import Literal
 
 from hosts.check.instance import NOT_ALLOWED, Check, Finding, Instance, Subject
 
-_LONG, _STEPS, _BUDGET = 30, 120, 1.0  # steps before and while something is measured; s
+_WARM_UP_STEPS = 30
+_MEASURED_STEPS = 120
+_BUDGET = 1.0  # s of measured steps
 _PATIENCE = 10.0  # s for instances
 _LEAK, _PER_INSTANCE = 8_000, 30_000  # bytes a step, an instance
 _INSTANCES = 20
@@ -53,7 +55,7 @@ _COSTS: dict[str, tuple[Callable[[], int], float, str, str]] = {
 
 
 def _costs() -> list[int]:
-    """What each of them is now."""
+    """Processes, threads, descriptors and bytes of this process now."""
     return [read() for read, *_ in _COSTS.values()]
 
 
@@ -61,10 +63,10 @@ def costs_of_steps(subject: Subject) -> Finding:
     """Memory, threads and descriptors do not grow with steps."""
     instance, rows = Instance(subject).start(), list[list[int]]()
     begin, made = time.perf_counter(), 0
-    for k in range(_LONG + _STEPS):
+    for k in range(_WARM_UP_STEPS + _MEASURED_STEPS):
         if not instance.advance(k * subject.step, subject.step):
             break
-        if k >= _LONG // 3 and (k - _LONG // 3) % 10 == 0:
+        if k >= _WARM_UP_STEPS // 3 and (k - _WARM_UP_STEPS // 3) % 10 == 0:
             rows.append(_costs())
         made = k + 1
         if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
@@ -113,7 +115,9 @@ def costs_of_instances(subject: Subject) -> Finding:
     begin = time.perf_counter()
     for k in range(_INSTANCES):
         if time.perf_counter() - begin > _PATIENCE:
-            return Finding("costs of instances", "note", f"not seen: {k} instances take {_PATIENCE:g} s; 20 are needed")
+            return Finding(
+                "costs of instances", "note", f"not seen: {k} instances take {_PATIENCE:g} s; {_INSTANCES} are needed"
+            )
         instance = Instance(subject).start()
         instance.run(2)
         instance.free()

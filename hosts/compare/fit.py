@@ -156,8 +156,7 @@ def _check_effects(unknowns: Sequence[Unknown], sensitivities: NDArray[np.float6
             span = f"'{u.name}' from {u.low:.6g} to {number_in(u.high, u.unit, '.6g')}"
             raise HostError(
                 f"{span} does not change any of the compared signals (by {change:.1g} of their noise): "
-                "this log does not "
-                "determine it; leave it out, or compare signals that show it."
+                "this log does not determine it; leave it out, or compare signals that show it."
             )
 
 

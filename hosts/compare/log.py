@@ -147,8 +147,7 @@ def _signal(
         if heading and written is None:
             notes.append(
                 f"The log gives '{column.name}' the unit {brief(heading)}, which is not known: its "
-                "numbers are taken in "
-                f"'{unit}', the unit of '{ours}'; the alias file can give another unit."
+                f"numbers are taken in '{unit}', the unit of '{ours}'; the alias file can give another unit."
             )
     if written is not None and written != unit:
         where = f"The column '{column.name}' of the log ({ours})"

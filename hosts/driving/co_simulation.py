@@ -78,15 +78,17 @@ def run(
 ) -> Result:
     """Drive an FMU through a manoeuvre.
 
-    A throttle that the manoeuvre asks to be found is found before, in the same instance, which is then reset.
+    If the manoeuvre asks for a throttle, it is found first, in the same instance, which is reset after that.
 
-    Real inputs of its table go straight between its rows where the FMU follows input derivatives. Parameters, whole
+    Real inputs of its table are linear between its rows where the FMU follows input derivatives. Parameters, whole
     numbers, inputs that a driver acts on and all inputs of other FMUs are held over each step.
 
     Parameters
     ----------
     fmu : SimulatedFmu
         Not yet initialised.
+    manoeuvre : Manoeuvre
+        Its table, start values and stop time.
     step : float
         Communication step, s.
     driver : Pilot, optional
@@ -176,17 +178,17 @@ def run(
     recorded, table = rows.close(last)
     names = inputs + outputs
     result = Result(
-        names,
-        {n: fmu.variables[n].unit or "1" for n in names},
-        step * np.array(recorded, dtype=np.float64),
-        table,
-        wall,
-        rows.done * step,
-        int(rows.refused),
-        list(fmu.messages),
-        [n for n in inputs if n not in straight],
-        [n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
-        rows.jumps,
+        names=names,
+        units={n: fmu.variables[n].unit or "1" for n in names},
+        time=step * np.array(recorded, dtype=np.float64),
+        values=table,
+        wall=wall,
+        simulated=rows.done * step,
+        failed_steps=int(rows.refused),
+        messages=list(fmu.messages),
+        held=[n for n in inputs if n not in straight],
+        late=[n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
+        jumps=rows.jumps,
         lost=[n for k, n in enumerate(inputs) if k in rows.lost],
         missed=[told for told in (manoeuvre.late_begin(acts), lost, end) if told is not None],
         start=dict(manoeuvre.start),

@@ -23,8 +23,8 @@ class Inputs:
     def want(self, wants: NDArray[np.float64]) -> None:
         """Take over what is wanted.
 
-        `wants`: for each input its value, largest change per second (infinite: at once) and the number of the wish,
-        shape (3 n,); wishes from before the last `restart` do not count.
+        `wants`: for each input its value, largest change per second (infinite: at once) and the number of the request,
+        shape (3 n,); requests from before the last `restart` do not count.
         """
         for k in range(len(self._rates)):
             value, rate, request = wants[3 * k : 3 * k + 3].tolist()
@@ -33,7 +33,7 @@ class Inputs:
                 self._rates[k] = float("inf") if self._whole[k] else rate
 
     def restart(self, request: float) -> None:
-        """Back to the start values; wishes up to this number are forgotten."""
+        """Back to the start values; requests up to this number are forgotten."""
         self.values[:] = self._start
         self._targets, self._rates = self._start.tolist(), [0.0] * len(self._rates)
         self._oldest_request = request

@@ -129,15 +129,15 @@ def read_message(data: str | bytes, inputs: Collection[str]) -> Message:
 def _want(found: dict[str, Any], inputs: Collection[str]) -> Want:
     source, values = found.get("source"), found.get("values")
     if source not in SOURCES:
-        raise HostError(f"The source of a wish is {_short(source)}; it must be {', '.join(SOURCES)}.")
+        raise HostError(f"The source of a request is {_short(source)}; it must be {', '.join(SOURCES)}.")
     if not isinstance(values, dict) or len(values) > _MOST_INPUTS:
-        raise HostError(f"The values of a wish must be an object of at most {_MOST_INPUTS} inputs.")
+        raise HostError(f"The values of a request must be an object of at most {_MOST_INPUTS} inputs.")
     made = {}
     for name, pair in values.items():
         if name not in inputs:
             raise HostError(f"The car has no input {_short(name)}; it has {', '.join(inputs) or 'none'}.")
         if not isinstance(pair, list) or len(pair) != 2:
-            raise HostError(f"The wish for {name} is {_short(pair)}; it must be [value, rate].")
+            raise HostError(f"The request for {name} is {_short(pair)}; it must be [value, rate].")
         value = _number(pair[0], f"The value for {name}")
         rate = math.inf if pair[1] is None else _number(pair[1], f"The rate for {name}")
         if not rate > 0.0:

@@ -1,4 +1,4 @@
-"""The server between car and pages: frames of numbers to them, wishes and commands from them.
+"""The server between car and pages: frames of numbers to them, requests and commands from them.
 
 It shares memory with the car's process; neither waits for the other.
 """

@@ -181,9 +181,9 @@ class SharedValues:
     moments : TwoSlots
         From the car: `MOMENT`, then the columns.
     wants : TwoSlots
-        To the car, for each input: value, largest change per second, number of the wish.
+        To the car, for each input: value, largest change per second, number of the request.
     commands : Ring
-        To the car: number of the command, value, number of the last wish before it.
+        To the car: number of the command, value, number of the last request before it.
     rows : Ring
         From the car: `ROW`, then the columns.
     messages, states : ByteRing

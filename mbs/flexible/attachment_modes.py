@@ -1,4 +1,4 @@
-"""Quasi-static recovery: the frame deforms at once under interface forces, weight and the inertia of rigid motion."""
+"""Inertia relief: a flexible body deforms at once under interface forces, weight and the inertia of rigid motion."""
 
 from __future__ import annotations
 
@@ -24,12 +24,19 @@ def inertia_relief(
 
     Parameters
     ----------
+    model : FiniteElementModel
+        The body.
     reference : str, int or three of them
         Origin of the body axes; held while the deformation is computed.
     interfaces : sequence of str or int
         Nodes where forces act.
     rows : ndarray or sparse array, shape (n_outputs, n_dof) or (n_outputs, n_dof + 3 n)
         Outputs per unit nodal displacement, e.g. of `recovery.gauge_rows`; n nodes.
+
+    Returns
+    -------
+    InertiaRelief
+        Matrices from loads and accelerations to the outputs.
 
     Raises
     ------

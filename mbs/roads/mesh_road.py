@@ -19,15 +19,15 @@ from mbs.roads.triangle_heights import triangle_heights
 
 SPACING = 0.1, 0.1
 """m, of the grid where none is given."""
-LEVEL = 0.5
+LEAST_SEEN_SHARE = 0.5
 """Least share of its area that a mesh of a road shows from above."""
 SMALLEST = 1.0  # m, across
 HOLE = 100.0
 """m2: a smaller gap inside of a mesh is a hole, a larger one what a closed road goes round."""
-OVER = 1e-3
+OVERHANG = 1e-3
 """m: surfaces above one another that are farther apart are an overhang."""
-LAYERS = 3.0
-"""Times its box that a mesh may cover seen from above; a scan takes as long as what it covers is large."""
+MOST_COVER = 3.0
+"""Area seen from above that a mesh may have, in multiples of its box: the time of a scan grows with it."""
 _ONE_HEIGHT = "a road has one height at each place. Leave only the surface in the file that wheels roll on."
 _UNIT = 'for a file in millimetres write a description with kind = "grid", heights = "{}" and scale = 0.001'
 
@@ -75,9 +75,9 @@ def mesh_road(
             "says how many metres its unit has."
         )
     seen = _seen_areas(corners)
-    _level(corners, seen, source, name)
+    _refuse_upright(corners, seen, source, name)
     area, box = float(seen.sum()), float((high - low)[:2].prod())
-    if area > LAYERS * box:
+    if area > MOST_COVER * box:
         raise RoadFileError(
             f"{source} has surfaces above one another, {area:.4g} m2 seen from above within {box:.4g} m2: {_ONE_HEIGHT}"
         )
@@ -87,7 +87,7 @@ def mesh_road(
     road = GridRoad((float(x[0]), float(y[0])), (float(x[1] - x[0]), float(y[1] - y[0])), np.empty((len(x), len(y))))
     x_between, y_between = between(road)
     lowest, highest = triangle_heights(corners, x_between, y_between)
-    if np.any(over := highest - lowest > OVER):
+    if np.any(over := highest - lowest > OVERHANG):
         i, j = np.argwhere(over)[0].tolist()
         raise RoadFileError(
             f"{source} has surfaces above one another at x = {x_between[i]:.6g} m, y = {y_between[j]:.6g} m, of "
@@ -98,7 +98,8 @@ def mesh_road(
     if np.isnan(heights).all():
         raise RoadFileError(
             f"{source} is narrower than the grid: none of its {heights.size} points, {road.spacing[0]:.4g} by "
-            f"{road.spacing[1]:.4g} m apart, lies on it. A spacing of {_fine(corners, seen):.2g} m has such points."
+            f"{road.spacing[1]:.4g} m apart, lies on it. "
+            f"A spacing of {_spacing_that_hits(corners, seen):.2g} m has such points."
         )
     road = replace(road, heights=_filled(heights, road, source))
     own = corners.reshape(-1, 3)
@@ -114,20 +115,21 @@ def _seen_areas(corners: Values) -> Values:
     return np.asarray(0.5 * np.abs(ax * by - bx * ay))
 
 
-def _fine(corners: Values, seen: Values) -> float:
+def _spacing_that_hits(corners: Values, seen: Values) -> float:
     """A spacing with a point in the widest triangle: as one is in every circle across which a cell's diagonal fits."""
     sides = np.linalg.norm(np.diff(corners[:, [0, 1, 2, 0], :2], axis=1), axis=-1).sum(axis=1)
     inner = 2.0 * seen / np.maximum(sides, 1e-300)
     return 0.9 * float(np.sqrt(2.0) * inner.max())
 
 
-def _level(corners: Values, seen: Values, source: str, name: str) -> None:
+def _refuse_upright(corners: Values, seen: Values, source: str, name: str) -> None:
     """Refuses a mesh that shows little of itself from above."""
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     share = 2.0 * float(seen.sum() / max(np.linalg.norm(normals, axis=1).sum(), 1e-300))
-    if share < LEVEL:
+    if share < LEAST_SEEN_SHARE:
         raise RoadFileError(
-            f"{source} shows only {100.0 * share:.2g} % of its area from above, a road more than {100.0 * LEVEL:g} %; "
+            f"{source} shows only {100.0 * share:.2g} % of its area from above, a road more than "
+            f"{100.0 * LEAST_SEEN_SHARE:g} %; "
             f'if its y axis points up, write a description with kind = "grid", heights = "{name}" and up = "y".'
         )
 

@@ -72,7 +72,7 @@ def _heights(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
 
 
 def _heights_about(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
-    """Heights of a grid: at each of its points near the road, at every 16th beside it and straight in between.
+    """Heights of an OpenCRG road on a grid: at each point near the road, at every 16th beside it and linear in between.
 
     Finding where a place lies along the road takes a microsecond, and most of the box of a long road is beside it.
     """

@@ -1,4 +1,4 @@
-"""What a run with a tolerance, or without a step, was asked for and did."""
+"""The tolerance of a run, checked, and how a run chose its steps with the error that it estimates."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ class Control:
     reason: str
     """Why this method; empty where the caller named it."""
     error: float
-    """Guess of the largest error of positions over the run in parts of `length`: its distance from a coarser run, times
-    what its steps err over what those of the other do, at least a tenth of the tolerance: smaller guesses are
-    unreliable. In nine of ten runs it is within ten times the error; what both runs miss is not in it, and where guides
-    prescribe all motion it is 0. NaN where the step was given: nothing was compared."""
+    """Guess of the largest error of positions over the run in parts of `length`: the distance from a coarser run
+    times the ratio of their step errors, at least a tenth of the tolerance, as smaller guesses are unreliable. In
+    nine of ten runs it is within ten times the error; what both runs miss is not in it, and where guides prescribe
+    all motion it is 0. NaN where the step was given: nothing was compared."""
     h: float | None
     """The fixed step, s; None: steps under error control."""
     steps: int

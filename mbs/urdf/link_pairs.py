@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ali3.plausibility import Value, quantities_of
 from mbs.urdf.link_mass import Factors, LinkMass
 
-FEW = 3
+FEWEST_PAIRS = 3
 """Smallest number of pairs by which a drawing is seen to be symmetric."""
 SMALLEST = 1e-4  # m
 SAME = 0.01
@@ -32,7 +32,7 @@ def pair_values(
         found.append(Value(QUANTITIES["sides"], _ratio(left.mass, right.mass), keys, of))
         keys = {f"inertia of '{n}' in line {parts[n].line}": parts[n].moment for n in (a, b)}
         found.append(Value(QUANTITIES["moments"], _ratio(left.moment, right.moment), keys, of))
-    if len(pairs) < FEW or scale <= SMALLEST:
+    if len(pairs) < FEWEST_PAIRS or scale <= SMALLEST:
         return found
     centres = {n: given.lengths * poses[n][:3, 3] + poses[n][:3, :3] @ parts[n].centre for pair in pairs for n in pair}
     sums = np.array([centres[a] + centres[b] for a, b in pairs])

@@ -11,12 +11,11 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ali3.plausibility import Mistake, Plausibility, Value, quantities_of
+from ali3.plausibility import Mistake, Plausibility, Value
 from mbs.urdf.link_mass import Factors, LinkMass, link_mass
-from mbs.urdf.link_pairs import pair_values
+from mbs.urdf.link_pairs import QUANTITIES, SMALLEST, pair_values
 from mbs.urdf.source import Element
 
-SMALLEST = 1e-4  # m
 GRAVITY = 9.81  # m/s2
 DEG = math.pi / 180.0
 
@@ -30,7 +29,6 @@ FEW = 3
 LENGTHS = {"mm": 1e-3, "cm": 1e-2, "inches": 0.0254}
 MOMENTS = {"kg mm2": 1e-6, "g mm2": 1e-9, "g cm2": 1e-7, "kg cm2": 1e-4, "lb in2": 2.9264e-4}
 MASSES = {"grams": 1e-3, "tonnes": 1e3, "pounds": 0.45359237}
-QUANTITIES = quantities_of("robot")
 Pose: TypeAlias = NDArray[np.float64]
 
 

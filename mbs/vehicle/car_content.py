@@ -103,7 +103,7 @@ class CarContent(Section):
         return self.chassis.frame
 
     def faults(self) -> Iterator[str]:
-        """The front axle steers; the port of the steering is one that its kind has."""
+        """Contradictions of tables: steering and axles, frame and links, ports and the parts that they replace."""
         yield from self.front.suspension.steering_faults(self.steering)
         yield from self.rear.suspension.steering_faults(None)
         if not self.front.suspension.linked and self.steering.without_travel:
@@ -151,7 +151,7 @@ class CarContent(Section):
         return [section.key(field) for section in sections_of(self) for field in type(section).model_fields]
 
     @property
-    def rack_ends(self) -> Coordinates:
+    def rack_end(self) -> Coordinates:
         """Inner end of the left tie rod of the front axle, m."""
         inner = self.front.suspension.rod_point("inner")
         assert inner is not None, "refused with the file, or without links"

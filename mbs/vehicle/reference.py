@@ -8,7 +8,7 @@ from typing import Any
 from pydantic.fields import FieldInfo
 
 from ali3.files import write_text
-from ali3.typed_paths import Table, annotation_of, by_name, keys_of, kinds_of, templates, words
+from ali3.typed_paths import Table, annotation_of, keys_of, kinds_of, templates, value_type_of, words
 from mbs.vehicle.car import Car
 from mbs.vehicle.quantities import Quantity, quantities_in
 from mbs.vehicle.schema import SCHEMA_FILE, schema_text
@@ -62,7 +62,7 @@ def _walk(table: Table, path: str, kind: str) -> Iterator[tuple[Table, str, str]
     yield table, path, kind
     for key, field in keys_of(table).items():
         place = f"{path}.{key}" if path else key
-        named = by_name(field.annotation)
+        named = value_type_of(field.annotation)
         for inner in templates(field.annotation if named is None else named):
             yield from _walk(inner, place if named is None else f"{place}.{NAME}", kind)
 
@@ -87,7 +87,7 @@ def _range(quantity: Quantity) -> str:
 
 
 def _value(annotation: Any) -> str:
-    named = by_name(annotation)
+    named = value_type_of(annotation)
     if named is not None:
         return f"tables by `{NAME}`" if templates(named) else f"{_value(named)} by `{NAME}`"
     tables = templates(annotation)

@@ -9,7 +9,7 @@ import fastjsonschema
 import jsonschema
 import pytest
 
-from ali3.typed_paths import all_keys, annotation_of, by_name, keys_of, templates
+from ali3.typed_paths import all_keys, annotation_of, keys_of, templates, value_type_of
 from mbs.vehicle import Car, car_names, json_schema, load
 from mbs.vehicle import quantities as listed
 from mbs.vehicle.quantities import Quantity, quantities_in
@@ -20,7 +20,7 @@ from mbs.vehicle.schema import SCHEMA_FILE, schema_text
 def every_table(table=Car):
     yield table
     for field in keys_of(table).values():
-        named = by_name(field.annotation)
+        named = value_type_of(field.annotation)
         for inner in templates(field.annotation if named is None else named):
             yield from every_table(inner)
 

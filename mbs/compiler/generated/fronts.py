@@ -78,6 +78,7 @@ def _assemble(front: Front, parent: Front) -> list[str]:
 
 
 def _add(to: int, source: int, length: int) -> list[str]:
+    """C that adds `length` numbers from `source` to `to`, four, two and one at a time."""
     lines = []
     while length > 0:
         step = 4 if length >= 4 else 2 if length >= 2 else 1
@@ -99,17 +100,17 @@ class _Shape:
         lines = []
         for q, (start, count) in enumerate(self.panels):
             for j in range(start, start + count):
-                lines += self._column(j, q, store=True)
+                lines += self._column(j, q)
             lines += self._triangle(start, count)
             lines += self._below(q, start, count)
         for j in range(self.pivots, self.size):
-            lines += self._column(j, len(self.panels), store=True)
+            lines += self._column(j, len(self.panels))
         return function(ELIMINATE.format(self.size, self.pivots), [*lines, "  return -1;"])
 
     def _rows_below(self, start: int, count: int) -> list[Piece]:
         return pieces(start + count, self.size)
 
-    def _column(self, j: int, panels: int, *, store: bool) -> list[str]:
+    def _column(self, j: int, panels: int) -> list[str]:
         """Column j loses the panels before it."""
         if panels == 0:
             return []
@@ -123,9 +124,10 @@ class _Shape:
             for p in parts:
                 lines.append(f"  t{p.first} = {self._less(f't{p.first}', q, p, f)};")
         lines += [p.store("c", f"t{p.first}") for p in parts]
-        return [*lines, "  }"] if store else lines
+        return [*lines, "  }"]
 
     def _less(self, value: str, q: int, piece: Piece, f: Sequence[str]) -> str:
+        """The C expression of a value less the part of panel q."""
         u = [f"u{q}_{k}_{piece.first}" for k in range(len(f))]
         if len(f) == PANEL:
             return f"{value} - (({f[0]} * {u[0]} + {f[1]} * {u[1]}) + ({f[2]} * {u[2]} + {f[3]} * {u[3]}))"
@@ -134,7 +136,7 @@ class _Shape:
         return value
 
     def _triangle(self, start: int, count: int) -> list[str]:
-        """The pivots among themselves; what becomes L and 1/D is written behind what is below."""
+        """Factorise the pivots of a panel among themselves: 1/D and L as C variables, which `_below` stores."""
         n, lines = self.size, []
         for p in range(count):
             for i in range(p, count):

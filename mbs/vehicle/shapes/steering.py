@@ -14,7 +14,7 @@ from mbs.vehicle.steering.pitman_arm import LINK, PitmanArm
 
 def rack_of(b: CarBuilder, car: CarContent) -> Owner:
     """What the inner ends of the tie rods move with: a rack slides by its travel, a link moves in its plane."""
-    inner, frame = car.rack_ends, b.chassis.frame
+    inner, frame = car.rack_end, b.chassis.frame
     if isinstance(car.steering, PitmanArm):
         ahead, left = car.steering.plane
         x = b.m.sliding("link ahead", frame, at=inner, direction=ahead, way=LINK[0])
@@ -39,7 +39,7 @@ def steering_shapes(looks: Looks) -> None:
 
 def _rack(looks: Looks) -> Point:
     """Draw the rack; gives the place of its pinion."""
-    x, y, z = looks.car.rack_ends
+    x, y, z = looks.car.rack_end
     looks.cylinder(looks.rack, ((x, -y, z), (x, y, z)), 0.010 * looks.scale, **POLISHED)
     looks.cylinder(looks.chassis, ((x, -0.55 * y, z), (x, 0.55 * y, z)), 0.022 * looks.scale, **BARE)
     return x, 0.5 * y * math.copysign(1.0, driver_place(looks.car)[1] or 1.0), z
@@ -52,7 +52,7 @@ def _linkage(looks: Looks, steering: PitmanArm) -> Point:
         looks.tube((looks.chassis, pivot), (looks.rack, joint), radius=0.014, **CAST)
         looks.ball((looks.chassis, pivot), 0.030, **BARE)
         looks.ball((looks.rack, joint), 0.018)
-    x, y, z = looks.car.rack_ends
+    x, y, z = looks.car.rack_end
     ends = sorted([arms[0][1], arms[1][1], (x, y, z), (x, -y, z)], key=lambda point: point[1])
     looks.tube(*((looks.rack, point) for point in ends), radius=0.011, **CAST)
     return steering.arm_pivot

@@ -402,7 +402,11 @@ def test_wants_and_commands_that_are_none(make: Made) -> None:
         with pytest.raises(HostError, match=sentence):
             car.command(name, value)
     car.want({"steering": (7.0, AT_ONCE)})
-    assert steps(car, 1).values[:3].tolist() == [1.0, 0.0, 0.0]  # its range; the brake of a refused wish is as it was
+    assert steps(car, 1).values[:3].tolist() == [
+        1.0,
+        0.0,
+        0.0,
+    ]  # its range; the brake of a refused request is as it was
 
 
 def test_the_report_of_an_unpaced_drive(make: Made) -> None:

@@ -159,14 +159,14 @@ export class SceneView {
 
   /**
    * Change what is shown; seen in the next picture.
-   * @param {object} wish any of these keys
-   * @param {boolean | string[]} [wish.arrows] all, none, or names
-   * @param {number} [wish.arrowScale] arrows so many times longer than fits
-   * @param {boolean} [wish.stress] colours of stress
-   * @param {number} [wish.stressMost] the stress at the end of the colours, in its unit; 0: the largest so far
-   * @param {number} [wish.deformation] displacements of flexible bodies are drawn so many times
-   * @param {boolean} [wish.closed] bodies hide what is within
-   * @param {string} [wish.quality]
+   * @param {object} options any of these keys
+   * @param {boolean | string[]} [options.arrows] all, none, or names
+   * @param {number} [options.arrowScale] arrows so many times longer than fits
+   * @param {boolean} [options.stress] colours of stress
+   * @param {number} [options.stressMost] the stress at the end of the colours, in its unit; 0: the largest so far
+   * @param {number} [options.deformation] displacements of flexible bodies are drawn so many times
+   * @param {boolean} [options.closed] bodies hide what is within
+   * @param {string} [options.quality]
    */
   set({ arrows, arrowScale, stress, stressMost, deformation, closed, quality }) {
     const { parts } = this;

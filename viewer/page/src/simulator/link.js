@@ -1,10 +1,10 @@
-// The page's side of the socket to the simulator: frames in, wishes and commands out.
+// The page's side of the socket to the simulator: frames in, requests and commands out.
 
 const MAGIC = 0x31463341;
 const HEADER = 96;
 const RUNNING = 1, REFUSED = 2, BEHIND = 4; // prettier-ignore
 const NUMBERS = ["count", "time", "speed", "wall", "cost", "worst", "lateness", "missed", "deadline", "saved"];
-/** A wish that has not changed is said again after so long, so that the simulator knows that the page is alive. */
+/** A request that has not changed is said again after so long, so that the simulator knows that the page is alive. */
 const AGAIN = 200;
 /** Milliseconds before the first and the later tries to connect again. */
 const FIRST_WAIT = 250;

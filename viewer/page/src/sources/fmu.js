@@ -44,7 +44,7 @@ export class Session {
     this.columns = unitsOf(named, (name) => this.variables.get(name)?.unit);
     this.fmus = fmus;
     this.acts = {
-      ...speedActions(this, { speed: (wish) => (this.running ? this.run(wish) : (this.speed = wish)), back: (seconds) => this.rewind(seconds) }),
+      ...speedActions(this, { speed: (factor) => (this.running ? this.run(factor) : (this.speed = factor)), back: (seconds) => this.rewind(seconds) }),
       toggle: () => (this.running ? this.pause() : this.run()),
       step: () => this.advance(),
       reset: () => this.again(),

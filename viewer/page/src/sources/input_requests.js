@@ -4,7 +4,7 @@
 const STAY = ["selector"];
 const rounded = (value) => Math.round(1e3 * value) / 1e3 || 0;
 
-/** The wishes of the sources of a page. */
+/** The requests of the sources of a page. */
 export class InputRequests {
   /** @param {{want: (source: string, values: Data) => void}} link - Passes on what is new or old enough; see simulator/link.js. */
   constructor(link) {

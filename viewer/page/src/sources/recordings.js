@@ -46,7 +46,7 @@ export class Recordings {
     const toggle = () => this._pace(() => (this.running ? (this.running = false) : this._run()));
     const seek = (t) => this._seek(t);
     const pace = speedActions(this, {
-      speed: (wish) => this._pace(() => (this.speed = Math.min(10, Math.max(0.05, wish)))),
+      speed: (factor) => this._pace(() => (this.speed = Math.min(10, Math.max(0.05, factor)))),
       back: (seconds) => seek(this.time - seconds),
     });
     this.acts = {

@@ -30,7 +30,7 @@ export class Socket {
     const command = (name, value) => link.command(name, value);
     const back = (seconds) => command("rewind", seconds);
     this.acts = {
-      ...speedActions(this, { speed: (wish) => command("speed", wish), back }),
+      ...speedActions(this, { speed: (factor) => command("speed", factor), back }),
       toggle: () => command(this.running ? "pause" : "run"),
       step: () => command("step", 1),
       seek: (time, done) => done && back(this.range[1] - time), // the program goes back once it is told how far

@@ -5,7 +5,7 @@ const REWINDS = [2, 10]; // s, without and with Shift
 
 /**
  * Acts on the pace of a run, by the names of the table of keys.
- * @param {{speed: number}} source @param {{speed: (wish: number) => unknown, back: (seconds: number) => unknown}} means
+ * @param {{speed: number}} source @param {{speed: (speed: number) => unknown, back: (seconds: number) => unknown}} means
  */
 export const speedActions = (source, { speed, back }) => ({
   speed,
