@@ -85,7 +85,7 @@ def made_once(shared: Path) -> Callable[[str, Callable[[Path], None]], Path]:
 def scene_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Callable[..., Path]:
     """Builds the FMU of a scene for this platform once for all processes, also those that are forked for one test."""
 
-    def make(scene: str, kind: str = "native") -> Path:
+    def make(scene: str, kind: str = "native", *, plain: bool = False) -> Path:
         from fmpy import platform
 
         from fmu_src.build.build import build_fmu
@@ -93,9 +93,9 @@ def scene_fmu(made_once: Callable[[str, Callable[[Path], None]], Path]) -> Calla
 
         def fill(folder: Path) -> None:
             name, system = load_scene(scene)
-            build_fmu(system, name, folder, [platform], kind=kind)
+            build_fmu(system, name, folder, [platform], kind=kind, plain=plain)
 
-        (path,) = made_once(f"{re.sub(r'[^a-z0-9]+', '_', scene[-40:])}_{kind}", fill).glob("*.fmu")
+        (path,) = made_once(f"{re.sub(r'[^a-z0-9]+', '_', scene[-40:])}_{kind}{'_plain' * plain}", fill).glob("*.fmu")
         return path
 
     return make

@@ -21,7 +21,7 @@ Change = tuple[str, str, str]
 
 @pytest.fixture(scope="module")
 def fmus(scene_fmu: Callable[..., Path]) -> dict[str, Path]:
-    return {kind: scene_fmu(f"{SCENES}:crank_slider", kind) for kind in kinds.VERSIONS}
+    return {kind: scene_fmu(f"{SCENES}:crank_slider", kind, plain=True) for kind in kinds.VERSIONS}
 
 
 def findings(fmu: Path) -> dict[str, str]:
