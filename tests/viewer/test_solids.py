@@ -190,10 +190,14 @@ def test_places_far_away_are_of_double_precision(tmp_path: Path) -> None:
 
 
 def test_a_program_that_fails_is_one_sentence(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    failed = subprocess.CompletedProcess([], 1, b"", b"a.mjs:1\n^\n\nRangeError: out of memory\n    at a.mjs:1\n\nNode.js v24")
+    failed = subprocess.CompletedProcess(
+        [], 1, b"", b"a.mjs:1\n^\n\nRangeError: out of memory\n    at a.mjs:1\n\nNode.js v24"
+    )
     monkeypatch.setattr(subprocess, "run", lambda *_, **__: failed)
     monkeypatch.setattr(gltf, "bundle", lambda: Path("viewer.js"))
-    with pytest.raises(ViewerError, match=r"^A glTF file cannot be written: .* failed \(RangeError: out of memory\)\.$"):
+    with pytest.raises(
+        ViewerError, match=r"^A glTF file cannot be written: .* failed \(RangeError: out of memory\)\.$"
+    ):
         write_gltf(tmp_path / "a.glb", Recording(scene(), T, moving()))
 
 
