@@ -66,7 +66,7 @@ def test_another_scheduler_with_certificates_of_the_configuration(
         ) as cluster,
     ):  # fmt: skip
         ended = run_study(study_file(), tmp_path / "out", cluster.scheduler_address, None)
-        with pytest.raises(HostError, match="demands encryption; tcp://127.0.0.1:9 has none"):
+        with pytest.raises(HostError, match="demands encryption, which tcp://127.0.0.1:9 has not"):
             run_study(study_file(), tmp_path / "other", "tcp://127.0.0.1:9", None)
     assert ended is not None
     assert ended.good
