@@ -23,7 +23,7 @@ from mbs.scenes import (
     squeezer,
 )
 from mbs.simulation.prepared_system import prepared
-from tests.model.test_table_bodies import coupled
+from tests.model.tabled_models import coupled
 from tests.simulation.many_cars import CARS, attach, car
 from tests.simulation.many_cars import system as car_system
 

@@ -9,7 +9,7 @@ import mbs
 from hosts.fmu.fmu import Fmu
 from mbs.elements.road import ANSWER
 from tests.hosts.systems.weak_coupling import car_fmu
-from tests.vehicle.test_ports import WHEELS
+from tests.vehicle.cars_with_ports import WHEELS
 from tests.vehicle.test_road_port import FRICTION, Waves, closed, drive
 
 STEP, COUNT = 0.002, 500

@@ -14,7 +14,7 @@ from mbs.elements import PlaneRoad
 from mbs.kernel.binding import KernelError
 from mbs.vehicle import Car, load
 from tests.elements.harness import Element
-from tests.vehicle.test_ports import WHEELS, hatchback, rigid, simulation
+from tests.vehicle.cars_with_ports import WHEELS, hatchback, rigid, simulation
 
 HUB = [f"hub_{letter}{c}" for letter in "FM" for c in "xyz"]
 INNER = 0.002  # s

@@ -10,8 +10,8 @@ import mbs
 from mbs.vehicle import Car, CarFileError
 from tests.quick import quick
 from tests.scenes.car import ON_ICE
+from tests.vehicle.cars_with_ports import STEP, WHEELS, hatchback, rigid, simulation, system, with_ports
 from tests.vehicle.second_tyres import drive, longest, saloon
-from tests.vehicle.test_ports import STEP, WHEELS, hatchback, rigid, simulation, system, with_ports
 
 ORDERS = [*product((hatchback, saloon, rigid), (False, True))]
 """Whether the tyre is stepped at once with the car, by the car."""

@@ -1,76 +1,31 @@
 """Ports of a car: what they replace is left out, loops through them converge to the closed car, works are booked."""
 
 from collections.abc import Callable
-from functools import cache
 
 import numpy as np
 import pytest
 
 import mbs
-from mbs.vehicle import CarFileError, load
+from mbs.vehicle import CarFileError
 from mbs.vehicle.car import Car
 from mbs.vehicle.port_option import chosen_ports
-from tests.elements.harness import Element
-from tests.vehicle.column_car import column_car, rigid_chassis
-
-WHEELS = ("FL", "FR", "RL", "RR")
-STEP = 0.002
-
-
-@cache
-def rigid() -> Car:
-    """The prototype without the flexible frame."""
-    return rigid_chassis()
-
-
-@cache
-def hatchback() -> Car:
-    return load("hatchback")
-
-
-def with_ports(car: Car, **ports: object) -> Car:
-    return car.changed({f"ports.{name}": kind for name, kind in ports.items()})
-
-
-@cache
-def system(make: Callable[[], Car], ports: tuple[tuple[str, object], ...]) -> mbs.System:
-    return mbs.compile(with_ports(make(), **dict(ports)).model())
-
-
-def simulation(make: Callable[[], Car], speed: float = 10.0, **ports: object) -> mbs.Simulation:
-    return mbs.Simulation(system(make, tuple(ports.items())), pose=mbs.Pose(speed=speed))
+from tests.vehicle.cars_with_ports import (
+    STEP,
+    WHEELS,
+    SecondDrive,
+    hatchback,
+    rigid,
+    simulation,
+    system,
+    throttle_at,
+    with_ports,
+)
+from tests.vehicle.column_car import column_car
 
 
 def names(car: Car) -> tuple[list[str], list[str]]:
     m = car.model()
     return [i.name for i in m.inputs], [s.name for s in m.sensors]
-
-
-class SecondDrive:
-    """A copy of the drive of a car in another place, which knows the speeds of the wheels alone."""
-
-    def __init__(self, car: Car) -> None:
-        record = next(e for e in car.model().elements if e.name == "drive")
-        self.wheels = car.drive.wheels[0].upper()
-        inputs = car.model().inputs
-        self.element = Element(record, n_inputs=len(inputs))
-        self.throttle = next(i.index for i in inputs if i.name == "throttle")
-        self.selector = next(i.index for i in inputs if i.name == "selector")
-        self.states = np.array(record.states)
-
-    def torque(self, left: float, right: float, throttle: float, h: float) -> float:
-        """On each driven wheel after a step."""
-        inputs = np.zeros(self.element.n_inputs)
-        inputs[self.throttle], inputs[self.selector] = throttle, 1.0
-        u = np.array([0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0])
-        ud = np.array([left, right, *6 * [0.0]])
-        result = self.element(u, ud, self.states, h, 0.5 * h, 0.25 * h * h, inputs, True)
-        self.states = result.y
-        return float(result.f[0])
-
-
-def throttle_at(t: float) -> float:
-    return 0.2 + 0.6 * np.sin(1.5 * t) ** 2
 
 
 @pytest.mark.slow

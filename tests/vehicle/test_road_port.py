@@ -12,7 +12,7 @@ from mbs.elements import ContactPoints, GridRoad, PortRoad
 from mbs.elements.road import ANSWER
 from mbs.kernel.binding import Status
 from mbs.vehicle import load
-from tests.vehicle.test_ports import WHEELS, with_ports
+from tests.vehicle.cars_with_ports import WHEELS, with_ports
 
 BEGIN, SPEED = 3.0, 10.0  # m, m/s
 FRICTION = load("hatchback").road.friction

@@ -11,7 +11,7 @@ from hosts.fmu.fmu import Fmu
 from tests.fmu.native import unpack
 from tests.hosts.c.test_fmu_header import compiled
 from tests.hosts.systems.weak_coupling import car_fmu
-from tests.vehicle.test_ports import WHEELS
+from tests.vehicle.cars_with_ports import WHEELS
 from tests.vehicle.test_road_port import WAVES
 
 STEP, SPEED, ROWS, SILENT = 0.002, 10.0, 600, 200

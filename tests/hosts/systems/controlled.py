@@ -12,7 +12,7 @@ from hosts.systems import CoupledFmus
 from hosts.systems.coupled_fmus import Inputs, Order
 from tests.hosts.systems.trailer import passing_folder
 from tests.hosts.systems.weak_coupling import car_fmu
-from tests.vehicle.test_ports import WHEELS
+from tests.vehicle.cars_with_ports import WHEELS
 
 CONTROLLERS = Path(__file__).parents[3] / "examples" / "controllers"
 FRONT, REAR, INNER = ("FL", "FR"), ("RL", "RR"), 0.001  # s

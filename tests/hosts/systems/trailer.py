@@ -16,7 +16,7 @@ from mbs.model import Model
 from mbs.model.body import Body
 from mbs.vehicle.car import Car
 from tests.elements.tyre_data import TYRE
-from tests.vehicle.test_ports import hatchback, with_ports
+from tests.vehicle.cars_with_ports import hatchback, with_ports
 
 HITCH = (-3.35, 0.0, 0.40)
 """As drawn with the car, m."""

@@ -13,7 +13,7 @@ from mbs.vehicle.port_option import chosen_ports
 from tests.hosts.systems.controlled import CONTROLLERS, INNER, SYSTEMS, run, start_of
 from tests.hosts.systems.weak_coupling import percent
 from tests.modules import module_of
-from tests.vehicle.test_ports import rigid, with_ports
+from tests.vehicle.cars_with_ports import rigid, with_ports
 
 ROUNDS, NEAR = 30, 1e-9  # of a step at most; share of an output's size, at which a round is the last
 Values = dict[str, float]

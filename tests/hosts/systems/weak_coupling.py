@@ -22,9 +22,9 @@ from tests.hosts.systems.fmus.second_road import ANSWER
 from tests.hosts.systems.fmus.second_tyres import READ
 from tests.in_process import build_fmu
 from tests.vehicle import test_road_port
+from tests.vehicle.cars_with_ports import WHEELS, throttle_at
 from tests.vehicle.rigid_car import rigid_car
 from tests.vehicle.second_tyres import HUB
-from tests.vehicle.test_ports import WHEELS, throttle_at
 
 FMUS, INNER, TIME, SPEED = Path(__file__).parent / "fmus", 0.002, 1.0, 10.0
 Wires = dict[str, str]

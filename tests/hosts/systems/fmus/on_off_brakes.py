@@ -3,7 +3,7 @@
 from typing import Any
 
 from tests.hosts.systems.partner import Partner
-from tests.vehicle.test_ports import WHEELS
+from tests.vehicle.cars_with_ports import WHEELS
 
 RADIUS, RELEASE, APPLY = 0.2848, 0.15, 0.08  # m; slips
 TORQUE = {"F": 600.0, "R": 350.0}  # N.m

@@ -3,7 +3,7 @@
 from typing import Any
 
 from tests.hosts.systems.partner import Partner
-from tests.vehicle.test_ports import SecondDrive, rigid, throttle_at
+from tests.vehicle.cars_with_ports import SecondDrive, rigid, throttle_at
 
 
 class DrivePartner(Partner):

@@ -3,8 +3,8 @@
 from typing import Any
 
 from tests.hosts.systems.partner import Partner
+from tests.vehicle.cars_with_ports import hatchback
 from tests.vehicle.second_tyres import HUB, WHEELS, SecondTyre
-from tests.vehicle.test_ports import hatchback
 
 READ = (
     *("x", "y", "z", "axis_x", "axis_y", "axis_z"),
