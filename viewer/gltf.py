@@ -89,9 +89,12 @@ def write_gltf(
         "count": len(looked),
         "name": recording.name,
         "rate": float(rate),
+        "speed": float(speed),
+        "begin": begin,
+        "deformation": float(deformation),
+        "ground": bool(road),
+        "binary": target.suffix.lower() == ".glb",
     }
-    question |= {"speed": float(speed), "begin": begin, "deformation": float(deformation), "ground": bool(road)}
-    question["binary"] = target.suffix.lower() == ".glb"
     numbers = [(recording.t[looked] - begin) / speed, recording.epoch[looked], *columns.values()]
     answer, content = _answer(question, np.array(numbers))
     if not content:

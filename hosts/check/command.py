@@ -181,11 +181,12 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
 
 
 def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
-    from hosts.check.reference import OUT, Asked, check_references
+    from hosts.check.reference import OUT, ReferenceOptions, check_references
 
     if len(options.fidelity) > 1:
         raise HostError("--fidelity is given twice; give one with --reference.")
-    asked = Asked(options.manoeuvre, options.step, next(iter(options.fidelity), None), fmu_options(options))
+    fidelity = next(iter(options.fidelity), None)
+    asked = ReferenceOptions(options.manoeuvre, options.step, fidelity, fmu_options(options))
     jobs, out = options.jobs or available_cores(), options.out or OUT
     return check_references(fmu, options.reference, cases, options.bound, asked, jobs, out, options.again)
 

@@ -44,7 +44,7 @@ T = TypeVar("T")
 
 
 @dataclass(frozen=True)
-class Asked:
+class ReferenceOptions:
     """Options for the runs that are compared with references."""
 
     manoeuvre: str | None
@@ -84,7 +84,7 @@ def check_references(
     place: Path,
     cases: list[Case],
     bounds: Sequence[tuple[str, float]],
-    asked: Asked,
+    options: ReferenceOptions,
     jobs: int,
     out: Path,
     again: bool = False,
@@ -104,7 +104,7 @@ def check_references(
         Takes the run of each table and each signal, also before an error.
     bounds : sequence of (str, float)
         See `deviations`; each fits an output of one of the tables.
-    asked : Asked
+    options : ReferenceOptions
         Options for the runs.
     jobs : int
         Tables at a time.
@@ -149,10 +149,10 @@ def check_references(
         references = []
         for file in files:
             try:
-                references.append(_reference(fmu, file, asked))
+                references.append(_reference(fmu, file, options))
             except UserError as error:
                 fails(file, error)
-        compared = held.enter_context(closing(_done(fmu, references, kept, bounds, asked.manoeuvre is None, jobs)))
+        compared = held.enter_context(closing(_done(fmu, references, kept, bounds, options.manoeuvre is None, jobs)))
         for reference, found in zip(references, in_order(compared), strict=True):
             if isinstance(found, HostError):
                 fails(reference.file, found)
@@ -214,14 +214,14 @@ def in_order(results: Iterable[tuple[int, T]]) -> Iterator[T]:
             turn += 1
 
 
-def _reference(fmu: Fmu, file: Path, asked: Asked) -> _Reference:
-    driven, times, columns, left = _read(fmu, file, asked.manoeuvre)
+def _reference(fmu: Fmu, file: Path, options: ReferenceOptions) -> _Reference:
+    driven, times, columns, left = _read(fmu, file, options.manoeuvre)
     driven = with_names_of(driven, fmu.variables)
     check_columns(fmu, driven)
     driver = driver_of(fmu, driven)
-    driven, settings = set_in(fmu, driven, asked.fmu_options, asked.fidelity)
+    driven, settings = set_in(fmu, driven, options.fmu_options, options.fidelity)
     driven = replace(driven, stop_time=float(times[-1]))
-    step = _step(fmu, driven, times) if asked.step is None else asked.step
+    step = _step(fmu, driven, times) if options.step is None else options.step
     _check_times(times, step, file)
     return _Reference(file, Drive(driven, step, driver), times, columns, left, settings)
 

@@ -13,16 +13,15 @@ from mbs.system.system import System
 HEADERS = build.HERE / "src"
 
 
-def code_of(system: System) -> str:
-    """C of the algebra of a System, for the processor this runs on."""
+def code_of(system: System, avx2: bool | None = None) -> str:
+    """C of the algebra of a System; `avx2`: as `source` takes it, by default for the processor this runs on."""
     loaded = LoadedSystem(system.kernel_bytes(modes=False))
-    return source(system.arrays, loaded.structure, avx2=loaded.has_avx2)
+    return source(system.arrays, loaded.structure, avx2=loaded.has_avx2 if avx2 is None else avx2)
 
 
 def named_code_of(system: System) -> tuple[str, str]:
     """C that compilers for any processor take, and before it the name of its table, which no other C shares."""
-    loaded = LoadedSystem(system.kernel_bytes(modes=False))
-    text = source(system.arrays, loaded.structure, avx2=True)
+    text = code_of(system, avx2=True)
     name = f"{TABLE}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     return name, text.replace(TABLE, name)
 

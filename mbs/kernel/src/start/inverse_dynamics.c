@@ -22,20 +22,23 @@ static bool same_model(const ali3_system *ported, const ali3_system *without) {
          a->n_switch == b->n_switch && ported->nr == without->nr;
 }
 
+/* to += A from, A of n columns. */
+static void add_columns(int64_t n, const int32_t *ptr, const int32_t *row, const double *val, const double *from,
+                        double *to) {
+  for (int64_t j = 0; j < n; j++)
+    for (int32_t k = ptr[j]; k < ptr[j + 1]; k++) to[row[k]] += val[k] * from[j];
+}
+
 /* to = T from + offset; offset may be NULL: of rates. */
 static void follow(const ali3_system *S, const double *from, const double *offset, double *to) {
   for (int32_t i = 0; i < S->size.nq; i++) to[i] = offset != NULL ? offset[i] : 0.0;
-  for (int64_t j = 0; j + 1 < S->n_ported_ptr; j++)
-    for (int32_t k = S->ported_ptr[j]; k < S->ported_ptr[j + 1]; k++)
-      to[S->ported_row[k]] += S->ported_val[k] * from[j];
+  add_columns(S->n_ported_ptr - 1, S->ported_ptr, S->ported_row, S->ported_val, from, to);
 }
 
 /* Multipliers of the rows that are no ports; those of ports are 0. */
 static void follow_rows(const ali3_system *S, const double *from, double *to) {
   memset(to, 0, (size_t)S->size.nc * sizeof(double));
-  for (int64_t j = 0; j + 1 < S->n_ported_lam_ptr; j++)
-    for (int32_t k = S->ported_lam_ptr[j]; k < S->ported_lam_ptr[j + 1]; k++)
-      to[S->ported_lam_row[k]] += S->ported_lam_val[k] * from[j];
+  add_columns(S->n_ported_lam_ptr - 1, S->ported_lam_ptr, S->ported_lam_row, S->ported_lam_val, from, to);
 }
 
 /* The state of the model without ports, but for the multipliers of ports. */

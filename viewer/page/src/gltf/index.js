@@ -32,6 +32,7 @@ const run = new Run({ scene, t, epoch, columns: Object.fromEntries(names.map((co
 const materials = new Materials();
 const file = new File(name, t, rate);
 const notes = [];
+const kept = keptTimes(t, rate);
 const brief = (/** @type {number} */ value, digits = 3) => String(Number(value.toPrecision(digits)));
 
 const up = unit(scene.up ?? [0, 0, 1]);
@@ -55,7 +56,7 @@ if (pieces.length + bending.length > 0) {
   addNodes();
   await file.write(written, binary);
 }
-process.stdout.write(`${JSON.stringify({ times: keptTimes(t, rate).length, error: file.error, notes })}\n`);
+process.stdout.write(`${JSON.stringify({ times: kept.length, error: file.error, notes })}\n`);
 
 /** Adds what lies on the ground. @param {string} title @param {THREE.Mesh | null} mesh */
 function lay(title, mesh) {
@@ -157,7 +158,6 @@ function addFlexible(part, mesh, peak, { node, error }) {
   const title = part.name || `flexible ${part.frame}`;
   file.add(mesh, title, node);
   if (part.weights.length > 0) {
-    const kept = keptTimes(t, rate);
     file.bend(mesh, kept, kept.flatMap((k) => part.weights.map((column) => run.columns[column][k])));
   }
   file.count([error[0] + deformation * part.reduction, 0]);
@@ -179,7 +179,7 @@ function tell(nodes) {
   const [off] = file.error;
   if (off > SEEN * scene.extent) {
     notes.push(
-      `Between the ${keptTimes(t, rate).length} times that were kept, something is up to ${brief(1000 * off)} mm from where it was recorded; a higher rate or a ` +
+      `Between the ${kept.length} times that were kept, something is up to ${brief(1000 * off)} mm from where it was recorded; a higher rate or a ` +
         "lower speed keeps more times.",
     );
   }

@@ -71,8 +71,8 @@ export function thinned({ position, quaternion, scale, turn }, t, rate) {
     const turned = angles.flatMap((angle) => new Quaternion().setFromAxisAngle(turn.axis, angle).toArray());
     return { times, position: Float32Array.from(times.flatMap(() => [...position.subarray(0, 3)])), quaternion: Float32Array.from(turned) };
   }
-  const every = keptTimes(t, Infinity).length;
-  for (let finer = rate; kept.length < every && largestTurn(quaternion, kept) > FARTHEST;) kept = keptTimes(t, (finer *= 2));
+  const more = () => kept.length < keptTimes(t, Infinity).length;
+  for (let finer = rate; largestTurn(quaternion, kept) > FARTHEST && more();) kept = keptTimes(t, (finer *= 2));
   const taken = (values, size) => {
     const made = new Float32Array(size * kept.length);
     kept.forEach((k, n) => made.set(values.subarray(size * k, size * (k + 1)), size * n));
