@@ -10,7 +10,7 @@ from hosts.driving.courses import course_of
 from hosts.driving.pilots.braking_pilot import Braking
 from hosts.driving.pilots.fixed_steering import FixedSteering
 from hosts.driving.pilots.line_follower import LineFollower
-from hosts.driving.pilots.run_up_pilot import CourseFromHere
+from hosts.driving.pilots.run_up_pilot import RunUpPilot
 from hosts.driving.planned_course import planned
 
 
@@ -53,7 +53,7 @@ def test_a_car_without_slip_follows_the_line_from_wherever_it_is(x0: float, y0: 
     # axles 1.3 m before and behind the centre; the car answers the steering at once
     step, speed, half = 0.005, 15.0, 1.3
     course = planned(course_of("iso_3888_2", 1.8, 12.0), 0.0, 4.2, 1.8)
-    pilot = CourseFromHere(LineFollower(course, 2 * half, 0.6, 0.0, 0.4, 0.0), speed, lambda t, s: t >= 0.5, 20.0)
+    pilot = RunUpPilot(LineFollower(course, 2 * half, 0.6, 0.0, 0.4, 0.0), speed, lambda t, s: t >= 0.5, 20.0)
     x, y, yaw, sideslip, rate = x0, y0, yaw0, 0.0, 0.0
     seen, pedals = [], []
     for k in range(1100):

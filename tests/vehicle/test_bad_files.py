@@ -5,7 +5,7 @@ import os
 import pytest
 
 from ali3.command import main
-from ali3.typed_paths import annotation_at, by_name, keys_of, table_at
+from ali3.typed_paths import annotation_at, keys_of, table_at, value_type_of
 from mbs.vehicle import Car, CarFileError, CarWarning, car_names, load
 from mbs.vehicle.car import car_from
 from mbs.vehicle.changed_content import changed_content
@@ -89,7 +89,7 @@ def test_each_table_and_key_that_is_missing(name):
     for path in [*tables(load(name)._data), *(p for p in numbers(name) if not p.split(".")[-1].isdigit())]:
         data = changed_content(load(name)._data, {}, "x")
         *outer, last = path.split(".")
-        named = by_name(annotation_at(Car, outer, data)) is not None
+        named = value_type_of(annotation_at(Car, outer, data)) is not None
         if outer[-1:] == ["sections"]:
             continue  # another table asks for it
         table = data
