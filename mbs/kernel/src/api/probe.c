@@ -16,6 +16,12 @@ static void copy(double *to, const double *from, int64_t n) {
   if (to != NULL && n > 0) memcpy(to, from, (size_t)n * sizeof(double));
 }
 
+/* To where three numbers may be read as four (`ali3_pool_padded`). */
+static void coordinates_to(ali3_vectors *work, const double *q, const double *qd, int64_t nq) {
+  copy(work->q, q, nq);
+  copy(work->qd, qd, nq);
+}
+
 ali3_status ali3_get_state(const ali3_instance *in, double *q, double *qd, double *qdd, double *lam, double *y) {
   if (in == NULL) return ALI3_BAD_ARGUMENT;
   const ali3_sizes *z = &in->system->size;
@@ -34,15 +40,16 @@ ali3_status ali3_evaluate(ali3_instance *in, const double *q, const double *qd, 
   if (!ali3_finite(q, z->nq) || !ali3_finite(qd, z->nq) || (y != NULL && !ali3_finite(y, z->ny)) || !(t - t == 0.0))
     return ALI3_BAD_ARGUMENT;
   ali3_vectors *work = &in->next;
+  coordinates_to(work, q, qd, z->nq);
   copy(work->s, in->now.s, z->ng);
   copy(work->sd, in->now.sd, z->ng);
   copy(work->sdd, in->now.sdd, z->ng);
   ali3_guides_time(in, work, t);
-  ali3_constraints(in, q, work->s, in->step.Phi, in->tangent.J);
-  ali3_constraint_rate(in, q, work, in->step.Phit);
-  ali3_constraint_gamma(in, q, qd, work, in->step.gamma);
-  const ali3_force_call call = {.q = q,
-                                .qd = qd,
+  ali3_constraints(in, work->q, work->s, in->step.Phi, in->tangent.J);
+  ali3_constraint_rate(in, work->q, work, in->step.Phit);
+  ali3_constraint_gamma(in, work->q, work->qd, work, in->step.gamma);
+  const ali3_force_call call = {.q = work->q,
+                                .qd = work->qd,
                                 .y_old = y != NULL ? y : in->now.y,
                                 .Q = in->step.Q,
                                 .y_new = in->element.y,
@@ -77,8 +84,9 @@ static void spread(const ali3_instance *in, double *dense) {
 
 ali3_status ali3_mass_matrix(ali3_instance *in, const double *q, double *dense) {
   if (in == NULL || q == NULL || dense == NULL || !ali3_finite(q, in->system->size.nq)) return ALI3_BAD_ARGUMENT;
+  copy(in->next.q, q, in->system->size.nq); /* see `coordinates_to` */
   ali3_mass_to_fronts(in, in->tangent.F);
-  ali3_bodies_prepare(in, q);
+  ali3_bodies_prepare(in, in->next.q);
   ali3_bodies_tangent(in, 1.0, 0.0, 0.0, in->tangent.F);
   spread(in, dense);
   return ALI3_OK;
@@ -117,8 +125,9 @@ ali3_status ali3_element_step(ali3_instance *in, const double *q, const double *
   const ali3_sizes *z = &in->system->size;
   if (!ali3_finite(q, z->nq) || !ali3_finite(qd, z->nq) || (y_old != NULL && !ali3_finite(y_old, z->ny)))
     return ALI3_BAD_ARGUMENT;
-  const ali3_force_call call = {.q = q,
-                                .qd = qd,
+  coordinates_to(&in->next, q, qd, z->nq);
+  const ali3_force_call call = {.q = in->next.q,
+                                .qd = in->next.qd,
                                 .y_old = y_old != NULL ? y_old : in->now.y,
                                 .h = h,
                                 .wC = 0.5 * h,
