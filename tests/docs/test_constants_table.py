@@ -14,10 +14,9 @@ ELSEWHERE = (("settings.control", "ALLOWED"),)
 SOURCES = {
     "mbs/kernel/src/sensors/comparison.c": r"[A-Z_]+",
     "fmu_src/native/src/half_steps.c": r"[A-Z_]+",
-    "mbs/kernel/src/methods/error_control.c": "IN_A_LOOP",
     "mbs/kernel/src/methods/branch_watch.c": "CLEAR",
 }
-"""Files of constants, and which of them are of the check; the last two divide steps by the others."""
+"""Files of constants, and which of them are of the check; the last one divides steps by the others."""
 ELSE = {"SYSTEM_VERSION", "STATE_VERSION", "POSE", "LONGEST_SETTLING", "SETTLING_WORK", "OPEN", "FARTHEST", "FASTEST"}
 """Numbers of the header that are not of the check; any other is."""
 NOT_TUNED = {"comparison.c KINDS", "comparison.c PI"}
