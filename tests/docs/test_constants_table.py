@@ -11,12 +11,7 @@ MODULES = {
     "simulation": ("coarser_run", "fixed_steps", "refined_run", "controlled_pair", "tolerance_run"),
 }
 ELSEWHERE = (("settings.control", "ALLOWED"),)
-SOURCES = {
-    "mbs/kernel/src/sensors/comparison.c": r"[A-Z_]+",
-    "fmu_src/native/src/half_steps.c": r"[A-Z_]+",
-    "mbs/kernel/src/methods/branch_watch.c": "CLEAR",
-}
-"""Files of constants, and which of them are of the check; the last one divides steps by the others."""
+SOURCES = ("mbs/kernel/src/sensors/comparison.c", "fmu_src/native/src/half_steps.c")
 ELSE = {"SYSTEM_VERSION", "STATE_VERSION", "POSE", "LONGEST_SETTLING", "SETTLING_WORK", "OPEN", "FARTHEST", "FASTEST"}
 """Numbers of the header that are not of the check; any other is."""
 NOT_TUNED = {"comparison.c KINDS", "comparison.c PI"}
@@ -45,10 +40,10 @@ def in_python() -> dict[str, float]:
 def in_c() -> dict[str, float]:
     """Static constants and enumerators of a value, and numbers of the header."""
     found = {}
-    for source, names in SOURCES.items():
+    for source in SOURCES:
         text = (ROOT / source).read_text(encoding="utf-8")
         for line in re.findall(r"static const \w+ (.*?);|enum \{ (.*?) \}", text, re.DOTALL):
-            for name, value in re.findall(rf"\b({names}) = ([\d.e-]+)", "".join(line)):
+            for name, value in re.findall(r"([A-Z_]+) = ([\d.e-]+)", "".join(line)):
                 found[f"{source.rsplit('/', 1)[1]} {name}"] = float(value)
     header = (ROOT / "mbs/kernel/include/ali3.h").read_text(encoding="utf-8")
     for name, value in re.findall(r"#define ALI3_(\w+) ([\d.e-]+)\b", header):
