@@ -12,7 +12,7 @@ import numpy as np
 
 from ali3.message_text import unit_text
 from mbs.kernel.header.enumerations import GuideType
-from mbs.kernel.header.limits import AGREED, RESOLVED, WRONG_ERROR
+from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED, WRONG_ERROR
 from mbs.kernel.header.steps import Balance
 from mbs.results.comparison import COORDINATES, INSTANTS, Compared
 from mbs.results.run_report import Report
@@ -21,8 +21,8 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
-# Of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved.
-MOST_COST = 48.0
+# Of refined runs, in runs, unless `estimate_error` is a number: 4 + 8 + 16 + 32 where all steps were halved.
+MOST_COST = float(MOST_PARTS * MOST_PARTS)
 GOAL_ERROR = AGREED * WRONG_ERROR  # what a step that is tried as a remedy aims at, and what energy may be off by
 CLEAR = 0.03  # of the range: a run that by order one is off by so little is right, and its step may be named
 RIGHT = "A refined run, in which they do not, shows that what is compared is right all the same."
