@@ -44,6 +44,7 @@ LIMITS = {
     "ALI3_LONGEST_SETTLING": "Longest time for which a start may settle, s.",
     "ALI3_STILL": "Of the largest value in a unit, or of the length: a smaller range is rest.",
     "ALI3_WRONG_ERROR": "Of the size of what is judged: above it a run is wrong.",
+    "ALI3_RESOLVED": "Missed share of all changes of velocity, h w/2 of a vibration of w, up to which steps resolve.",
     "ALI3_AGREED": "Of what would be wrong: two motions that differ by less agree.",
     "ALI3_MOST_PARTS": "By which the step of a second motion is longer, or half of it shorter, at most.",
     "ALI3_SYSTEM_VERSION": "Of the System file.",

@@ -12,17 +12,17 @@ import numpy as np
 
 from ali3.message_text import unit_text
 from mbs.kernel.header.enumerations import GuideType
-from mbs.kernel.header.limits import AGREED, WRONG_ERROR
+from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED, WRONG_ERROR
 from mbs.kernel.header.steps import Balance
 from mbs.results.comparison import COORDINATES, INSTANTS, Compared
 from mbs.results.run_report import Report
-from mbs.results.smooth_laws import UNRESOLVED, is_open_tree
+from mbs.results.smooth_laws import is_open_tree
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
 
 OTHER_STEPS, OTHER_METHOD = "shorter steps keep it better", "method='energy_momentum' keeps it better"
-# Of refined runs, in runs, unless `estimate_error` is a number: 3 + 6 + 12 + 24 where steps were halved.
-MOST_COST = 48.0
+# Of refined runs, in runs, unless `estimate_error` is a number: 4 + 8 + 16 + 32 where all steps were halved.
+MOST_COST = float(MOST_PARTS * MOST_PARTS)
 GOAL_ERROR = AGREED * WRONG_ERROR  # what a step that is tried as a remedy aims at, and what energy may be off by
 CLEAR = 0.03  # of the range: a run that by order one is off by so little is right, and its step may be named
 RIGHT = "A refined run, in which they do not, shows that what is compared is right all the same."
@@ -170,7 +170,7 @@ def energy_text(report: Report, system: System, method: str) -> str:
 def needed_step(h: float, accuracy: Accuracy) -> float | None:
     """The step that would bring the result to `GOAL_ERROR`, s; None where it is too far off to estimate it."""
     error = accuracy.error
-    if error is None or error > UNRESOLVED or accuracy.order is None:
+    if error is None or error > RESOLVED or accuracy.order is None:
         return None
     made = h / (1.0 + accuracy.halvings_per_step)
     return float(made * min(GOAL_ERROR / error, 0.5**accuracy.order) ** (1.0 / accuracy.order))
@@ -188,9 +188,7 @@ def remedy(system: System, method: str, tried: Sequence[tuple[float, float]]) ->
             return f"Which step is sufficient was not tried: {finds}"
         step, off = tried[-1]
         nearer = (
-            f"are off by about {_percent(off)} at most"
-            if off <= UNRESOLVED
-            else "do not show the limit of shorter steps"
+            f"are off by about {_percent(off)} at most" if off <= RESOLVED else "do not show the limit of shorter steps"
         )
         return f"Steps of {step:g} s were tried too, and {nearer}: {finds}"
     better = _higher_orders(system, method)
@@ -203,7 +201,7 @@ def error_text(accuracy: Accuracy, sizes: Mapping[str, float], compared: Mapping
     """The estimated error in a sentence, with the worst sensor."""
     name = max(accuracy.sensors, key=lambda n: accuracy.sensors[n] / sizes[n])
     unit, share = compared[name].unit, accuracy.sensors[name] / sizes[name]
-    least = "at least" if share > UNRESOLVED else "about"
+    least = "at least" if share > RESOLVED else "about"
     what, of = "coordinate" if unit == COORDINATES else "sensor", unit_text(unit)
     gap, size = f"{accuracy.sensors[name]:.3g}{of}", f"{sizes[name]:.3g}{of}"
     return (

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mbs.kernel.header.enumerations import ElementType, GuideType, ParameterTarget
+from mbs.kernel.header.limits import RESOLVED
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
 from mbs.system.system import System
@@ -22,8 +23,6 @@ SMOOTH = {
     ElementType.SPIN_ANGLE,
 }
 """Elements whose forces are smooth; a spring-damper is where it has no stops."""
-UNRESOLVED = 0.5
-"""Missed share: h w is twice as much, so that a period has six steps; three are enough of a method of high order."""
 STOPS = (6, 8)  # of the numbers of a spring-damper: the stiffnesses of its stops
 
 
@@ -32,11 +31,11 @@ def unresolved_share(
 ) -> float:
     """The missed share above which steps do not resolve what changes the velocities.
 
-    `span`: first and last time of the run, s; `inputs`: that follow time. Of a method of order above two where nothing
-    abrupt can happen three steps in a period are enough.
+    `span`: first and last time of the run, s; `inputs`: that follow time. A period of h w = 1 has six steps; three are
+    enough of a method of order above two where nothing abrupt can happen.
     """
     smooth = METHOD_TABLE[method].order > 2 and nothing_abrupt(system, span, inputs)
-    return 2.0 * UNRESOLVED if smooth else UNRESOLVED
+    return 2.0 * RESOLVED if smooth else RESOLVED
 
 
 def nothing_abrupt(system: System, span: tuple[float, float], inputs: Mapping[str, Signal] | None = None) -> bool:

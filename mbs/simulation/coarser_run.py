@@ -7,13 +7,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header.limits import AGREED, MOST_PARTS
+from mbs.kernel.header.limits import AGREED, MOST_PARTS, RESOLVED
 from mbs.results import accuracy
 from mbs.results.accuracy import CLEAR, Accuracy, missed_share
 from mbs.results.comparison import WHOLE, Compared, Comparison, has_loads, instants, is_open
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
-from mbs.results.smooth_laws import UNRESOLVED
 from mbs.results.trajectory import Trajectory
 from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import LIMITED, Settings
@@ -40,7 +39,7 @@ def coarser_steps(
     """
     one = one_iteration(settings, compared, states)
     # with one iteration, or a high order, of that half as well
-    longer = [MOST_PARTS, MOST_PARTS // 2] if unresolved > UNRESOLVED else [MOST_PARTS] if one else []
+    longer = [MOST_PARTS, MOST_PARTS // 2] if unresolved > RESOLVED else [MOST_PARTS] if one else []
     fit = [times for times in [*longer, 2] if times * missed_share(run, settings.method) <= unresolved]
     return [times for times in fit if times in (fit[0], 2)]
 

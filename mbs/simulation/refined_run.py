@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mbs.kernel.header.limits import MOST_PARTS, WRONG_ERROR
+from mbs.kernel.header.limits import MOST_PARTS, RESOLVED, WRONG_ERROR
 from mbs.kernel.header.structures import ComparedFields
 from mbs.results import accuracy
 from mbs.results.accuracy import MOST_COST, Accuracy
@@ -25,7 +25,7 @@ from mbs.results.comparison import (
 from mbs.results.convergence import LEAST_ORDER, extrapolated, measured_order, seen_order, unsure
 from mbs.results.run_report import Report
 from mbs.results.simulation_error import SimulationError
-from mbs.results.smooth_laws import UNRESOLVED, nothing_abrupt, unresolved_share
+from mbs.results.smooth_laws import nothing_abrupt, unresolved_share
 from mbs.results.trajectory import Trajectory
 from mbs.settings.input_signals import Signal
 from mbs.settings.methods import METHOD_TABLE
@@ -116,7 +116,7 @@ class RefinedRuns:
         self.parts = accuracy.divisor(report.steps, report.halvings)
         self.method, span = settings.method, (self.run[0].t[0], self.run[0].t[-1])
         self.unresolved = unresolved_share(self.system, self.method, span, self.inputs)
-        self.has_order = self.unresolved > UNRESOLVED
+        self.has_order = self.unresolved > RESOLVED
         angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
         self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
         coordinates = dict.fromkeys(self._columns, Compared(COORDINATES, place=True))

@@ -29,8 +29,6 @@ from mbs.simulation.stepped_system import SteppedSystem
 from mbs.simulation.tolerance_messages import refused, stalled, warn_of_tolerance
 
 Array = NDArray[np.float64]
-COARSE = 20.0
-"""Tolerance of the first run in those of the last; it is at most what would be wrong."""
 FINER = 4.0
 """How much finer a further run is at least: two of the same tolerance show no error."""
 MOST_RUNS = 5
@@ -68,7 +66,8 @@ def to_tolerance(
     grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, INSTANTS + 1) / INSTANTS)
     grid[-1] = t_end
     task = Task(t0, t_end, grid, signals_of(inputs, first))
-    coarse, made = min(COARSE * tolerance.share, WRONG_ERROR), _Made()
+    # of the first run: by the last one's tolerance what it errs is known to what would be wrong
+    coarse, made = min(tolerance.share * (1.0 / WRONG_ERROR), WRONG_ERROR), _Made()
     if method != "auto":
         settings = replace(settings, method=method)
         return _told(_by(start, first, tolerance, times, task, settings, coarse, bar, made, ""), first, times)

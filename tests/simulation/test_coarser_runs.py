@@ -14,10 +14,10 @@ import mbs
 from benchmarks.methods import random_machines, random_mechanisms
 from benchmarks.references.cases import system_of
 from mbs.elements import ContactPoints, EndStops, PlaneRoad
-from mbs.kernel.header.limits import WRONG_ERROR
+from mbs.kernel.header.limits import RESOLVED, WRONG_ERROR
 from mbs.results.accuracy import Accuracy, missed_share, summed_miss
 from mbs.results.comparison import Compared
-from mbs.results.smooth_laws import UNRESOLVED, unresolved_share
+from mbs.results.smooth_laws import unresolved_share
 from mbs.simulation.coarser_run import coarser_steps, difference_from
 from tests.simulation.drawn import drawn
 
@@ -172,32 +172,32 @@ def test_which_coarser_runs_are_made() -> None:
     still, moves, settings = replace(run.report, predictor_path=0.0), {"x": Compared("m", place=True)}, mbs.Settings()
     abrupt = replace(run.report, predictor_path=run.report.velocity_path)
     energy_momentum = mbs.Settings(method="energy_momentum")
-    assert coarser_steps(settings, moves, False, UNRESOLVED, still) == [8, 2]
-    assert coarser_steps(settings, moves, True, UNRESOLVED, still) == [2]
-    assert coarser_steps(settings, {**moves, "force": Compared("N", load=True)}, False, UNRESOLVED, still) == [2]
-    assert coarser_steps(settings, moves, False, UNRESOLVED, run.report) == [2]
-    assert coarser_steps(settings, moves, False, UNRESOLVED, abrupt) == []
-    assert coarser_steps(energy_momentum, moves, False, UNRESOLVED, abrupt) == []
-    assert coarser_steps(energy_momentum, moves, False, UNRESOLVED, still) == [2]
+    assert coarser_steps(settings, moves, False, RESOLVED, still) == [8, 2]
+    assert coarser_steps(settings, moves, True, RESOLVED, still) == [2]
+    assert coarser_steps(settings, {**moves, "force": Compared("N", load=True)}, False, RESOLVED, still) == [2]
+    assert coarser_steps(settings, moves, False, RESOLVED, run.report) == [2]
+    assert coarser_steps(settings, moves, False, RESOLVED, abrupt) == []
+    assert coarser_steps(energy_momentum, moves, False, RESOLVED, abrupt) == []
+    assert coarser_steps(energy_momentum, moves, False, RESOLVED, still) == [2]
     radau = mbs.Settings(method="radau_5")
-    assert coarser_steps(radau, moves, False, 2.0 * UNRESOLVED, still) == [8, 2]
+    assert coarser_steps(radau, moves, False, 2.0 * RESOLVED, still) == [8, 2]
     for times, made in ((9.0, [8, 2]), (7.0, [4, 2]), (3.0, [2]), (1.0, [])):
         scaled = replace(run.report, predictor_squares=1.0 / times**2, velocity_squares=1.0)
-        assert coarser_steps(radau, moves, False, 2.0 * UNRESOLVED, scaled) == made
+        assert coarser_steps(radau, moves, False, 2.0 * RESOLVED, scaled) == made
 
 
 @pytest.mark.parametrize(
     ("system", "share"),
     [
-        pytest.param(lambda: system_of("spatial_chain"), 2.0 * UNRESOLVED, id="open tree"),
-        pytest.param(lambda: system_of("double_four_bar"), 2.0 * UNRESOLVED, id="loops"),
-        pytest.param(lambda: ball(1e3, 0.5), UNRESOLVED, id="stop"),
+        pytest.param(lambda: system_of("spatial_chain"), 2.0 * RESOLVED, id="open tree"),
+        pytest.param(lambda: system_of("double_four_bar"), 2.0 * RESOLVED, id="loops"),
+        pytest.param(lambda: ball(1e3, 0.5), RESOLVED, id="stop"),
     ],
 )
 def test_steps_of_high_order_may_be_longer_where_nothing_abrupt_can_happen(system, share) -> None:
     assert unresolved_share(system(), "radau_5", SPAN) == share
-    assert unresolved_share(system(), "ali3p", SPAN) == UNRESOLVED
-    assert unresolved_share(system(), "radau_5", SPAN, {"torque": lambda t: float(t > 0.5)}) == UNRESOLVED
+    assert unresolved_share(system(), "ali3p", SPAN) == RESOLVED
+    assert unresolved_share(system(), "radau_5", SPAN, {"torque": lambda t: float(t > 0.5)}) == RESOLVED
 
 
 @pytest.mark.parametrize("method", ["radau_5", "runge_kutta_8"])
@@ -302,7 +302,7 @@ def test_a_guide_that_ends_within_the_run_ends_a_step() -> None:
     m.drive("drive", cart.point((0.0, 0.0))[0], pushed)
     m.sense_position("x", rod, (0.0, -0.6), component="x")
     system = mbs.compile(m)
-    assert unresolved_share(system, "runge_kutta_8", (0.0, 0.7)) == 2.0 * UNRESOLVED
+    assert unresolved_share(system, "runge_kutta_8", (0.0, 0.7)) == 2.0 * RESOLVED
     run, fine = (
         mbs.simulate(system, 3.0, h, method="runge_kutta_8", every=round(0.2 / h), progress=False) for h in (0.2, 0.02)
     )

@@ -142,7 +142,7 @@ def test_what_repeats_may_cost_is_kept_and_what_is_not_judged_is_said() -> None:
         assert enough is not None
         assert enough.check_cost <= needed == 31.0  # 0.4, and half down to a 16th of the step
         assert not enough.message
-    assert "at most 48 unless estimate_error=N" in str(run.accuracy)
+    assert "at most 64 unless estimate_error=N" in str(run.accuracy)
 
 
 @pytest.mark.parametrize("steps", [204, 302, 403])

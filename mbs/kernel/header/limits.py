@@ -14,6 +14,8 @@ STILL = 1e-4
 """Of the largest value in a unit, or of the length: a smaller range is rest."""
 WRONG_ERROR = 0.05
 """Of the size of what is judged: above it a run is wrong."""
+RESOLVED = 0.5
+"""Missed share of all changes of velocity, h w/2 of a vibration of w, up to which steps resolve."""
 AGREED = 0.1
 """Of what would be wrong: two motions that differ by less agree."""
 MOST_PARTS = 8

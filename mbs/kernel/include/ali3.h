@@ -461,6 +461,7 @@ ALI3_API double ali3_compared_error(int32_t n, const ali3_compared *seen, const 
                                     int32_t *worst);
 #define ALI3_STILL 1e-4 /* of the largest value, or of the length: a smaller range is rest */
 #define ALI3_WRONG_ERROR 0.05 /* of the size: wrong */
+#define ALI3_RESOLVED 0.5 /* missed share of changes of velocity, h w/2 of a vibration of w: steps resolve up to it */
 #define ALI3_AGREED 0.1 /* of what would be wrong: two motions that differ by less agree */
 #define ALI3_MOST_PARTS 8 /* by which the step of a second motion is longer, or half of it shorter, at most */
 /* Status of the last step; of a good one after a change of an assembly mode ALI3_BRANCH_CHANGED. */

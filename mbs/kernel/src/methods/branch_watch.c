@@ -23,7 +23,6 @@ static const double IN_LINE = 0.25; /* square of the largest sine of a ring whos
 static const double APART = 0.5; /* of the change in the step: the parts come out elsewhere; of that: they agree */
 static const double MOST_TURNED = 0.2; /* sine of a ring in a controlled step past a place where branches may be near */
 static const double SAFE = 0.65, APART_AGAIN = 0.25; /* of MOST_TURNED; of a step that ends elsewhere than its parts */
-static const double CLEAR = 0.01; /* of the squared sine at the end: parts that crossed so far stay across */
 enum { FEW = 4, MANY = 8, LOOKS = 8 };
 
 enum { RING = 10, ITEMS = ALI3_TRIAD_ITEMS };
@@ -97,10 +96,10 @@ static bool crossed(const ali3_instance *in, int32_t k, int32_t first, int32_t e
 }
 
 /* Whether every triad of those that the step made change its sign, where branches may be near, changed it in the angles
- * of now too, and turned on as far as the step did. */
+ * of now too. */
 static bool all_crossed(const ali3_instance *in, int32_t first, int32_t end) {
   for (int32_t k = first; k < end; k++)
-    if (crossed(in, k, first, end) && !(in->branch.sine[k] / in->branch.sine_after[k] > CLEAR)) return false;
+    if (crossed(in, k, first, end) && !(in->branch.sine[k] * in->branch.sine_after[k] > 0.0)) return false;
   return true;
 }
 

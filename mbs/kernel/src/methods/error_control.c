@@ -35,7 +35,6 @@ static const double UNUSUAL = 0.3, USUAL_STEPS = 200.0;
 static const double ROUND_OFF = 64.0 * 2.3e-16; /* of the time */
 static const double FIRST = 1e-3;       /* of the span: first step where none is given */
 static const double ON_A_ROAD = 0.05;   /* lengths on the way in a step: bumps between two evaluations are not seen */
-static const double IN_A_LOOP = 0.5; /* the same of closed loops, or radians of a drive, which leaves no error */
 static const double LEAST_ERROR = 1e-4; /* parts of what a step may err: below, errors are round-off */
 
 static bool valid(const ali3_control *c) {
@@ -156,9 +155,11 @@ static void take_back(ali3_instance *in, const ali3_report *before) {
 
 /* The longest step, s: as given, and shorter where the motion may hold more than its error shows. */
 static double longest(const ali3_instance *in, const ali3_measure *measure) {
+  /* of closed loops h w, lengths or radians of a drive, which leaves no error: half of what steps resolve, as of a
+   * refined run */
   const double given = measure->control->longest;
   if (in->system->nr > 0) return fmin(given, ON_A_ROAD / ali3_rate(in, measure, false));
-  return in->system->n_mode_triad > 0 ? fmin(given, IN_A_LOOP / ali3_rate(in, measure, true)) : given;
+  return in->system->n_mode_triad > 0 ? fmin(given, ALI3_RESOLVED / ali3_rate(in, measure, true)) : given;
 }
 
 /* One accepted step from t, at most to `end`; *h is its length. */
