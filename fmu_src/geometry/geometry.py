@@ -8,9 +8,10 @@ import mbs
 from ali3.scene.scene_columns import columns_of
 from ali3.scene.scene_parts import frames_of
 from fmu_src.geometry.binding import bind
+from fmu_src.geometry.renamed_columns import with_renamed_columns
 from fmu_src.geometry.roads import with_parameters
 from fmu_src.geometry.shifted_shapes import moved_part
-from fmu_src.variables.variables import Variable
+from fmu_src.variables.variables import Variable, with_names_of_model
 
 FRAME_TUBE = "frame tube"
 """Name of rigid shapes that stand for a flexible part; left out where that part is drawn deformed."""
@@ -22,7 +23,8 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
         return None
     scene = system.scene
     bound = bind(system, scene["frames"], system.drawing.shared)
-    known = {v.name for v in table}
+    named = {own.name: v for own, v in zip(with_names_of_model(table, system.meta), table, strict=True)}
+    known = set(named)
     here = {"ground", *bound.frames}
 
     def kept(parts: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
@@ -39,7 +41,7 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
     shapes += [tube for part in parts if part not in bending for tube in _stiff(part)]
     used = {shape["mesh"] for shape in shapes if shape["kind"] == "mesh"}
     drawn = {frame for shape in scene["shapes"] for frame in frames_of(shape)}
-    return scene | {
+    made = scene | {
         "name": name,
         "description": description,
         "frames": bound.frames,
@@ -54,6 +56,8 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
             *({"name": frame, "why": why} for frame, why in bound.lost.items() if frame in drawn),
         ],
     }
+    other = {own: v for own, v in named.items() if own != v.name}
+    return with_renamed_columns(made, other) if other else made
 
 
 def _stiff(part: Mapping[str, Any]) -> list[dict[str, Any]]:

@@ -128,13 +128,12 @@ def _run(
 
 
 def with_other_names(run: ReferenceRun, named: Mapping[str, Variable]) -> ReferenceRun:
-    """The run with its columns and inputs as they are called, in their units; `named`: the variables by ours."""
+    """The run with its columns and inputs as the FMU calls them, in its units; `named`: the variables by their names in
+    the System.
+    """
 
     def called(columns: Mapping[str, Column]) -> dict[str, Column]:
-        return {
-            named[key].name if key in named else key: column * named[key].scale if key in named else column
-            for key, column in columns.items()
-        }
+        return {named[key].name: column * named[key].scale for key, column in columns.items()}
 
     return replace(run, columns=called(run.columns), inputs=called(run.inputs))
 

@@ -13,8 +13,9 @@ from fmu_src.variables.units import DISPLAY_UNITS, canonical_unit, parse_unit
 from mbs.kernel.header.limits import LONGEST_SETTLING
 
 _STRUCTURED_NAME = re.compile(r"[A-Za-z_]\w*(\[\d+(,\d+)*\])?(\.[A-Za-z_]\w*(\[\d+(,\d+)*\])?)*", re.ASCII)
-# A part of a structured name begins with a letter: angle.1 of a model is angle_1 of its FMU.
-_NUMBERED = re.compile(r"\.(?=\d)", re.ASCII)
+# A part of a structured name begins with a letter and has no blank: angle.1 of a model is angle_1 of its FMU.
+_UNDERSCORED = re.compile(r"\.(?=[0-9])|[^\w.,\[\]]")
+_IN_SYSTEM = {"input": "inputs", "parameter": "parameters", "sensor": "sensors"}
 _POSE = (
     ("initial.x", "m", "Where the origin of the scene's drawing starts along the earth's x axis"),
     ("initial.y", "m", "Where the origin of the scene's drawing starts along the earth's y axis"),
@@ -143,9 +144,10 @@ def variable_table(
     Returns
     -------
     tuple of Variable
-        Inputs, parameters, outputs, constants; the place is the value reference. A dot before a digit is an underscore
-        here, since parts of structured names begin with a letter: ``angle_1`` for ``angle.1``. Where the sensors have
-        no figures of the solver by these names, `solver.status`, `solver.halvings`, `solver.energy_error`,
+        Inputs, parameters, outputs, constants; the place is the value reference. A dot before a digit, a blank
+        or another sign is an underscore here, since parts of structured names begin with a letter and have letters and
+        digits: ``angle_1`` for ``angle.1``, ``rear_wheel.spin`` for ``rear wheel.spin``. Where the sensors have no
+        figures of the solver by these names, `solver.status`, `solver.halvings`, `solver.energy_error`,
         `solver.energy_balance`, `solver.capped_steps` and `solver.capped_residual` are the last outputs.
 
     Raises
@@ -213,9 +215,17 @@ def variable_table(
     table += _ahead(meta, table)
     table += [_constant(entry) for entry in meta.get("constants", ())]
     table = _near(meta, table)
-    table = [replace(v, name=_NUMBERED.sub("_", v.name)) for v in table]
+    table = [replace(v, name=_UNDERSCORED.sub("_", v.name)) for v in table]
     check_names(table)
     return _distinct(table)
+
+
+def with_names_of_model(table: Sequence[Variable], meta: Mapping[str, Any]) -> tuple[Variable, ...]:
+    """The table with the names that inputs, parameters and sensors have in the System; `meta`: of the System."""
+    return tuple(
+        replace(v, name=str(meta[_IN_SYSTEM[v.source]][v.index]["name"])) if v.source in _IN_SYSTEM else v
+        for v in table
+    )
 
 
 def with_uncomputed(table: Sequence[Variable], metas: Sequence[Mapping[str, Any]]) -> tuple[Variable, ...]:

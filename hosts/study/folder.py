@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError,
 
 from ali3.archives import LARGEST_ARCHIVE
 from ali3.columns import some_of
-from ali3.files import atomic_file, make_folder, write_text
+from ali3.files import atomic_file, make_folder, write_json
 from ali3.json_reading import read_json
 from ali3.message_text import VALUE, one_line
 from ali3.reading import no_file, read_bytes
@@ -113,7 +113,7 @@ def read_record(folder: Path) -> dict[str, Any] | None:
     file = folder / RECORD
     if not file.exists():
         return None
-    record = read_json(file, HostError, finite=False)
+    record = read_json(file, HostError)
     if not isinstance(record, dict):
         raise HostError(f"{file} is damaged: it is not a JSON object.")
     try:
@@ -162,7 +162,7 @@ def begin_study(folder: Path, record: Mapping[str, Any], study_file: bytes, fmu:
 
 def write_record(folder: Path, record: Mapping[str, Any]) -> None:
     """Write what is known of the study."""
-    write_text(folder / RECORD, json.dumps(record, indent=1, ensure_ascii=False) + "\n")
+    write_json(folder / RECORD, record)
 
 
 def free_space(folder: Path) -> int:

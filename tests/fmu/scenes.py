@@ -40,6 +40,25 @@ def _crane(mass: float, name: str) -> tuple[mbs.Model, Any]:
     return m, angle
 
 
+def spaced() -> mbs.Model:
+    """A rod under a torque, with names that no variable of FMI has."""
+    m = mbs.Model("a rod", dimension=2)
+    rod = m.body("long rod", mass=2.0, com=(0.5, 0.0), inertia=0.16)
+    m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
+    angle = m.relative_angle("angle", m.ground, rod)
+    torque = m.input("motor torque", min=-30.0, max=30.0, unit="N.m")
+    motor = m.torsional_spring_damper("spring", angle, stiffness=5.0)
+    m.torque_on("motor", angle, input=torque)
+    m.parameter("spring-stiffness", 5.0, 0.0, 50.0, "N.m/rad", targets=[(motor, "stiffness", 1.0)])
+    m.sense_coordinate("long rod.angle.1", angle)
+    for c in "xy":
+        m.sense_position(f"long rod.{c}", rod, component=c)
+    m.sense_constant("long rod.z", 0.0, unit="m")
+    for c in "wxyz":
+        m.sense_rotation(f"long rod.q{c}", rod, c)
+    return m
+
+
 def heavy_crane() -> mbs.Model:
     return crane(4.0)
 

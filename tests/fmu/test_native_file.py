@@ -14,14 +14,17 @@ import pytest
 from lxml import etree
 
 import mbs
+from ali3.scene.scene_columns import all_columns
 from fmu_src.description.description import declared_types
 from fmu_src.description.probe import Dependencies
+from fmu_src.geometry.geometry import geometry
 from fmu_src.native.package import NativeContents
-from fmu_src.native.reference import reference_runs
-from fmu_src.variables.variables import Variable
+from fmu_src.native.reference import reference_runs, with_other_names
+from fmu_src.variables.variables import Variable, variable_table, with_names_of_model
 from mbs.compiler.ports import following
 from mbs.scenes import cart_pole, prototype_car
 from tests import kinds
+from tests.fmu.scenes import spaced
 
 SCHEMAS = Path(fmpy.__file__).parent / "schema"
 LS_REF_SCHEMAS = Path(__file__).parents[1] / "data" / "fmi_ls_ref"
@@ -59,6 +62,21 @@ def test_documents_name_each_source(build: Callable[..., Path], kind: str, docum
     assert sorted(named) == sorted(packed)
     assert "table.c" in named
     assert kind == "fmi3" or not any("fmi3" in name for name in named)
+
+
+def test_columns_of_names_with_blanks_are_variables() -> None:
+    system = mbs.compile(spaced())
+    table = variable_table(system.meta, pose=False, step_size=0.01)
+    known = {v.name for v in table}
+    assert known > {"long_rod.angle_1", "motor_torque", "spring_stiffness"}
+    named = dict(zip([v.name for v in with_names_of_model(table, system.meta)], table, strict=True))
+    default, in_turn = (with_other_names(run, named) for run in reference_runs(system))
+    assert "long_rod.angle_1" in default.columns
+    assert known > set(default.columns)
+    assert list(in_turn.inputs) == ["motor_torque"]
+    scene = geometry(system, table, "TwoWords", "")
+    assert scene is not None
+    assert {"long_rod.x", "long_rod.qw"} <= set(all_columns(scene)) <= known
 
 
 class _Shipped(etree.Resolver):

@@ -11,7 +11,7 @@ import pytest
 from hosts.common.errors import HostError
 from hosts.study.analysis.report import write_report
 from hosts.study.command import main
-from hosts.study.folder import begin_study, read_record
+from hosts.study.folder import begin_study, read_record, write_record
 from hosts.study.outcome_table import OutcomeTable
 from hosts.study.plan import make_plan
 from hosts.study.repeated_run import repeater
@@ -38,6 +38,17 @@ def folder(study_file: Callable[..., Path], spring: Path, tmp_path: Path) -> Pat
 def fmu_in(folder: Path) -> Path:
     (found,) = folder.glob("*.fmu")
     return found
+
+
+@pytest.mark.parametrize("number", [float("nan"), float("inf")])
+def test_a_record_has_finite_numbers(tmp_path: Path, number: float) -> None:
+    record = {"manoeuvres": [{"speed": number}]}  # a key of its own, which no type checks
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        write_record(tmp_path, record)
+    assert read_record(tmp_path) is None
+    (tmp_path / "study.json").write_text(json.dumps(record), encoding="utf-8")
+    with pytest.raises(HostError, match="speed is (nan|inf); it must be a finite number"):
+        read_record(tmp_path)
 
 
 def test_a_report_opens_no_fmu(folder: Path) -> None:
