@@ -5,6 +5,7 @@ import math
 import os
 import re
 import subprocess
+from base64 import b64encode
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -93,12 +94,13 @@ def write_gltf(
         "begin": begin,
         "deformation": float(deformation),
         "ground": bool(road),
-        "binary": target.suffix.lower() == ".glb",
     }
     numbers = [(recording.t[looked] - begin) / speed, recording.epoch[looked], *columns.values()]
     answer, content = _answer(question, np.array(numbers))
     if not content:
         raise ViewerError(f"{recording.name!r} has no shape that can be drawn; there is nothing to write to {path}.")
+    if target.suffix.lower() == ".gltf":
+        content = _as_text(content)
     with atomic_file(path) as made:
         made.write_bytes(content)
     notes = list(recording.notes)
@@ -135,6 +137,16 @@ def _bent(part: Mapping[str, Any], number: int, columns: dict[str, NDArray[np.fl
     names = [f"weight {k} of the flexible part {number}" for k in range(len(shapes))]
     columns |= dict(zip(names, weights.T, strict=True))
     return {**part, "targets": [encoded(shape) for shape in shapes], "weights": names, "reduction": error}
+
+
+def _as_text(binary: bytes) -> bytes:
+    """A binary file as JSON with its numbers in it: not by Node, whose strings end at 512 MiB."""
+    length = int.from_bytes(binary[12:16], "little")
+    made = json.loads(binary[20 : 20 + length])
+    (buffer,) = made["buffers"]
+    numbers = binary[28 + length :][: buffer["byteLength"]]
+    buffer["uri"] = f"data:application/octet-stream;base64,{b64encode(numbers).decode()}"
+    return json.dumps(made, ensure_ascii=False, separators=(",", ":")).encode()
 
 
 def _answer(question: Mapping[str, Any], numbers: NDArray[np.float64]) -> tuple[dict[str, Any], bytes]:

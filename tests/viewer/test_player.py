@@ -326,6 +326,12 @@ def test_a_result_without_a_scene_has_its_diagrams(opened: Callable[..., Opened]
     assert page.said == []
 
 
+def test_a_result_without_columns_says_that_there_are_no_signals(opened: Callable[..., Opened]) -> None:
+    page = opened(Recording(None, TIMES, {}, name="empty"))
+    assert page.page.inner_text(".a3-list") == "there are no signals"
+    assert page.said == []
+
+
 def test_a_camera_that_is_not_there_is_told(opened: Callable[..., Opened]) -> None:
     page = opened(crank(TIMES), camera="moon")
     assert "There is no camera 'moon'" in page.page.inner_text(".a3-notices")

@@ -12,7 +12,7 @@ const LOAD = 1500;
 export const darkness = (use, load) => (use <= 1 ? 0 : DARKEST * Math.min(1, 0.35 + 0.65 * (use - 1)) * Math.min(1, load / LOAD));
 
 /** Surfaces that take a mark: rubber does not stay on what is slick or loose. */
-export const MARKED = new Set(["asphalt", "concrete", "paint"]);
+const MARKED = new Set(["asphalt", "concrete", "paint"]);
 
 /** A ring of sections of all wheels; the oldest are written over. */
 export class Tracks {

@@ -1,4 +1,4 @@
-// A glTF file in the making: nodes and their motion; three.js' exporter writes it.
+// A binary glTF file in the making: nodes and their motion; three.js' exporter writes it.
 import { Buffer } from "node:buffer";
 import fs from "node:fs";
 import * as THREE from "three";
@@ -7,14 +7,10 @@ import { largestErrors, thinned } from "./motion.js";
 
 /** What the exporter needs of a browser's. */
 class FileReader {
-  readAsArrayBuffer = async (/** @type {Blob} */ blob) => this._read(await blob.arrayBuffer());
-
-  readAsDataURL = async (/** @type {Blob} */ blob) => this._read(`data:application/octet-stream;base64,${Buffer.from(await blob.arrayBuffer()).toString("base64")}`);
-
-  _read(result) {
-    Object.assign(this, { result });
+  readAsArrayBuffer = async (/** @type {Blob} */ blob) => {
+    Object.assign(this, { result: await blob.arrayBuffer() });
     /** @type {Data} */ (this).onloadend();
-  }
+  };
 }
 
 /** Nodes, and the largest errors of their motion. */
@@ -69,12 +65,12 @@ export class File {
     return off;
   }
 
-  /** @param {string} path @param {boolean} binary */
-  async write(path, binary) {
+  /** @param {string} path */
+  async write(path) {
     Object.assign(globalThis, { FileReader });
     const animations = this.tracks.length > 0 ? [new THREE.AnimationClip(this.scene.name, -1, this.tracks)] : [];
-    const made = await new GLTFExporter().register(once).parseAsync(this.scene, { binary, trs: true, animations });
-    fs.writeFileSync(path, binary ? Buffer.from(/** @type {ArrayBuffer} */ (made)) : JSON.stringify(made));
+    const made = await new GLTFExporter().register(once).parseAsync(this.scene, { binary: true, trs: true, animations });
+    fs.writeFileSync(path, Buffer.from(/** @type {ArrayBuffer} */ (made)));
   }
 }
 

@@ -25,7 +25,7 @@ const SEEN = 2e-3;
 const [given, written] = process.argv.slice(2);
 const input = fs.readFileSync(given);
 const end = input.indexOf("\n");
-const { scene, names, count, name, rate, speed, begin, deformation, ground, binary } = JSON.parse(input.toString("utf8", 0, end));
+const { scene, names, count, name, rate, speed, begin, deformation, ground } = JSON.parse(input.toString("utf8", 0, end));
 const numbers = new Float64Array(new Uint8Array(input.subarray(end + 1)).buffer);
 const [t, epoch, ...columns] = Array.from({ length: names.length + 2 }, (_, n) => numbers.subarray(n * count, (n + 1) * count));
 const run = new Run({ scene, t, epoch, columns: Object.fromEntries(names.map((column, n) => [column, columns[n]])) });
@@ -54,7 +54,7 @@ const bending = (scene.flexible ?? []).map((part) => ({ part, ...flexible(part, 
 if (pieces.length + bending.length > 0) {
   if (ground) addGround();
   addNodes();
-  await file.write(written, binary);
+  await file.write(written);
 }
 process.stdout.write(`${JSON.stringify({ times: kept.length, error: file.error, notes })}\n`);
 

@@ -333,6 +333,6 @@ class Drive extends Shell {
 }
 
 /** Communication steps to choose from: that of the FMU, shorter and longer ones. */
-export function stepChoices(step) {
+function stepChoices(step) {
   return [0.1, 0.2, 0.5, 1, 2, 5].map((factor) => Number((factor * step).toPrecision(6)));
 }

@@ -5,7 +5,7 @@ import { LimitedInputs } from "./input_rates.js";
 /** Simulated time between saved states, s. */
 const SAVE_EVERY = 0.25;
 /** How far back one can go, s. */
-export const BACK = 30;
+const BACK = 30;
 
 const NUMBERS = ["Real", "Integer", "Boolean"];
 

@@ -9,7 +9,7 @@ import { el } from "../common/dom.js";
  * @param {boolean} options.across - Left and right from its middle, +1 at the left; else up from its foot.
  * @param {(name: string, value: number) => void} options.want
  */
-export function lever({ name, label, across, want }) {
+function lever({ name, label, across, want }) {
   const knob = el("div.a3-knob");
   const element = el(`div.a3-lever.${across ? "a3-across" : "a3-up"}`, { data: `lever ${name}` }, el("span", {}, label), knob);
   const show = (value) => {

@@ -7,7 +7,7 @@ import { SKYLIGHT } from "./skylight.js";
 import { atEachPixel, atEachPoint, onTheEarth } from "./vertex_code.js";
 
 /** Metres after which each layer of the pattern repeats: grain, patches, tones, painted lines. */
-export const PERIODS = [1.1, 7.3, 61, 10];
+const PERIODS = [1.1, 7.3, 61, 10];
 
 const PARAMETERS = /* glsl */ `
 uniform vec3 aX, aY;

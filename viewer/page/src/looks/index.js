@@ -7,7 +7,7 @@ import { PictureQuality } from "./picture_quality.js";
 const LOOKS = { board, outdoors, studio };
 
 /** Name of the look of a scene. @param {Data} scene */
-export function lookOf(scene) {
+function lookOf(scene) {
   if (scene.planar) return "board";
   return (scene.roads ?? []).length > 0 ? "outdoors" : "studio";
 }

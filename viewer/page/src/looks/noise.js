@@ -22,7 +22,7 @@ function valueNoise(x, y, cells, seed) {
 }
 
 /** Sum of octaves, 0 to 1. */
-export function fractalNoise(x, y, cells, octaves, seed) {
+function fractalNoise(x, y, cells, octaves, seed) {
   let [sum, weight, total] = [0, 1, 0];
   for (let k = 0; k < octaves; k++) {
     sum += weight * valueNoise(x, y, cells << k, seed + 7919 * k);
@@ -40,7 +40,7 @@ const SEED = 101;
  * before. Looked up as usual, they are as wide as a few pixels are long, at every distance.
  * @param {number} n points a side, a power of two @returns {Uint8Array}
  */
-export function tonesOf(n) {
+function tonesOf(n) {
   const cells = Math.max(1, n / 32);
   const octaves = Math.max(1, Math.log2(n / 4 / cells) + 1);
   const at = (k) => fractalNoise((k % n) / n, Math.floor(k / n) / n, cells, octaves, SEED + 7919 * Math.log2(cells));

@@ -4,7 +4,7 @@
  * From the coarsest. draft: see draft/index.js; low: without shadows of the sun, a world's ground and scenery as coarse
  * as in a draft; medium: all, with a pixel for each of the page and a smaller shadow map.
  */
-export const LEVELS = ["draft", "low", "medium", "high"];
+const LEVELS = ["draft", "low", "medium", "high"];
 /** What a person can choose, finest first. */
 export const QUALITIES = ["auto", ...[...LEVELS].reverse()];
 /** Time of a picture above which the next level is coarser, and below which a draft becomes finer, ms. */

@@ -10,7 +10,7 @@ import { atEachPixel, atEachPoint, onTheEarth } from "./vertex_code.js";
 /** Share of the distance by which paint is drawn nearer in a draft, whose ground is coarser. */
 const DRAFTED = 0.01;
 /** Metres after which each layer of noise repeats; none is a multiple of another. */
-export const LAYERS = [1.3, 8.9, 61, 273];
+const LAYERS = [1.3, 8.9, 61, 273];
 
 /**
  * The materials of a world; `follow(origin)` keeps their pattern on the earth.

@@ -22,7 +22,7 @@ export const TONES = 61 * 273;
  * Their length is that of level ground: facets of a terrain that are finer than pixels would make it flicker. A
  * size goes over into the next, half of it, so that no edge between them is seen; elsewhere it is looked up alone.
  */
-export const DETAIL = /* glsl */ `
+const DETAIL = /* glsl */ `
 vec3 sight = vGround - cameraPosition;
 float away = length(sight);
 sight /= away;

@@ -49,7 +49,7 @@ export function stressLegend({ known, computed, most, ends, unit, limit, limitNa
 }
 
 /** Round numbers from 0 to the end of a scale. @param {number} most */
-export function ticksTo(most) {
+function ticksTo(most) {
   const step = niceStep(most / 3);
   return Array.from({ length: Math.floor(most / step + 1e-9) + 1 }, (_, k) => Number((k * step).toPrecision(6)));
 }

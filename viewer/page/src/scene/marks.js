@@ -28,7 +28,7 @@ const LINES = 7;
  * @param {number} full stress at the end of the colours: gauges have the unit of their legend
  * @returns {{kind: string, name: string, at: number[], text: string}[]}
  */
-export function stressMarks({ bending, name: body }, lookup, full) {
+function stressMarks({ bending, name: body }, lookup, full) {
   const { displaced, gauges } = bending;
   const found = gauges.map(({ name, value, unit = "Pa", nodes: [from, to], along }) => {
     const number = lookup?.(value);
@@ -45,7 +45,7 @@ export function stressMarks({ bending, name: body }, lookup, full) {
  * @param {import("./bending.js").Bending} bending @param {number} beam @param {number[]} ends 0, 1 or both
  * @returns {string[]}
  */
-export function tubeWords(bending, beam, ends) {
+function tubeWords(bending, beam, ends) {
   const [from, to] = bending.beams[beam].map((node) => bending.nodeNames[node] ?? `node ${node}`);
   const stress = ends.map((end) => bending.stress?.[2 * beam + end]).filter((value) => value !== undefined);
   const { limit, limitName, unit } = bending;

@@ -3,7 +3,7 @@
 /** A name: no control characters, no < and >. */
 export const NAME = /^[^\u0000-\u001f<>\u007f-\u009f\u2028\u2029]*$/;
 /** A unit: besides, no quotes and no &. */
-export const UNIT = /^[^\u0000-\u001f"&'<>`\u007f-\u009f\u2028\u2029]{0,40}$/;
+const UNIT = /^[^\u0000-\u001f"&'<>`\u007f-\u009f\u2028\u2029]{0,40}$/;
 
 /**
  * The first name or unit that is not allowed.

@@ -7,7 +7,7 @@ const NO_WEBGL =
   "Switch on hardware acceleration in the browser's settings, or open the page in another browser.";
 
 /** Whether a context draws by the processor: SwiftShader, llvmpipe and the like. @param {WebGLRenderingContext} gl */
-export function drawsBySoftware(gl) {
+function drawsBySoftware(gl) {
   const info = gl.getExtension("WEBGL_debug_renderer_info");
   const name = String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);

@@ -98,7 +98,7 @@ export class Plots {
       return el("label", {}, box, el("span.a3-signal", {}, name), unit);
     });
     if (names.length > LISTED) rows.push(el("div.a3-more", {}, `and ${names.length - LISTED} more; search for them`));
-    if (names.length === 0) rows.push(el("div.a3-more", {}, "no signal has these words in its name"));
+    if (names.length === 0) rows.push(el("div.a3-more", {}, this.names.length > 0 ? "no signal has these words in its name" : "there are no signals"));
     this.list.replaceChildren(...rows);
   }
 

@@ -7,7 +7,7 @@ const SELECTOR = "selector";
 export const PARTS = [["whole axis", -1, 1], ["upper half", 0, 1], ["lower half", -1, 0]];
 
 /** What a person moves for an input. */
-export const MOVE_WORDS = {
+const MOVE_WORDS = {
   steering: "turn the steering wheel to the left",
   throttle: "press the throttle down",
   brake: "press the brake down",

@@ -21,7 +21,7 @@ function grouped(bins) {
  * @param {[number, number][]} bins - Upper edge, s (null: no edge), and count.
  * @param {number} deadline - s.
  */
-export function histogram(bins, deadline) {
+function histogram(bins, deadline) {
   const drawing = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: "a3-histogram", "data-a3": "histogram" });
   const bars = grouped(bins);
   if (!bars.size) return drawing;

@@ -2,7 +2,7 @@
 import { LIGHT, use } from "../wheels.js";
 
 /** Firings of a four-stroke engine of four cylinders a revolution. */
-export const FIRINGS = 2;
+const FIRINGS = 2;
 /** Speed of an engine that idles, rad/s: slower it is not heard. */
 export const IDLE = 85;
 /** Waves of an electric motor a revolution: pairs of poles times two. */
