@@ -26,8 +26,8 @@ from mbs.results.accuracy import Accuracy
 from mbs.results.omitted_sensors import OmittedSensors
 from mbs.results.poses import Poses
 from mbs.results.run_report import Report
+from mbs.results.step_control import Control
 from mbs.roads.scene_part import drawn_roads, scene_part
-from mbs.settings.control import Control
 from mbs.settings.settings import Settings
 from mbs.system.drawing import Drawing
 

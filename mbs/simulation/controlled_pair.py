@@ -5,7 +5,7 @@ from functools import cached_property
 
 from mbs.kernel.header.limits import AGREED
 from mbs.results.comparison import COORDINATES, Compared, compared_sensors
-from mbs.settings.control import Tolerance
+from mbs.settings.tolerance import Tolerance
 from mbs.simulation.controlled_run import ControlledRun
 from mbs.simulation.prepared_system import prepared
 

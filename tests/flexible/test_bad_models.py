@@ -7,7 +7,7 @@ import pytest
 import scipy.sparse as sp
 
 from mbs.common.errors import ModelError
-from mbs.flexible.attachment_modes import inertia_relief
+from mbs.flexible.relief_solution import inertia_relief
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel

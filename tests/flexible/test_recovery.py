@@ -5,7 +5,7 @@ import pytest
 import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
-from mbs.flexible.attachment_modes import inertia_relief
+from mbs.flexible.relief_solution import inertia_relief
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.frame import Beam, Frame
 from mbs.flexible.recovery import (

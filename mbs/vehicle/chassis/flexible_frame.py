@@ -9,7 +9,6 @@ import scipy.sparse as sp
 
 from ali3.plausibility import Plausibility
 from mbs.common.errors import ModelError
-from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.body_plausibility import model_plausibility
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
@@ -19,6 +18,7 @@ from mbs.flexible.mass_points import MassPoints
 from mbs.flexible.modal_body import ModalBody
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.relief_matrices import InertiaRelief
+from mbs.flexible.relief_solution import inertia_relief
 from mbs.vehicle.chassis.frame_joints import FrameJoints
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
 from mbs.vehicle.fidelity import Fidelity
