@@ -128,7 +128,7 @@ def _build_kernel(platforms: str, out: Path | None) -> int:
 
 
 def _add_platforms(options: argparse.Namespace) -> int:
-    """More platforms for an FMU that is there."""
+    """Add platforms to an existing FMU."""
     from ali3.files import check_writable
     from fmu_src.build.progress_line import ProgressLine
     from fmu_src.native.added_platforms import add_platforms

@@ -1,4 +1,4 @@
-"""The scene of an FMU whose variables have the names and units of another program."""
+"""Scene of an FMU, converted to variable names and units of another program."""
 
 from collections.abc import Mapping
 from typing import Any

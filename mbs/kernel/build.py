@@ -82,7 +82,7 @@ def library_name(target: str) -> str:
 
 @functools.cache
 def cache_directory() -> Path:
-    """Where the compiler keeps what it built: `ZIG_GLOBAL_CACHE_DIR`, else a cache of the user; see `cache_folder`."""
+    """Cache folder of the compiler: `ZIG_GLOBAL_CACHE_DIR`, else a cache of the user; see `cache_folder`."""
     return cache_folder(name="ali3-zig", variable="ZIG_GLOBAL_CACHE_DIR")
 
 

@@ -1,4 +1,4 @@
-"""What bodies look like: shapes on bodies and between points of several bodies. They take no part in the motion."""
+"""Shapes on bodies and between points of several bodies, for drawing only."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 @dataclass(frozen=True)
 class _Kind:
-    """What a kind of shape needs and what it may have."""
+    """Required and optional properties of a kind of shape."""
 
     needs: tuple[str, ...]
     takes: tuple[str, ...] = ()

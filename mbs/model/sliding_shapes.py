@@ -1,4 +1,4 @@
-"""Looks beyond those of bodies: what slides along a body, and meshes that are computed."""
+"""Shapes that slide along a body, and computed meshes."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Sliding(Turning):
 
 
 class SlidingVocabulary(ShapeVocabulary):
-    """What slides on a body, and computed meshes."""
+    """Vocabulary of shapes that slide on a body, and of computed meshes."""
 
     def sliding(self, name: str, body: Body | Turning, *, at: ArrayLike, direction: ArrayLike, way: str) -> Sliding:
         """Something that is only drawn as sliding along a line of a body, such as a rack that a guide moves.

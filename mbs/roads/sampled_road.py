@@ -42,7 +42,7 @@ class SampledRoad(GridRoad):
 
     @property
     def sentence(self) -> str:
-        """Its deviation, as the end of a sentence."""
+        """Deviation of the samples from the source, as the end of a sentence."""
         return (
             f"differs from {self.source} by {1000.0 * self.largest:.3g} mm at most, at x = {self.place[0]:.6g} m, "
             f"y = {self.place[1]:.6g} m, and by {1000.0 * self.rms:.3g} mm (root mean square)"

@@ -1,4 +1,4 @@
-"""What the default shapes of a model are made from: where its joints, wheels and springs touch its bodies."""
+"""Points for default shapes of a model: where joints, wheels and springs act on bodies."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -54,7 +54,7 @@ class Slide:
 
 @dataclass
 class Touched:
-    """Where the bodies of a model are touched."""
+    """Points at which joints, wheels and springs act on the bodies of a model."""
 
     points: dict[str, list[Vector]] = field(default_factory=dict)
     """Places by frame, earth axes as drawn, m."""

@@ -1,4 +1,4 @@
-"""A run in equal steps whose step, method or both are chosen."""
+"""Run with equal steps, with automatic choice of step, method or both."""
 
 import math
 from collections.abc import Callable, Mapping

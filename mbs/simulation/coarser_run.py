@@ -1,4 +1,4 @@
-"""Coarser runs by which a run is seen to be right: which ones, and what their differences from it say."""
+"""Coarser runs that confirm a run: choice of their steps, and evaluation of the differences."""
 
 import math
 from collections.abc import Mapping

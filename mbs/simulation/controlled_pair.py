@@ -1,4 +1,4 @@
-"""Two runs to a tolerance of one motion: what they say of the error of the finer one."""
+"""Pair of runs with two tolerances of one motion, and the error of the finer one estimated from them."""
 
 from dataclasses import dataclass
 from functools import cached_property

@@ -115,7 +115,7 @@ def fixed_step_run(
 
 
 def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
-    """What is known of the error of a run, after the further runs that it needs.
+    """Accuracy of a run, after the further runs that it needs.
 
     Without `RefinedRuns.before` a run that is not plainly smooth is compared with `CoarserRuns`, and refined where they
     differ. Where the next refined run costs more than is left, that is said in place of a verdict.

@@ -59,7 +59,7 @@ _STARTING = threading.Lock()  # what a start warns of is caught for all threads 
 
 @dataclass(frozen=True)
 class Variant:
-    """What one of many runs has of its own."""
+    """Data of one of many runs that differ from those of the others."""
 
     parameters: Mapping[str, Any] = field(default_factory=dict)
     """Values that differ from their declaration."""
@@ -85,7 +85,7 @@ class ManyRuns:
 
 
 class _Found(NamedTuple):
-    """How the run of a variant ended."""
+    """End of the run of a variant."""
 
     trajectory: Trajectory | None
     failure: SimulationError | None

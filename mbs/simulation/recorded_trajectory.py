@@ -1,4 +1,4 @@
-"""What was recorded of a run, as a Trajectory."""
+"""Trajectory made from the records of a run."""
 
 from collections.abc import Iterable
 

@@ -1,4 +1,4 @@
-"""What is said of a run to a tolerance that was refused, or does not keep it."""
+"""Messages about a run with a tolerance that was refused or is exceeded."""
 
 import warnings
 

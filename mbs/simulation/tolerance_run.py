@@ -101,7 +101,7 @@ def to_tolerance(
 
 @dataclass
 class _Made:
-    """What was made before a run to a tolerance."""
+    """Runs made before a run with a tolerance."""
 
     run: ControlledRun | None = None
     runs: int = 0

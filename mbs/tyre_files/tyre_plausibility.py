@@ -1,4 +1,4 @@
-"""What was understood of a tyre: its steady forces in numbers that are known of tyres, and where they usually lie."""
+"""Plausibility of a tyre: characteristic numbers of its steady forces, with usual ranges."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping
@@ -111,7 +111,7 @@ class _Curve:
 def magic_plausibility(
     what: str, tyre: MagicTyre, numbers: Mapping[str, float], kind: str = "", prefix: str = ""
 ) -> Plausibility:
-    """What was understood of a Magic Formula tyre.
+    """Plausibility of a Magic Formula tyre.
 
     `what`: the file; `numbers`: of the file, SI units; `kind`: of the vehicle, else the widest range; `prefix`: of its
     keys, for those of a car.
@@ -134,7 +134,7 @@ def magic_plausibility(
 
 
 def tmeasy_plausibility(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Plausibility:
-    """The same of a TMeasy tyre."""
+    """Plausibility of a TMeasy tyre."""
     mistakes = []
     for name, per in (("lateral", "degree"), ("longitudinal", "percent")):
         factor = DEG if per == "degree" else 0.01

@@ -87,7 +87,7 @@ class Car(BuiltCar):
         return {fidelity: partial(self.model, None, fidelity) for fidelity in self.offered}
 
     def changed(self, values: Mapping[str, Any]) -> Car:
-        """The same car with other values, checked like a file.
+        """Copy of the car with other values, checked like a file.
 
         Parameters
         ----------

@@ -122,7 +122,7 @@ class Spring(Section, of=SpringDamper):
 
     @property
     def given(self) -> dict[str, Any]:
-        """What says its force but the factor, by key path."""
+        """Stiffness or damping as a number or a table, by key path."""
         name = "stiffness" if self.table is None else "table"
         return {self.key(name): getattr(self, name)}
 
@@ -150,7 +150,7 @@ class Damper(Section, of=SpringDamper):
 
     @property
     def given(self) -> dict[str, Any]:
-        """What says its force but the factor, by key path."""
+        """Stiffness or damping as a number or a table, by key path."""
         name = "damping" if self.table is None else "table"
         return {self.key(name): getattr(self, name)}
 

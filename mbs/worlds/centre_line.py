@@ -1,4 +1,4 @@
-"""The line in the middle of a course: a curve through points, its stations and what lies beside it."""
+"""Centre line of a course: curve through points, stations, and offsets to its sides."""
 
 import math
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Courses of a description: from segments, points or a CSV file to layers, and what is wrong with them."""
+"""Courses of a description from segments, points or a CSV file, converted to layers and checked."""
 
 import itertools
 import math
@@ -188,7 +188,7 @@ def read_course(file: Path) -> dict[str, Float]:
 
 
 def _column(heading: str) -> str:
-    """What a column is by its heading; empty: it is not known, or not in metres."""
+    """Meaning of a column by its heading; empty: unknown, or not in metres."""
     name = re.sub("[ -]+", "_", heading.strip().lower())
     match = _IN_METRES.fullmatch(name)
     return COLUMNS.get(match[1] if match and name != "bank_m" else name, "")

@@ -108,5 +108,5 @@ def _drawing(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: f
 
 
 def _place(body: Body, point: ArrayLike | None) -> ArrayLike:
-    """Where an end is; of a particle its own place."""
+    """Point of an end of the joint; for a particle its own position."""
     return body.com if point is None else point

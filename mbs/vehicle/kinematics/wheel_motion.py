@@ -1,4 +1,4 @@
-"""Place, attitude and instantaneous screw of a wheel and its carrier, and what ISO 8855 calls them.
+"""Position, attitude and rates of a wheel and its carrier, with the angles of ISO 8855.
 
 Vehicle axes: x forward, y left, z up; the chassis stands. Angles of the right wheel are those of its mirror image where
 their names say toe, camber or kingpin, and in vehicle axes where they say steer or inclination.

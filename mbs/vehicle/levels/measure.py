@@ -129,7 +129,7 @@ def _cost(system: System, drive: Drive, h: float, grid: float) -> float:
 
 
 def _end(drive: Drive, grid: float) -> float:
-    """How long a run is, s."""
+    """Duration of a run, s."""
     return grid * int(drive.duration / grid + 1e-9)
 
 

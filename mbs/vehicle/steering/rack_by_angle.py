@@ -87,7 +87,7 @@ class RackByAngle(RackSection):
         return super().wheel_angle_max if self.by_table is None else self.by_table.at(self.rack_travel)[0]
 
     def wheel_at(self, motion: float) -> tuple[float, float]:
-        """By the table where there is one."""
+        """Angle of the steering wheel, rad, and its slope at a travel of the rack; by the table if there is one."""
         return super().wheel_at(motion) if self.by_table is None else self.by_table.at(motion)
 
     def build(self, b: CarBuilder, way: float) -> Steered:

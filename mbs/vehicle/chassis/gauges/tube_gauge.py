@@ -66,7 +66,7 @@ class TubeGauge(Section):
         return StrainGauge(name, elements[number], along - number, (radius * y, radius * z))
 
     def readings(self, gauge: StrainGauge, frame: Frame) -> Iterator[Reading]:
-        """What it reports.
+        """Readings of the gauge.
 
         `gauge`: from `strain_gauge`; `frame`: with its tube.
         """
