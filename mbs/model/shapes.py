@@ -210,9 +210,9 @@ class ShapeVocabulary(BodyVocabulary):
             turned: Affine | str = angle
         else:
             turned = self.expression(angle, f"The {what}")
-        made = Turning(name, owner, centre, tuple(unit.tolist()), turned)
-        self._turnings.append(made)
-        return made
+        shape = Turning(name, owner, centre, tuple(unit.tolist()), turned)
+        self._turnings.append(shape)
+        return shape
 
 
 def _owner(model: BodyVocabulary, owner: object, what: str) -> Owner:

@@ -45,8 +45,8 @@ class SlidingVocabulary(ShapeVocabulary):
         """
         if not isinstance(way, str):
             raise ModelError(f"The way of the sliding '{name}' must be the name of a sensor, not {shown(way)}.")
-        made = ShapeVocabulary.turning(self, name, body, at=at, axis=direction, angle=way)
-        slides = Sliding(made.name, made.carrier, made.centre, made.axis_reference, way)
+        shape = ShapeVocabulary.turning(self, name, body, at=at, axis=direction, angle=way)
+        slides = Sliding(shape.name, shape.carrier, shape.centre, shape.axis_reference, way)
         self._turnings[-1] = slides
         return slides
 

@@ -89,13 +89,13 @@ def compared(road: GridRoad, known: Iterable[tuple[Values, Values]], source: str
     """
     heights = np.ascontiguousarray(road.heights, np.float64)
     largest, place, squares, count = 0.0, (float(road.origin[0]), float(road.origin[1])), 0.0, 0
-    for places, there in known:
-        off = np.abs(grid_heights(road, heights, places) - there)
+    for places, heights_there in known:
+        off = np.abs(grid_heights(road, heights, places) - heights_there)
         off = np.where(np.isnan(off), 0.0, off)
         k = int(off.argmax())
         if off[k] > largest:
             largest, place = float(off[k]), (float(places[k, 0]), float(places[k, 1]))
-        squares, count = squares + float(off @ off), count + int(np.isfinite(there).sum())
+        squares, count = squares + float(off @ off), count + int(np.isfinite(heights_there).sum())
     rms = float(np.sqrt(squares / max(count, 1)))
     return SampledRoad(road.origin, road.spacing, heights, road.frictions, 1.0, source, largest, rms, place)
 

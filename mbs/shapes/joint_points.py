@@ -123,13 +123,13 @@ def _sliding_frames(model: Model, names: FrameNames, drawn: Vector, slide: Slidi
     name = f"end of {slide.name}" if slide.name in taken else slide.name
     found: dict[str, dict[str, Any]] = {}
     for k, (direction, guide) in enumerate(slide.ways):
-        way = _way(model, guide)
-        if not way:
+        sliding_direction = _way(model, guide)
+        if not sliding_direction:
             return {}
         last = k == len(slide.ways) - 1
         own, start = name if last else f"{name} {k + 1}", float(model.guides[guide].start)
         along = numbers(place_drawn(drawn, direction))
-        found[own] = {"parent": parent, "at": at, "direction": along, "way": way, "start": start}
+        found[own] = {"parent": parent, "at": at, "direction": along, "way": sliding_direction, "start": start}
         parent, at = own, [0.0, 0.0, 0.0]
     return found
 

@@ -138,14 +138,14 @@ def tmeasy_plausibility(what: str, tyre: Tyre, kind: str = "", prefix: str = "")
     mistakes = []
     for name, per in (("lateral", "degree"), ("longitudinal", "percent")):
         factor = DEG if per == "degree" else 0.01
-        for fields, way, words in (
+        for fields, direction, text in (
             (("slope",), 1.0 / factor, f"per {per} in place of per slip in {prefix}{name}.slope"),
             (("max_slip", "slide_slip"), factor, f"{per}s in place of a ratio in {prefix}{name}.max_slip"),
         ):
             curve = getattr(tyre, name)
-            changed = replace(curve, **{f: tuple(way * v for v in getattr(curve, f)) for f in fields})
+            changed = replace(curve, **{f: tuple(direction * v for v in getattr(curve, f)) for f in fields})
             keys = frozenset(f"{prefix}{name}.{f}" for f in fields)
-            mistakes.append(Mistake(words, keys, partial(_tmeasy_values, replace(tyre, **{name: changed}), prefix)))
+            mistakes.append(Mistake(text, keys, partial(_tmeasy_values, replace(tyre, **{name: changed}), prefix)))
     values = partial(_tmeasy_values, prefix=prefix)
     return Plausibility(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
 

@@ -190,8 +190,8 @@ class Linkage(StandingModel):
         rows = [jacobian]
         for spring in self.springs:
             D, d = self.linear(spring)
-            way = D @ at.q + d
-            rows.append((way @ D / np.linalg.norm(way))[None])
+            line_vector = D @ at.q + d
+            rows.append((line_vector @ D / np.linalg.norm(line_vector))[None])
         right = np.concatenate([-ahead, np.zeros(2)])
         return np.asarray(np.linalg.lstsq(np.vstack(rows), right, rcond=RANK_TOLERANCE)[0])
 
