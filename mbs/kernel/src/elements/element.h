@@ -72,15 +72,13 @@ typedef struct ali3_element_type {
    * f . (u1 - u0) = -(V(u1) - V(u0)) minus the dissipation of dampers, exactly. It is called at the middle of the step, u,
    * with ud = (u1 - u0) / (2 h), its h being half a step. NULL: `evaluate` is exact or accurate enough there. */
   ali3_element_function *discrete;
-  ali3_element_function
-      *accept; /* called once per accepted step, and with h = 0 at a start: discrete changes in y_new */
+  ali3_element_function *accept; /* once per accepted step, and with h = 0 at a start: discrete changes in y_new */
   /* Of springs with end stops, whose first outputs are length and force: whether the length is beyond a stop. */
   bool (*stops)(const double *real, const double *out);
   /* Of the same springs: share of a step of size h at which the first stop with a kink is met or left, from the outputs at
    * the start and the end of the step; 1: none is. */
   double (*event)(const double *real, int32_t nreal, const double *from, const double *to, double h);
-  bool
-      conservative; /* it has a potential, or its force depends on inputs alone: composed steps of order four accept it */
+  bool conservative; /* a potential, or a force of inputs alone: composed steps of order four accept it */
   /* Whether a conservative element dissipates energy with these data. */
   bool (*lossy)(const double *real, int32_t nreal, const int32_t *integer);
   /* Verdict on a start, from u, real, integer and roads, with the scene raised by `raised`, m; and the sentence for a
