@@ -1,1 +1,1 @@
-"""The FMI face of a System: its table of variables, its model description and what carries it into a host."""
+"""FMUs of a System: table of variables, model description, slaves in C and Python, archive."""

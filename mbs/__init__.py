@@ -28,13 +28,13 @@ if TYPE_CHECKING:
     from mbs.results.animation import animate as animate
     from mbs.results.poses import Poses as Poses
     from mbs.results.simulation_error import SimulationError as SimulationError
+    from mbs.results.step_control import Control as Control
     from mbs.results.trajectory import Trajectory as Trajectory
     from mbs.roads import RoadFile as RoadFile
     from mbs.roads import RoadFileError as RoadFileError
     from mbs.roads import RoadWarning as RoadWarning
     from mbs.roads import read_road as read_road
     from mbs.roads import write_road as write_road
-    from mbs.settings.control import Control as Control
     from mbs.settings.settings import Settings as Settings
     from mbs.simulation.branch_warning import BranchWarning as BranchWarning
     from mbs.simulation.large_bending import BendingWarning as BendingWarning
@@ -63,7 +63,7 @@ _LAZY = {
     "AccuracyWarning": "mbs.results.accuracy",
     "Animation": "mbs.results.animation",
     "animate": "mbs.results.animation",
-    "Control": "mbs.settings.control",
+    "Control": "mbs.results.step_control",
     "Poses": "mbs.results.poses",
     "Pose": "mbs.simulation.state",
     "RoadFile": "mbs.roads",

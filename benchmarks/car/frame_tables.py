@@ -11,11 +11,11 @@ from benchmarks.car import calculix
 from benchmarks.car.calculix import FRAME, INTERFACES, REFERENCE
 from benchmarks.car.statics import interface_forces
 from benchmarks.shared.pages import table
-from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.frequencies import natural_modes
 from mbs.flexible.load_paths import interface_loads, load_path_modes
 from mbs.flexible.recovery import gauge_rows
+from mbs.flexible.relief_solution import inertia_relief
 
 Array = NDArray[np.float64]
 FREQUENCIES, FIRST = 15, 5

@@ -1,4 +1,4 @@
-"""Checks of what callers of `build_fmu` give; each error is one sentence, before anything is written."""
+"""Checks of the arguments of `build_fmu`, made before any file is written; each error is one sentence."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike

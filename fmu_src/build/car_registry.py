@@ -1,4 +1,4 @@
-"""Finds a car by its name or its file and compiles it in all its fidelities, with what an FMU keeps of the file."""
+"""Finds a car by its name or its file, compiles it in all fidelities and adds the data that its FMU stores."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -95,7 +95,7 @@ def grip_of(car: Car) -> dict[str, str]:
 
 
 def car_text(car: str) -> str:
-    """What is going to be built, for a person: a car of the package and a folder here may have one name.
+    """Description of the car that will be built: of the package or of a folder, which may have the same name.
 
     `car`: as for `build_car`.
     """

@@ -128,7 +128,7 @@ def _build_kernel(platforms: str, out: Path | None) -> int:
 
 
 def _add_platforms(options: argparse.Namespace) -> int:
-    """More platforms for an FMU that is there."""
+    """Add platforms to an existing FMU."""
     from ali3.files import check_writable
     from fmu_src.build.progress_line import ProgressLine
     from fmu_src.native.added_platforms import add_platforms
@@ -153,14 +153,17 @@ def _build(options: argparse.Namespace) -> int:
     kinds = list(dict.fromkeys(options.kind.split(",")))
     if set(kinds) - set(KINDS):
         raise UserError(f"There is no FMU kind '{options.kind}'; the kinds are {', '.join(KINDS)}.")
-    here = this_platform()
-    platforms = _platforms(options.platforms, here)
+    host_platform = this_platform()
+    platforms = _platforms(options.platforms, host_platform)
     if "python" in kinds:
         _need("pythonfmu")
     _need("ziglang")
     _need("pyssp_standard")
 
-    first, rest = [p for p in platforms if p == here], [p for p in TARGETS if p in platforms and p != here]
+    first, rest = (
+        [p for p in platforms if p == host_platform],
+        [p for p in TARGETS if p in platforms and p != host_platform],
+    )
     ahead = [(face_name(kind), p) for p in first + rest for kind in kinds if _able(kind, p)]
     with compiled_ahead(ahead), warning_lines():
         return _build_kinds(options, kinds, first, rest)
@@ -192,11 +195,11 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
         print(f"{kind}: left out, it runs on {', '.join(able_platforms(kind))} only", flush=True)
         del able[kind]
     # what this machine runs is there after seconds; the other platforms, Windows with its C runtime, may take minutes
-    here = {kind: list(first) for kind in able if first and set(first) <= set(able[kind])}
-    everywhere = {kind: places for kind, places in able.items() if here.get(kind) != places}
+    first_builds = {kind: list(first) for kind in able if first and set(first) <= set(able[kind])}
+    everywhere = {kind: places for kind, places in able.items() if first_builds.get(kind) != places}
     meta = systems[fidelity].meta
-    told = False
-    for chosen in (here, everywhere):
+    parameters_written = False
+    for chosen in (first_builds, everywhere):
         line.expect(builder.pieces(chosen))
         for kind, places in chosen.items():
             file = builder.build(kind, places, files[kind])
@@ -205,9 +208,9 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
                 f"{len(meta['sensors'])} sensors; for {', '.join(places)}",
                 flush=True,
             )
-        if chosen and not told:
-            told = _write_parameters(builder.parameters, beside)
-        if chosen is here and here and everywhere:
+        if chosen and not parameters_written:
+            parameters_written = _write_parameters(builder.parameters, beside)
+        if chosen is first_builds and first_builds and everywhere:
             print(f"These run on this machine. Now the same files with {', '.join(rest)} in them:", flush=True)
     return 0
 

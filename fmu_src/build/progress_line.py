@@ -1,4 +1,4 @@
-"""One line on the terminal that says what a long build is doing."""
+"""Progress of a long build, shown in one line on the terminal."""
 
 import sys
 import threading

@@ -118,8 +118,8 @@ def _built(scene: str, build: Callable[..., Any]) -> mbs.Model | mbs.System:
         raise SceneError(
             f"Scene '{scene}' returned a {type(result).__name__}; it must return an mbs.Model or mbs.System."
         )
-    made: mbs.Model | mbs.System = result
-    return made
+    model: mbs.Model | mbs.System = result
+    return model
 
 
 @contextmanager

@@ -32,7 +32,7 @@ LOG_CATEGORIES = {
 
 @dataclass(frozen=True)
 class Description:
-    """What modelDescription.xml says beside the variables."""
+    """Content of modelDescription.xml other than the variables."""
 
     model_name: str
     model_identifier: str

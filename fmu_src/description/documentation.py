@@ -1,4 +1,4 @@
-"""documentation/index.html: what the FMU is, its axes and all its variables."""
+"""documentation/index.html of an FMU: its model, its axes and a table of all variables."""
 
 from collections.abc import Sequence
 from html import escape

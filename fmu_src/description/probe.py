@@ -1,10 +1,11 @@
-"""Which variables reach which initial outputs, and how large the outputs become: found by trying, at build time.
+"""Dependencies of initial outputs on variables, and sizes of outputs, measured by trial runs when an FMU is built.
 
-A variable reaches an output if changing it, and nothing else, changes a bit of the output in the initial state from
-random values. Parameters are changed in groups (`parameter_groups`), and what a group reaches depends on each of it.
-Positions and velocities show their paths at any values. Forces have regimes, such as a kerb that no wheel stands on:
-what a force reaches is declared to depend on all parameters and the place of the start. After the initialisation no
-input changes an output before the next step: the slave gives values to the kernel as that begins (`step.c`).
+An output depends on a variable if changing this variable alone, from random values, changes a bit of the output in the
+initial state. Parameters are changed in groups (`parameter_groups`); an output that changes depends on all of the
+group. Positions and velocities show their dependencies at any values. Forces have regimes, such as a kerb on which no
+wheel stands: an output with forces is declared to depend on all parameters and on the pose of the start. After the
+initialisation no input changes an output before the next step, as the slave passes values to the kernel when a step
+begins (`step.c`).
 """
 
 import random
@@ -33,27 +34,27 @@ _POSE = {
     "initial.yaw_rate": 0.5,
 }
 _OPEN_RANGE = 10.0
-# Shares of the ranges in turn: a mechanism may not bear all of them.
+# Shares of the ranges, used in turn: a mechanism may not assemble at extreme values.
 _SHARES = (1.0, 0.1, 0.01)
 # Types of sensors, see docs/system_file.md.
 _WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.DIRECTION)
-_SECOND = 2  # second rates need accelerations
+_SECOND = 2  # order of second rates, which need accelerations
 _ON_ROAD = (ElementType.TYRE, ElementType.MAGIC_TYRE, ElementType.CONTACT_POINTS)
 _FEEDTHROUGH, _MOTION, _FORCE = "feedthrough", "motion", "force"
 
 
 @dataclass(frozen=True)
 class Dependencies:
-    """Places of variables, ascending, by the place of an output in the table."""
+    """Dependencies and sizes of outputs; outputs and variables are given by their indices in the table."""
 
     initial: dict[int, tuple[int, ...] | None]
-    """Inputs and parameters that reach the initial output; None: all of them, as after a start that has settled."""
+    """Inputs and parameters on which an initial output depends, ascending; None: all, as after a settled start."""
     size: dict[int, float]
-    """Largest absolute value seen; 0 where it was never anything else."""
+    """Largest absolute value of an output in all trials."""
 
 
 def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependencies:
-    """Try a System, or all fidelities of one. Result: what holds for all of them together; the same at every call."""
+    """Measure dependencies and sizes over a System or all its fidelities; the result is the same at every call."""
     outputs = [i for i, v in enumerate(table) if v.causality == "output"]
     tries = _Tries(table, outputs)
     for system in systems:
@@ -66,11 +67,13 @@ def probe(systems: Sequence[mbs.System], table: Sequence[Variable]) -> Dependenc
 
 
 class _Tries:
+    """Trial starts and steps of Systems with random values, and the dependencies and sizes that they have shown."""
+
     def __init__(self, table: Sequence[Variable], outputs: Sequence[int]) -> None:
         self.table = table
         self.outputs = outputs
         self.sensed = [i for i in outputs if table[i].source == "sensor"]
-        self.moved: dict[int, set[int]] = {i: set() for i in outputs}  # by which inputs over a step
+        self.moved: dict[int, set[int]] = {i: set() for i in outputs}  # inputs that change it over a step
         self.initial: dict[int, set[int]] = {i: set() for i in outputs}
         self.settling: set[int] = set()
         self.size = dict.fromkeys(outputs, 0.0)
@@ -81,9 +84,10 @@ class _Tries:
         self.settable = [i for i, v in enumerate(table) if v.source in ("input", "parameter", "pose")]
 
     def system(self, system: mbs.System, kernel: Instance) -> None:
+        """Try one System: starts with single changes, then steps with changed inputs."""
         rng = random.Random(_SEED)
         groups = self._groups(system, kernel)
-        shown = dict.fromkeys(map(tuple, groups), False)
+        compared = dict.fromkeys(map(tuple, groups), False)
         starts = [self._start(kernel, {})]
         for k in range(_INITIAL_TRIES):
             self.share = _SHARES[k % len(_SHARES)]
@@ -94,24 +98,24 @@ class _Tries:
                 continue
             for group, change in zip(groups, changes, strict=True):
                 other = self._start(kernel, values | change)
-                shown[tuple(group)] |= other is not None
+                compared[tuple(group)] |= other is not None
                 for i in group:
                     self._compare(self.initial, i, starts[-1], other)
-        unknown = {i for group, known in shown.items() if not known for i in group}
-        for i in self.outputs:  # no start shows what these reach
+        unknown = {i for group, was_compared in compared.items() if not was_compared for i in group}
+        for i in self.outputs:  # no start has shown whether they depend on these
             self.initial[i] |= unknown
         self.of_fidelity.append(starts)
         fidelity = next((i for i, v in enumerate(self.table) if v.source == "fidelity"), None)
         if fidelity is not None:
-            for first, mine in zip(self.of_fidelity[0], starts, strict=True):
-                self._compare(self.initial, fidelity, first, mine)
+            for first, other_start in zip(self.of_fidelity[0], starts, strict=True):
+                self._compare(self.initial, fidelity, first, other_start)
         h = float(system.meta["experiment"]["step_s"])
         for k in range(_STEP_TRIES):
             self.share = _SHARES[k % len(_SHARES)]
             self._steps(kernel, h, rng)
 
     def _groups(self, system: mbs.System, kernel: Instance) -> list[list[int]]:
-        """What is changed at once at a start: an input, a number of the pose, a group of parameters."""
+        """Variables changed together at a start: an input, a component of the pose, or a group of parameters."""
         rng = random.Random(_SEED)
         self.share = 1.0
         groups = parameter_groups(system, kernel, lambda p: self._random(self.parameters[p], rng), rng)
@@ -119,9 +123,9 @@ class _Tries:
         return alone + [[self.parameters[p] for p in group] for group in groups]
 
     def close(self, systems: Sequence[mbs.System]) -> None:
-        """Add what no try may have opened."""
+        """Add dependencies that trials may not have shown: those of forces and of a settled start."""
         kinds = {i: {_kind(system, self.table[i].index) for system in systems} for i in self.sensed}
-        kind = {i: next(k for k in (_FORCE, _MOTION, _FEEDTHROUGH) if k in found) for i, found in kinds.items()}
+        kind = {i: next(k for k in (_FORCE, _MOTION, _FEEDTHROUGH) if k in of) for i, of in kinds.items()}
         placed = {i for i, v in enumerate(self.table) if v.source in ("parameter", "pose")}
         forced = {k for i in self.sensed if kind[i] == _FORCE for k in self.initial[i]}
         on_road = {i for i in self.sensed if any(_meets_road(system, self.table[i].index) for system in systems)}
@@ -138,6 +142,7 @@ class _Tries:
             self.settling = moving | {i for i in ahead if {self.table[i].index, self.table[i].other} & moving}
 
     def _steps(self, kernel: Instance, h: float, rng: random.Random) -> None:
+        """Make some steps with random inputs, then compare one step with and without a change of each input."""
         values = {i: self._random(i, rng) for i in self.settable}
         if self._start(kernel, values) is None and self._start(kernel, {}) is None:
             return
@@ -149,7 +154,7 @@ class _Tries:
                     for i in self.inputs:
                         kernel.set_input(self.table[i].index, self._random(i, rng))
         except KernelError:
-            pass  # the last good state stays
+            pass  # the last accepted state remains
         state = kernel.save()
         base = self._stepped(kernel, h)
         for i in self.inputs:
@@ -158,6 +163,7 @@ class _Tries:
             self._compare(self.moved, i, base, self._stepped(kernel, h))
 
     def _stepped(self, kernel: Instance, h: float) -> list[float] | None:
+        """Sensors after one step; None if it fails."""
         try:
             kernel.step(h)
         except KernelError:
@@ -165,19 +171,21 @@ class _Tries:
         return list(kernel.sensors())
 
     def _compare(
-        self, reach: dict[int, set[int]], known: int, one: list[float] | None, other: list[float] | None
+        self, reach: dict[int, set[int]], variable: int, one: list[float] | None, other: list[float] | None
     ) -> None:
+        """Add a variable to the dependencies of all outputs that differ between two lists of sensors."""
         if one is None or other is None:
             return
         for i in self.sensed:
             if one[self.table[i].index] != other[self.table[i].index]:
-                reach[i].add(known)
+                reach[i].add(variable)
 
     def _sizes(self, sensors: list[float]) -> None:
         for i in self.sensed:
             self.size[i] = max(self.size[i], abs(sensors[self.table[i].index]))
 
     def _random(self, i: int, rng: random.Random) -> float:
+        """A random value of a variable within the present share of its range."""
         v = self.table[i]
         span = _POSE.get(v.name, _OPEN_RANGE) if v.source == "pose" else _OPEN_RANGE
         centre = v.start or 0.0
@@ -191,7 +199,7 @@ class _Tries:
         return float(round(value)) if v.whole else centre + self.share * (value - centre)
 
     def _start(self, kernel: Instance, values: dict[int, float]) -> list[float] | None:
-        """Sensors of the initial state; None where there is none with these values."""
+        """Sensors of the initial state with given values; None if the start fails."""
         kernel.reset()
         pose = [0.0] * len(_POSE)
         try:

@@ -24,17 +24,17 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
     scene = system.scene
     bound = bind(system, scene["frames"], system.drawing.shared)
     named = {own.name: v for own, v in zip(with_names_of_model(table, system.meta), table, strict=True)}
-    known = set(named)
-    here = {"ground", *bound.frames}
+    variable_names = set(named)
+    available_frames = {"ground", *bound.frames}
 
     def kept(parts: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-        return [moved_part(part, bound.moved) for part in parts if here.issuperset(frames_of(part))]
+        return [moved_part(part, bound.moved) for part in parts if available_frames.issuperset(frames_of(part))]
 
     parts = [
         part | {"amplitudes": [bound.amplitudes.get(name, name) for name in part["amplitudes"]]}
         for part in kept(scene["flexible"])
     ]
-    bending = [part for part in parts if set(part["amplitudes"]) <= known]
+    bending = [part for part in parts if set(part["amplitudes"]) <= variable_names]
     shapes = kept(scene["shapes"])
     if bending:
         shapes = [shape for shape in shapes if shape.get("name") != FRAME_TUBE]
@@ -48,8 +48,8 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
         "shapes": shapes,
         "meshes": {key: mesh for key, mesh in scene["meshes"].items() if key in used},
         "flexible": bending,
-        "arrows": [arrow for arrow in kept(scene["arrows"]) if known.issuperset(columns_of(arrow))],
-        "roads": with_parameters(scene["roads"], system, known),
+        "arrows": [arrow for arrow in kept(scene["arrows"]) if variable_names.issuperset(columns_of(arrow))],
+        "roads": with_parameters(scene["roads"], system, variable_names),
         "focus": scene["focus"] if scene["focus"] in bound.frames else "",
         "missing": [
             *scene["missing"],

@@ -1,4 +1,4 @@
-"""The scene of an FMU whose variables have other names than the model, or names and units of another program."""
+"""Scene of an FMU whose variables have other names than the model, or names and units of another program."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -1,4 +1,4 @@
-"""What sensors of a System read, as rows over its coordinates, so that poses are found by their meaning."""
+"""Sensors of a System as linear functions of its coordinates, by which the sensors of a pose are recognised."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

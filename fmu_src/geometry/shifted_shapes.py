@@ -1,4 +1,4 @@
-"""Places of shapes in frames whose origin is elsewhere."""
+"""Coordinates of shapes transformed to frames with another origin."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -1,4 +1,4 @@
-"""Systems of an FMU with what draws them as outputs: what bends, and the poses of all bodies where they are needed."""
+"""Systems of an FMU with sensors for drawing: amplitudes of flexible bodies, and poses of all bodies if needed."""
 
 from collections.abc import Callable, Mapping
 from typing import Any

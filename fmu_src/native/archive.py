@@ -1,4 +1,4 @@
-"""What every kind of FMU is packed with: identity, licence, zip. The same content gives the same bytes."""
+"""Parts common to all FMU archives: identity, licence and reproducible zip files."""
 
 import hashlib
 import importlib.metadata

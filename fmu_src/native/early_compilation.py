@@ -56,7 +56,7 @@ def compiled_ahead(work: Sequence[tuple[str, str]]) -> Iterator[None]:
 
 
 def _backwards(command: Sequence[str]) -> list[str]:
-    """The same command with its C files in reverse order, and a library of its own."""
+    """The command with its C files in reverse order and an output library of its own."""
     files = [k for k, part in enumerate(command) if part.endswith(".c")]
     turned, out = list(command), command.index("-o") + 1
     turned[out] += ".2"
@@ -67,7 +67,7 @@ def _backwards(command: Sequence[str]) -> list[str]:
 
 @contextmanager
 def _compilers(commands: Sequence[Sequence[str]]) -> Iterator[None]:
-    """As many compilers at once as there are processors. Errors are ignored here; the build itself reports them."""
+    """Run as many compilers at once as there are processors. Errors are ignored here; the build itself reports them."""
     environment, lock, ended = build.compiler_environment(), threading.Lock(), threading.Event()
     running: list[subprocess.Popen[bytes]] = []
 

@@ -1,4 +1,4 @@
-"""FMI 2.0 and FMI 3.0: what each packs in its own way."""
+"""Differences between the archives of FMI 2.0 and FMI 3.0."""
 
 from collections.abc import Callable, Sequence
 

@@ -33,7 +33,7 @@ Telling = Callable[..., AbstractContextManager[None]]
 
 @dataclass(frozen=True)
 class NativeContents:
-    """What goes into an FMU, whatever its kind."""
+    """Content of an FMU that does not depend on the version of FMI."""
 
     model_name: str
     """A C identifier, also the model identifier."""
@@ -161,7 +161,7 @@ class NativeContents:
 
 @dataclass(frozen=True)
 class Face:
-    """What one version of FMI packs otherwise than another."""
+    """Content of an FMU that depends on the version of FMI."""
 
     name: str
     """``fmi2`` or ``fmi3``; its C files begin with it."""
@@ -238,7 +238,7 @@ def pack_native(
 
 
 def first_time(platform: str) -> str:
-    """What a person should know who waits for the compiler."""
+    """Message about the time that the first compilation takes."""
     return "the first time, Windows' C runtime is compiled too: some minutes" if platform == "win64" else ""
 
 

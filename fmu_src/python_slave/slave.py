@@ -1,4 +1,4 @@
-"""The slave as PythonFMU knows it: every call goes on to the slave in C, which decides, answers and logs.
+"""PythonFMU slave that passes every call to the slave in C.
 
 The library of the FMU (`detour.c`) makes the slave in C. It gives its address and functions as the name of the
 instance, the only text that PythonFMU hands over. Answers do not pass PythonFMU, which knows few of them and makes

@@ -1,4 +1,4 @@
-"""The parameter set that lies beside an FMU: all its parameters with their defaults, for a person to edit."""
+"""Parameter set (SSV) written beside an FMU: all its parameters with their defaults, to be edited."""
 
 import math
 from collections.abc import Sequence
@@ -14,16 +14,16 @@ from fmu_src.variables.variables import Variable
 
 
 def parameter_set(name: str, table: Sequence[Variable], texts: Sequence[TextVariable] = ()) -> ParameterSet:
-    """All parameters of a table of variables."""
-    chosen = [v for v in table if v.causality == "parameter" and v.start is not None]
-    units = {v.unit: parse_unit(v.unit, foreign=bool(v.ours)) for v in chosen if not v.whole}
+    """Parameter set with the start values of all parameters of a table of variables, and of text variables."""
+    parameters = [v for v in table if v.causality == "parameter" and v.start is not None]
+    units = {v.unit: parse_unit(v.unit, foreign=bool(v.ours)) for v in parameters if not v.whole}
     definitions = {n: UnitDefinition(u.exponents, u.factor) for n, u in sorted(units.items())}
-    written = [Entry(t.name, "String", t.start, None, parameter_text(t.description, "", "fixed")) for t in texts]
-    return ParameterSet(name, [_entry(v) for v in chosen] + written, definitions)
+    text_entries = [Entry(t.name, "String", t.start, None, parameter_text(t.description, "", "fixed")) for t in texts]
+    return ParameterSet(name, [_entry(v) for v in parameters] + text_entries, definitions)
 
 
 def write_beside(parameters: ParameterSet, file: Path) -> bool:
-    """Write the file unless a person has changed the one that is there. Returns whether it was written."""
+    """Write the file unless an existing one was edited since it was built. Returns whether it was written."""
     if file.exists() and not is_as_built(file):
         return False
     write_parameter_set(parameters, file, as_built=True)
@@ -31,10 +31,11 @@ def write_beside(parameters: ParameterSet, file: Path) -> bool:
 
 
 def _entry(v: Variable) -> Entry:
+    """Entry of a parameter, with its start value, unit and a text that states its range."""
     assert v.start is not None
-    bounds = range_text(
-        -math.inf if v.min is None else v.min, math.inf if v.max is None else v.max, "1" if v.whole else v.unit
-    )
+    least = -math.inf if v.min is None else v.min
+    most = math.inf if v.max is None else v.max
+    bounds = range_text(least, most, "1" if v.whole else v.unit)
     text = parameter_text(v.description, bounds, v.variability)
     if v.whole:
         return Entry(v.name, "Integer", str(int(v.start)), None, text)

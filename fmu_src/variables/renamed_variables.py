@@ -24,7 +24,7 @@ class Renamed:
 
     @property
     def named(self) -> dict[str, Variable]:
-        """Those that have another name, by ours."""
+        """Variables that have another name, by our name."""
         return {v.ours: v for v in self.table if v.ours}
 
 

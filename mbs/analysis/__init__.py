@@ -1,1 +1,1 @@
-"""What is known of a System without running it: linear models, steady and periodic motions."""
+"""Analysis of a System: linear models, steady and periodic motions."""

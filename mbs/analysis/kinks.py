@@ -72,12 +72,12 @@ def _worst_kink(evaluator: Evaluator, state: State) -> tuple[int, float, float] 
 
 def _warn_of_bends(evaluator: Evaluator, state: State) -> None:
     """Forces that are linear only in velocities far below those of a motion, such as a very small friction."""
-    here = evaluator.rates(state.q, state.qd, state.y)[: len(state.q)]
-    noise = 1e-13 * np.abs(here).max(initial=0.0) / SHIFT
+    rates = evaluator.rates(state.q, state.qd, state.y)[: len(state.q)]
+    noise = 1e-13 * np.abs(rates).max(initial=0.0) / SHIFT
     bends = []
     for i, name in enumerate(evaluator.system.meta["coordinates"]):
-        narrow = _slope(evaluator, state, i, SHIFT, here)
-        both = [_slope(evaluator, state, i, s * WIDE * SHIFT, here) for s in (1.0, -1.0)]
+        narrow = _slope(evaluator, state, i, SHIFT, rates)
+        both = [_slope(evaluator, state, i, s * WIDE * SHIFT, rates) for s in (1.0, -1.0)]
         gaps = [float(np.abs(slope - narrow).max()) for slope in both]
         wide = both[int(np.argmin(gaps))]  # away from a kink beside the state
         if np.abs(narrow - wide).max() > BEND * max(np.abs(narrow).max(), np.abs(wide).max()) + 10.0 * noise:

@@ -1,4 +1,4 @@
-"""Floquet multipliers of a periodic motion: what becomes of small disturbances after one period.
+"""Floquet multipliers of a periodic motion: growth of small disturbances over one period.
 
 The monodromy matrix maps admissible displacements and velocities (z, w) of `mbs.linearise` over one period; its
 columns are central differences of whole runs. A motion is stable where no multiplier lies outside the unit circle

@@ -1,4 +1,4 @@
-"""Steady motions (relative equilibria): the frame in which a moving System stands still.
+"""Steady motions (relative equilibria) of a System.
 
 Candidates are the motions that may leave the equations as they are: turns and shifts of the whole scene, turns of each
 rigid body about its centre of mass in its own axes (a symmetric rotor or top), growing angles, and time itself. Each

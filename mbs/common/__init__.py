@@ -1,1 +1,1 @@
-"""What all rooms of the engine use: expressions of coordinates, checks of arguments, errors, frames, progress bars."""
+"""Shared by all rooms of the engine: expressions of coordinates, checks of arguments, errors, frames, progress bars."""

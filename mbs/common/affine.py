@@ -1,4 +1,4 @@
-"""Affine expressions of the full coordinates: what points and vectors of rigid bodies are in natural coordinates."""
+"""Affine expressions of the full coordinates, which represent points and vectors of rigid bodies."""
 
 from __future__ import annotations
 

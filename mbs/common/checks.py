@@ -1,4 +1,4 @@
-"""Checks of what a user hands in: each returns a clean value or raises one sentence with the name and the value.
+"""Checks of arguments: each function returns a valid value or raises one sentence with the name and the value.
 
 A number is a real number of Python or NumPy, or an array without dimensions; text and truth values are refused.
 `what` names the thing as the subject of the sentence, such as "The mass of body 'rod'". Errors are `ModelError` where a

@@ -1,4 +1,4 @@
-"""Where the points and axes of the bodies are among the coordinates: what a shift or turn of the scene does to them."""
+"""Points and axes of bodies as full coordinates, and their change when the scene is moved or turned."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class FlexibleShapes:
-    """How the nodes of a flexible body turn in its floating frame."""
+    """Rotations of the nodes of a flexible body in its floating frame, per modal amplitude."""
 
     name: str
     first: int

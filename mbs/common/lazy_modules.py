@@ -8,7 +8,7 @@ from typing import Any
 
 
 def lazy_modules(package: str, names: Iterable[str], homes: Mapping[str, str] | None = None) -> Callable[[str], Any]:
-    """What a package takes as its ``__getattr__``.
+    """Function ``__getattr__`` of a package that imports modules when a name is first used.
 
     `homes`: functions, classes and others by name, with the full name of the module that each is in.
     """

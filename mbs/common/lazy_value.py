@@ -1,4 +1,4 @@
-"""What is made when it is first asked for."""
+"""Value that is computed when it is first used."""
 
 import threading
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""A progress bar on the terminal for runs that take a while; lines where there is none."""
+"""Progress bar on a terminal for long runs; plain lines if the output is not a terminal."""
 
 from __future__ import annotations
 

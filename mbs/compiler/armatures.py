@@ -1,4 +1,4 @@
-"""Armatures whose ratio a parameter writes, as the `armature_` arrays of the System."""
+"""Armatures whose ratio is set by a parameter, as the `armature_` arrays of the System."""
 
 from collections.abc import Sequence
 from typing import Any

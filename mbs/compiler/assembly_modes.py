@@ -1,11 +1,11 @@
-"""Assembly modes of closed loops: which signs its triads may have, as the `mode_` arrays of the System.
+"""Assembly modes of closed loops: the allowed signs of their triads, as the `mode_` arrays of the System.
 
-A block of loops with one freedom is traced once around from its drawing (`mbs.compiler.loop_motion`).
+A block of loops with one degree of freedom is traced once around from its drawing (`mbs.compiler.loop_motion`).
 
-- Where a body that is hinged on the frame makes a full turn on the way, as a crank does, the combinations of signs that
-  the way has are its modes: any other belongs to another circuit or branch.
+- Where a body hinged on the frame makes a full turn on this path, as a crank does, the combinations of signs along the
+  path are its modes: any other belongs to another circuit or branch.
 - Where none does, as in a suspension, a triad that changes its sign passes a dead centre, at which another body of the
-  loop turns back: the mechanism leaves its assembly mode.
+  loop reverses its rotation: the mechanism leaves its assembly mode.
 
 Circuits and branches: T. R. Chase, J. A. Mirth, Circuits and branches of single-degree-of-freedom planar linkages,
 J. Mech. Des. 115 (1993).
@@ -32,35 +32,36 @@ Array = NDArray[np.float64]
 MOST_VERTICES = 24
 """Blocks with more bodies and rods are not traced."""
 MOST_COORDINATES = 120
-"""Those of more moving coordinates neither: the matrices are dense."""
+"""Blocks with more moving coordinates are not traced: the matrices are dense."""
 MOST_TRIADS = 15
-"""Two bits each in an int32."""
+"""Triads of a block: each has two bits in an int32."""
 DEFINITE = 0.15
 """Sine or cosine beyond which a sign counts; the kernel has the same (assembly_mode.c)."""
 ASTRIDE = 3
-"""A dead centre is that many steps of the trace at most from where a body turns back."""
+"""Most steps of the trace between a dead centre and the point where a body reverses its rotation."""
 assert TURN < DEFINITE  # no combination of signs is stepped over
 
 
 def mode_arrays(
     model: Model, rows: Sequence[RowTerms], full: Sequence[Affine], q: Array, guides: Array, signals: Signals
 ) -> tuple[dict[str, Any], Callable[[], dict[str, Any]]]:
-    """The `mode_` arrays of the triads, and what traces their loops for those of the modes: only steps need these.
+    """Build the `mode_` arrays of the triads, and a function that traces their loops for the `mode_cell` arrays.
 
-    `rows`: over z; `full`: full coordinates over z; `q`: position of z, assembled.
+    Only stepping needs the latter. `rows`: constraint rows in z; `full`: full coordinates as expressions in z; `q`:
+    assembled values of z.
     """
     numbers, loops, names = [], [], []
     with_columns = [(row, set(row.columns())) for row in rows]
     for block in blocks_of_loops(model):
         if len(block.vertices) > MOST_VERTICES:
             continue
-        found = triads(block)
-        if not 0 < len(found) <= MOST_TRIADS:
+        block_triads = triads(block)
+        if not 0 < len(block_triads) <= MOST_TRIADS:
             continue
-        rings = sorted({t.ring for t in found})
-        numbers.append([n for t in found for n in _items(t, signals, rings.index(t.ring))])
-        loops.append((block, found, moving_part(model, block, with_columns, full)))
-        names += [list(t.name.encode()) for t in found]
+        rings = sorted({t.ring for t in block_triads})
+        numbers.append([n for t in block_triads for n in _items(t, signals, rings.index(t.ring))])
+        loops.append((block, block_triads, moving_part(model, block, with_columns, full)))
+        names += [list(t.name.encode()) for t in block_triads]
 
     def modes() -> dict[str, Any]:
         cells = [[n for cell in _modes(*loop, full, q, guides) for n in cell] for loop in loops]
@@ -70,41 +71,41 @@ def mode_arrays(
 
 
 def _items(triad: Triad, signals: Signals, ring: int) -> list[int]:
-    """What the kernel knows of a triad."""
+    """Integers of a triad in the System: its signals, the bits turned and planar, the number of its ring."""
     planar = not triad.n[0].terms and not triad.n[1].terms and all(v[2] == Affine() for v in (triad.a, triad.b))
     return [*(signals.number(c) for c in triad.components), int(triad.turned) + 2 * int(planar), ring]
 
 
 def _modes(
-    block: Block, found: Sequence[Triad], part: MovingPart, full: Sequence[Affine], q: Array, guides: Array
+    block: Block, block_triads: Sequence[Triad], part: MovingPart, full: Sequence[Affine], q: Array, guides: Array
 ) -> list[tuple[int, int]]:
-    """Modes as (signs, mask); none where the block has not one freedom or does not come back to its start."""
+    """Modes as (signs, mask); none if the block has several degrees of freedom or its trace does not close."""
     if not part.rows or part.bends or len(part.coordinates) > MOST_COORDINATES:
         return []
     hinges = _frame_hinges(block, full, q)
-    seen = [*found, *hinges]
-    parts = np.array([affine_of(c, full, part.coordinates, q) for t in seen for c in t.components])
-    turned = np.array([t.turned for t in seen])
-    way = trace(quadratics(part, q, guides), parts[:, 0], parts[:, 1:], turned, q[part.coordinates])
-    if way is None:
+    traced = [*block_triads, *hinges]
+    parts = np.array([affine_of(c, full, part.coordinates, q) for t in traced for c in t.components])
+    mirrored = np.array([t.turned for t in traced])
+    path = trace(quadratics(part, q, guides), parts[:, 0], parts[:, 1:], mirrored, q[part.coordinates])
+    if path is None:
         return []
-    n = len(found)
-    sines, cosines = way.sines[:, :n], way.cosines[:, :n]
-    turns = np.abs(way.steps.sum(axis=0)) > np.pi
-    if np.any(turns[n:]) or (part.driven and np.any(turns)) or way.branches:
+    n = len(block_triads)
+    sines, cosines = path.sines[:, :n], path.cosines[:, :n]
+    turns = np.abs(path.steps.sum(axis=0)) > np.pi
+    if np.any(turns[n:]) or (part.driven and np.any(turns)) or path.branches:
         return sorted({_cell(s, c) for s, c in zip(sines, cosines, strict=True)})
     if not part.sprung:
-        return []  # its motion is not limited
+        return []  # nothing limits its motion, so that it may leave the mode
     mask = 0
     for k in range(n):
-        if abs(sines[0, k]) > 2.0 * DEFINITE and _is_dead_centre(sines[:, k], way.steps):
+        if abs(sines[0, k]) > 2.0 * DEFINITE and _is_dead_centre(sines[:, k], path.steps):
             mask |= 1 << 2 * k
     signs = _cell(sines[0], cosines[0])[0]
     return [(signs & mask, mask)] if mask else []
 
 
 def _is_dead_centre(sine: Array, steps: Array) -> bool:
-    """Whether some angle turns back wherever the sine of a triad changes its sign; `steps`: a row of all angles."""
+    """Whether an angle reverses wherever the sine of a triad changes its sign. `steps`: rows of steps of all angles."""
     crossings = np.flatnonzero(sine[1:] * sine[:-1] < 0.0)
     back = np.any(steps * np.roll(steps, 1, axis=0) < 0.0, axis=1)
     near = np.array([np.any(np.take(back, range(i - ASTRIDE, i + ASTRIDE + 1), mode="wrap")) for i in crossings])
@@ -112,7 +113,7 @@ def _is_dead_centre(sine: Array, steps: Array) -> bool:
 
 
 def _cell(sine: Array, cosine: Array) -> tuple[int, int]:
-    """Bits 2k and 2k + 1: sine and cosine of triad k are positive; the mask has those that are definite."""
+    """Signs as bits, 2k and 2k + 1 of sine and cosine of triad k, 1 if positive; and the mask of definite ones."""
     signs = mask = 0
     for k, value in enumerate(np.stack([sine, cosine], axis=1).ravel().tolist()):
         if abs(value) >= DEFINITE:
@@ -122,8 +123,8 @@ def _cell(sine: Array, cosine: Array) -> tuple[int, int]:
 
 
 def _frame_hinges(block: Block, full: Sequence[Affine], q: Array) -> list[Triad]:
-    """The angles of the bodies that are hinged on the held one."""
-    found = []
+    """Rotations of the bodies that are hinged on the frame of the block, as triads."""
+    hinges = []
     values = np.array([e.value(q) for e in full])
     for edge in block.edges:
         if block.held not in edge.ends or edge.slides:
@@ -138,5 +139,5 @@ def _frame_hinges(block: Block, full: Sequence[Affine], q: Array) -> list[Triad]
         if planar:
             b = AffineVector((*b.components, Affine()))
         a = AffineVector.constant(perpendicular(n.value(values))[0])
-        found.append(Triad(edge.joints[0].name, n, a, b, False, -1))
-    return found
+        hinges.append(Triad(edge.joints[0].name, n, a, b, False, -1))
+    return hinges

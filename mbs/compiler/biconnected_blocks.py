@@ -1,4 +1,4 @@
-"""Blocks of a graph."""
+"""Blocks (biconnected components) of an undirected multigraph."""
 
 from collections.abc import Hashable, Iterable, Mapping
 from typing import TypeVar
@@ -8,14 +8,14 @@ E = TypeVar("E", bound=Hashable)
 
 
 def blocks_of(around: Mapping[V, Iterable[tuple[E, V]]]) -> list[list[E]]:
-    """The edges of each block: largest sets of which any two edges lie on a ring (biconnected components).
+    """Edges of each block: the largest sets of edges of which any two lie on a common cycle.
 
-    `around`: edges at each vertex, with the vertex at their other end; several may join the same two.
+    `around`: edges at each vertex, with the vertex at their other end; several edges may join the same two vertices.
 
     Returns
     -------
     list of list
-        Each in the order of a search in depth; an edge on no ring is a block by itself.
+        Edges of a block in the order of a depth-first search; an edge on no cycle is a block by itself.
 
     Notes
     -----
@@ -24,21 +24,21 @@ def blocks_of(around: Mapping[V, Iterable[tuple[E, V]]]) -> list[list[E]]:
     order: dict[V, int] = {}
     lowest: dict[V, int] = {}
     used: set[E] = set()
-    found: list[list[E]] = []
+    blocks: list[list[E]] = []
     for root in around:
         if root in order:
             continue
         order[root] = lowest[root] = len(order)
         path, edges = [(root, iter(around[root]), 0)], list[E]()
         while path:
-            here, rest, mark = path[-1]
-            for edge, other in rest:
+            vertex, remaining, first_edge = path[-1]
+            for edge, other in remaining:
                 if edge in used:
                     continue
                 used.add(edge)
                 edges.append(edge)
                 if other in order:
-                    lowest[here] = min(lowest[here], order[other])
+                    lowest[vertex] = min(lowest[vertex], order[other])
                     continue
                 order[other] = lowest[other] = len(order)
                 path.append((other, iter(around[other]), len(edges) - 1))
@@ -48,8 +48,8 @@ def blocks_of(around: Mapping[V, Iterable[tuple[E, V]]]) -> list[list[E]]:
                 if not path:
                     break
                 above = path[-1][0]
-                lowest[above] = min(lowest[above], lowest[here])
-                if lowest[here] >= order[above]:
-                    found.append(edges[mark:])
-                    del edges[mark:]
-    return found
+                lowest[above] = min(lowest[above], lowest[vertex])
+                if lowest[vertex] >= order[above]:
+                    blocks.append(edges[first_edge:])
+                    del edges[first_edge:]
+    return blocks

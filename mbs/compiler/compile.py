@@ -55,8 +55,8 @@ def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False)
         is no compiler.
     """
     closing = closed_loops(tolerance)
-    corrected, made = _closed(model, closing)
-    frames, start, make = made.frames, made.arrays["q0"], model.with_ports
+    corrected, compiled_loops = _closed(model, closing)
+    frames, start, make = compiled_loops.frames, compiled_loops.arrays["q0"], model.with_ports
     assert frames is not None
 
     def draw() -> Drawing:
@@ -68,7 +68,7 @@ def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False)
 
     late = LazyValue(draw)
     model.draw_before_change(late)
-    system = System.of(made, late, None if make is None else ported)
+    system = System.of(compiled_loops, late, None if make is None else ported)
     if flag(native, "The native of compile"):
         system.native = library_of(system)
     return system

@@ -101,11 +101,11 @@ def _groups(remaining: set[int], normal: dict[int, dict[Monomial, float]]) -> li
         for m in normal[i]:
             if m != CONSTANT:
                 users[m].append(i)
-    groups, seen = [], set()
+    groups, visited = [], set()
     for start in sorted(remaining):
-        if start in seen:
+        if start in visited:
             continue
-        seen.add(start)
+        visited.add(start)
         group, stack = [], [start]
         while stack:
             i = stack.pop()
@@ -113,8 +113,8 @@ def _groups(remaining: set[int], normal: dict[int, dict[Monomial, float]]) -> li
             for m in normal[i]:
                 if m != CONSTANT:
                     for k in users[m]:
-                        if k not in seen:
-                            seen.add(k)
+                        if k not in visited:
+                            visited.add(k)
                             stack.append(k)
         groups.append(sorted(group))
     return groups

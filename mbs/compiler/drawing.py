@@ -1,4 +1,4 @@
-"""What a System carries for those who draw it."""
+"""Drawing data of a System: its scene, and the frames as functions of its coordinates."""
 
 import numpy as np
 from numpy.typing import NDArray

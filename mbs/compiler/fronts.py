@@ -13,20 +13,20 @@ Index = NDArray[np.int64]
 DENSE_SIZE = 24
 """Systems up to this many coordinates are one dense front."""
 MERGE_SIZE = 12
-"""A child is merged into its parent if the merged front is no larger than this ..."""
+"""A child is merged into its parent if the merged front has at most this many coordinates."""
 MERGE_SIZE_FLEXIBLE = 44
-"""... where the root has many modes, whose vectors are long ..."""
+"""The same where the root has many modes, whose vectors are long."""
 MERGE_ZEROS = 0.25
-"""... or if at most this part of the merged trapezoid is zeros that were not there before."""
+"""A child is also merged if at most this part of the merged trapezoid are new zeros."""
 
 
 @dataclass(frozen=True)
 class Fronts:
-    """Fronts in elimination order."""
+    """Fronts of a symmetric matrix in elimination order."""
 
     order: Index
-    """Shape (n,): entry k is the coordinate (before this order) that is eliminated k-th; all else counts in the new
-    order."""
+    """Shape (n,): entry k is the coordinate that is eliminated k-th, in the numbers of the model; all other arrays use
+    the numbers of this order."""
     col: Index
     """Shape (nf + 1,): front s eliminates col[s] .. col[s+1]-1."""
     index: list[Index]
@@ -41,12 +41,14 @@ class Fronts:
 
 
 def _trapezoid(pivots: int, size: int) -> int:
+    """Number of entries of the factor in a front of a size: its columns of pivots from the diagonal down."""
     return pivots * size - pivots * (pivots - 1) // 2
 
 
 def build_fronts(pattern: sparse.csc_matrix, order: Index, late: Mapping[int, int] = MappingProxyType({})) -> Fronts:
-    """Fronts of a symmetric pattern for an elimination order; their pivots are in the order of the model, those in
-    `late` last, by its numbers.
+    """Fronts of a symmetric pattern for an elimination order.
+
+    The pivots of a front are in the order of the model, but those in `late` come last, sorted by its numbers.
     """
     n = pattern.shape[0]
     if n == 0:
@@ -56,8 +58,8 @@ def build_fronts(pattern: sparse.csc_matrix, order: Index, late: Mapping[int, in
     structure = _columns(pattern, order)
     parent = [min(s) if s else -1 for s in structure]
     pivots, above = _merge(structure, parent, MERGE_SIZE_FLEXIBLE if late else MERGE_SIZE)
-    drawn = {k: (late.get(c, 0), c) for k, c in enumerate(map(int, order))}
-    groups = {k: sorted(front, key=drawn.__getitem__) for k, front in pivots.items()}
+    rank = {k: (late.get(c, 0), c) for k, c in enumerate(map(int, order))}
+    groups = {k: sorted(front, key=rank.__getitem__) for k, front in pivots.items()}
     return _number(np.asarray(order), structure, groups, above)
 
 
@@ -82,7 +84,7 @@ def _columns(pattern: sparse.csc_matrix, order: Index) -> list[set[int]]:
 
 
 def _merge(structure: list[set[int]], parent: list[int], size: int) -> tuple[dict[int, list[int]], dict[int, int]]:
-    """Merge columns into fronts, children before parents; those of up to `size` coordinates always.
+    """Merge columns into fronts, children before parents; fronts of up to `size` coordinates are always merged.
 
     Returns the pivots of each front by its last pivot, and the parent front (by its last pivot, or -1).
     """
@@ -103,14 +105,14 @@ def _merge(structure: list[set[int]], parent: list[int], size: int) -> tuple[dic
         if p < 0:
             continue
         top = find(p)
-        mine = pivots[k]
-        own, joined = len(structure[k]) + len(mine), len(pivots[top]) + len(structure[top]) + len(mine)
-        area = _trapezoid(len(mine) + len(pivots[top]), joined)
-        before = _trapezoid(len(mine), own) + _trapezoid(len(pivots[top]), joined - len(mine))
-        extra = area - before + zeros[k] + zeros[top]
-        if joined <= size or extra <= MERGE_ZEROS * area:
-            pivots[top] = mine + pivots[top]
-            zeros[top] = extra
+        child = pivots[k]
+        child_size, merged_size = len(structure[k]) + len(child), len(pivots[top]) + len(structure[top]) + len(child)
+        area = _trapezoid(len(child) + len(pivots[top]), merged_size)
+        before = _trapezoid(len(child), child_size) + _trapezoid(len(pivots[top]), merged_size - len(child))
+        new_zeros = area - before + zeros[k] + zeros[top]
+        if merged_size <= size or new_zeros <= MERGE_ZEROS * area:
+            pivots[top] = child + pivots[top]
+            zeros[top] = new_zeros
             head[k] = top
             del pivots[k]
     return pivots, {k: (find(parent[k]) if parent[k] >= 0 else -1) for k in pivots}

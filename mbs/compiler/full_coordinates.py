@@ -54,11 +54,11 @@ def reduce_coordinates(
         natural = NaturalCoordinates([*natural.info, *(info for info, _ in between)], natural.expressions)
         result = solved(natural.info, equations + [(info.name, e) for info, e in between])
     full = [substitute(e, result.expressions) for e in natural.expressions]
-    left = []
+    remaining_rows = []
     for i, over in result.left:
         terms = {(j, -1): v for j, v in over.terms.items()} | {(-1, -1): over.constant}
-        left.append(RowTerms(linear[i].name, linear[i].kind, -1, -1, cleaned(terms)))
-    return natural, result.remaining, full, result.expressions, result.redundant, left
+        remaining_rows.append(RowTerms(linear[i].name, linear[i].kind, -1, -1, cleaned(terms)))
+    return natural, result.remaining, full, result.expressions, result.redundant, remaining_rows
 
 
 def _between(
@@ -77,8 +77,8 @@ def _between(
             continue
         for k in range(dimension):
             to, start, new = info[i + k], info[base + k], len(info) + len(found)
-            way = CoordinateInfo(f"{to.name} - {start.name}", "vector", k, to.reference - start.reference)
-            found.append((way, Affine({i + k: 1.0, base + k: -1.0, new: -1.0})))
+            difference = CoordinateInfo(f"{to.name} - {start.name}", "vector", k, to.reference - start.reference)
+            found.append((difference, Affine({i + k: 1.0, base + k: -1.0, new: -1.0})))
     return found
 
 

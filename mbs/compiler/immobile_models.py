@@ -1,4 +1,4 @@
-"""Models whose joints leave no motion, or not the one a drive asks for."""
+"""Errors for models whose joints allow no motion, or not the motion that a drive prescribes."""
 
 from collections.abc import Sequence
 

@@ -29,7 +29,7 @@ def metadata(
     report: dict[str, Any],
     lengths: list[float],
 ) -> dict[str, Any]:
-    """What Python reads of a System and the kernel does not."""
+    """Metadata of a System for Python, which the kernel does not read."""
     return {
         "name": model.name,
         "dimension": model.dimension,

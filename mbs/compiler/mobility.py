@@ -1,4 +1,4 @@
-"""How closed loops move: positions along their motions, and by how much the loops miss closing there.
+"""Mobility of closed loops: positions along their motions, and the closing errors there.
 
 Redundant conditions of an overconstrained loop contradict each other where the drawing is not exact. With U the left
 singular vectors of the conditions' derivatives that belong to singular values next to nothing, what cannot be closed

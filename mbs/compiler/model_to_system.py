@@ -67,7 +67,7 @@ NO_TREE: Tables = {name: [] for name in ARRAYS if name.startswith("tree_")}
 
 
 def checked(model: Model) -> Model:
-    """What can be compiled: a Model with a body."""
+    """Check that an object can be compiled: a Model with a body."""
     instance_of(Model, model, "What compile takes", "a Model")
     if not model.bodies:
         raise ModelError(f"The model '{model.name}' has no bodies.")

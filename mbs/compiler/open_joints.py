@@ -1,4 +1,4 @@
-"""Which joints stay open when an assembly does not close.
+"""Joints that remain open when an assembly does not close.
 
 The linear equations of joints are eliminated, so they always hold, and what stays open are the shapes of the bodies.
 An engineer thinks the other way round: bodies are rigid and joints gape.

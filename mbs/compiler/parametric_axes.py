@@ -1,4 +1,4 @@
-"""Wheels whose axes parameters write as the `axis_` arrays of the System, and the room that their signals need."""
+"""Wheels whose axes are set by parameters, as the `axis_` arrays of the System, with entries for their signals."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any

@@ -1,4 +1,4 @@
-"""Bodies whose inertia parameters write as the `inertia_` arrays of the System, and the room they need in its mass."""
+"""Bodies whose inertia is set by parameters, as the `inertia_` arrays of the System, with entries in the mass."""
 
 from collections.abc import Sequence
 from typing import Any

@@ -37,11 +37,11 @@ def with_ports_of(ported: System, without: System) -> System | None:
     mine, theirs = _shared(one), _shared(other)
     if not len(constants) or len(mine) != len(theirs):
         return None
-    known = np.vstack([one.T[mine].toarray(), ports])
+    known_rows = np.vstack([one.T[mine].toarray(), ports])
     right = np.vstack([other.T[theirs].toarray(), np.zeros((len(ports), without.nq))])
     offset = np.concatenate([other.constant[theirs] - one.constant[mine], -constants])
-    T, _, rank, _ = np.linalg.lstsq(known, np.column_stack([right, offset]), rcond=None)
-    if rank < ported.nq or np.max(np.abs(known @ T - np.column_stack([right, offset]))) > CLOSED:
+    T, _, rank, _ = np.linalg.lstsq(known_rows, np.column_stack([right, offset]), rcond=None)
+    if rank < ported.nq or np.max(np.abs(known_rows @ T - np.column_stack([right, offset]))) > CLOSED:
         return None
     T[np.abs(T) < DROP * np.max(np.abs(T))] = 0.0
     columns = sparse.csc_matrix(T[:, :-1])

@@ -1,4 +1,4 @@
-"""Position and velocity of z that the drawing and the given velocities ask for."""
+"""Consistent start: position and velocity of z from the drawing and the declared velocities."""
 
 import numpy as np
 from numpy.typing import NDArray

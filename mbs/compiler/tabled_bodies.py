@@ -19,18 +19,21 @@ NONE = [-1] * 12
 
 @dataclass(frozen=True)
 class Dependents:
-    """Expressions in the coordinates z of the System; coordinates that tables give, the dependents, follow z."""
+    """Natural coordinates as expressions in the coordinates z of the System and in the dependents.
+
+    Dependents are the coordinates that lookup tables give; they are numbered after z.
+    """
 
     remaining: list[int]
-    """Natural coordinates that are z."""
+    """Natural coordinates that form z."""
     full: list[Affine]
-    """As of `reduce_coordinates`, with dependents as constants, at their drawn values."""
+    """As in `reduce_coordinates`, with dependents as constants, at their drawn values."""
     of_z: list[Affine]
-    """As of `reduce_coordinates`, zero for dependents."""
+    """As in `reduce_coordinates`, zero for dependents."""
     seen: list[Affine]
-    """As `full`, with dependents as coordinates behind z: for signals."""
+    """As `full`, with dependents as coordinates after z: for signals."""
     left: list[RowTerms]
-    """Linear equations between coordinates that stay, over z."""
+    """Linear equations in z that the elimination has not removed."""
 
 
 def tabled_coordinates(model: Model) -> list[int]:
@@ -58,27 +61,27 @@ def carried_mass(model: Model) -> NDArray[np.float64]:
 def distinguish(
     model: Model, remaining: list[int], full: list[Affine], of_z: list[Affine], left: list[RowTerms]
 ) -> Dependents:
-    """Take the dependents out of z and number them behind it; arguments as of `reduce_coordinates`."""
+    """Remove the dependents from z and number them after it; arguments as in `reduce_coordinates`."""
     tabled = {i: d for d, i in enumerate(tabled_coordinates(model))}
     if not tabled:
         return Dependents(remaining, full, of_z, full, left)
-    kept = [i for i in remaining if i not in tabled]
-    number = {i: k for k, i in enumerate(kept)}
-    new = [number[i] if i in number else len(kept) + tabled[i] for i in remaining]
+    z = [i for i in remaining if i not in tabled]
+    index_in_z = {i: k for k, i in enumerate(z)}
+    new_index = [index_in_z[i] if i in index_in_z else len(z) + tabled[i] for i in remaining]
 
     def renumbered(e: Affine) -> Affine:
-        return Affine({new[j]: c for j, c in e.terms.items()}, e.constant)
+        return Affine({new_index[j]: c for j, c in e.terms.items()}, e.constant)
 
     seen = [renumbered(e) for e in full]
     drawn = [Affine({}, c.reference) if i in tabled else seen[i] for i, c in enumerate(model.coordinates)]
-    plain = [Affine() if i in tabled else renumbered(e) for i, e in enumerate(of_z)]
-    number_of = {-1: -1} | dict(enumerate(new))
+    without_dependents = [Affine() if i in tabled else renumbered(e) for i, e in enumerate(of_z)]
+    number_of = {-1: -1} | dict(enumerate(new_index))
     rows = [replace(r, main={(number_of[i], number_of[j]): v for (i, j), v in r.main.items()}) for r in left]
-    return Dependents(kept, drawn, plain, seen, rows)
+    return Dependents(z, drawn, without_dependents, seen, rows)
 
 
 def refuse_joint(name: str) -> ModelError:
-    """The error for a joint on a lookup-table body."""
+    """Error for a joint on a lookup-table body."""
     return ModelError(f"The joint '{name}' is on a lookup-table body, which accepts forces and sensors but no joints.")
 
 
@@ -93,7 +96,7 @@ def tabled_cliques(model: Model, seen: Sequence[Affine]) -> list[list[int]]:
 
 
 def spread(columns: Sequence[int], of: Sequence[Sequence[int]], nz: int) -> list[int]:
-    """Coordinates of z behind columns, of which those from nz on are dependents. `of`: as of `columns_of`."""
+    """Coordinates of z on which columns depend; columns from nz on are dependents. `of`: as from `columns_of`."""
     return sorted({j for c in columns for j in (of[c - nz] if c >= nz else [c])})
 
 
@@ -103,26 +106,26 @@ def locator_of(locate: Locate, of: Sequence[Sequence[int]], nz: int) -> Locate:
     def found(columns: Sequence[int]) -> tuple[int, list[int]]:
         if all(c < nz for c in columns):
             return locate(columns)
-        behind = spread(columns, of, nz)
-        front, local = locate(behind)
-        place = dict(zip(behind, local, strict=True))
-        return front, [place.get(c, 0) if c < nz else 0 for c in columns]
+        expanded = spread(columns, of, nz)
+        front, local = locate(expanded)
+        local_index = dict(zip(expanded, local, strict=True))
+        return front, [local_index.get(c, 0) if c < nz else 0 for c in columns]
 
     return found
 
 
 def tabled_arrays(model: Model, seen: Sequence[Affine], new: NDArray[np.int64]) -> Mapping[str, Any]:
-    """The `tabled_` arrays; none where there are no tables."""
+    """The `tabled_` arrays of the System; empty if there are no lookup tables."""
     if not model.tabled:
         return {}
     arrays: dict[str, list[Any]] = {n: [] for n in ("size", "frame", "param", "axis", "coef", "mass", "gravity")}
     for t in model.tabled:
         c = t.table.coefficients
         arrays["size"] += [c.shape[2], c.shape[0], c.shape[1]]
-        body = isinstance(t, TabledBody) and not t.base.is_ground
-        places = [int(new[j]) for j in _places(t, seen)]
-        arrays["frame"] += places[:12] if body else NONE
-        arrays["param"] += [*places[12 * body :], -1][:2]
+        has_base = isinstance(t, TabledBody) and not t.base.is_ground
+        columns = [int(new[j]) for j in _places(t, seen)]
+        arrays["frame"] += columns[:12] if has_base else NONE
+        arrays["param"] += [*columns[12 * has_base :], -1][:2]
         for axis in (*t.table.axes, np.array([0.0, 1.0]))[:2]:
             arrays["axis"] += [float(axis[0]), float(axis[1] - axis[0])]
         arrays["coef"].append(c.ravel())
@@ -132,6 +135,7 @@ def tabled_arrays(model: Model, seen: Sequence[Affine], new: NDArray[np.int64]) 
 
 
 def _moments(t: TabledBody | TabledNumber) -> list[float]:
+    """Mass, first moments and second moments xx, yy, zz, yz, zx, xy of a body; zeros for a number."""
     if isinstance(t, TabledNumber):
         return [0.0] * 10
     J = t.second_moment
@@ -139,11 +143,12 @@ def _moments(t: TabledBody | TabledNumber) -> list[float]:
 
 
 def _own(t: TabledBody | TabledNumber) -> range:
+    """Natural coordinates that a table gives."""
     return range(t.start, t.start + 12) if isinstance(t, TabledBody) else range(t.index, t.index + 1)
 
 
 def _places(t: TabledBody | TabledNumber, seen: Sequence[Affine]) -> list[int]:
-    """Coordinates of z of the base, then of the parameters: none of them is eliminated."""
+    """Coordinates of z of the base of a table, then of its parameters: none of them is eliminated."""
     base = t.base if isinstance(t, TabledBody) else None
     frame = [] if base is None or base.is_ground else list(range(base.start, base.start + 12))
     return [next(iter(seen[i].terms)) for i in (*frame, *(c.index for c in t.parameters))]

@@ -1,4 +1,4 @@
-"""What a force element declares of itself: its record, its checks and the header of its law in C follow from it."""
+"""Base class of force elements: fields with their checks, from which record, parameters and a C header follow."""
 
 from collections.abc import Mapping, Sequence
 from typing import ClassVar, TypeAlias
@@ -48,7 +48,7 @@ class Element:
 
     @classmethod
     def _type(cls) -> ElementType:
-        """Its type, by the name of its file."""
+        """Number of the element type, by the name of its file."""
         return ElementType[cls.__module__.rpartition(".")[2].upper()]
 
     @classmethod

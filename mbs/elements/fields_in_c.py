@@ -1,4 +1,4 @@
-"""Writes what elements declare into C: a header beside the law of each, with its numbers, their checks and its sizes.
+"""Writes the C header of each force element: indices of its numbers, their checks, its sizes.
 
 The classes are the source. After a change of theirs:
 
@@ -39,7 +39,7 @@ def class_of(kind: ElementType) -> type[Element]:
 
 
 def texts(kind: type) -> dict[str, str]:
-    """What stands under each field of a class and of those that it comes from."""
+    """Docstrings below the fields of a class and of its base classes."""
     return {name: " ".join(text.split()) for c in reversed(kind.__mro__[:-1]) for name, text in texts_of(c).items()}
 
 
@@ -115,14 +115,14 @@ def _enumeration(kind: type[Element], size: str, own: int, more: bool) -> list[s
 
 
 def signals_of(kind: type[Element]) -> str:
-    """Its signals with the components of each."""
+    """Names of the signals of an element, with their components."""
     if kind._signals is None:
         return "any number"
     return ", ".join(f"{s} ({' or '.join(map(str, n)) if isinstance(n, tuple) else n})" for s, n in kind._signals)
 
 
 def _sizes(kind: type[Element], required: int) -> dict[str, str]:
-    """Those of `ali3_element_type` that are not 0."""
+    """Sizes in `ali3_element_type` that are not 0."""
     own, last = kind._numbers()
     both = [n if isinstance(n, tuple) else (n, n) for _, n in kind._signals or ()]
     space, plane = sum(n for n, _ in both), sum(n for _, n in both)
@@ -140,7 +140,7 @@ def _sizes(kind: type[Element], required: int) -> dict[str, str]:
 
 
 def _sentence(of: Integer, words: str) -> str:
-    """What the kernel says of an integer that is not what it must be."""
+    """Sentence of the kernel about an integer outside its range."""
     if of.of is not Of.NUMBERS:
         thing = "an input" if of.of is Of.INPUTS else "a road"
         return f"{of.called} of {words} names {thing} that does not exist"

@@ -1,4 +1,4 @@
-"""Integers of elements: each says what it counts or names, and its check in Python and in the kernel follows."""
+"""Types of integers of force elements, each with its check in Python and in the kernel."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from mbs.elements.record_checks import MOST, index
 
 
 class Of(Enum):
-    """What an integer is a number of, with the name in C."""
+    """Kinds of lists that an integer may index, with the name in C."""
 
     NUMBERS = "ALI3_OF_NUMBERS"
     INPUTS = "ALI3_OF_INPUTS"
@@ -38,7 +38,7 @@ class Integer:
 
     @property
     def called(self) -> str:
-        """What sentences call it."""
+        """Name of the integer in sentences."""
         return self.words or f"the {self.name.replace('_', ' ')}"
 
     def checked(self, value: int | None, what: str) -> int:

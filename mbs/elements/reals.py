@@ -26,7 +26,7 @@ Pair = tuple[float, float]
 
 @dataclass(frozen=True)
 class Real:
-    """What a number of an element must satisfy; it stands in the type of its field."""
+    """Check of a number of an element, given in the type of its field."""
 
     check: Check
     """Returns the number or raises one sentence."""
@@ -93,7 +93,7 @@ def each_real(kind: type) -> Iterator[tuple[str, Real, str]]:
 
 
 def texts_of(kind: type) -> dict[str, str]:
-    """What stands under each field of a class, by name."""
+    """Docstrings below the fields of a class, by name."""
     (tree,) = ast.parse(textwrap.dedent(inspect.getsource(kind))).body
     assert isinstance(tree, ast.ClassDef)
     return {

@@ -1,4 +1,4 @@
-"""What a force element hands to `compile()`: signals, data and states, all plain numbers."""
+"""Record of a force element for `compile()`: signals, numbers, integers, states and outputs."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

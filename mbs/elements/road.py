@@ -1,4 +1,4 @@
-"""Roads: what `mbs/kernel/src/elements/road.h` needs to know of them."""
+"""Roads as data of the kernel (`mbs/kernel/src/elements/road.h`): planes, kerbs, grids, files, ports."""
 
 from __future__ import annotations
 

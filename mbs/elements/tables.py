@@ -1,4 +1,4 @@
-"""Tables of force elements for the documents: what their classes declare, and the laws in their docstrings."""
+"""Tables of force elements for the documents, made from their classes and the laws in their docstrings."""
 
 import dataclasses
 import inspect

@@ -1,4 +1,4 @@
-"""Bore torque of a tyre: what turning a wheel about the normal of the road needs."""
+"""Bore torque of a tyre: resistance to turning about the normal of the road."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""What elements read of a wheel, in the order of the kernel."""
+"""Signals of a wheel in the order in which elements of the kernel read them."""
 
 from mbs.common.affine import Affine, AffineVector
 from mbs.elements.record_checks import size

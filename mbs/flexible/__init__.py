@@ -6,7 +6,6 @@ from mbs.common.lazy_modules import lazy_modules
 
 if TYPE_CHECKING:
     from mbs.flexible import scene_part as scene_part
-    from mbs.flexible.attachment_modes import inertia_relief as inertia_relief
     from mbs.flexible.calculix import read_calculix as read_calculix
     from mbs.flexible.component_modes import craig_bampton as craig_bampton
     from mbs.flexible.damping import RayleighDamping as RayleighDamping
@@ -33,6 +32,7 @@ if TYPE_CHECKING:
     from mbs.flexible.recovery import stress_field as stress_field
     from mbs.flexible.reduced_body import ReducedBody as ReducedBody
     from mbs.flexible.relief_matrices import InertiaRelief as InertiaRelief
+    from mbs.flexible.relief_solution import inertia_relief as inertia_relief
     from mbs.flexible.section import Section as Section
     from mbs.flexible.section import rectangle as rectangle
     from mbs.flexible.section import round_bar as round_bar
@@ -56,7 +56,7 @@ _LAZY = {
     "craig_bampton": "mbs.flexible.component_modes",
     "external_model": "mbs.flexible.matrix_files",
     "gauge_rows": "mbs.flexible.recovery",
-    "inertia_relief": "mbs.flexible.attachment_modes",
+    "inertia_relief": "mbs.flexible.relief_solution",
     "interface_loads": "mbs.flexible.load_paths",
     "load_path_modes": "mbs.flexible.load_paths",
     "modes_for_output": "mbs.flexible.mode_choice",

@@ -1,4 +1,4 @@
-"""Frames of beams: what they consist of, and each beam in its axes."""
+"""Frames of beams: nodes, beams and sections, with the axes of each beam."""
 
 from __future__ import annotations
 

@@ -189,23 +189,23 @@ def _cards(lines: Sequence[_Line]) -> Iterator[_Card]:
 
 def _replicated(rule: Sequence[str], before: Sequence[str], line: _Line) -> list[str]:
     """Data of a card: ``=`` that before it, ``==`` all from there on, ``*(n)`` that before it and n more."""
-    made = list[str]()
+    fields = list[str]()
     for k, field in enumerate(rule):
         old = before[k] if k < len(before) else ""
         more = re.fullmatch(r"\*\(?([^()]+)\)?", field)
         if field == "==":
-            return [*made, *before[k:]]
+            return [*fields, *before[k:]]
         if more is None:
-            made.append(old if field == "=" else field)
+            fields.append(old if field == "=" else field)
             continue
         try:
             whole = re.fullmatch(r"[+-]?\d+", old) and re.fullmatch(r"[+-]?\d+", more[1])
-            made.append(str(int(old) + int(more[1])) if whole else repr(_number(old) + _number(more[1])))
+            fields.append(str(int(old) + int(more[1])) if whole else repr(_number(old) + _number(more[1])))
         except ValueError:
             raise line.error(
                 f"field {k + 2} adds {brief(more[1])} to {brief(old)}, which are not both numbers."
             ) from None
-    return made
+    return fields
 
 
 def _joined(lines: Sequence[_Line]) -> Iterator[_Card]:
@@ -242,15 +242,15 @@ def _data(line: _Line, first: str) -> tuple[list[str], str]:
 
 def _without_tabs(line: _Line, wide: int) -> str:
     """A line in which each tab leads to the next field."""
-    made = ""
+    row = ""
     *parts, last = line.text.split("\t")
     for part in parts:
-        made += part
-        first, end = (0, 8) if len(made) < 8 else (8 + wide * ((len(made) - 8) // wide + k) for k in (0, 1))
-        if made.rfind(" ") + 1 < min(first, len(made)):
+        row += part
+        first, end = (0, 8) if len(row) < 8 else (8 + wide * ((len(row) - 8) // wide + k) for k in (0, 1))
+        if row.rfind(" ") + 1 < min(first, len(row)):
             raise line.error(
-                f"{brief(made.split()[-1])} fills its field or is longer, and a tab follows, so that the next field is "
+                f"{brief(row.split()[-1])} fills its field or is longer, and a tab follows, so that the next field is "
                 "ambiguous; write blanks or commas."
             )
-        made = made.ljust(end)
-    return made + last
+        row = row.ljust(end)
+    return row + last

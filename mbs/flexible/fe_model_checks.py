@@ -1,4 +1,4 @@
-"""What a finite-element model must satisfy before it is reduced, each with one sentence when it does not."""
+"""Checks of a finite-element model before its reduction; each raises one sentence."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -46,7 +46,7 @@ def asymmetry(matrix: Sparse) -> float:
 
 
 def negative_eigenvalues(matrix: Sparse) -> int:
-    """How many eigenvalues of a symmetric matrix, scaled to a diagonal of ones, are below `-SYMMETRY`.
+    """Number of eigenvalues below `-SYMMETRY` of a symmetric matrix scaled to a diagonal of ones.
 
     By Sylvester's law of inertia: the signs of the pivots of its factors.
     """

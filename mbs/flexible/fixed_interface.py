@@ -1,4 +1,4 @@
-"""A finite-element model with its reference and interfaces held: what Craig and Bampton reduce from."""
+"""Finite-element model with reference and interfaces fixed, from which Craig-Bampton modes are computed."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -13,7 +13,7 @@ LARGEST = 2_000_000_000
 
 
 def read_foreign(path: Path, reader: Callable[[Path], Any]) -> Any:
-    """What a reader finds in a file; a `ModelError` if it cannot read it or a package is missing."""
+    """Content of a file by a reader; raises `ModelError` if it cannot be read or a package is missing."""
     check_file(path, LARGEST, ModelError, path.name)
     with read_by_library(path.name, ModelError, extra="fem"):
         return reader(path)

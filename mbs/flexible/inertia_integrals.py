@@ -1,4 +1,4 @@
-"""Constant shape integrals: what ``M = B' M_FEM B`` and ``Q_v`` of a flexible body collapse to."""
+"""Constant shape integrals, from which ``M = B' M_FEM B`` and ``Q_v`` of a flexible body are computed."""
 
 from __future__ import annotations
 

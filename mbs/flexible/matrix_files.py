@@ -1,4 +1,4 @@
-"""Finite-element models of other programs, given as matrices and nodes."""
+"""Finite-element models of other programs from their stiffness matrix, mass matrix and nodes."""
 
 from __future__ import annotations
 
@@ -49,23 +49,23 @@ def external_model(
         Number of each freedom, -1 for none. By default node after node with the six freedoms x, y, z, rx, ry, rz, or
         with x, y, z when the matrices have three freedoms per node.
     total_mass : float, optional
-        Of the body as it is known from elsewhere, kg: a model of another mass is warned about.
+        Mass of the body known from another source, kg; a model with another mass gives a warning.
     what : str
-        The file, for messages.
+        Name of the file, for messages.
 
     Raises
     ------
     ModelError
-        A matrix is not symmetric, of the other sign or not of the right size, the stiffness has a negative eigenvalue
-        or holds the model to the ground, or a mass is negative; with the mistake that explains it, where one does.
+        A matrix is not symmetric, has the wrong sign or size, the stiffness has a negative eigenvalue or supports the
+        model on the ground, or a mass is negative; the message names a mistake that explains it, if one does.
 
     Warns
     -----
     FlexibleWarning
-        Mass, size or first free frequency are those of no body in SI units, or the mass matrix does not go with the
-        stiffness.
+        Mass, size or first free natural frequency are implausible in SI units, or the mass matrix does not belong to
+        the stiffness.
     """
-    beside = 0.0 if total_mass is None else positive(total_mass, "The total_mass of a flexible body")
+    expected_mass = 0.0 if total_mass is None else positive(total_mass, "The total_mass of a flexible body")
     x = numbers(positions, "the node positions", ModelError, "finite numbers of shape (n, 3)")
     if x.ndim != 2 or x.shape[1] != 3 or not np.isfinite(x).all():
         raise ModelError(f"Node positions have shape {x.shape}; finite numbers of shape (n, 3) are needed.")
@@ -73,23 +73,23 @@ def external_model(
     labels = node_labels(names, n)
     K = sp.csc_array(stiffness)
     check_symmetric(K, "stiffness")
-    given = {"asymmetry": {"stiffness": asymmetry(K)}, "negative": {"stiffness": 0.0}}
+    measured = {"asymmetry": {"stiffness": asymmetry(K)}, "negative": {"stiffness": 0.0}}
     table = _freedom_table(dof, n, int(K.shape[0]))
     K = sp.csc_array((K + K.T) / 2)
     if negative := check_definite(K, "stiffness"):
         raise ModelError(f"The stiffness matrix has {negative} negative eigenvalues; a deformation takes energy.")
     no_mass = nodal_mass_points(x, np.zeros(n), table[:, :3], int(K.shape[0]))
-    model = FiniteElementModel(x, labels, table, K, no_mass, given=given)
+    model = FiniteElementModel(x, labels, table, K, no_mass, given=measured)
     check_free(model)
     if sp.issparse(mass) or np.ndim(mass) == 2:
         M = sp.csc_array(mass)
         check_symmetric(M, "mass")
         if M.shape != K.shape:
             raise ModelError(f"The mass matrix is {M.shape[0]} and the stiffness matrix {K.shape[0]} wide.")
-        given["asymmetry"]["mass"] = asymmetry(M)
+        measured["asymmetry"]["mass"] = asymmetry(M)
         M = sp.csc_array((M + M.T) / 2)
-        given["negative"]["mass"] = check_definite(M, "mass")
-        given |= {"apart": {"mass": _pairs_apart(M, model)}, "rigid": {"mass": _rigid_off(M, model)}}
+        measured["negative"]["mass"] = check_definite(M, "mass")
+        measured |= {"apart": {"mass": _pairs_apart(M, model)}, "rigid": {"mass": _rigid_off(M, model)}}
         points = lumped_masses(M, x, table)
     else:
         masses = np.array(mass, float)
@@ -98,13 +98,13 @@ def external_model(
         check_masses(masses, labels)
         points = nodal_mass_points(x, masses, table[:, :3], int(K.shape[0]))
     model = replace(model, mass=points)
-    for plausibility in model_plausibility(model, what, beside=beside):
+    for plausibility in model_plausibility(model, what, beside=expected_mass):
         plausibility.warn(FlexibleWarning)
     return model
 
 
 def _rigid_off(M: Sparse, model: FiniteElementModel) -> float:
-    """How far the inertia of unit motions is from that of a body, over mass and size."""
+    """Deviation of the inertia of rigid unit motions from that of a rigid body, relative to mass and size."""
     R = model.rigid_motions(model.positions.mean(axis=0))
     inertia = R.T @ (M @ R)
     totals, moments = inertia[:3, :3], inertia[:3, 3:]
@@ -114,12 +114,14 @@ def _rigid_off(M: Sparse, model: FiniteElementModel) -> float:
 
 
 def _pairs_apart(M: Sparse, model: FiniteElementModel) -> int:
-    """How many pairs of nodes the mass matrix couples and the stiffness does not."""
+    """Number of pairs of nodes that are coupled by the mass matrix but not by the stiffness."""
     node_of, pairs = model.node_of, []
     for matrix in (model.K, M):
         entries = sp.coo_array(matrix)
-        there = np.abs(entries.data) > SYMMETRY * np.abs(entries.data).max()
-        pairs.append({*zip(node_of[entries.row[there]].tolist(), node_of[entries.col[there]].tolist(), strict=True)})
+        nonzero = np.abs(entries.data) > SYMMETRY * np.abs(entries.data).max()
+        rows, columns = node_of[entries.row[nonzero]].tolist(), node_of[entries.col[nonzero]].tolist()
+        pairs.append(set(zip(rows, columns, strict=True)))
+
     return sum(i < j for i, j in pairs[1] - pairs[0])
 
 
@@ -149,19 +151,19 @@ def read_model(
     stiffness, mass : str or Path
         Files for `read_matrix`.
     nodes : str or Path
-        CSV with the columns ``name,x,y,z`` (m), a line of titles first.
+        CSV file with the columns ``name,x,y,z`` (m) and a header line.
     total_mass : float, optional
-        As of `external_model`.
+        As in `external_model`.
 
     Returns
     -------
     FiniteElementModel
-        Checked, and told of, as by `external_model`.
+        Checked as in `external_model`, with the same warnings.
 
     Raises
     ------
     ModelError
-        A file is missing or not of that form, or the matrices are no free model.
+        A file is missing or has another form, or the matrices are not those of a free model.
     """
     names, positions = [], []
     table = TextTable(nodes, ModelError, known=("x", "y", "z"))
@@ -175,6 +177,7 @@ def read_model(
 
 
 def _freedom_table(dof: ArrayLike | None, n: int, size: int) -> np.ndarray:
+    """Numbers of the degrees of freedom of each node, shape (n, 6), checked; -1 for none. `size`: of the matrices."""
     if dof is None:
         if size not in (3 * n, 6 * n):
             raise ModelError(f"The stiffness matrix has {size} rows; {n} nodes have {3 * n} or {6 * n} freedoms.")

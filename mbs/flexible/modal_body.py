@@ -12,7 +12,7 @@ from mbs.flexible.sparse_matrices import Sparse
 
 @dataclass(frozen=True)
 class InterfaceModes:
-    """Where an interface node is and which modal amplitudes are its displacements."""
+    """Position of an interface node, and the modal amplitudes that are its displacements."""
 
     node: int
     position: np.ndarray

@@ -1,4 +1,4 @@
-"""How many dynamic modes a named output needs."""
+"""Number of dynamic modes that a named output needs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Section forces and stresses of a frame as constant rows on its nodal displacements and on what loads its beams.
+"""Section forces and stresses of a frame as constant rows on nodal displacements and loads of its beams.
 
 Rows have 9 n columns for n nodes: the 6 n degrees of freedom, then three components a node of the acceleration (of
 weight: of free fall) whose inertia forces the beams carry between their ends. `ModalBody.recovery` and `inertia_relief`

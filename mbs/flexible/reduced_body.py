@@ -1,4 +1,4 @@
-"""A flexible body after reduction: what the engine, further reductions and pictures need."""
+"""Reduced flexible body: modes, matrices and integrals for the engine, further reductions and drawing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From interface forces, weight and the inertia of rigid motion to what a frame does at once."""
+"""Matrices of inertia relief: outputs of a frame per interface force, weight and rigid acceleration."""
 
 from __future__ import annotations
 

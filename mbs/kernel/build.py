@@ -82,7 +82,7 @@ def library_name(target: str) -> str:
 
 @functools.cache
 def cache_directory() -> Path:
-    """Where the compiler keeps what it built: `ZIG_GLOBAL_CACHE_DIR`, else a cache of the user; see `cache_folder`."""
+    """Cache folder of the compiler: `ZIG_GLOBAL_CACHE_DIR`, else a cache of the user; see `cache_folder`."""
     return cache_folder(name="ali3-zig", variable="ZIG_GLOBAL_CACHE_DIR")
 
 
@@ -171,9 +171,9 @@ def compile_c(
     path.parent.mkdir(parents=True, exist_ok=True)
     environment = compiler_environment()
     with temporary_folder(path.parent) as folder:
-        made = Path(folder) / path.name
+        output = Path(folder) / path.name
         command = compiler_command(
-            files, target, made, include=include, defines=defines, shared=shared, exports=exports
+            files, target, output, include=include, defines=defines, shared=shared, exports=exports
         )
         result = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
         if result.returncode != 0:
@@ -181,7 +181,7 @@ def compile_c(
             if not words:  # the linker ends so when it cannot write
                 words = f"the compiler ended with {result.returncode} and no message; is there room in {path.parent}?"
             raise RuntimeError(f"{what} did not compile for {target}:\n{words}")
-        made.replace(path)  # at once, so that a program that has the old library loaded keeps it whole
+        output.replace(path)  # at once, so that a program that has the old library loaded keeps it whole
 
 
 def compiler_environment() -> dict[str, str]:

@@ -84,8 +84,8 @@ class AirVocabulary(BodyVocabulary):
             owned.vector(direction(axis, self.dimension, f"the {word} axis of {what}"))
             for axis, word in ((forward, "forward"), (up, "upward"))
         )
-        made = Lift(lift_area, air_density).record(name, owned.point(point), front, top, wind)
-        return self._add_in_air(made, "lift")
+        element = Lift(lift_area, air_density).record(name, owned.point(point), front, top, wind)
+        return self._add_in_air(element, "lift")
 
     def _add_in_air(self, made: ElementRecord, kind: str) -> ElementRecord:
         """Add an element of the air, whose integers are the inputs of its wind."""

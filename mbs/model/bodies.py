@@ -1,4 +1,4 @@
-"""Bodies of a model: how they are added, and what a joint asks of them."""
+"""Rigid bodies of a model: how they are added, and checks of bodies and points at joints."""
 
 from __future__ import annotations
 

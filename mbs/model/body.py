@@ -88,7 +88,7 @@ class Body:
         return self
 
     def at(self, position: ArrayLike, what: str) -> Body:
-        """What a joint at a place acts on: of a flexible body its node there.
+        """Body on which a joint at a point acts: of a flexible body its node there.
 
         Parameters
         ----------
@@ -229,7 +229,7 @@ class Body:
         return block
 
     def coordinates(self) -> list[CoordinateInfo]:
-        """Its full coordinates: of the position, then of each axis."""
+        """Full coordinates of the body: of the position, then of each axis."""
         parts = "r" if self.is_point else "rabc" if self.dimension == 3 else "ra"
         values = iter(self.reference())
         return [
@@ -274,7 +274,7 @@ class Ground(Body):
 
     @property
     def size(self) -> int:
-        """It has no coordinates."""
+        """Number of coordinates; 0, as the ground has none."""
         return 0
 
     def _expression(self, local: Vector, origin: float) -> AffineVector:

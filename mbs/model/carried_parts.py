@@ -1,4 +1,4 @@
-"""What bodies carry: point masses, wheels reduced to a spin, points that slide."""
+"""Parts carried by bodies: point masses, wheels reduced to a spin, sliding points."""
 
 from dataclasses import dataclass
 

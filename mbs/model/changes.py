@@ -1,4 +1,4 @@
-"""What undoes a call that is refused, and shapes that are deferred until they are needed."""
+"""Undoing of a refused call, and shapes that are deferred until they are needed."""
 
 from __future__ import annotations
 

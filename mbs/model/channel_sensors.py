@@ -36,7 +36,7 @@ GUIDE_READINGS = {
 
 
 class ChannelSensorVocabulary(SensorVocabulary):
-    """What can be read beside motion and forces."""
+    """Sensors of inputs, guides, elements and the solver."""
 
     def sense_constant(
         self,
@@ -130,7 +130,7 @@ class ChannelSensorVocabulary(SensorVocabulary):
         return self._sense(name, unit, description, GUIDE_READINGS[kind], integers=integers, reals=[factor])
 
     def sense_solver(self, name: str, kind: str, *, description: str = "") -> Sensor:
-        """What the solver says about itself.
+        """Sense a quantity of the solver.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What is drawn of a model, as it was checked: shapes, and what only its looks turn or slide."""
+"""Checked shapes of a model, with looks that turn or slide relative to their body."""
 
 from __future__ import annotations
 

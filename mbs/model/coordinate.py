@@ -7,7 +7,7 @@ from mbs.common.affine import Affine
 
 @dataclass(frozen=True)
 class CoordinateInfo:
-    """What a full coordinate is."""
+    """Name, kind and reference value of a full coordinate."""
 
     name: str
     """For messages and for the list of coordinates."""

@@ -38,7 +38,7 @@ class _WorkFrom(Sequence[int]):
 
 
 class EnergySensorVocabulary(SensorVocabulary):
-    """What can be read of all elements and bodies together."""
+    """Sensors of energy, mass and work of the whole model."""
 
     book_of_added: tuple[str, str] | None = None
     """Name and description of a sensor of the work of all elements that come from now on; it comes with the first."""

@@ -1,4 +1,4 @@
-"""What the compiler asks of a body that bends."""
+"""Interface of a flexible body for the compiler."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Flexibility:
-    """Of ``n`` modes, in earth axes in the reference configuration; see `mbs.flexible.inertia_integrals`."""
+    """Data of a flexible body with ``n`` modes, in earth axes as drawn; see `mbs.flexible.inertia_integrals`."""
 
     P: Array
     """Shape (3, n): kg."""

@@ -1,4 +1,4 @@
-"""Flexible bodies: a floating frame, modal amplitudes, and interfaces that joints and forces take like bodies.
+"""Flexible bodies: floating frame, modal amplitudes, and interfaces that joints and forces use like bodies.
 
 The full coordinates are the origin r_o at the reference node, the axes a, b, c (the earth axes in the reference
 configuration) and the amplitudes eta (the paper's equations (1) to (3), (9)). A node is at
@@ -189,7 +189,7 @@ class FlexibleBody(Body):
         return block
 
     def coordinates(self) -> list[CoordinateInfo]:
-        """Those of its frame, then one per mode."""
+        """Coordinates of the floating frame, then one per mode."""
         modes = [CoordinateInfo(f"{self.name}.{mode}", "mode", 0, 0.0) for mode in self.reduced.mode_names]
         return [*super().coordinates(), *modes]
 

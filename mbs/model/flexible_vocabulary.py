@@ -1,4 +1,4 @@
-"""Flexible bodies, and rigid ones whose forces make a structure bend at once: the vocabulary."""
+"""Vocabulary of flexible bodies and of rigid ones with a quasi-static deformation."""
 
 from __future__ import annotations
 

@@ -152,5 +152,7 @@ class GuideVocabulary(BodyVocabulary):
         start = self.anchor(body, point, what)
         turning = body.frame
         rows = at_right_angles(direction, len(guides), self.dimension, what) if several is guide else [direction]
-        ways = tuple((self.anchor_axis(turning, row, what), g.index) for row, g in zip(rows, guides, strict=True))
-        return SlidingPoint(self.unique("slide", name), body, start, ways)
+        axes_and_guides = tuple(
+            (self.anchor_axis(turning, row, what), g.index) for row, g in zip(rows, guides, strict=True)
+        )
+        return SlidingPoint(self.unique("slide", name), body, start, axes_and_guides)

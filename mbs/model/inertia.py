@@ -1,4 +1,4 @@
-"""Inertia of a body from what a user gives: principal values or a matrix, checked."""
+"""Inertia of a body from principal values or a matrix, checked."""
 
 from collections.abc import Sequence
 

@@ -46,7 +46,7 @@ def new_input(
 
 
 def _check_whole(name: str, numbers: dict[str, float], unit: str) -> None:
-    """What an integer of FMI can say: whole numbers of 32 bits, and no unit."""
+    """Check an integer input against FMI: 32 bits, and no unit."""
     for which, value in numbers.items():
         if math.isfinite(value) and not (value == round(value) and -MOST - 1 <= value <= MOST):
             raise ModelError(

@@ -1,4 +1,4 @@
-"""What joints, springs and drives take as their ends, and when two ends are on one body."""
+"""Ends of joints, springs and drives as bodies and points, and the check that they are on different bodies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a joint holds of the turning of its bodies."""
+"""Constraints on the relative rotation of two bodies, as part of a joint."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from mbs.model.equation import Equation, dot_products
 
 @dataclass(frozen=True)
 class Turning:
-    """What a joint holds of the turning of its bodies."""
+    """Constraints on the relative rotation of the bodies of a joint."""
 
     points: tuple[AffineVector, AffineVector]
     """Of the first and the second body, where the joint is."""

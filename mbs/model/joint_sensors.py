@@ -22,7 +22,7 @@ from mbs.model.sensors import SensorVocabulary
 
 
 class JointSensorVocabulary(SensorVocabulary):
-    """What can be read of a joint."""
+    """Sensors of joints."""
 
     def sense_joint(
         self,

@@ -1,4 +1,4 @@
-"""The modelling vocabulary: what an engineer writes, in earth axes in the reference configuration."""
+"""Modelling vocabulary, in earth axes in the reference configuration."""
 
 from __future__ import annotations
 
@@ -175,7 +175,7 @@ def _angular(value: ArrayLike, size: int, what: str) -> Vector:
 
 @plausibility_of.register
 def _plausibility_of_model(model: Model) -> list[Plausibility]:
-    """Of its flexible bodies."""
+    """Plausibility of the flexible bodies of a model."""
     bodies = [b for b in model.bodies if isinstance(b, FlexibleBody) and isinstance(b.reduced, Summarised)]
     return [
         replace(plausibility, title=f"flexible body '{b.name}'")

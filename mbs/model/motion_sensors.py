@@ -19,7 +19,7 @@ SIGNALS = (SensorType.SIGNAL, SensorType.SIGNAL_RATE, SensorType.SIGNAL_SECOND_R
 
 
 class MotionSensorVocabulary(SensorVocabulary):
-    """What can be read of places and coordinates."""
+    """Sensors of positions, orientations, their rates, and coordinates."""
 
     def sense_position(
         self,

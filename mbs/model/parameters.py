@@ -47,7 +47,7 @@ _AT_THE_START = (
 
 @dataclass(frozen=True)
 class _Target:
-    """Where a value goes, and what checks it there."""
+    """Number of the model that a parameter sets, with its check."""
 
     where: tuple[int, int, int, float, float, bool]
     what: str

@@ -1,4 +1,4 @@
-"""A rigid body whose points are joined to by rows of their own, so that the forces there can be read.
+"""Rigid body whose joints at selected points have rows of their own, so that forces there can be read.
 
 Joints and springs at a port share three coordinates without mass, its place from the centre of mass, which three linear
 rows tie to the body. Their multipliers are the whole force on the body at the port, whatever acts there.

@@ -1,4 +1,4 @@
-"""Forces and moments of joints as sums of multipliers times products of expressions: what their sensors read.
+"""Joint forces and moments for sensors, as sums of multipliers times products of expressions.
 
 A row Phi with the multiplier lam puts the generalised force -Phi_q' lam on its coordinates (M qdd + Phi_q' lam = Q).
 """

@@ -1,4 +1,4 @@
-"""What a model registers beside bodies, joints and elements: inputs, guides, parameters, switches, constants."""
+"""Records of a model other than bodies, joints and elements: inputs, guides, parameters, switches, constants."""
 
 from dataclasses import dataclass
 from enum import IntEnum
@@ -20,7 +20,7 @@ class Constant:
 
 
 class Role(IntEnum):
-    """What an FMU watches an input for."""
+    """Check that an FMU makes of an input while it runs."""
 
     NONE = 0
     NORMAL = 1

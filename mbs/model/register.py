@@ -1,4 +1,4 @@
-"""The register of a model: what it consists of, by kind, in the order in which it was added, and by name."""
+"""Register of a model: lists of its parts by kind, in the order of their addition, and by name."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from mbs.model.table_bodies import TabledBody, TabledNumber
 
 
 class Named(Protocol):
-    """What is registered by a name."""
+    """Base of everything that is registered by a name."""
 
     @property
     def name(self) -> str:
@@ -37,7 +37,7 @@ TIME = "time"
 
 
 class Register(ModelCoordinates):
-    """What all parts of the vocabulary write into, and what `compile` reads.
+    """Lists of all parts of a model, filled by the vocabulary and read by `compile`.
 
     A list a kind; the place of a thing in its list is its number in the System. A public method of a model either does
     all it says or raises and changes nothing: every class of the vocabulary is made so when it is defined.
@@ -131,7 +131,7 @@ class Register(ModelCoordinates):
 
     @property
     def turnings(self) -> list[Turning]:
-        """What only its looks turn or slide."""
+        """Shapes that only turn or slide in the drawing."""
         self.look()
         return self._turnings
 

@@ -1,4 +1,4 @@
-"""What sensors are given besides their names: components, joints."""
+"""Checks of arguments of sensors: components, joints."""
 
 from collections.abc import Sequence
 

@@ -27,7 +27,7 @@ def spatial(v: AffineVector) -> list[Affine]:
 
 
 class SensorVocabulary(BodyVocabulary):
-    """What the ``sense_...`` methods of a model have in common.
+    """Common parts of the ``sense_...`` methods of a model.
 
     Each registers one output under a name that is unique among the sensors, and returns its `Sensor`. Values are in SI
     units; `unit` and `description` only tell files, plots and hosts what they are. `scale` is a factor on the value.

@@ -1,4 +1,4 @@
-"""What bodies look like: shapes on bodies and between points of several bodies. They take no part in the motion."""
+"""Shapes on bodies and between points of several bodies, for drawing only."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 @dataclass(frozen=True)
 class _Kind:
-    """What a kind of shape needs and what it may have."""
+    """Required and optional properties of a kind of shape."""
 
     needs: tuple[str, ...]
     takes: tuple[str, ...] = ()
@@ -210,9 +210,9 @@ class ShapeVocabulary(BodyVocabulary):
             turned: Affine | str = angle
         else:
             turned = self.expression(angle, f"The {what}")
-        made = Turning(name, owner, centre, tuple(unit.tolist()), turned)
-        self._turnings.append(made)
-        return made
+        shape = Turning(name, owner, centre, tuple(unit.tolist()), turned)
+        self._turnings.append(shape)
+        return shape
 
 
 def _owner(model: BodyVocabulary, owner: object, what: str) -> Owner:

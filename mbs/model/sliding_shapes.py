@@ -1,4 +1,4 @@
-"""Looks beyond those of bodies: what slides along a body, and meshes that are computed."""
+"""Shapes that slide along a body, and computed meshes."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Sliding(Turning):
 
 
 class SlidingVocabulary(ShapeVocabulary):
-    """What slides on a body, and computed meshes."""
+    """Vocabulary of shapes that slide on a body, and of computed meshes."""
 
     def sliding(self, name: str, body: Body | Turning, *, at: ArrayLike, direction: ArrayLike, way: str) -> Sliding:
         """Something that is only drawn as sliding along a line of a body, such as a rack that a guide moves.
@@ -45,8 +45,8 @@ class SlidingVocabulary(ShapeVocabulary):
         """
         if not isinstance(way, str):
             raise ModelError(f"The way of the sliding '{name}' must be the name of a sensor, not {shown(way)}.")
-        made = ShapeVocabulary.turning(self, name, body, at=at, axis=direction, angle=way)
-        slides = Sliding(made.name, made.carrier, made.centre, made.axis_reference, way)
+        shape = ShapeVocabulary.turning(self, name, body, at=at, axis=direction, angle=way)
+        slides = Sliding(shape.name, shape.carrier, shape.centre, shape.axis_reference, way)
         self._turnings[-1] = slides
         return slides
 

@@ -1,4 +1,4 @@
-"""What a table of a body or a number is made of, and whether it can be."""
+"""Smooth table of a lookup-table body or number, and the check of its data."""
 
 from typing import Any
 
@@ -76,7 +76,7 @@ def pose_functions(base: Body, places: Array, rotations: Array) -> Array:
 
 
 def check_drawn(found: Array, drawn: Array, what: str) -> None:
-    """Where its coordinates are zero a table must give the drawing."""
+    """Check that a table gives the drawn position where its coordinates are zero."""
     off = float(np.max(np.abs(found - drawn)))
     if off > DRAWN:
         raise ModelError(f"The table of {what} is off the drawing by {off:.3g} where its coordinates are zero.")

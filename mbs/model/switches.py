@@ -1,4 +1,4 @@
-"""Switches: what turns rows on and off while a System runs."""
+"""Switches, which turn constraint rows on and off while a System runs."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Bodies and numbers whose motion is a table of one or two coordinates, such as a wheel carrier over its travel.
+"""Lookup-table bodies and numbers: their motion is a table of one or two coordinates.
 
 They bring no coordinates of their own to the equations and no rows: place on the base and axes, Y p(a, b) and Y R(a, b)
 with the axes Y of the base, are dependent coordinates that forces and sensors see like those of any body. Functions are
@@ -57,11 +57,11 @@ class TabledBody(Body):
     outputs: tuple[str, ...] = ()  # sensors that place its wheel in drawings: centre, the body's quaternion, angle
 
     def coordinates(self) -> list[CoordinateInfo]:
-        """Its dependent coordinates: of the position, then of each axis."""
+        """Dependent coordinates of the body: of the position, then of each axis."""
         return [CoordinateInfo(c.name, "tabled", c.component, c.reference) for c in super().coordinates()]
 
     def reference(self) -> Array:
-        """Its dependent coordinates in the reference configuration, shape (12,)."""
+        """Dependent coordinates in the reference configuration, shape (12,)."""
         return np.concatenate([self.com - self.base.com, np.eye(3).ravel()])
 
     def _made(self, local: tuple[float, ...], origin: float) -> AffineVector:

@@ -18,7 +18,7 @@ from mbs.model.table_bodies import TabledBody, TabledNumber
 
 
 class TableVocabulary(BodyVocabulary):
-    """What a table moves."""
+    """Vocabulary of lookup-table bodies and numbers."""
 
     def tabled_body(
         self,

@@ -1,1 +1,1 @@
-"""What a run gives: trajectories, poses, reports, accuracy, animations."""
+"""Results of a run: trajectories, poses, reports, accuracy, animations."""

@@ -35,7 +35,7 @@ class AccuracyWarning(UserWarning):
 
 @dataclass(frozen=True)
 class Accuracy:
-    """What is known of the error of a run."""
+    """Estimated error of a run."""
 
     energy_balance: float | None
     """Work that constraint forces and projections did, over the energy that was in the motion; they should do none.
@@ -134,7 +134,7 @@ def recorded_every(every: int, steps: int) -> int:
 
 
 def free_part(report: Report, steps: int, halvings: int) -> Accuracy:
-    """What is known without a refined run."""
+    """Accuracy of a run from its energy balance alone, without a refined run."""
     known = report.kinetic_peak > 0.0
     return Accuracy(
         report.energy_balance if known else None,

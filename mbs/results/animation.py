@@ -16,7 +16,7 @@ from mbs.system.system import System
 
 
 class Animation:
-    """What `animate` makes; in a notebook it shows itself.
+    """Animation of runs, returned by `animate`; a notebook shows it.
 
     Attributes
     ----------

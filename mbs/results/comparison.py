@@ -1,4 +1,4 @@
-"""Two motions of a System compared at samples by the kernel: what of a run is compared, sizes, and differences."""
+"""Comparison of two motions of a System at samples by the kernel: compared sensors, their sizes, differences."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ REACTIONS = (SensorType.REACTION, SensorType.REACTION_PRODUCTS, SensorType.REACT
 
 @dataclass(frozen=True)
 class Compared:
-    """What two runs are compared by: a sensor, or a coordinate."""
+    """Quantity by which two runs are compared: a sensor or a coordinate."""
 
     unit: str
     place: bool = False
@@ -54,7 +54,7 @@ class Compared:
 
     @property
     def fields(self) -> JudgedFields:
-        """For the kernel."""
+        """Fields of the structure for the kernel."""
         bits = {
             JudgedKind.PLACE: self.place,
             JudgedKind.LOAD: self.load,
@@ -64,7 +64,7 @@ class Compared:
         return JudgedFields(UNITS[self.unit], sum(bit for bit, is_set in bits.items() if is_set))
 
     def change(self, one: Array, other: Array) -> Array:
-        """From one value to the other at samples, (n,); of angles by the smaller arc."""
+        """Differences of values at samples, (n,); of angles along the smaller arc."""
         return np.asarray((other - one + np.pi) % (2.0 * np.pi) - np.pi if self.wrapped else other - one)
 
     def gap(self, one: Array, other: Array) -> float:
@@ -148,7 +148,7 @@ class Comparison:
 
 
 def compared_sensors(system: System) -> Mapping[str, Compared]:
-    """What can be judged of the sensors that the System computes, by name.
+    """Sensors of the System that can be compared, by name.
 
     Gears, energies and accelerations change in jumps, or change sign, where a small shift in time is a large
     difference: they say nothing.

@@ -1,4 +1,4 @@
-"""With which order errors fall, and what runs with shorter and shorter steps tend to."""
+"""Observed order of convergence, and extrapolation of runs with shorter steps."""
 
 import math
 from collections.abc import Mapping, Sequence

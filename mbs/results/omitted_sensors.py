@@ -46,7 +46,7 @@ class OmittedSensors:
         return self._found[name]
 
     def thinned(self, every: int) -> OmittedSensors:
-        """Of every so many samples of this one."""
+        """Omitted sensors of one of every so many samples."""
         made = OmittedSensors(self.names, self._compute, self.reason, self._every * every)
         if self._compute is None and self._found is not None:
             made._found = {name: values[::every] for name, values in self._found.items()}

@@ -15,7 +15,7 @@ TURNED = 12.0  # rad of the motion from which it is told apart
 
 @dataclass(frozen=True)
 class Report:
-    """What the solver did since the last initialisation, and how well it ended.
+    """Counters and residuals of the solver since the last initialisation.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ class Report:
 
     @classmethod
     def from_kernel(cls, values: Mapping[str, float]) -> Report:
-        """From the report of a kernel instance."""
+        """Report of a kernel instance."""
         return cls(**{f.name: values[f.name] for f in fields(cls)})  # type: ignore[arg-type]
 
     @property
@@ -146,7 +146,7 @@ class Report:
 
     @property
     def energy_growth(self) -> float:
-        """By what the energy of a free System grows over the run, J, by the straight line through it.
+        """Growth of the energy of a free System over the run, J, by linear regression.
 
         0 where the line is less than half of how the energy changes: it then swings and comes back.
         """

@@ -1,4 +1,4 @@
-"""The errors of stepping; they carry what a run has recorded so far."""
+"""Errors of stepping, with the part of the run recorded so far."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which steps resolve a motion: methods of high order have their order only where nothing abrupt can happen."""
+"""Conditions for the nominal order of a method: no abrupt change of forces, and steps that resolve the motion."""
 
 from collections.abc import Mapping
 

@@ -26,8 +26,8 @@ from mbs.results.accuracy import Accuracy
 from mbs.results.omitted_sensors import OmittedSensors
 from mbs.results.poses import Poses
 from mbs.results.run_report import Report
+from mbs.results.step_control import Control
 from mbs.roads.scene_part import drawn_roads, scene_part
-from mbs.settings.control import Control
 from mbs.settings.settings import Settings
 from mbs.system.drawing import Drawing
 
@@ -45,28 +45,28 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
     values : array of shape (n, ns)
         Sensor values, one column per name.
     names, units : sequence of str
-        Of the ns sensors.
+        Names and units of the ns sensors.
     report : Report, optional
         Counters and residuals of the solver.
     settings : Settings, optional
-        How the steps were solved.
+        Method, tolerances and further settings of the solver.
     wall_s : float
-        Time spent stepping, s; preparing inputs, reporting progress and a refined run are not counted. All runs that a
-        tolerance needed are.
+        Wall time of the steps, s, of all runs that a tolerance needed; preparation of inputs, progress reports and a
+        refined run are excluded.
     accuracy : Accuracy, optional
-        What is known of the error.
+        Estimated error, with the refined run it comes from.
     notices : sequence of str
         Notices of the scene, see `Model.notice`; evaluated at the recorded times.
     branch_change : str
         A sentence about the first change of the assembly mode of a closed loop; empty where there was none.
     control : Control, optional
-        How method and steps were chosen, where `simulate` chose them.
+        Record of the choice of method and steps, if `simulate` chose them.
     drawing : Drawing, optional
-        What `mbs.animate` draws.
+        Scene of the model, for `mbs.animate`.
     roads : mapping of int to road or str, optional
         Roads of the run that are not those of the drawing, by their numbers: moved by parameters, or paths of files.
     left_out : OmittedSensors, optional
-        Sensors among `names` that the run did not compute; their columns of `values` are not looked at.
+        Sensors among `names` that the run did not compute; their columns of `values` are ignored.
     """
 
     def __init__(
@@ -140,23 +140,23 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         Parameters
         ----------
         scene : mapping, optional
-            In place of that of the run.
+            Scene to draw; by default that of the run.
         name : str
-            Of the run; by default that of the model.
+            Name of the recording; by default that of the model.
 
         Returns
         -------
         Recording
-            At the times of the poses.
+            Samples at the times of the poses.
 
         Raises
         ------
         ValueError
-            The run has no scene and none is given, it is not a mapping, or the run has none of its poses.
+            The run has no scene and none is given, the scene is not a mapping, or the run has none of its poses.
         ali3.scene.errors.ViewerError
             The scene is not of the format.
         mbs.RoadFileError
-            The file of its road cannot be read any more.
+            The file of a road of the run can no longer be read.
         """
         if scene is None:
             if self.drawing is None:
@@ -175,8 +175,8 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         columns, units = {n: v[::every] for n, v in self.items()}, dict(self.units)
         if poses is not None:
             columns, units = poses.recorded(columns, units)
-        found = Recording(scene, self.t[::every] if poses is None else poses.t, columns, units, name)
-        if found.scene is None:
+        recording = Recording(scene, self.t[::every] if poses is None else poses.t, columns, units, name)
+        if recording.scene is None:
             drawn = shown(scene["name"])
             if poses is not None:
                 bodies = ", ".join(poses.bodies)
@@ -186,20 +186,20 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
                 "to_csv(..., poses=True) wrote."
             )
         if every > 1:
-            found.notes.append(f"Poses were kept of one of {every} samples of the run.")
-        return found
+            recording.notes.append(f"Poses were kept of one of {every} samples of the run.")
+        return recording
 
     def _drawn_roads(self, roads: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-        """Roads of a scene as this run had them, those of files read."""
-        found = [dict(road) for road in roads]
-        for place, drawn in enumerate(found):
-            road = self.roads.get(drawn.get("number", place))
+        """Roads of a scene with those that this run replaced; road files are read."""
+        parts = [dict(road) for road in roads]
+        for k, part in enumerate(parts):
+            road = self.roads.get(part.get("number", k))
             if road is not None and not isinstance(road, PortRoad):
-                found[place] = {"kind": "file", "path": road} if isinstance(road, str) else scene_part(road)
-        return drawn_roads(found)
+                parts[k] = {"kind": "file", "path": road} if isinstance(road, str) else scene_part(road)
+        return drawn_roads(parts)
 
     def _repr_html_(self) -> str | None:
-        """In a notebook a run shows itself."""
+        """Animation of the run in a notebook; a text if it cannot be drawn, None if it has no drawing."""
         if self.drawing is None or len(self.t) < 2:
             return None
         try:
@@ -208,17 +208,17 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             return f"<pre>{html.escape(repr(self))}</pre><p>{html.escape(str(error))}</p>"
 
     def thinned(self, every: int) -> Trajectory:
-        """Every so many samples, the first one among them, with the same report, settings and accuracy.
+        """Keep one of every so many samples, from the first on, with the same report, settings and accuracy.
 
         Parameters
         ----------
         every : int
-            One of that many samples is kept.
+            One of this many samples is kept.
 
         Returns
         -------
         Trajectory
-            This one, where all are kept.
+            A new one; this one itself if `every` is 1.
 
         Raises
         ------
@@ -228,15 +228,23 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         every = whole(every, "every", 1, 10**9, ValueError)
         if every == 1:
             return self
-        none = np.zeros(len(self.t))
-        kept = [self._columns.get(name, none) for name in self.units]
-        values = np.column_stack(kept) if kept else np.empty((len(self.t), 0))
+        zeros = np.zeros(len(self.t))
+        columns = [self._columns.get(name, zeros) for name in self.units]
+        values = np.column_stack(columns) if columns else np.empty((len(self.t), 0))
         names, units = list(self.units), list(self.units.values())
-        rest = (self.report, self.settings, self.wall_s, self.accuracy, self.notices, self.branch_change, self.control)
+        unchanged = (
+            self.report,
+            self.settings,
+            self.wall_s,
+            self.accuracy,
+            self.notices,
+            self.branch_change,
+            self.control,
+        )
         poses = None if self._poses is None else self._poses.thinned(every)
         left_out = self._left_out.thinned(every)
         return Trajectory(
-            self.t[::every], values[::every], names, units, *rest, poses, self.drawing, self.roads, left_out
+            self.t[::every], values[::every], names, units, *unchanged, poses, self.drawing, self.roads, left_out
         )
 
     @property
@@ -245,10 +253,10 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         return float((self.t[-1] - self.t[0]) / self.wall_s)
 
     def __repr__(self) -> str:
-        known = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
+        accuracy_text = f"; {self.accuracy}" if self.accuracy is not None and str(self.accuracy) else ""
         notices_text = "".join(f" {text}" for text in (*self.notices, self.branch_change) if text)
         samples = f"{len(self.t)} samples from {self.t[0]:g} s to {self.t[-1]:g} s"
-        text = f"Trajectory({samples}, {len(self)} sensors{known}){notices_text}"
+        text = f"Trajectory({samples}, {len(self)} sensors{accuracy_text}){notices_text}"
         return text if self.control is None else f"{text}\n  {self.control}"
 
     def to_csv(self, path: str | PathLike[str], poses: bool = False) -> None:
@@ -257,18 +265,18 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
         Parameters
         ----------
         path : str or path-like
-            File to write; one that exists is replaced when the new one is whole.
+            File to write; an existing one is replaced only by a complete one.
         poses : bool
-            Whether with the poses of all bodies, ``rod.x [m]`` to ``rod.qz [1]``, by which `from_csv`, ``animate(...,
-            scene=system)`` and ``ali3 view`` draw the run. Where a sensor has such a name, the columns are
-            ``rod.pose.x`` to ``rod.pose.qz``.
+            Whether to add the poses of all bodies, ``rod.x [m]`` to ``rod.qz [1]``, from which `from_csv`,
+            ``animate(..., scene=system)`` and ``ali3 view`` draw the run. Where a sensor has such a name, the columns
+            are ``rod.pose.x`` to ``rod.pose.qz``.
 
         Raises
         ------
         OSError
             The file cannot be written.
         ValueError
-            The run has no poses, or not at all of its samples.
+            The run has no poses, or has them at some of its samples only.
         """
         columns, units = dict(self), dict(self.units)
         if flag(poses, "The poses of to_csv", ValueError):
@@ -285,13 +293,13 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
 
     @classmethod
     def from_csv(cls, path: str | PathLike[str]) -> Trajectory:
-        """Read what `to_csv` wrote; counters and settings are not in the file.
+        """Read a file that `to_csv` wrote; counters and settings are not in the file.
 
         Returns
         -------
         Trajectory
-            Times, values, names and units; poses of what has all seven columns ``.x`` to ``.qz``, which are among the
-            sensors too.
+            Times, values, names and units; poses of the bodies with all seven columns ``.x`` to ``.qz``, which also
+            remain sensors.
 
         Raises
         ------

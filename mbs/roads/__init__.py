@@ -1,4 +1,4 @@
-"""Roads as files: the format that kernel and FMU read while they run, and what it is made of."""
+"""Roads as files: the format that kernel and FMU read while they run, and the sources it is made from."""
 
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import RoadFile

@@ -1,4 +1,4 @@
-"""A road in words: the TOML file that says what it is made of."""
+"""Description of a road in TOML: its source, spacing and frictions."""
 
 import math
 import os

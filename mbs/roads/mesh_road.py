@@ -1,4 +1,4 @@
-"""Roads from meshes of triangles: the grid of their heights."""
+"""Roads from triangle meshes: sampling of their heights on a grid, and the check that a mesh is a road."""
 
 import os
 import warnings
@@ -18,16 +18,17 @@ from mbs.roads.steep_faces import RoadWarning
 from mbs.roads.triangle_heights import triangle_heights
 
 SPACING = 0.1, 0.1
-"""m, of the grid where none is given."""
+"""Default spacing of the grid, m."""
 LEAST_SEEN_SHARE = 0.5
-"""Least share of its area that a mesh of a road shows from above."""
-SMALLEST = 1.0  # m, across
+"""Least projected area of the mesh of a road, relative to its area."""
+SMALLEST = 1.0
+"""Least diagonal of the bounding box of a road, m."""
 HOLE = 100.0
-"""m2: a smaller gap inside of a mesh is a hole, a larger one what a closed road goes round."""
+"""Area of a gap in a mesh up to which it is a hole, m2; a larger one is the infield of a closed road."""
 OVERHANG = 1e-3
-"""m: surfaces above one another that are farther apart are an overhang."""
+"""Distance of surfaces above one another from which they are an overhang, m."""
 MOST_COVER = 3.0
-"""Area seen from above that a mesh may have, in multiples of its box: the time of a scan grows with it."""
+"""Largest projected area of a mesh, relative to its bounding box: the time of a scan grows with it."""
 _ONE_HEIGHT = "a road has one height at each place. Leave only the surface in the file that wheels roll on."
 _UNIT = 'for a file in millimetres write a description with kind = "grid", heights = "{}" and scale = 0.001'
 
@@ -38,14 +39,14 @@ def mesh_road(
     scale: float = 1.0,
     up: Literal["y", "z"] | None = None,
 ) -> SampledRoad:
-    """A grid of the heights of a mesh; beside it the heights at its border go on.
+    """Sample the heights of a mesh on a grid; beside the mesh the heights at its border continue.
 
     Parameters
     ----------
     path : path
         ``.stl``, ``.obj``, ``.ply``, ``.off``, ``.glb`` or ``.gltf``.
     spacing : (float, float), optional
-        Of the grid, m; by default 0.1.
+        Spacing of the grid, m; by default 0.1.
     scale : float
         Metres per unit of the file.
     up : "y" or "z", optional
@@ -54,12 +55,12 @@ def mesh_road(
     Raises
     ------
     RoadFileError
-        It is not a mesh, stands upright, has overhangs or holes, needs too many points, or none of them meets it.
+        It is not a mesh, is upright, has overhangs or holes, needs too many points, or no grid point lies on it.
 
     Warns
     -----
     RoadWarning
-        A large gap is filled, or what lies between pieces.
+        A large gap, or the space between separate pieces, is filled.
     """
     source, name = os.fspath(path), Path(path).name
     try:
@@ -74,9 +75,9 @@ def mesh_road(
             f"{source} is {np.hypot(*(high - low)[:2]):.3g} m across, which is not a road; `scale` in a description "
             "says how many metres its unit has."
         )
-    seen = _seen_areas(corners)
-    _refuse_upright(corners, seen, source, name)
-    area, box = float(seen.sum()), float((high - low)[:2].prod())
+    areas = _seen_areas(corners)
+    _refuse_upright(corners, areas, source, name)
+    area, box = float(areas.sum()), float((high - low)[:2].prod())
     if area > MOST_COVER * box:
         raise RoadFileError(
             f"{source} has surfaces above one another, {area:.4g} m2 seen from above within {box:.4g} m2: {_ONE_HEIGHT}"
@@ -99,31 +100,31 @@ def mesh_road(
         raise RoadFileError(
             f"{source} is narrower than the grid: none of its {heights.size} points, {road.spacing[0]:.4g} by "
             f"{road.spacing[1]:.4g} m apart, lies on it. "
-            f"A spacing of {_spacing_that_hits(corners, seen):.2g} m has such points."
+            f"A spacing of {_spacing_that_hits(corners, areas):.2g} m has such points."
         )
     road = replace(road, heights=_filled(heights, road, source))
     own = corners.reshape(-1, 3)
     rows = (
-        (np.stack([np.full(len(y_between), at), y_between], -1), z) for at, z in zip(x_between, highest, strict=True)
+        (np.stack([np.full(len(y_between), x_k), y_between], -1), z) for x_k, z in zip(x_between, highest, strict=True)
     )
     return compared(road, chain(rows, [(own[:, :2], own[:, 2])]), source)
 
 
 def _seen_areas(corners: Values) -> Values:
-    """Areas of triangles seen from above, m2."""
+    """Areas of triangles projected on the ground, m2."""
     (ax, ay), (bx, by) = ((corners[:, k, :2] - corners[:, 0, :2]).T for k in (1, 2))
     return np.asarray(0.5 * np.abs(ax * by - bx * ay))
 
 
 def _spacing_that_hits(corners: Values, seen: Values) -> float:
-    """A spacing with a point in the widest triangle: as one is in every circle across which a cell's diagonal fits."""
+    """Spacing with a grid point in the widest triangle, m: the diagonal of a cell fits into its inscribed circle."""
     sides = np.linalg.norm(np.diff(corners[:, [0, 1, 2, 0], :2], axis=1), axis=-1).sum(axis=1)
     inner = 2.0 * seen / np.maximum(sides, 1e-300)
     return 0.9 * float(np.sqrt(2.0) * inner.max())
 
 
 def _refuse_upright(corners: Values, seen: Values, source: str, name: str) -> None:
-    """Refuses a mesh that shows little of itself from above."""
+    """Raise `RoadFileError` if the projected area of a mesh is small, as of one whose y axis points up."""
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     share = 2.0 * float(seen.sum() / max(np.linalg.norm(normals, axis=1).sum(), 1e-300))
     if share < LEAST_SEEN_SHARE:
@@ -135,7 +136,10 @@ def _refuse_upright(corners: Values, seen: Values, source: str, name: str) -> No
 
 
 def _filled(heights: Values, road: GridRoad, source: str) -> Values:
-    """Beside the mesh the heights at its border; a small gap inside of it is refused."""
+    """Fill missing heights with those of the nearest grid points on the mesh.
+
+    Raises `RoadFileError` for a small gap inside the mesh, warns of a large one and of separate pieces.
+    """
     missing = np.isnan(heights)
     (x0, y0), (dx, dy) = road.origin, road.spacing
     parts, count = ndimage.label(missing)

@@ -1,4 +1,4 @@
-"""The road file in Python: what a model is given, and the whole of it in memory."""
+"""Road files in Python: reference to a file for a model, and its complete content."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class RoadFile(RoadOfFile):
 
     @property
     def header(self) -> Header:
-        """What the beginning of the file says.
+        """Header of the file: type, grid and frictions.
 
         Raises
         ------

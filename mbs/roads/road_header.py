@@ -37,7 +37,7 @@ class RoadFileError(ValueError):
 
 @dataclass(frozen=True)
 class Header:
-    """What the beginning of a road file says."""
+    """Header of a road file."""
 
     kind: RoadType
     nx: int
@@ -106,7 +106,7 @@ def read_header(file: BinaryIO, name: object) -> Header:
 
 
 def _problem(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[float]) -> str:
-    """What is wrong with the numbers of a header, as the kernel judges them; empty if nothing is."""
+    """Fault in the numbers of a header, by the checks of the kernel; empty if there is none."""
     if not RoadType.PLANE <= kind <= RoadType.GRID:
         return f"{kind} is not a kind of road"
     if wrong := [x for x in real if not abs(x) <= ROAD_FARTHEST]:

@@ -1,4 +1,4 @@
-"""What was understood of a road: where it lies, how high and steep it is, and whether a drive begins on it."""
+"""Plausibility of a road: position, extent, heights, slopes and frictions, and whether a drive starts on it."""
 
 from __future__ import annotations
 
@@ -15,24 +15,28 @@ from mbs.elements.road import GridRoad, KerbRoad, PlaneRoad
 from mbs.roads.read_road import read_road
 from mbs.roads.road_file import TEXTS, RoadFile
 
-MOST_LEVELS, FEWEST_LEVELS = 4096, 5
+FEWEST_LEVELS = 5
+"""Fewest different heights from which a step of a number type is concluded."""
+MOST_LEVELS = 4096
+"""Most different heights for which such a step is sought."""
 MOST = 0.9
-"""Of all slopes: kerbs and steps are few."""
+"""Quantile of all slopes that is compared: kerbs and steps are few."""
 ROUND = (1.0, 2.0, 2.5, 5.0)
-"""Steps of number types, times powers of 10."""
+"""Mantissas of steps of number types."""
 MOST_POINTS = 4e6
-"""Of a file that is read for its summary; of more its place alone is looked at."""
+"""Most points of a file that is read as a whole; of a larger one only the position is compared."""
 UNITS = {1e-3: "mm", 1e-2: "cm", 0.0254: "inches", 0.3048: "feet", 1e3: "km"}
-"""What is taken for m, by its length in m."""
+"""Units that may have been taken for metres, by their length in m."""
 TITLE = "road"
-KEYS, HEIGHTS = frozenset({"origin", "spacing"}), frozenset({"heights"})
+KEYS = frozenset({"origin", "spacing"})
+HEIGHTS = frozenset({"heights"})
 QUANTITIES = quantities_of("road")
 Start = tuple[float, float]
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where a grid lies: first point and spacing, m, and numbers of points."""
+    """Position of a grid: first point and spacing, m, and numbers of points along x and y."""
 
     origin: tuple[float, ...]
     spacing: tuple[float, ...]
@@ -40,59 +44,60 @@ class Place:
 
     @property
     def extent(self) -> list[float]:
-        """Along x and y, m."""
+        """Lengths of the grid along x and y, m."""
         return [h * (n - 1) for h, n in zip(self.spacing, self.shape, strict=True)]
 
     @property
     def keys(self) -> dict[str, list[float]]:
-        """What it follows from."""
+        """Values of the file from which the position follows, by key."""
         return {"origin": list(self.origin), "spacing": list(self.spacing)}
 
     def distance(self, point: Start) -> float:
-        """From a point to its rectangle, m; 0 within."""
+        """Distance of a point from the rectangle of the grid, m; 0 inside."""
         ends = zip(point, self.origin, self.extent, strict=True)
         return math.hypot(*(max(low - p, p - low - side, 0.0) for p, low, side in ends))
 
     def scaled(self, factor: float) -> Place:
-        """It with coordinates that were in another unit. `factor`: its length, m."""
+        """Position of a grid whose coordinates are in another unit. `factor`: length of that unit, m."""
         origin, spacing = (tuple(factor * v for v in pair) for pair in (self.origin, self.spacing))
         return replace(self, origin=origin, spacing=spacing)
 
 
 def place_of(road: GridRoad) -> Place:
-    """Where a grid lies."""
+    """Position of a grid road."""
     origin, spacing = (tuple(map(float, pair)) for pair in (road.origin, road.spacing))
     return Place(origin, spacing, np.shape(road.heights))
 
 
 def road_plausibility(what: str, road: PlaneRoad | KerbRoad | GridRoad, start: Start | None = None) -> Plausibility:
-    """What was understood of a road. `what`: the file; `start`: x and y where a drive begins, m."""
+    """Plausibility of a road. `what`: name of the file; `start`: x and y where a drive begins, m."""
     if not isinstance(road, GridRoad):
         return Plausibility(what, _plain_values(road), title=TITLE)
     place, z = place_of(road), np.asarray(road.heights, float)
     mistakes, values = [], road_values(road, place, z, start)
     usual = any(v.quantity is QUANTITIES["slope"] and v.mended() for v in values)
     for factor, unit in UNITS.items():
-        words, scaled = f"{unit} in place of m in", place.scaled(factor)
-        for of, keys, at, higher in (
+        scaled = place.scaled(factor)
+        for subject, keys, position, higher in (
             ("coordinates", KEYS, scaled, 1.0),
             ("heights", HEIGHTS, place, factor),
             ("coordinates and heights", KEYS | HEIGHTS, scaled, factor),
         ):
-            if not (usual and keys is HEIGHTS):  # one place that is steep has another cause
-                mistakes.append(Mistake(f"{words} {of}", keys, partial(road_values, road, at, z, start, higher)))
-    if (none := far_values(z)).any():
-        filled = partial(road_values, road, place, filled_up(z, none), start)
-        mistakes.append(Mistake(f"{z[none][0]:g} in the place of no value in heights", HEIGHTS, filled))
-    parts = partial(road_values, road, place, z, start, rougher=0.01)
-    mistakes.append(Mistake("percent in place of a ratio in frictions", frozenset({"frictions"}), parts))
+            if not (usual and keys is HEIGHTS):  # a single steep spot has another cause
+                text = f"{unit} in place of m in {subject}"
+                mistakes.append(Mistake(text, keys, partial(road_values, road, position, z, start, higher)))
+    if (missing := far_values(z)).any():
+        filled = partial(road_values, road, place, filled_up(z, missing), start)
+        mistakes.append(Mistake(f"{z[missing][0]:g} in the place of no value in heights", HEIGHTS, filled))
+    as_ratios = partial(road_values, road, place, z, start, rougher=0.01)
+    mistakes.append(Mistake("percent in place of a ratio in frictions", frozenset({"frictions"}), as_ratios))
     if start is not None:
         mistakes += start_mistakes(place, start)
     return Plausibility(what, values, mistakes, title=TITLE)
 
 
 def start_plausibility(what: str, place: Place, start: Start) -> Plausibility:
-    """Whether a drive begins on a grid. `place`: of the grid; `start`: x and y where it begins, m."""
+    """Plausibility of the position of a grid alone. `start`: x and y where a drive begins, m."""
     mistakes, small = start_mistakes(place, start), place.scaled(1e-3)
     if min(small.extent) > 1.0:
         mistakes.insert(0, Mistake("mm in place of m in coordinates", KEYS, partial(_placed, small, start)))
@@ -100,26 +105,29 @@ def start_plausibility(what: str, place: Place, start: Start) -> Plausibility:
 
 
 def _placed(place: Place, start: Start) -> list[Value]:
+    """Values of extent and distance from the start."""
     return [*_sides(place), *_away(place, start)]
 
 
 def start_mistakes(place: Place, start: Start) -> list[Mistake]:
-    """Common mistakes by which a grid is not where a drive begins."""
+    """Common mistakes by which a grid does not contain the start of a drive."""
     middle = [o + 0.5 * side for o, side in zip(place.origin, place.extent, strict=True)]
     map_text = f"coordinates of a map or another origin, of which {middle[0]:.0f}, {middle[1]:.0f} is to be taken"
     at_start = tuple(s - 0.5 * side for s, side in zip(start, place.extent, strict=True))
     return [
-        Mistake(words, frozenset({"origin"}), partial(_away, replace(place, origin=origin), start))
-        for words, origin in (("x and y exchanged in the origin", place.origin[::-1]), (map_text, at_start))
+        Mistake(text, frozenset({"origin"}), partial(_away, replace(place, origin=origin), start))
+        for text, origin in (("x and y exchanged in the origin", place.origin[::-1]), (map_text, at_start))
     ]
 
 
 def _away(place: Place, start: Start) -> list[Value]:
+    """Value of the distance of the start from the grid."""
     keys = place.keys | {"extent": place.extent, "start": list(start)}
     return [Value(QUANTITIES["away"], place.distance(start), keys)]
 
 
 def _sides(place: Place) -> list[Value]:
+    """Values of the extent along x and y."""
     sides = zip("xy", place.extent, strict=True)
     return [Value(QUANTITIES["extent"], side, {"spacing": list(place.spacing)}, axis) for axis, side in sides]
 
@@ -129,7 +137,7 @@ def road_values(
 ) -> list[Value]:
     """Values of all quantities of a grid.
 
-    `place`, `z`: where it lies, its heights, m; `higher`, `rougher`: factors of its heights and frictions.
+    `place`: its position; `z`: its heights, m; `higher`, `rougher`: factors on its heights and frictions.
     """
     z, frictions = higher * z, rougher * np.asarray(road.frictions, float)
     spacing = {"spacing": list(place.spacing)}
@@ -151,6 +159,7 @@ def road_values(
 
 
 def _plain_values(road: PlaneRoad | KerbRoad) -> list[Value]:
+    """Values of the quantities of a plane or a kerb."""
     steep = math.hypot(road.grade_x, road.grade_y) if isinstance(road, PlaneRoad) else 0.0
     step = road.step if isinstance(road, KerbRoad) else 0.0
     return [
@@ -166,13 +175,13 @@ def _frictions(least: float, largest: float, factor: float) -> list[Value]:
 
 
 def height_step(z: np.ndarray) -> float:
-    """The step of which all heights are multiples, m; 0 where there is none that can be seen, as of a few levels."""
+    """Step of which all heights are multiples, m; 0 if there is none, or if too few different heights show it."""
     levels = np.unique(z)
     if not FEWEST_LEVELS <= len(levels) <= MOST_LEVELS:
         return 0.0
     gaps = np.diff(levels)
     steps = gaps / gaps.min()
-    # a few levels of a drawing have any differences; those of a coarse number type have neighbours everywhere
+    # levels of a drawing are few and have any distances; those of a coarse number type are mostly one step apart
     whole = bool(np.all(np.abs(steps - np.round(steps)) < 1e-3 * np.round(steps)))
     step = float(gaps.min())
     mantissa = np.round(step / 10.0 ** np.floor(np.log10(step * (1.0 + 1e-6))), 3)
@@ -180,7 +189,7 @@ def height_step(z: np.ndarray) -> float:
 
 
 def filled_up(z: np.ndarray, none: np.ndarray) -> np.ndarray:
-    """Heights with those of the nearest others where there are none."""
+    """Heights in which missing ones (`none`) have the value of the nearest point."""
     nearest = distance_transform_edt(none, return_distances=False, return_indices=True)
     return np.asarray(z[tuple(nearest)])
 
@@ -194,19 +203,23 @@ def _plausibility_of_road(road: PlaneRoad | KerbRoad | GridRoad) -> list[Plausib
 
 @plausibility_of.register
 def file_plausibility(road: RoadFile, start: Start = (0.0, 0.0), most: float = MOST_POINTS) -> list[Plausibility]:
-    """What was understood of a road of a file, and whether a drive begins on it.
+    """Plausibility of a road file, and whether a drive begins on it.
 
-    `start`: x and y, m; `most`: points; of a file with more its place alone is looked at.
+    `start`: x and y, m; `most`: number of points above which only the position is compared.
     """
-    made = read_road(road.path) if _is_text(road) else None
-    place = _place_of_header(road) if made is None else place_of(made) if isinstance(made, GridRoad) else None
+    table = read_road(road.path) if _is_text(road) else None
+    place = None
+    if table is None:
+        place = _place_of_header(road)
+    elif isinstance(table, GridRoad):
+        place = place_of(table)
     if place is not None and math.prod(place.shape) > most:
         return [start_plausibility(str(road.path), place, start)]
-    return [road_plausibility(str(road.path), road.read() if made is None else made, start)]
+    return [road_plausibility(str(road.path), road.read() if table is None else table, start)]
 
 
 def place_of_file(road: RoadFile) -> Place | None:
-    """Where the grid of a file lies; None of a plane or a kerb. A table is read once, until it is another."""
+    """Position of the grid of a file; None for a plane or a kerb. A table is cached until the file changes."""
     if not _is_text(road):
         return _place_of_header(road)
     file = Path(road.path).absolute()
@@ -214,6 +227,7 @@ def place_of_file(road: RoadFile) -> Place | None:
 
 
 def _is_text(road: RoadFile) -> bool:
+    """Whether a road file is a text table, which has no header with the position of its grid."""
     return Path(road.path).suffix.lower() in TEXTS
 
 
@@ -224,6 +238,6 @@ def _place_of_header(road: RoadFile) -> Place | None:
 
 @lru_cache(maxsize=8)
 def _place_of_table(file: Path, changed: int) -> Place | None:
-    """`changed`: when the file was."""
-    made = read_road(file)
-    return place_of(made) if isinstance(made, GridRoad) else None
+    """Position of the grid of a table. `changed`: time of the last change of the file, part of the key of the cache."""
+    road = read_road(file)
+    return place_of(road) if isinstance(road, GridRoad) else None

@@ -42,7 +42,7 @@ class SampledRoad(GridRoad):
 
     @property
     def sentence(self) -> str:
-        """Its deviation, as the end of a sentence."""
+        """Deviation of the samples from the source, as the end of a sentence."""
         return (
             f"differs from {self.source} by {1000.0 * self.largest:.3g} mm at most, at x = {self.place[0]:.6g} m, "
             f"y = {self.place[1]:.6g} m, and by {1000.0 * self.rms:.3g} mm (root mean square)"
@@ -89,13 +89,13 @@ def compared(road: GridRoad, known: Iterable[tuple[Values, Values]], source: str
     """
     heights = np.ascontiguousarray(road.heights, np.float64)
     largest, place, squares, count = 0.0, (float(road.origin[0]), float(road.origin[1])), 0.0, 0
-    for places, there in known:
-        off = np.abs(grid_heights(road, heights, places) - there)
+    for places, heights_there in known:
+        off = np.abs(grid_heights(road, heights, places) - heights_there)
         off = np.where(np.isnan(off), 0.0, off)
         k = int(off.argmax())
         if off[k] > largest:
             largest, place = float(off[k]), (float(places[k, 0]), float(places[k, 1]))
-        squares, count = squares + float(off @ off), count + int(np.isfinite(there).sum())
+        squares, count = squares + float(off @ off), count + int(np.isfinite(heights_there).sum())
     rms = float(np.sqrt(squares / max(count, 1)))
     return SampledRoad(road.origin, road.spacing, heights, road.frictions, 1.0, source, largest, rms, place)
 

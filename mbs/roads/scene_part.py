@@ -1,4 +1,4 @@
-"""A road as an entry of the list `roads` of a scene: what draws it needs no road file."""
+"""Entry of a road in the list `roads` of a scene, which can be drawn without the road file."""
 
 import math
 import os

@@ -196,17 +196,17 @@ def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[in
     table = file.read(count * ENTRY.size)
     if zlib.crc32(table) != head.contents:
         raise RoadFileError(f"The table of parts of the road {name} was altered or damaged.")
-    kept: dict[int, Float] = {}
+    tiles: dict[int, Float] = {}
     for number, (place, size, crc, _, _) in enumerate(ENTRY.iter_unpack(table)):
-        if place not in kept:
+        if place not in tiles:
             inside = 0 < place <= head.file_bytes - size and 0 < size <= head.file_bytes
             file.seek(place if inside else 0)
             record = file.read(size) if inside else b""
             if len(record) != size or crc != zlib.crc32(record):
                 raise RoadFileError(f"Part {number} of the road {name} was altered or damaged.")
-            kept = kept if len(kept) < 4096 else {}
-            kept[place] = _values(record, head.maps, f"Part {number} of the road {name}")
-        yield number, kept[place]
+            tiles = tiles if len(tiles) < 4096 else {}
+            tiles[place] = _values(record, head.maps, f"Part {number} of the road {name}")
+        yield number, tiles[place]
 
 
 def _values(record: bytes, maps: int, name: str) -> Float:

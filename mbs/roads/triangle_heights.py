@@ -59,7 +59,7 @@ def triangle_heights(corners: Values, x: Values, y: Values) -> tuple[Values, Val
 
 
 def _part(at: Values, begin: Values, end: Values, empty: float = 0.0) -> Values:
-    """Where a value lies between two others, 0 to 1; `empty` where these are the same."""
+    """Relative position of a value between two others, 0 to 1; `empty` where these are equal."""
     length = end - begin
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(np.where(length > 0.0, ((at - begin) / length).clip(0.0, 1.0), empty))

@@ -1,7 +1,7 @@
 """The paper's test (section 4): the prototype car rolls from rest to 5 m/s, down a kerb of 8 cm, and to rest, in 15 s.
 
-The forward motion of the chassis is guided in time, as the paper guides it by what was measured. Kerb, duration, top
-speed and the three intervals are the paper's; the times within them and where the kerb lies are assumed.
+The forward motion of the chassis is prescribed in time; the paper prescribes the measured one. Kerb, duration, top
+speed and the three intervals are the paper's; the times within them and the position of the kerb are assumed.
 """
 
 from __future__ import annotations
@@ -21,11 +21,13 @@ from mbs.vehicle import Car
 from mbs.vehicle.fidelity import OFFERED, Fidelity
 
 SPEED = 5.0  # m/s
-ACCELERATE, BRAKE = (5.0, 7.4), (8.2, 10.0)  # s; between them the speed is constant
-DURATION, STEP = 15.0, 0.01  # s
-EDGE = 7.5  # m from the front axle at rest to the kerb; a wheel is over it at 7.70 s in front, 8.16 s behind
-HEIGHT = 0.08  # m
-PIECE = 0.1  # s, of the guide's polynomials
+ACCELERATE = (5.0, 7.4)  # s: start and end
+BRAKE = (8.2, 10.0)  # s; between both intervals the speed is constant
+DURATION = 15.0  # s
+STEP = 0.01  # s
+EDGE = 7.5  # m from the front axle at rest to the kerb; front wheels pass it at 7.70 s, rear wheels at 8.16 s
+HEIGHT = 0.08  # m, of the kerb
+PIECE = 0.1  # s, length of a polynomial piece of the guide
 
 
 def build(
@@ -33,7 +35,7 @@ def build(
     car: Car | None = None,
     guide: Callable[[Model, float], Guide] | None = None,
 ) -> Model:
-    """The car before the kerb, in equilibrium.
+    """Model of the car in equilibrium in front of the kerb.
 
     Parameters
     ----------
@@ -45,10 +47,10 @@ def build(
         Makes the guide of the x coordinate of the chassis' reference point, whose start is given, m; by default
         `smooth_guide`.
     """
-    made = smooth_guide if guide is None else guide
-    driven = prototype_car.car() if car is None else car
-    road = KerbRoad(EDGE, HEIGHT, -HEIGHT, "before", driven.road.friction)
-    m = driven.model(road, fidelity, lambda model: made(model, driven.chassis.reference[0]))
+    make_guide = smooth_guide if guide is None else guide
+    test_car = prototype_car.car() if car is None else car
+    road = KerbRoad(EDGE, HEIGHT, -HEIGHT, "before", test_car.road.friction)
+    m = test_car.model(road, fidelity, lambda model: make_guide(model, test_car.chassis.reference[0]))
     m.stop_time, m.step = DURATION, STEP
     return m
 
@@ -59,14 +61,14 @@ def fidelities() -> dict[Fidelity, Callable[[], Model]]:
 
 
 def speed(t: float | np.ndarray) -> np.ndarray:
-    """Guided speed, m/s."""
+    """Prescribed speed of the chassis at times in s, m/s."""
     s5 = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0])
     up, down = (np.clip((np.asarray(t) - a) / (b - a), 0.0, 1.0) for a, b in (ACCELERATE, BRAKE))
     return np.asarray(SPEED * (s5(up) - s5(down)))
 
 
-def way(t: float | np.ndarray) -> np.ndarray:
-    """Guided way from rest, m: the integral of `speed`."""
+def distance(t: float | np.ndarray) -> np.ndarray:
+    """Prescribed distance from rest at times in s, m: the integral of `speed`."""
     integral = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0]).integ()
     total = np.zeros(np.shape(t))
     for sign, (a, b) in ((1.0, ACCELERATE), (-1.0, BRAKE)):
@@ -76,12 +78,15 @@ def way(t: float | np.ndarray) -> np.ndarray:
 
 
 def smooth_guide(m: Model, start: float) -> Guide:
-    """x of a point of the chassis: pieces of fifth degree that share place, speed and acceleration with `way`."""
+    """Add the guide of x of a chassis point: polynomials of degree 5 that interpolate `distance` and two derivatives.
+
+    `start`: x at rest, m.
+    """
     breaks = np.concatenate(
         [[0.0], *(np.arange(a, b + 0.5 * PIECE, PIECE) for a, b in (ACCELERATE, BRAKE)), [DURATION]]
     )
     v, rate = speed(breaks), _acceleration(breaks)
-    x = start + way(breaks)
+    x = start + distance(breaks)
     coefficients = []
     for k, h in enumerate(np.diff(breaks)):
         low = [x[k], v[k], rate[k] / 2.0]
@@ -105,6 +110,7 @@ def smooth_guide(m: Model, start: float) -> Guide:
 
 
 def _acceleration(t: np.ndarray) -> np.ndarray:
+    """Prescribed acceleration at times in s, m/s2."""
     slope = Polynomial([0.0, 0.0, 0.0, 10.0, -15.0, 6.0]).deriv()
     parts = [slope(np.clip((t - a) / (b - a), 0.0, 1.0)) / (b - a) for a, b in (ACCELERATE, BRAKE)]
     return np.asarray(SPEED * (parts[0] - parts[1]))

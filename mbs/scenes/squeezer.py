@@ -28,7 +28,7 @@ BODIES = {  # mass kg, inertia about the centre of mass kg m2
 
 
 def build() -> Model:
-    """At rest in the published starting position."""
+    """Model of the squeezer at rest in the published starting position."""
     m = Model("squeezer", dimension=2, gravity=(0.0, 0.0))
     points = {
         "F": _from(O, BETA, 0.007, 0.0),

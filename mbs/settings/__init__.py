@@ -1,1 +1,1 @@
-"""What a run is asked for: method, tolerances, steps, inputs over time."""
+"""Request of a run: method, tolerances, steps, inputs over time."""

@@ -1,4 +1,4 @@
-"""Where steps end early: at jumps and peaks of tables and functions of inputs within them."""
+"""Times at which steps end early: jumps and peaks of tables and functions of inputs."""
 
 import math
 from collections.abc import Callable, Iterable

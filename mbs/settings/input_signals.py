@@ -181,7 +181,7 @@ def _stairs(table: tuple[ArrayLike, ArrayLike]) -> Table:
 
 
 def _value_of(name: str, signal: Callable[[float], float], t: float) -> float:
-    """What a function of time gives at a time, s."""
+    """Value of a function of time at a time, s."""
     value = signal(t)
     if not is_number(value):
         raise ValueError(f"The function of input {name!r} gives {shown(value)} at t = {t:g} s; it must give a number.")

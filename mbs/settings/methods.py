@@ -1,4 +1,4 @@
-"""The methods of the kernel by name: what Python knows of each."""
+"""Time integration methods by name: number in the kernel, title, order, restrictions and relative cost."""
 
 from dataclasses import dataclass
 
@@ -7,32 +7,32 @@ from mbs.kernel.header.steps import METHOD_ORDERS, MethodNumber
 
 @dataclass(frozen=True)
 class Method:
-    """A time integrator, with settings that belong to it."""
+    """A time integration method and the Systems that it accepts."""
 
     number: MethodNumber
-    """In the kernel."""
+    """Number of the method in the kernel."""
     title: str
-    """In tables and charts."""
+    """Title in tables and charts."""
     order: int = 2
-    """With which errors of fixed steps fall."""
+    """Order of convergence with fixed steps."""
     project: bool | None = None
-    """Value of the setting `project` that the name stands for; None: that of the settings."""
+    """Value of the setting `project` that the name implies; None: that of the settings."""
     conservative_only: bool = False
     tree_only: bool = False
     positions_only: bool = False
-    """`conservative_only`, `tree_only`, `positions_only`: whether it takes only Systems without damping, with a
-    spanning tree, without rows of velocities."""
+    """`conservative_only`, `tree_only`, `positions_only`: whether it accepts only Systems without damping, with a
+    spanning tree, without constraints on velocities."""
     cost: float = 1.0
-    """Of one unit of work of a controlled run (`ControlledRun.work`), in evaluations of Runge and Kutta's rule."""
+    """Cost of one unit of work of a controlled run (`ControlledRun.work`), in evaluations of a Runge-Kutta method."""
 
     @property
     def order_of_changing_steps(self) -> int:
-        """With which errors of steps that change fall."""
+        """Order of convergence with steps of changing size."""
         return METHOD_ORDERS[self.number]
 
     @property
     def kernel_fields(self) -> dict[str, int]:
-        """What the name sets of `ali3_settings`."""
+        """Fields of `ali3_settings` that the name implies, with their values."""
         fields = {"method": int(self.number)}
         return fields if self.project is None else fields | {"project": int(self.project)}
 

@@ -18,7 +18,7 @@ LIMITED = ("ali3p", "ali3p_no_projection", "ali3p_generalised_alpha")
 
 @dataclass(frozen=True)
 class Settings:
-    """How a step is solved; the defaults are those of the kernel.
+    """Method and solver settings of a run; the defaults are those of the kernel.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""From a model to its scene: frames, shapes, arrows and roads as what draws reads them."""
+"""From a model to its scene: frames, shapes, arrows and roads."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""What the default shapes of a model are made from: where its joints, wheels and springs touch its bodies."""
+"""Points for default shapes of a model: where joints, wheels and springs act on bodies."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -54,7 +54,7 @@ class Slide:
 
 @dataclass
 class Touched:
-    """Where the bodies of a model are touched."""
+    """Points at which joints, wheels and springs act on the bodies of a model."""
 
     points: dict[str, list[Vector]] = field(default_factory=dict)
     """Places by frame, earth axes as drawn, m."""
@@ -123,13 +123,13 @@ def _sliding_frames(model: Model, names: FrameNames, drawn: Vector, slide: Slidi
     name = f"end of {slide.name}" if slide.name in taken else slide.name
     found: dict[str, dict[str, Any]] = {}
     for k, (direction, guide) in enumerate(slide.ways):
-        way = _way(model, guide)
-        if not way:
+        sliding_direction = _way(model, guide)
+        if not sliding_direction:
             return {}
         last = k == len(slide.ways) - 1
         own, start = name if last else f"{name} {k + 1}", float(model.guides[guide].start)
         along = numbers(place_drawn(drawn, direction))
-        found[own] = {"parent": parent, "at": at, "direction": along, "way": way, "start": start}
+        found[own] = {"parent": parent, "at": at, "direction": along, "way": sliding_direction, "start": start}
         parent, at = own, [0.0, 0.0, 0.0]
     return found
 

@@ -1,4 +1,4 @@
-"""The scene of a model: what draws needs to know beside the columns of a run."""
+"""Scene of a model: everything needed for drawing but the columns of a run."""
 
 from collections.abc import Callable, Mapping
 from functools import partial

@@ -1,4 +1,4 @@
-"""Points that two bodies share by their joints: from them the pose of a body follows from those of its neighbours."""
+"""Points that two bodies have in common through their joints: they give the pose of a body from its neighbours."""
 
 import numpy as np
 
@@ -9,36 +9,38 @@ from mbs.shapes.frames import FrameNames, numbers, place_drawn
 
 JOINTS = ("spherical", "revolute", "universal", "weld")
 """Types of joints whose bodies have a point in common."""
-ALONG = 0.1  # m, from the point of a joint to others that its bodies share
+ALONG = 0.1  # m, from the point of a joint to further common points
 
 
 def shared_points(model: Model, names: FrameNames) -> list[tuple[str, list[float], str, list[float]]]:
-    """For each such point the two frames and its place in both, from their origins along their axes, m.
+    """Common points of all joints: for each point two frames and its coordinates in both, m.
 
-    A joint with an axis gives two points of it, a weld three. Of a body that bends it is the place in its floating
-    frame, from which a node is away by what it bends. Joints that a parameter takes away stay out.
+    A joint with an axis gives two points on it, a weld three. In a flexible body the coordinates are those in its
+    floating frame, without the deformation at the node. Joints that a parameter switches off are left out.
     """
-    found, drawn = [], model.drawn()
+    points, drawn = [], model.drawn()
     for joint in model.joints:
         ends = joint.ends
         if ends is None or joint.type not in JOINTS or joint.switch is not None:
             continue
         if any(body.is_point for body in ends.bodies):
             continue
-        places = [place_drawn(drawn, point) for point in ends.points]
-        for way in _ways(model.dimension, drawn, joint):
-            one, two = (names.anchor(body, place + way) for body, place in zip(ends.bodies, places, strict=True))
-            found.append((one[0], numbers(one[1]), two[0], numbers(two[1])))
-    return found
+        positions = [place_drawn(drawn, point) for point in ends.points]
+        for offset in _offsets(model.dimension, drawn, joint):
+            (frame_1, r_1), (frame_2, r_2) = (
+                names.anchor(body, position + offset) for body, position in zip(ends.bodies, positions, strict=True)
+            )
+            points.append((frame_1, numbers(r_1), frame_2, numbers(r_2)))
+    return points
 
 
-def _ways(dimension: int, drawn: Vector, joint: Joint) -> list[Vector]:
-    """From the point of a joint to all that its bodies share."""
-    ways = [np.zeros(3)]
+def _offsets(dimension: int, drawn: Vector, joint: Joint) -> list[Vector]:
+    """Vectors from the point of a joint to all common points of its bodies, m."""
+    offsets = [np.zeros(3)]
     if joint.type == "weld":
-        ways += [ALONG * e for e in np.eye(3)[:2]]
+        offsets += [ALONG * e for e in np.eye(3)[:2]]
     elif joint.type == "revolute" and dimension == 2:
-        ways.append(np.array([0.0, 0.0, ALONG]))
+        offsets.append(np.array([0.0, 0.0, ALONG]))
     elif joint.type == "revolute" and joint.ends is not None and joint.ends.axis is not None:
-        ways.append(ALONG * place_drawn(drawn, joint.ends.axis))
-    return ways
+        offsets.append(ALONG * place_drawn(drawn, joint.ends.axis))
+    return offsets

@@ -13,8 +13,8 @@ from mbs.kernel.header.enumerations import Status
 from mbs.results.accuracy import AccuracyWarning
 from mbs.results.comparison import WHOLE
 from mbs.results.simulation_error import PoseError
-from mbs.settings.control import Tolerance, checked_tolerance
 from mbs.settings.settings import Settings
+from mbs.settings.tolerance import Tolerance, checked_tolerance
 from mbs.simulation.prepared_system import length_of, prepared
 from mbs.simulation.state import Pose
 from mbs.system.system import System

@@ -1,4 +1,4 @@
-"""A run in equal steps whose step, method or both are chosen."""
+"""Run with equal steps, with automatic choice of step, method or both."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -9,10 +9,11 @@ import numpy as np
 from mbs.common.progress import progress_for
 from mbs.kernel.header.limits import WRONG_ERROR
 from mbs.results.comparison import INSTANTS
+from mbs.results.step_control import Control
 from mbs.results.trajectory import Trajectory
-from mbs.settings.control import DEFAULT_TOLERANCE, Control
 from mbs.settings.input_signals import Signal
 from mbs.settings.settings import Settings
+from mbs.settings.tolerance import DEFAULT_TOLERANCE
 from mbs.simulation.arguments import check_end
 from mbs.simulation.controlled_run import Task, signals_of
 from mbs.simulation.method_choice import choose

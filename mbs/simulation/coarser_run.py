@@ -1,4 +1,4 @@
-"""Coarser runs by which a run is seen to be right: which ones, and what their differences from it say."""
+"""Coarser runs that confirm a run: choice of their steps, and evaluation of the differences."""
 
 import math
 from collections.abc import Mapping
@@ -81,8 +81,8 @@ class CoarserRuns:
         """
         # About `times` of its steps: some that end at all samples where it can, else one in `thin` samples.
         steps, thin = max(round(self.refined.every / times), 1), max(round(times / self.refined.every), 1)
-        made = thin * self.refined.every / steps
-        h, intervals = made * self.refined.h, len(self.refined.run[0].t) - 1
+        cost_share = thin * self.refined.every / steps
+        h, intervals = cost_share * self.refined.h, len(self.refined.run[0].t) - 1
         coordinates, loads = bool(self.refined.run[1]), has_loads(self.refined.compared) and intervals <= WHOLE
         long_enough = self.refined.run[0].t[-1] - self.refined.run[0].t[0] >= h - 0.5 * self.refined.h
         if (thin > 1 and (coordinates or loads)) or not long_enough:
@@ -93,7 +93,7 @@ class CoarserRuns:
             smooth = self._smooth_from / thin
             watch = self.watch(run[0], most, smooth)
         try:
-            other = self.refined.again(h, steps, 1.0 / made, iterations, watch)
+            other = self.refined.again(h, steps, 1.0 / cost_share, iterations, watch)
         except (SimulationError, TooDearError, TooFarError):
             return None
         if len(other[0].t) >= smooth:
@@ -101,7 +101,7 @@ class CoarserRuns:
         shared = min(len(run[0].t), len(other[0].t))
         if shared < max(2, len(run[0].t) - 1) or (coordinates and len(other[1]) != len(run[1])):
             return None
-        return self.refined.estimated(run, other, h, 1.0 / made)
+        return self.refined.estimated(run, other, h, 1.0 / cost_share)
 
     @property
     def _smooth_from(self) -> float:

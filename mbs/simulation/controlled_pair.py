@@ -1,11 +1,11 @@
-"""Two runs to a tolerance of one motion: what they say of the error of the finer one."""
+"""Pair of runs with two tolerances of one motion, and the error of the finer one estimated from them."""
 
 from dataclasses import dataclass
 from functools import cached_property
 
 from mbs.kernel.header.limits import AGREED
 from mbs.results.comparison import COORDINATES, Compared, compared_sensors
-from mbs.settings.control import Tolerance
+from mbs.settings.tolerance import Tolerance
 from mbs.simulation.controlled_run import ControlledRun
 from mbs.simulation.prepared_system import prepared
 

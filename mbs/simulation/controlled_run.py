@@ -30,7 +30,7 @@ ROUND_OFF = 1e-13  # m at coordinates of 1 m
 
 @dataclass(frozen=True)
 class Task:
-    """What all runs of one call have in common."""
+    """Arguments shared by all runs of one call."""
 
     t0: float
     t_end: float
@@ -114,7 +114,7 @@ class ControlledRun:
         return int(max(report["factorizations"], report["iterations"]))
 
     def advance(self, steps: int) -> None:
-        """At most so many accepted steps, or to the end.
+        """Make at most so many accepted steps, or step to the end.
 
         Raises `KernelError` when a step fails as short as it may be. Raises `StalledError` when many steps err more
         than they may, as short as they may be.
@@ -147,7 +147,7 @@ class ControlledRun:
             instance.set_input_function(None)
 
     def finish(self, update: Callable[[float], None]) -> None:
-        """To the end, in parts of about a tenth of a second."""
+        """Step to the end, in calls of about a tenth of a second each."""
         steps = FIRST_CHUNK
         while not self.finished:
             before = self.wall
@@ -157,7 +157,7 @@ class ControlledRun:
 
     @property
     def moved(self) -> float:
-        """How far the coordinate that moves farthest moves, m."""
+        """Largest displacement of a coordinate, m."""
         return float(np.max(np.ptp(self.positions, axis=0) * self.scale, initial=0.0))
 
     def distance(self, other: ControlledRun) -> float:

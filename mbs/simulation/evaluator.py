@@ -17,7 +17,7 @@ SHORT_STEP = 1e-9  # s, over which a state keeps its value
 
 
 class Evaluator:
-    """What linearisation needs of a simulation, whose state stays as it is.
+    """Evaluation of rows, forces and tangents of a simulation for linearisation; its state is not changed.
 
     Elements give steps of their slots, not rates: rates are the limit of short steps. A slot that does not remember
     its value over a short step (a rate kept for the next step) is not a state; it is set to what such a step gives.

@@ -52,11 +52,11 @@ def fixed_step_run(
 
     What it warns of beside `Accuracy.message` is added to `warned` where that is given, also where the run fails.
     """
-    made, path = list[SteppedSystem](), list[tuple[int, Mapping[str, float]]]()
+    stepped, path = list[SteppedSystem](), list[tuple[int, Mapping[str, float]]]()
     found: Accuracy | None = None
 
     def note(values: NDArray[np.float64]) -> bool:
-        path.append((len(values), made[0].instance.report()))
+        path.append((len(values), stepped[0].instance.report()))
         return False
 
     def march_from_start(
@@ -70,8 +70,8 @@ def fixed_step_run(
         simulation = start(step)
         if iterations:
             simulation.change_settings(replace(simulation.settings, step_iterations=iterations))
-        made.append(simulation)
-        if len(made) == 1 and checked and before is None:  # a coarser run that may be watched asks for it
+        stepped.append(simulation)
+        if len(stepped) == 1 and checked and before is None:  # a coarser run that may be watched asks for it
             guided, states = (len(system.arrays[name]) > 0 for name in ("gterm_row", "y0"))
             some = {name: what for name, what in compared_sensors(system).items() if what.always or guided}
             watch = None if one_iteration(simulation.settings, some, states) else note
@@ -98,10 +98,10 @@ def fixed_step_run(
             error.trajectory = error.trajectory.thinned(every // often)
         raise
     finally:  # of the run that was asked for, also when it failed
-        jump = made and made[0].report.branch_kind == BranchKind.JUMP
-        branch = made[0].branch_change if jump else found.branch if found is not None else ""
-        bent = made[0].bending.once() if made else ""
-        rim = made[0].road_text if made and found is not None else ""  # else the refusal says it
+        jump = stepped and stepped[0].report.branch_kind == BranchKind.JUMP
+        branch = stepped[0].branch_change if jump else found.branch if found is not None else ""
+        bent = stepped[0].bending.once() if stepped else ""
+        rim = stepped[0].road_text if stepped and found is not None else ""  # else the refusal says it
         for category, text in ((BranchWarning, branch), (BendingWarning, bent), (RoadWarning, rim)):
             if text and warned is not None:
                 warned.append((category, text))
@@ -115,7 +115,7 @@ def fixed_step_run(
 
 
 def check(refined: refined_run.RefinedRuns, always: bool) -> Accuracy | None:
-    """What is known of the error of a run, after the further runs that it needs.
+    """Accuracy of a run, after the further runs that it needs.
 
     Without `RefinedRuns.before` a run that is not plainly smooth is compared with `CoarserRuns`, and refined where they
     differ. Where the next refined run costs more than is left, that is said in place of a verdict.

@@ -59,7 +59,7 @@ _STARTING = threading.Lock()  # what a start warns of is caught for all threads 
 
 @dataclass(frozen=True)
 class Variant:
-    """What one of many runs has of its own."""
+    """Data of one of many runs that differ from those of the others."""
 
     parameters: Mapping[str, Any] = field(default_factory=dict)
     """Values that differ from their declaration."""
@@ -85,7 +85,7 @@ class ManyRuns:
 
 
 class _Found(NamedTuple):
-    """How the run of a variant ended."""
+    """End of the run of a variant."""
 
     trajectory: Trajectory | None
     failure: SimulationError | None
@@ -148,23 +148,23 @@ class _Run:
         if self.error is not None:
             what = f"The step from t = {time_now:g} s with h = {self.h:g} s failed"
             failure = refusal(self.simulation, what, self.error, recorded, step_given=True)
-        told = self._checked(recorded) if checked and failure is None else self._told(recorded)
-        return _Found(recorded, failure, self.alone, told)
+        messages = self._checked(recorded) if checked and failure is None else self._told(recorded)
+        return _Found(recorded, failure, self.alone, messages)
 
     def _checked(self, run: Trajectory) -> Warned:
         """By the refined runs of `simulate`, which begin with the same run alone; a plainly smooth run has none."""
-        told = list(self.told_at_start)
+        messages = list(self.told_at_start)
         report, end = self.simulation.report, self.t0 + self.steps * self.h
         if accuracy.doubt(report):
             alone = fixed_step_run(
                 self.system, self._start, self.t0, end, self.h, self.variant.inputs, self.every, False, None,
-                warned=told,
+                warned=messages,
             )  # fmt: skip
             run.accuracy, run.notices = alone.accuracy, alone.notices
             if run.accuracy is not None and run.accuracy.message:
-                told.append((AccuracyWarning, run.accuracy.message))
-            return told
-        return told + self._remarks()
+                messages.append((AccuracyWarning, run.accuracy.message))
+            return messages
+        return messages + self._remarks()
 
     def _told(self, run: Trajectory) -> Warned:
         told = list(self.told_at_start)
@@ -256,18 +256,18 @@ def simulate_many(
     order = _by_inputs(system, variants)
     groups = [order[i : i + width] for i in range(0, len(order), width)]
     found: dict[int, _Found] = {}
-    made = [0] * len(groups)
+    steps_made = [0] * len(groups)
     stopped = threading.Event()
 
     def work(number: int) -> None:
         members = {k: variants[k] for k in groups[number]}
 
         def told(done: int) -> bool:
-            made[number] = done * len(members)
+            steps_made[number] = done * len(members)
             return not stopped.is_set()
 
         found.update(_run_group(system, members, settings, (t0, h, steps, every), width, told, estimate_error is None))
-        made[number] = steps * len(members)
+        steps_made[number] = steps * len(members)
 
     with progress_for(progress) as bar, ThreadPoolExecutor(min(workers, max(1, len(groups)))) as pool:
         try:
@@ -276,7 +276,7 @@ def simulate_many(
                 ended, waiting = wait(waiting, POLL, FIRST_COMPLETED)
                 for future in ended:
                     future.result()
-                bar.update(sum(made) / max(1, steps * len(variants)))
+                bar.update(sum(steps_made) / max(1, steps * len(variants)))
         finally:
             stopped.set()
             for future in waiting:

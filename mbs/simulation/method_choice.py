@@ -1,4 +1,4 @@
-"""Which method to use: what the System is leaves a few, and coarse runs of these show the fastest."""
+"""Choice of a method: candidates by properties of the System, the fastest by coarse runs."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""The warning about a value of a parameter with which the model does not do what it is made for."""
+"""Warning for parameter values outside the range for which a model is made."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was recorded of a run, as a Trajectory."""
+"""Trajectory made from the records of a run."""
 
 from collections.abc import Iterable
 
@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from mbs.results.accuracy import Accuracy
 from mbs.results.omitted_sensors import OmittedSensors
+from mbs.results.step_control import Control
 from mbs.results.trajectory import Trajectory
-from mbs.settings.control import Control
 from mbs.settings.settings import Settings
 from mbs.simulation.position_record import PositionRecord
 from mbs.simulation.prepared_system import prepared

@@ -1,4 +1,4 @@
-"""Refined runs by which a run is checked: which ones it needs, and what they show."""
+"""Estimation of the error of a run by refined runs: choice of their steps, comparison and verdict."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -37,61 +37,60 @@ Watch = Callable[[NDArray[np.float64]], bool]
 
 
 class TooDearError(Exception):
-    """A refined run would cost more than is left."""
+    """A refined run would exceed the remaining budget."""
 
 
 @dataclass
 class RefinedRuns:
-    """Further runs of the same motion, compared with the first.
+    """Refined runs of the same motion, compared with the first run.
 
     Parameters
     ----------
     run : tuple of Trajectory and list of ndarray
-        The first run, and its coordinates where they are compared in place of sensors.
+        The first run, and its coordinates if these are compared in place of sensors.
     march : callable
-        Makes a run of a step, s, the steps from one sample to the next, what takes its progress from 0 to 1, whether
-        coordinates are kept, most Newton iterations of a step (0: as the settings say), and what looks at its samples
-        on the way.
+        Makes a run; arguments: step, s, steps between two samples, callback of its progress from 0 to 1, whether
+        coordinates are recorded, most Newton iterations of a step (0: those of the settings), and a callback that sees
+        its samples and may end it.
     h : float
         Step of the first run, s.
     every : int
-        Its steps from one sample to the next.
+        Its number of steps between two samples.
     update : callable
-        Takes the progress of all runs, from 0 to 1.
+        Callback of the progress of all runs, from 0 to 1.
     before : dict of str to ComparedFields, optional
-        The ends of what moved in the runs before this one, by name.
+        Extreme values in the runs that this one continues, by name.
     divisor : int
-        By what the step is divided for the refined run that goes on from that of the run before, which is the only one;
-        0 where none does.
+        Divisor of the step if the refined run continues that of the previous run and is the only one; 0 otherwise.
     inputs : dict of str to Signal, optional
-        Those that follow time.
+        Inputs that are functions of time.
     most : float
-        What all refined runs may cost, in first runs.
+        Largest cost of all refined runs, in units of the first run.
     path : sequence of tuple of int and mapping
-        Numbers of samples of the first run on its way, and the kernel's report there; none where no coarser run may end
-        before it.
+        Numbers of samples during the first run, and the report of the kernel at each; empty if no coarser run may end
+        early.
 
     Attributes
     ----------
     cost : float
-        Of all further runs, in first runs.
+        Cost of all further runs, in units of the first run.
     tried : float
         Step of the last refined run, s.
     known : Accuracy or None
-        By the last refined run.
+        Accuracy as estimated from the last refined run.
     left_alone : bool
         Whether only the first run changed the assembly mode of a loop.
     compared : dict of str to Compared
-        What is compared, by name.
+        Compared sensors or coordinates, by name.
     rests : bool
         Whether nothing moves that could be compared.
     parts : int
-        By what the step is divided for the refined run with half of what was really made.
+        Divisor of the step for the refined run with half the steps that were actually made.
     unresolved : float
-        The missed share above which steps do not resolve what changes the velocities.
+        Missed share above which steps do not resolve the changes of the velocities.
     has_order : bool
-        Whether half the step decides where its share has fallen as the step: the order is above two, and nothing
-        abrupt can happen.
+        Whether a run with half the step is sufficient if its missed share has halved too: the order is above two, and
+        nothing abrupt can happen.
     """
 
     system: System
@@ -120,107 +119,112 @@ class RefinedRuns:
         angles = set(np.asarray(self.system.arrays["angle_theta"]).tolist())
         self._columns = {n: i for i, n in enumerate(self.system.meta["coordinates"]) if i not in angles}
         coordinates = dict.fromkeys(self._columns, Compared(COORDINATES, place=True))
-        seen = self._coordinates(self.run)
-        stands = bool(seen) and not sizes_of(seen, coordinates, self.length, self.before)
+        start = self._coordinates(self.run)
+        at_rest = bool(start) and not sizes_of(start, coordinates, self.length, self.before)
         guided = len(self.system.arrays["gterm_row"]) > 0
         self.compared = compared_in(
-            self.run[0], compared_sensors(self.system), self.length, self.before, stands, guided, report.energy_floor
+            self.run[0], compared_sensors(self.system), self.length, self.before, at_rest, guided, report.energy_floor
         )
-        self.rests = stands and not self.compared
+        self.rests = at_rest and not self.compared
         if shows_motion(self.compared):
             self.run = self.run[0], []
         elif self.run[1]:
             self.compared |= coordinates
 
     def finer(self, parts: int) -> Accuracy:
-        """By a run whose steps are shorter by so many times.
+        """Make a refined run with the step divided by `parts`, and return the accuracy estimated from it.
 
-        Raises `SimulationError`: it does not end; `TooDearError`: it costs more than is left.
+        Raises `SimulationError`: the run fails; `TooDearError`: it exceeds the remaining budget.
         """
-        again = self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
-        self.left_alone = bool(self.run[0].branch_change) and not again[0].branch_change
+        refined = self._finer[parts] = self.again(self.h / parts, self.every * parts, float(parts))
+        self.left_alone = bool(self.run[0].branch_change) and not refined[0].branch_change
         halvings = self.run[0].accuracy.halvings_per_step if self.run[0].accuracy is not None else 0.0
-        self.known = self.estimated(self.run, again, self.h / parts, parts / (1.0 + halvings))
+        self.known = self.estimated(self.run, refined, self.h / parts, parts / (1.0 + halvings))
         return self.known
 
     @property
     def nothing_abrupt(self) -> bool:
-        """Whether no force, guide or input can change within a step in another way than smoothly."""
+        """Whether all forces, guides and inputs are smooth within a step."""
         return nothing_abrupt(self.system, (self.run[0].t[0], self.run[0].t[-1]), self.inputs)
 
     @property
     def coarse(self) -> bool:
-        """Whether the last finer run has more than half of the step that just resolves what changes the velocities; not
-        asked where errors have an order.
+        """Whether the step of the finest run is above half of the one that just resolves the changes of the velocities;
+        False where errors have an order.
         """
         return not self.has_order and 2.0 * self._missed(self._finer[max(self._finer)]) > self.unresolved
 
     @property
     def finest(self) -> Report:
-        """Of the last finer run."""
+        """Report of the finest run."""
         report = self._finer[max(self._finer)][0].report
         assert report is not None
         return report
 
     @property
     def first(self) -> int:
-        """By what the step is divided first: no run is made that surely is `coarse`, down to an eighth of the step, as
-        far as it costs no more than is left.
+        """Divisor of the step for the first refined run: chosen so that the run is not `coarse`, within the remaining
+        budget, at most eight times `parts`.
         """
         if self.divisor:
             return max(self.divisor, self.parts)
-        share, times = self._missed(self.run) / self.unresolved, 1
+        missed, factor = self._missed(self.run) / self.unresolved, 1
         while (
-            share > times and times < (2 if self.has_order else 4) and 2 * times * self.parts <= self.most - self.cost
+            missed > factor
+            and factor < (2 if self.has_order else 4)
+            and 2 * factor * self.parts <= self.most - self.cost
         ):
-            times *= 2
-        return self.parts * times
+            factor *= 2
+        return self.parts * factor
 
     def verdict(self) -> Accuracy:
-        """By a finer run, and where that one is coarse, or may itself be off by so much that the verdict changes, by
-        those of half its step, down to a 16th of the step. With a `divisor` there is one.
+        """Accuracy by refined runs.
 
-        Where that is so of the last one too, what it may be off by counts as well.
-        Raises `SimulationError`: one does not end; `TooDearError`: one would cost more than is left.
+        The step is halved, down to a 16th, while the refined run is coarse or its own error could change the verdict;
+        with a `divisor` there is one run. If the last run is still uncertain, its possible error is added.
+
+        Raises `SimulationError`: a run fails; `TooDearError`: a run would exceed the remaining budget.
         """
         parts = self.first
-        known = self.finer(parts)
-        while not self.divisor and parts < MOST_PARTS * self.parts and (self.coarse or self._unsure(known, parts)):
+        verdict = self.finer(parts)
+        while not self.divisor and parts < MOST_PARTS * self.parts and (self.coarse or self._unsure(verdict, parts)):
             parts *= 2
-            known = self.finer(parts)
+            verdict = self.finer(parts)
             if parts > 2 * self.parts:
                 runs = (self.run, self._finer[parts // 2], self._finer[parts])
-                known = self.known = extrapolated(
-                    known, [self._table(r) for r in runs], self.compared, self.before, self.length
+                verdict = self.known = extrapolated(
+                    verdict, [self._table(r) for r in runs], self.compared, self.before, self.length
                 )
-            if parts == MOST_PARTS // 2 * self.parts and (known.error or 0.0) > WRONG_ERROR:
+            if parts == MOST_PARTS // 2 * self.parts and (verdict.error or 0.0) > WRONG_ERROR:
                 break
-        if parts == MOST_PARTS * self.parts and self._unsure(known, parts):
+        if parts == MOST_PARTS * self.parts and self._unsure(verdict, parts):
             units, sensors = self._differences(self._finer[parts // 2], self._finer[parts])
-            known = replace(
-                known,
-                units={unit: error + units.get(unit, 0.0) for unit, error in known.units.items()},
-                sensors={name: error + sensors.get(name, 0.0) for name, error in known.sensors.items()},
+            verdict = replace(
+                verdict,
+                units={unit: error + units.get(unit, 0.0) for unit, error in verdict.units.items()},
+                sensors={name: error + sensors.get(name, 0.0) for name, error in verdict.sensors.items()},
             )
-        return replace(known, check_cost=self.cost)
+        return replace(verdict, check_cost=self.cost)
 
     def _unsure(self, known: Accuracy, parts: int) -> bool:
-        """Whether the last finer run may itself be off by so much that the verdict changes.
+        """Whether the error of the finest run itself could change the verdict.
 
-        By order one where two finer runs have shown what they differ by, by the least order where a single one has.
+        It is estimated with order one from two refined runs, and with the least order from a single one.
         """
         pair = parts // 2 in self._finer
-        apart, _ = self._differences(self._finer[parts // 2] if pair else self.run, self._finer[parts])
-        more = 1.0 if pair else 1.0 / (2.0**LEAST_ORDER - 1.0)
-        return unsure(known, {unit: more * gap for unit, gap in apart.items()})
+        gaps, _ = self._differences(self._finer[parts // 2] if pair else self.run, self._finer[parts])
+        factor = 1.0 if pair else 1.0 / (2.0**LEAST_ORDER - 1.0)
+        return unsure(known, {unit: factor * gap for unit, gap in gaps.items()})
 
     def _differences(self, one: Run, other: Run) -> tuple[dict[str, float], dict[str, float]]:
-        """What two runs differ by, per unit over the range in the other, and per sensor."""
+        """Differences of two runs: per unit, relative to the range in the other run, and per sensor."""
         return differences(self._table(one), self._table(other), self.compared, self.before, self.length)[:2]
 
     def tried_steps(self, known: Accuracy) -> list[tuple[float, float]]:
-        """Steps of the finer runs, s, and about by how much each is off, of the range, after one with a step that would
-        do by the order of the errors where no run is that fine and it costs no more than is left.
+        """Steps of the refined runs, s, with the estimated error of each relative to the range.
+
+        If no run is clearly accurate, one with the step needed according to the order of the errors is made first, as
+        far as the budget allows.
         """
         step, tried = accuracy.needed_step(self.h, known), self._offs()
         parts = 0 if step is None or self.before is not None else math.ceil(self.h / step - 1e-9)
@@ -233,45 +237,47 @@ class RefinedRuns:
         return tried
 
     def _offs(self) -> list[tuple[float, float]]:
-        """Of each finer run what it and the finest differ by, and what that one is off by with the order that the first
-        run and the last two show; none where there is a single one, which shows none.
+        """Step and error of each refined run: its difference from the finest, plus the error of the finest.
+
+        The latter is extrapolated with the order observed in the first run and the last two. Empty if there are fewer
+        than two refined runs.
         """
         if len(self._finer) < 2:
             return []
-        *_, near, finest = sorted(self._finer)
+        *_, second_finest, finest = sorted(self._finer)
         runs, last = {1: self.run, **self._finer}, self._finer[finest]
-        apart = {n: max(self._differences(run, last)[0].values(), default=0.0) for n, run in runs.items()}
-        order = seen_order(apart[1], apart[near], near, finest, float(METHOD_TABLE[self.method].order))
-        left = apart[near] / ((finest / near) ** order - 1.0)
-        return [(self.h / n, apart[n] + left) for n in sorted(self._finer)]
+        gaps = {n: max(self._differences(run, last)[0].values(), default=0.0) for n, run in runs.items()}
+        order = seen_order(gaps[1], gaps[second_finest], second_finest, finest, float(METHOD_TABLE[self.method].order))
+        remainder = gaps[second_finest] / ((finest / second_finest) ** order - 1.0)
+        return [(self.h / n, gaps[n] + remainder) for n in sorted(self._finer)]
 
     def add_ends(self) -> None:
-        """What moved in the first run counts for those after it."""
+        """Add the extreme values of the first run to those of the runs before, for the runs that continue it."""
         if self.before is not None:
-            seen = Comparison(self.compared, self.length, self.before)
-            seen.add(self._table(self.run))
-            self.before |= seen.ends
+            extremes = Comparison(self.compared, self.length, self.before)
+            extremes.add(self._table(self.run))
+            self.before |= extremes.ends
 
     def text(self, known: Accuracy) -> str:
         """The estimated error in a sentence."""
         return accuracy.error_text(known, self._sizes, self.compared)
 
     def again(self, h: float, every: int, cost: float, iterations: int = 0, watch: Watch | None = None) -> Run:
-        """The motion in other steps, paid for. Raises `TooDearError`: it would cost more than is left."""
-        before, self.tried, share = 1.0 + self.cost, h, 0.0
+        """Run the motion with other steps and add the cost. Raises `TooDearError`: it exceeds the remaining budget."""
+        spent, self.tried, share = 1.0 + self.cost, h, 0.0
         if self.cost + cost > self.most:
             raise TooDearError
         self.cost += cost
-        whole = 1.0 + self.cost
+        total = 1.0 + self.cost
 
         def update(done: float) -> None:
             nonlocal share
             share = done
-            self.update((before + cost * done) / whole)
+            self.update((spent + cost * done) / total)
 
         try:
             return self.march(h, every, update, bool(self.run[1]), iterations, watch)
-        except SimulationError:  # seen after a time of the clock
+        except SimulationError:  # it has cost wall time up to here
             share = 1.0
             raise
         finally:
@@ -279,18 +285,19 @@ class RefinedRuns:
                 self.cost -= cost * (1.0 - share)
 
     def _missed(self, run: Run) -> float:
+        """Share of the changes of the velocities that the steps of a run miss."""
         report = run[0].report
         assert report is not None
         return accuracy.missed_share(report, self.method)
 
     def _table(self, run: Run) -> Mapping[str, NDArray[np.float64]]:
-        """What is compared of a run, by name."""
+        """Compared sensors and coordinates of a run, by name."""
         if not self.run[1]:
             return run[0]
         return {name: run[0][name] for name, what in self.compared.items() if what.load} | self._coordinates(run)
 
     def _coordinates(self, run: Run) -> dict[str, NDArray[np.float64]]:
-        """Of a run at its samples, by name, NaN between the instants; none where they are not kept."""
+        """Coordinates of a run at its samples, by name, NaN between recorded instants; empty if none are recorded."""
         if not run[1]:
             return {}
         q = np.full((len(run[0].t), self.system.nq), np.nan)
@@ -298,7 +305,7 @@ class RefinedRuns:
         return {name: q[:, i] for name, i in self._columns.items()}
 
     def estimated(self, first: Run, other: Run, h: float, ratio: float) -> Accuracy:
-        """The error of the first run; `ratio` is its step over the other's, below 1 where the other is coarser."""
+        """Accuracy of the first run from another run. `ratio`: its step over that of the other, below 1 if coarser."""
         run, (coarse, fine) = first[0], (first, other) if ratio > 1.0 else (other, first)
         assert run.settings is not None
         assert run.accuracy is not None

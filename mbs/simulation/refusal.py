@@ -1,4 +1,4 @@
-"""What the kernel refused, in a sentence for people."""
+"""Sentence about a call or step that the kernel refused."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""A run that goes on from a saved state."""
+"""System stepped on from a saved state of another instance."""
 
 from collections.abc import Mapping
 

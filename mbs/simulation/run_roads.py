@@ -1,4 +1,4 @@
-"""Roads of a run that are not those of its model: files, and what parameters moved."""
+"""Roads of a run that differ from those of its model: road files, and roads moved by parameters."""
 
 from collections.abc import Mapping
 

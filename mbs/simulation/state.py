@@ -1,4 +1,4 @@
-"""Where a run starts and where it is: pose and state."""
+"""Start pose and saved state of a run."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mbs.common.checks import finite, number
 
 @dataclass(frozen=True)
 class Pose:
-    """Where a scene that is not tied to the ground starts.
+    """Start position, heading and speed of a scene that is not fixed to the ground.
 
     Raises
     ------

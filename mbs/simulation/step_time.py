@@ -1,4 +1,4 @@
-"""Times of the steps of a run in the kernel, without what comes before them."""
+"""Wall times of the steps in the kernel, without preparation."""
 
 from collections.abc import Callable, Mapping
 

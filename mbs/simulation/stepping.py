@@ -21,9 +21,9 @@ from mbs.results.accuracy import AccuracyWarning
 from mbs.results.trajectory import Trajectory
 from mbs.roads.package_roads import road_path
 from mbs.roads.steep_faces import RoadWarning
-from mbs.settings.control import Tolerance
 from mbs.settings.input_signals import InputSignals, Signal
 from mbs.settings.settings import Settings
+from mbs.settings.tolerance import Tolerance
 from mbs.simulation.arguments import (
     asked_tolerance,
     check_end,

@@ -1,4 +1,4 @@
-"""What is said of a run to a tolerance that was refused, or does not keep it."""
+"""Messages about a run with a tolerance that was refused or is exceeded."""
 
 import warnings
 
@@ -6,8 +6,8 @@ from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.header.limits import STILL, WRONG_ERROR
 from mbs.results.accuracy import GOAL_ERROR, AccuracyWarning
 from mbs.results.simulation_error import SimulationError
+from mbs.results.step_control import ALLOWED, Control
 from mbs.results.trajectory import Trajectory
-from mbs.settings.control import ALLOWED, Control
 from mbs.simulation.controlled_run import ControlledRun
 from mbs.simulation.refusal import beyond_reach, refusal
 

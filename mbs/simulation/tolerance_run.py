@@ -13,11 +13,12 @@ from mbs.kernel.binding import KernelError, Status
 from mbs.kernel.header.limits import AGREED, WRONG_ERROR
 from mbs.results.comparison import INSTANTS
 from mbs.results.simulation_error import SimulationError
+from mbs.results.step_control import Control
 from mbs.results.trajectory import Trajectory
 from mbs.roads.steep_faces import RoadWarning
-from mbs.settings.control import Control, Tolerance
 from mbs.settings.input_signals import Signal
 from mbs.settings.settings import Settings
+from mbs.settings.tolerance import Tolerance
 from mbs.simulation.branch_warning import BranchWarning
 from mbs.simulation.controlled_pair import ControlledPair
 from mbs.simulation.controlled_run import ROUND_OFF, ControlledRun, StalledError, Task, signals_of
@@ -99,7 +100,7 @@ def to_tolerance(
 
 @dataclass
 class _Made:
-    """What was made before a run to a tolerance."""
+    """Runs made before a run with a tolerance."""
 
     run: ControlledRun | None = None
     runs: int = 0

@@ -1,1 +1,1 @@
-"""The System: flat constant arrays of a compiled model, and what is said and drawn of it."""
+"""The System: flat constant arrays of a compiled model, its summary and drawing."""

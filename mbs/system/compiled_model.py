@@ -1,4 +1,4 @@
-"""What is compiled of a model: an immutable set of flat arrays with names, which one file carries to the kernel."""
+"""Compiled model: immutable flat arrays with names, stored in one file for the kernel."""
 
 from __future__ import annotations
 

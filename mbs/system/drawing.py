@@ -22,7 +22,7 @@ _SIZES = {"rigid": 12, "planar": 4, "point": 3, "planar point": 2, "pose": 7}
 
 @dataclass(frozen=True)
 class BodyPlace:
-    """Where a body is among the rows of `Places`."""
+    """Indices of a body among the rows of `Places`."""
 
     name: str
     kind: str
@@ -120,7 +120,7 @@ class Places:
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> Places:
-        """What `to_json` gave."""
+        """Drawing from the data that `to_json` returned."""
         matrix = sparse.csr_matrix((data["val"], data["col"], data["ptr"]), shape=tuple(data["shape"]), dtype=float)
         constant = np.array(data["constant"], float)
         if matrix.shape[0] != len(constant):
@@ -164,7 +164,7 @@ class Drawing:
 
     @classmethod
     def from_bytes(cls, data: bytes, nq: int) -> Drawing:
-        """What `to_bytes` gave, of a System with `nq` coordinates.
+        """Drawing of a System with `nq` coordinates from the bytes that `to_bytes` returned.
 
         Raises `ValueError`, `KeyError` or `TypeError`: it is something else.
         """

@@ -1,4 +1,4 @@
-"""Whether the `meta` of a System file has what its readers require."""
+"""Check of the `meta` data of a System file."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -23,7 +23,7 @@ _COUNTED = {"rows": "row_const", "inputs": "input_start", "sensors": "sen_type",
 
 
 def problem_of(meta: Any, lengths: Mapping[str, int]) -> str:
-    """What is wrong with it, as the end of a sentence; empty if nothing is.
+    """Fault in the metadata, as the end of a sentence; empty if there is none.
 
     `meta`: as read; `lengths`: lengths of the arrays of the System.
     """

@@ -41,7 +41,7 @@ _LARGEST = 4_000_000_000  # bytes of a file
 
 
 class System(CompiledModel):
-    """What `compile` makes of a model; immutable.
+    """Compiled model, made by `compile`; immutable.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ class System(CompiledModel):
 
     @property
     def drawing(self) -> Drawing | None:
-        """What is drawn and how the coordinates move it; None where the file had none."""
+        """Scene, and its frames as functions of the coordinates; None if the file had none."""
         return self._drawing() if isinstance(self._drawing, LazyValue) else self._drawing
 
     @classmethod
@@ -119,7 +119,7 @@ class System(CompiledModel):
 
     @property
     def scene(self) -> dict[str, Any]:
-        """What is drawn: frames, shapes, arrows and roads in the format of `docs/animation.md`; a fresh copy.
+        """Scene of the model: frames, shapes, arrows and roads in the format of `docs/animation.md`; a new copy.
 
         Raises
         ------
@@ -132,7 +132,7 @@ class System(CompiledModel):
         return found
 
     def with_arrays(self, arrays: Mapping[str, ArrayLike]) -> System:
-        """The same System with other values of some arrays.
+        """Copy of the System with other values of some arrays.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What `print(system)` says: counts, rank and degrees of freedom, non-zeros; and notes on the model."""
+"""Text of `print(system)`: sizes, rank and degrees of freedom, non-zeros, notes on the model."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -82,7 +82,7 @@ def read_properties(file: str | Path) -> PropertyText:
 def _parsed(text: str, name: str) -> PropertyText:
     sections: dict[str, dict[str, str | float]] = {}
     tables: set[str] = set()
-    here = ""
+    section = ""
     for k, raw in enumerate(text.splitlines(), 1):
         where = f"{name}, line {k}"
         if len(raw) > _LONGEST:
@@ -91,22 +91,22 @@ def _parsed(text: str, name: str) -> PropertyText:
         if not line or line.startswith("{"):
             continue
         if found := _SECTION.fullmatch(line):
-            here = found[1].upper()
-            if here in sections and here not in ("SHAPE", "DEFLECTION_LOAD_CURVE", "BOTTOMING_CURVE"):
-                raise TyreFileError(f"{where}: the section [{here}] stands twice.")
-            sections.setdefault(here, {})
+            section = found[1].upper()
+            if section in sections and section not in ("SHAPE", "DEFLECTION_LOAD_CURVE", "BOTTOMING_CURVE"):
+                raise TyreFileError(f"{where}: the section [{section}] stands twice.")
+            sections.setdefault(section, {})
             continue
-        if not here:
+        if not section:
             raise TyreFileError(f"{where}: {brief(line)} stands before any section; a section begins as [UNITS].")
         entry = _ENTRY.fullmatch(line)
         if entry is None:
             if not all(_NUMBER.fullmatch(part) for part in re.split(r"[\s,;]+", line)):
                 raise TyreFileError(f"{where}: {brief(line)} is neither a section, a key with its value nor a comment.")
-            tables.add(here)
+            tables.add(section)
             continue
         key, value = entry[1].upper(), _value(entry[2].strip(), f"{where}: {entry[1].upper()}")
-        if sections[here].setdefault(key, value) != value:
-            raise TyreFileError(f"{where}: {key} stands twice in [{here}], with another value.")
+        if sections[section].setdefault(key, value) != value:
+            raise TyreFileError(f"{where}: {key} stands twice in [{section}], with another value.")
     return PropertyText(name, sections, frozenset(tables))
 
 

@@ -1,4 +1,4 @@
-"""What was understood of a tyre: its steady forces in numbers that are known of tyres, and where they usually lie."""
+"""Plausibility of a tyre: characteristic numbers of its steady forces, with usual ranges."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping
@@ -111,7 +111,7 @@ class _Curve:
 def magic_plausibility(
     what: str, tyre: MagicTyre, numbers: Mapping[str, float], kind: str = "", prefix: str = ""
 ) -> Plausibility:
-    """What was understood of a Magic Formula tyre.
+    """Plausibility of a Magic Formula tyre.
 
     `what`: the file; `numbers`: of the file, SI units; `kind`: of the vehicle, else the widest range; `prefix`: of its
     keys, for those of a car.
@@ -134,18 +134,18 @@ def magic_plausibility(
 
 
 def tmeasy_plausibility(what: str, tyre: Tyre, kind: str = "", prefix: str = "") -> Plausibility:
-    """The same of a TMeasy tyre."""
+    """Plausibility of a TMeasy tyre."""
     mistakes = []
     for name, per in (("lateral", "degree"), ("longitudinal", "percent")):
         factor = DEG if per == "degree" else 0.01
-        for fields, way, words in (
+        for fields, direction, text in (
             (("slope",), 1.0 / factor, f"per {per} in place of per slip in {prefix}{name}.slope"),
             (("max_slip", "slide_slip"), factor, f"{per}s in place of a ratio in {prefix}{name}.max_slip"),
         ):
             curve = getattr(tyre, name)
-            changed = replace(curve, **{f: tuple(way * v for v in getattr(curve, f)) for f in fields})
+            changed = replace(curve, **{f: tuple(direction * v for v in getattr(curve, f)) for f in fields})
             keys = frozenset(f"{prefix}{name}.{f}" for f in fields)
-            mistakes.append(Mistake(words, keys, partial(_tmeasy_values, replace(tyre, **{name: changed}), prefix)))
+            mistakes.append(Mistake(text, keys, partial(_tmeasy_values, replace(tyre, **{name: changed}), prefix)))
     values = partial(_tmeasy_values, prefix=prefix)
     return Plausibility(what, values(tyre), [*mistakes, *_vertical_mistakes(tyre, prefix, values)], kind)
 

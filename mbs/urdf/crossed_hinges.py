@@ -1,4 +1,4 @@
-"""Two or three hinges whose axes meet, with links without mass between them: a universal or a ball joint."""
+"""Two or three hinges with intersecting axes and massless links between them, replaced by a universal or ball joint."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class CrossedHinges:
 
     @property
     def names(self) -> str:
-        """Of the hinges, for messages."""
+        """Names of the hinges, for messages."""
         return ", ".join(f"'{joint.name}'" for joint in self.hinges)
 
 

@@ -54,7 +54,7 @@ class LinkMass(NamedTuple):
 
     @property
     def density(self) -> float:
-        """That of the ellipsoid with this mass and inertia, kg/m3; 0 without inertia."""
+        """Density of the ellipsoid with this mass and inertia, kg/m3; 0 without inertia."""
         seconds = 0.5 * np.trace(self.inertia) - np.linalg.eigvalsh(self.inertia)
         if not max(seconds) > 0.0:
             return 0.0
@@ -63,7 +63,7 @@ class LinkMass(NamedTuple):
 
 
 def link_mass(link: Element, given: Factors) -> LinkMass:
-    """Of a link, with the factors applied; without `inertial` all are zero."""
+    """Mass, centre of mass and inertia of a link, with the factors applied; without `inertial` all are zero."""
     inertial = link.first("inertial")
     if inertial is None:
         return LinkMass(0.0, np.zeros(3), np.zeros((3, 3)), link.line)

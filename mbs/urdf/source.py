@@ -1,4 +1,4 @@
-"""A URDF file as it is written: elements with their lines, and what of them cannot be."""
+"""Source of a URDF file: elements with their lines, and errors for unsupported content."""
 
 from __future__ import annotations
 

@@ -40,25 +40,24 @@ class Brakes(Section):
 
     def build(self, b: CarBuilder, corner: Corner, spin: Spin, spin_inertia: float) -> None:
         """Add the brake of a wheel. `spin_inertia`: of the wheel, kg.m2."""
-        behind = corner.side.axle == "rear"
-        stiffness = (self.rear if behind else self.front).stick_stiffness
+        is_rear = corner.side.axle == "rear"
+        stiffness = (self.rear if is_rear else self.front).stick_stiffness
         damping = 2.0 * math.sqrt(stiffness * spin_inertia)
         share, side = self.shares(corner.side.wheel)
-        left = 1.0 if corner.side.wheel.endswith("L") else -1.0
-        by_size, per_unit = b.ports.brakes is not None, 1.0
-        if b.ports.brakes == "pressure":
-            per_unit = 1.0 / b.ports.full_pressure
+        sign = 1.0 if corner.side.wheel.endswith("L") else -1.0
+        by_size = b.ports.brakes is not None
+        per_unit = 1.0 / b.ports.full_pressure if b.ports.brakes == "pressure" else 1.0
         torque = self.torque * per_unit
         if b.ports.brakes == "torque":
             torque = share = side = 1.0
         channel = brake_port(b, corner.side.wheel) if by_size else b.inputs["brake"]
-        brake = Brake(torque, stiffness, damping, share, self.hand_torque if behind else 0.0, side)
-        hand = b.inputs["hand_brake"].index if behind else None
+        brake = Brake(torque, stiffness, damping, share, self.hand_torque if is_rear else 0.0, side)
+        hand = b.inputs["hand_brake"].index if is_rear else None
         name = f"brake {corner.side.wheel}"
         element = b.m.add(brake.record(name, spin.f, spin.g, spin.coordinate, channel.index, hand, by_size=by_size))
         if b.ports.brakes != "torque":
             b.tie(self, "torque", element, "max_torque", per_unit)
-            b.tie(self, "balance", element, "share", -1.0 if behind else 1.0, 1.0 if behind else 0.0)
-            b.tie(self, "side", element, "side", left, 1.0)
-        if behind:
+            b.tie(self, "balance", element, "share", -1.0 if is_rear else 1.0, 1.0 if is_rear else 0.0)
+            b.tie(self, "side", element, "side", sign, 1.0)
+        if is_rear:
             b.tie(self, "hand_torque", element, "hand_torque")

@@ -1,4 +1,4 @@
-"""What the parts of a car share while a model is made of it."""
+"""State of the construction of the model of a car, shared by its parts, and parameters tied to numbers of the file."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -19,42 +19,48 @@ Target: TypeAlias = "tuple[Owner, str | int, float, float, bool]"
 
 @dataclass
 class _Tied:
-    """A number of the file and where it is written."""
+    """A number of the car file that becomes a parameter, and the numbers of the model that it sets."""
 
     section: Section
+    """Section of the file with the number."""
     name: str
+    """Its field."""
     quantity: Quantity
+    """Range, unit and changeability of the field."""
     value: float
+    """Value in the model."""
     part: str = ""
+    """Component of a field with several numbers, else empty."""
     targets: list[Target] = field(default_factory=list)
+    """Owner, number, scale, offset and whether the value is inverted."""
 
 
 @dataclass
 class CarBuilder:
-    """The model so far, its inputs, and the parameters that will be in it."""
+    """Model of a car under construction, its inputs, and the parameters that are to be added."""
 
     m: Model
-    """Gets bodies, joints and elements."""
+    """The model, to which bodies, joints and elements are added."""
     road: int
     """Number of the road under the chassis."""
     inputs: Mapping[str, Input]
-    """Of the driver, by name."""
+    """Inputs of the driver, by name."""
     ports: Ports = field(default_factory=Ports)
-    """Which parts other programs replace."""
+    """Parts that other programs replace."""
     port_inputs: list[Input] = field(default_factory=list)
-    """Those of the ports so far."""
+    """Inputs of the ports added so far."""
     wheel_roads: Mapping[str, int] = field(default_factory=dict)
-    """Those under wheels that have one of their own."""
+    """Numbers of the roads of wheels that have a road of their own, by wheel."""
     port_senses: list[Callable[[], object]] = field(default_factory=list)
-    """Add the outputs of ports, which come after all others."""
+    """Functions that add the outputs of ports, called after all other outputs are there."""
     rack: Coordinate | None = None
-    """Travel of the rack, m, of a front axle by its curves."""
+    """Travel of the rack, m, if the front axle is given by kinematic curves."""
     _chassis: Mount | None = None
     _tied: dict[str, _Tied] = field(default_factory=dict)
 
     @property
     def chassis(self) -> Mount:
-        """What the rest of the car is fixed to; set once the chassis is there."""
+        """Mount of the chassis, to which the other parts are attached; set when the chassis is built."""
         assert self._chassis is not None, "the chassis is made first"
         return self._chassis
 
@@ -75,25 +81,25 @@ class CarBuilder:
         part: str = "",
         inverse: bool = False,
     ) -> None:
-        """Let a number of the file be a parameter of the model that writes a real of an element, guide or road.
+        """Make a number of the file a parameter of the model that sets a number of an element, guide or road.
 
-        Name, unit, range and description of the parameter are those of the file's type. May be called several times
-        for one number: for both sides, for instance.
+        Name, unit, range and description of the parameter are those of the field in the file. Several calls for one
+        number are allowed, for instance for both sides of the car.
 
         Parameters
         ----------
-        name : str
-            Its field, whose type says that it may change.
+        section, name : Section, str
+            Section of the file and its field, of a type that may change.
         owner, real : Owner, str or int
             As in `Model.parameter`.
         scale, offset : float
-            The value times `scale` plus `offset` is written.
+            The number is set to the value times `scale` plus `offset`.
         value : float, optional
-            In the model, where it is not that of the file.
+            Value in the model, if it differs from that of the file.
         part : str
-            Of a field with several numbers, as "x": the parameter has it behind its name.
+            Component of a field with several numbers, such as "x", appended to the name of the parameter.
         inverse : bool
-            Whether `scale` over the value is written, in place of their product.
+            Whether `scale` is divided by the value instead of multiplied.
         """
         quantity = section.quantity(name)
         assert quantity is not None, f"{section.key(name)} is not a quantity"
@@ -104,26 +110,27 @@ class CarBuilder:
         tied.targets.append((owner, real, scale, offset, inverse))
 
     def tie_numbers(self, section: Section, element: ElementRecord) -> None:
-        """`tie` each number that may change and that has the same name in an element and in the file."""
+        """Tie each number that may change and has the same name in an element and in a section of the file."""
         for name, value in zip(element.real_names, element.real, strict=False):
             quantity = section.quantity(name) if name in type(section).model_fields else None
             if quantity is not None and quantity.change is not None:
                 self.tie(section, name, element, name, value=value)
 
     def parameters(self, order: Callable[[str], int], works: Mapping[str, tuple[float, float]]) -> None:
-        """Write what was tied into the model.
+        """Add the tied numbers to the model as parameters.
 
-        `order`: place of a key path in the file's type; `works`: by key path, between which values the car works.
+        `order`: position of a key path in the type of the file; `works`: by key path, range of values for which the
+        car can be assembled.
         """
         for path, tied in sorted(self._tied.items(), key=lambda item: order(item[1].section.key(item[1].name))):
-            q, text = tied.quantity, type(tied.section).model_fields[tied.name].description or ""
+            q, description = tied.quantity, type(tied.section).model_fields[tied.name].description or ""
             self.m.parameter(
                 path,
                 tied.value,
                 q.least,
                 q.high,
                 q.unit,
-                f"{text.removesuffix('.')}, {tied.part}." if tied.part else text,
+                f"{description.removesuffix('.')}, {tied.part}." if tied.part else description,
                 targets=tied.targets,
                 tunable=q.change == "tunable",
                 works=works.get(path),

@@ -196,7 +196,7 @@ class BuiltCar(Summarised, CarContent):
         car_shapes(b, self, spins, links=fidelity is not Fidelity.TABLE)
 
     def plausibility(self, what: str = "") -> list[Plausibility]:
-        """What was understood of the file: the car, then the tyres of each axle, then its flexible frame.
+        """Plausibility of the car, then of the tyres of each axle, then of its flexible frame.
 
         `what`: the file, for messages. Raises `ModelError`: it does not come to rest.
         """

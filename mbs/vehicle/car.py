@@ -1,4 +1,4 @@
-"""A car: the content of a car file, checked, and the model of it."""
+"""A car: the checked content of a car file, and the models made of it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from mbs.vehicle.fidelity import Fidelity
 
 
 class Car(BuiltCar):
-    """A car file.
+    """Content of a car file, and the models of that car.
 
     SI units. Drawing axes after ISO 8855: x forward, y left, z up; the origin on level ground under the centre of the
     front axle, the car in static equilibrium. Points are those of the left side; the right side mirrors y.
@@ -33,10 +33,10 @@ class Car(BuiltCar):
         fidelity: Fidelity | int | str = Fidelity.RIGID,
         guide: Callable[[Model], Guide] | None = None,
     ) -> Model:
-        """The car at rest in static equilibrium, its front axle over the origin.
+        """Model of the car at rest in static equilibrium, with its front axle above the origin.
 
-        Where the road under it is not level nothing but the brakes could hold it: there it starts as drawn, level, and
-        settles; a pose must lift it above the road. On a road from a file it is lifted by itself.
+        On a road that is not level there only the brakes could hold it: it starts level, as drawn, and settles; a pose
+        must raise it above the road. On a road from a file it is raised automatically.
 
         Parameters
         ----------
@@ -46,12 +46,12 @@ class Car(BuiltCar):
         fidelity : Fidelity, int or str
             How much of the chassis is modelled, a member of `Fidelity`, its number or its name.
         guide : callable, optional
-            Makes the guide of the x coordinate of the chassis' reference point, m; the selector is then in neutral.
+            Adds the guide that prescribes x of the chassis' reference point, m; the selector is then in neutral.
 
         Raises
         ------
         ModelError
-            An argument is not what it must be, or the car has no frame for the fidelity; the message names it.
+            An argument is invalid, or the car has no frame for the fidelity; the message names it.
 
         Warns
         -----
@@ -69,7 +69,7 @@ class Car(BuiltCar):
         return m
 
     def _frame_poses(self, m: Model, b: CarBuilder) -> list[dict[str, Any]]:
-        """Amplitudes of the frame as outputs, and its parts of the scene."""
+        """Add the amplitudes of the frame as outputs, and return its parts of the scene."""
         amplitude_outputs(m, b.chassis, self.flexible_frame)
         shift = np.subtract(self.vehicle.reference_point, b.chassis.frame.com)
         return [
@@ -83,11 +83,11 @@ class Car(BuiltCar):
         return flexible_part(self.flexible_frame, self.model(fidelity=Fidelity.DYNAMIC), self.vehicle.reference_point)
 
     def fidelities(self) -> dict[Fidelity, Callable[[], Model]]:
-        """The models an FMU offers by its parameter `fidelity`, those of `offered`."""
+        """Functions that make the models of all fidelities in `offered`, by fidelity."""
         return {fidelity: partial(self.model, None, fidelity) for fidelity in self.offered}
 
     def changed(self, values: Mapping[str, Any]) -> Car:
-        """The same car with other values, checked like a file.
+        """Copy of the car with other values, checked like a file.
 
         Parameters
         ----------
@@ -97,7 +97,7 @@ class Car(BuiltCar):
         Raises
         ------
         CarFileError
-            A key path does not exist, or with the values it is not a car; the car that there was is unchanged.
+            A key path does not exist, or the values do not describe a car; this car is unchanged.
         """
         what = f"car '{self.name}'"
         data = changed_content(self._data, values, what)
@@ -105,5 +105,5 @@ class Car(BuiltCar):
 
 
 def car_from(data: Mapping[str, Any], folder: Path, what: str, *, at_rest: bool = True, warn: bool = False) -> Car:
-    """The `Car` that `checked_car`, which describes the arguments, makes of the content of a file."""
+    """The `Car` with the content of a file, checked; arguments as in `checked_car`."""
     return checked_car(Car, data, folder, what, at_rest=at_rest, warn=warn)

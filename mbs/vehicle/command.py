@@ -1,4 +1,4 @@
-"""Copies a car of the package to a folder, or checks a car file and prints what was understood: ali3 car.
+"""Command `ali3 car`: copies a car of the package to a folder, or checks a car file and prints its plausibility.
 
 With --kinematics: draws its wheel travel and steer curves in the terms of ISO 8855, and prints what its axles are as
 drawn. With --cheapest: measures error and cost of each fidelity and step, and names the cheapest within tolerances.

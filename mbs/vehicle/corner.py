@@ -1,4 +1,4 @@
-"""What a suspension gives the rest of the car at each wheel."""
+"""Interface of a suspension at each wheel for other parts of the car."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

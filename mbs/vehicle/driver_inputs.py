@@ -1,4 +1,4 @@
-"""What the driver of a car does."""
+"""Inputs of the driver of a car."""
 
 from mbs.model.model import Model
 from mbs.model.records import Input

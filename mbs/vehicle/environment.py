@@ -1,4 +1,4 @@
-"""What surrounds every car."""
+"""Environment of every car: the acceleration of gravity."""
 
 GRAVITY = 9.81
 """m/s2"""

@@ -1,11 +1,11 @@
-"""What is said about a car file that is wrong, or odd."""
+"""Error and warning for car files."""
 
 from mbs.common.errors import ModelError
 
 
 class CarFileError(ModelError):
-    """A car file that cannot be read or does not describe a car; the message is for the user, a line for each fault."""
+    """A car file cannot be read or does not describe a car; the message has a line for each fault."""
 
 
 class CarWarning(UserWarning):
-    """A car that can be but is odd; the message says which number, and what is usual."""
+    """A number of a car is possible but unusual; the message names it and the usual range."""

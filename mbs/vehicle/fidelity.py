@@ -1,4 +1,4 @@
-"""How much of the car's chassis is modelled."""
+"""Levels of detail of the chassis model."""
 
 from __future__ import annotations
 

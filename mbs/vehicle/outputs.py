@@ -1,4 +1,4 @@
-"""What the car reports: names, units and axes as users of vehicle models expect them (ISO 8855)."""
+"""Outputs of the car: names, units and axes of ISO 8855."""
 
 from collections.abc import Mapping
 
@@ -167,7 +167,7 @@ def _wheel(m: Model, b: CarBuilder, spin: Spin, w: str) -> None:
 
 
 def _wheel_pose(m: Model, b: CarBuilder, spin: Spin, w: str) -> None:
-    """Where one wheel and its carrier are and how they are turned, and where the wheel meets the road."""
+    """Add outputs of the pose of one wheel and its carrier, and of its contact point."""
     for k, c in enumerate("xyz"):
         text = f"{c} of the centre of the wheel, earth"
         m.sense_coordinate(f"wheel_{w}.{c}", spin.centre[k], unit="m", description=text)
@@ -255,7 +255,7 @@ def _health(m: Model) -> None:
 
 
 def _ground(m: Model) -> None:
-    """What the ground does to the chassis itself."""
+    """Add outputs of the contact forces of the ground on the chassis."""
     force = m.sense_element(
         "chassis.ground_force",
         GROUND_CONTACT,

@@ -1,4 +1,4 @@
-"""What a car carries: named masses, each at its point of the chassis."""
+"""Payloads of a car: named masses at points of the chassis."""
 
 import numpy as np
 

@@ -1,10 +1,13 @@
-"""Inputs that other programs set in place of the driver or of parts of a car."""
+"""Inputs at the ports of a car: demands that other programs set in place of the driver or of parts of the car."""
 
 from mbs.model.inputs import new_input
 from mbs.model.records import Input, Role
 from mbs.vehicle.builder import CarBuilder
 
-LARGEST_TORQUE, LARGEST_PRESSURE = 1e4, 4e7  # N m, Pa: ends of the ranges of the ports of brakes
+LARGEST_TORQUE = 1e4
+"""End of the range of the torque demand of a brake, N m."""
+LARGEST_PRESSURE = 4e7
+"""End of the range of the pressure of a brake, Pa."""
 
 
 def new_port(
@@ -20,10 +23,10 @@ def new_port(
     whole: bool = False,
     figures: tuple[float, ...] = (),
 ) -> Input:
-    """An input that another program sets, 0 until then.
+    """Add an input that another program sets; it is 0 until then.
 
-    `least`, `largest`: ends of its range, at which larger values are held, in `unit`; `role`, `near`, `figures`:
-    what an FMU watches it for, by which sensor, and what it must know; `whole`: whether it is a whole number.
+    `least`, `largest`: ends of its range in `unit`, to which values are clamped; `role`, `near`, `figures`: check of
+    the input in an FMU, the sensor it is compared with, and numbers for the check; `whole`: whether it is an integer.
     """
     limits = 0.0, least, largest, unit, description
     channel = new_input(b.m, name, *limits, whole, True, role, near, figures=figures)
@@ -32,7 +35,7 @@ def new_port(
 
 
 def brake_port(b: CarBuilder, wheel: str) -> Input:
-    """The input of the brake of a wheel."""
+    """Add the input of the brake of a wheel: its torque or its pressure, by the kind of the port."""
     if b.ports.brakes == "torque":
         text = "largest torque that the brake of the wheel can hold, which turns neither way by itself"
         return new_port(b, f"wheel_{wheel}.brake_torque_demand", 0.0, LARGEST_TORQUE, "N.m", text)
@@ -41,12 +44,12 @@ def brake_port(b: CarBuilder, wheel: str) -> Input:
 
 
 def gear_port(b: CarBuilder, gears: int) -> int:
-    """Number of the input of the forward gear. `gears`: how many there are."""
+    """Add the input of the forward gear and return its number. `gears`: count of forward gears."""
     text = "forward gear that is asked for; 0: as the drive shifts by itself"
     return new_port(b, "gear_request", 0.0, float(gears), "1", text, whole=True).index
 
 
 def clutch_port(b: CarBuilder) -> int:
-    """Number of the input of the clutch."""
+    """Add the input of the clutch and return its number."""
     text = "clutch pedal: 0 released, 1 pressed, where nothing of the drive's torque is left"
     return new_port(b, "clutch", 0.0, 1.0, "1", text).index

@@ -1,4 +1,4 @@
-"""Ports as a list of a command line."""
+"""Ports of a car given as a list on a command line."""
 
 from typing import get_args
 
@@ -6,17 +6,17 @@ from mbs.vehicle.ports import PORTS, Ports
 
 
 def chosen_ports(text: str) -> dict[str, str]:
-    """The keys of `Ports` that a list such as ``torque,brakes=pressure`` asks for; of each the first kind by default.
+    """Kinds of ports by key of `Ports`, from a list such as ``torque,brakes=pressure``; by default the first kind.
 
-    Raises `ValueError`: it is no such list; the message names the ports and their kinds.
+    Raises `ValueError`: the text is not such a list; the message names the ports and their kinds.
     """
-    known = {name: _kinds(name) for name in PORTS}
+    kinds_of = {name: _kinds(name) for name in PORTS}
     chosen: dict[str, str] = {}
-    for word in text.split(","):
-        name, equals, kind = (part.strip() for part in word.partition("="))
-        kind = kind if equals else next(iter(known.get(name, ("",))))
-        if name not in known or kind not in known[name] or name in chosen:
-            offered = ", ".join(f"{port} ({' or '.join(kinds)})" for port, kinds in known.items())
+    for item in text.split(","):
+        name, equals, kind = (part.strip() for part in item.partition("="))
+        kind = kind if equals else next(iter(kinds_of.get(name, ("",))))
+        if name not in kinds_of or kind not in kinds_of[name] or name in chosen:
+            offered = ", ".join(f"{port} ({' or '.join(kinds)})" for port, kinds in kinds_of.items())
             twice = f", where {name} stands twice" if name in chosen else ""
             raise ValueError(
                 f"The ports are '{text}'{twice}; they must be a list such as torque,brakes=pressure out of {offered}."
@@ -26,4 +26,5 @@ def chosen_ports(text: str) -> dict[str, str]:
 
 
 def _kinds(name: str) -> tuple[str, ...]:
+    """Kinds of a port, from the type of its field."""
     return get_args(get_args(Ports.model_fields[name].annotation)[0])

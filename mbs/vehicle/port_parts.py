@@ -1,4 +1,4 @@
-"""What stands in the model in place of the parts of a car that ports replace, and the outputs that their loops need."""
+"""Substitutes in the model for parts of the car that ports replace, with the outputs that co-simulation needs."""
 
 from collections.abc import Mapping
 from functools import partial
@@ -114,7 +114,7 @@ def tyre_outputs(m: Model, w: str, tyre: ElementRecord) -> None:
 
 
 def port_outputs(m: Model, b: CarBuilder, car: CarContent, spins: Mapping[str, Spin]) -> None:
-    """What loops through ports need beside the outputs that every car has. `spins`: of the wheels, by their names."""
+    """Add outputs that co-simulation through ports needs in addition. `spins`: of the wheels, by their names."""
     for channel in b.port_inputs:
         m.sense_input(f"used.{channel.name}", channel, description=f"{channel.name} as used")
     reference = b.chassis.frame.point(car.vehicle.reference_point)

@@ -1,4 +1,4 @@
-"""Ports of a car: inputs at which other programs take the place of its drive, its brakes or its steering wheel."""
+"""Ports of a car: inputs by which other programs replace its drive, its brakes or its steering."""
 
 from typing import Literal
 

@@ -1,4 +1,4 @@
-"""Reads a car file: every fault is one sentence with the file, the key path, the value and what would be right."""
+"""Reader of car files: every fault is one sentence with file, key path, value and the allowed values."""
 
 import warnings
 from functools import cache

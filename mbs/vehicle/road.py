@@ -1,4 +1,4 @@
-"""The road under a car that is given no other: level with a kerb, far away unless set."""
+"""Default road under a car: level, with a kerb far away unless its parameters are set."""
 
 import math
 from collections.abc import Mapping
@@ -41,7 +41,7 @@ class RoadSection(Section):
         hold_at: str,
         works: Mapping[str, tuple[float, float]],
     ) -> None:
-        """What a user may set of the road.
+        """Add the parameters of the road.
 
         `road`: under it; None: `default`; `hold_at`: the frictions at which the curves of the tyres hold, for the
         description; `works`: by key path, between which values the car works.

@@ -50,7 +50,7 @@ class Section(BaseModel):
 
     @property
     def path(self) -> str:
-        """Where it stands in the file, as "front.spring"; the whole file is ""."""
+        """Key path of the section in the file, as "front.spring"; of the whole file ""."""
         return self._path
 
     def key(self, field: str) -> str:

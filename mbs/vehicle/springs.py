@@ -1,4 +1,4 @@
-"""Springs and dampers of an axle with their end stops."""
+"""Springs, dampers and end stops of an axle: their section of a car file, its check, and the elements made of it."""
 
 from __future__ import annotations
 
@@ -39,11 +39,14 @@ Rows: TypeAlias = "tuple[tuple[float, float], ...]"
 
 @dataclass(frozen=True)
 class _Plausible:
-    """What a table may be: least span of its first column, and slopes from row to row."""
+    """Plausible range of a table of a force."""
 
     span: float
+    """Least span of its first column."""
     slopes: tuple[float, float]
+    """Least and largest slope from row to row."""
     units: tuple[str, str]
+    """Units of the first column and of the slopes."""
 
 
 SPRING_TABLE = _Plausible(0.01, (200.0, 2e6), ("m", "N/m"))
@@ -53,7 +56,7 @@ DAMPER_TABLE = _Plausible(0.1, (20.0, 1e5), ("m/s", "N.s/m"))
 def law_faults(
     section: Section, name: str, number: float | None, table: Rows | None, plausible: _Plausible
 ) -> Iterator[str]:
-    """A force is given by a number or by a table that rises as one of its kind does.
+    """Yield a sentence if a force is not given by either a number or a plausible table.
 
     Parameters
     ----------
@@ -61,10 +64,12 @@ def law_faults(
         Spring or damper.
     name : str
         Key of the number.
+    number : float or None
+        Stiffness or damping coefficient.
     table : rows of (float, float) or None
-        In its place.
+        Table given in place of the number.
     plausible : _Plausible
-        What the table may be.
+        Plausible range of the table.
     """
     if number is None and table is None:
         yield f"{section.key(name)} is missing; give it or {section.key('table')}, rows of two numbers."
@@ -117,7 +122,7 @@ class Spring(Section, of=SpringDamper):
 
     @property
     def given(self) -> dict[str, Any]:
-        """What says its force but the factor, by key path."""
+        """Stiffness or damping as a number or a table, by key path."""
         name = "stiffness" if self.table is None else "table"
         return {self.key(name): getattr(self, name)}
 
@@ -145,7 +150,7 @@ class Damper(Section, of=SpringDamper):
 
     @property
     def given(self) -> dict[str, Any]:
-        """What says its force but the factor, by key path."""
+        """Stiffness or damping as a number or a table, by key path."""
         name = "damping" if self.table is None else "table"
         return {self.key(name): getattr(self, name)}
 
@@ -250,7 +255,7 @@ def spring_of_length(
 
 
 def _on_line(b: CarBuilder, name: str, difference: AffineVector, drawn: float, springs: AxleSprings) -> ElementRecord:
-    """Along a line from one end to the other, of a length as drawn."""
+    """Add spring, damper and stops along a line between two ends. `drawn`: its length in the drawing, m."""
     spring, damper, stops = springs.spring, springs.damper, springs.stops
     stiffness, damping = 0.0 if spring is None else spring.law, 0.0 if damper is None else damper.law
     factors = 1.0 if spring is None else spring.factor, 1.0 if damper is None else damper.factor

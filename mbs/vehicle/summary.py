@@ -1,4 +1,4 @@
-"""What a car is, as tables of text."""
+"""Summary of a car as tables of text."""
 
 from ali3.columns import in_columns
 from mbs.vehicle.built_car import BuiltCar

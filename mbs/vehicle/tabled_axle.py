@@ -1,7 +1,7 @@
-"""An axle whose parts move by tables that are made of its own links.
+"""Axle whose parts are lookup-table bodies, with tables computed from its links.
 
-The templates of suspensions build it as they build an axle with links; a `TabledParts` in the place of their model
-makes a tabled body of each part and a tabled number of each angle, and needs no joints: the links are in the tables.
+The templates of suspensions build it as an axle with links, with `TabledParts` in place of the model: each part becomes
+a lookup-table body, each angle a lookup-table number, and joints are dropped since the tables contain the links.
 """
 
 from collections.abc import Callable, Mapping
@@ -27,14 +27,14 @@ Array = NDArray[np.float64]
 Brakes = Callable[[CarBuilder, Corner, Spin, float], None]
 
 JOINTS = frozenset({"spherical", "distance", "point_on_line", "cylindrical", "revolute", "slide"})
-"""What templates of suspensions join their parts by."""
+"""Joints by which templates of suspensions connect their parts."""
 
 
 class TabledParts:
-    """A model for templates of suspensions, which makes tables of their parts.
+    """Stand-in for the model in templates of suspensions: adds parts as lookup-table bodies and ignores joints.
 
-    `m`: gets the tabled bodies; all that is no part or joint goes to it; `compressions`: of the springs, by wheel;
-    `rack`: travel of the rack, m, where it steers.
+    `m`: the model, which gets the bodies and every call that adds neither a part nor a joint; `base`: the chassis;
+    `grid`: poses of the parts; `compressions`: of the springs, by wheel; `rack`: travel of the rack, m, if it steers.
     """
 
     def __init__(
@@ -49,32 +49,32 @@ class TabledParts:
         return getattr(self._m, name)
 
     def body(self, name: str, *, mass: float, com: ArrayLike, inertia: ArrayLike) -> Body:
-        """A part of the axle by its table.
+        """Add a part of the axle as a lookup-table body.
 
-        `name`: of the part, which ends with the wheel's; `mass`, `com`, `inertia`: as of `Model.body`.
+        `name`: of the part, which ends with the name of the wheel; `mass`, `com`, `inertia`: as in `Model.body`.
         """
         (part,) = (b for b in self._grid.linkage.model.bodies if b.name == name)
         poses = self._grid.full(part.start, 12)
         parameters, axes, poses = self._over(name, poses)
-        turned = np.swapaxes(poses[..., 3:].reshape(*poses.shape[:-1], 3, 3), -1, -2)
+        rotations = np.swapaxes(poses[..., 3:].reshape(*poses.shape[:-1], 3, 3), -1, -2)
         return self._m.tabled_body(
             name,
             base=self._base,
             parameters=parameters,
             axes=axes,
             places=poses[..., :3],
-            rotations=turned,
+            rotations=rotations,
             mass=mass,
             com=com,
             inertia=inertia,
         )
 
     def drop_link(self, name: str, *args: object, **kwargs: object) -> Coordinate:
-        """The angle of the lever of an anti-roll bar, rad."""
+        """Add the angle of the lever of an anti-roll bar, rad."""
         return self._angle(name)
 
     def relative_angle(self, name: str, *args: object, **kwargs: object) -> Coordinate:
-        """An angle between two parts, rad."""
+        """Add an angle between two parts, rad."""
         return self._angle(name)
 
     def _angle(self, name: str) -> Coordinate:
@@ -83,7 +83,7 @@ class TabledParts:
         return self._m.tabled_number(name, parameters=parameters, axes=axes, values=values[..., 0])
 
     def _over(self, name: str, values: Array) -> tuple[list[Coordinate], list[Array], Array]:
-        """Coordinates, points along them, and values over them, of what moves with a wheel."""
+        """Table of a quantity of a wheel: its coordinates, the grid points along each, and the values on the grid."""
         grid = self._grid
         if grid.coupled:
             return list(self._compressions.values()), [grid.compression] * 2, values
@@ -95,12 +95,12 @@ class TabledParts:
 
 
 def tabled_axle(b: CarBuilder, car: CarContent, axle: str, rack: Coordinate | None, brakes: Brakes) -> dict[str, Spin]:
-    """Add an axle by tables and return the spins of its wheels by the wheels' names.
+    """Add an axle of lookup-table bodies and return the spins of its wheels by the wheels' names.
 
     Parameters
     ----------
     car : CarContent
-        Without faults.
+        Car that has passed its checks.
     axle : str
         "front" or "rear".
     rack : Coordinate or None
@@ -111,7 +111,7 @@ def tabled_axle(b: CarBuilder, car: CarContent, axle: str, rack: Coordinate | No
     Raises
     ------
     ModelError
-        The links end before the stops, or each side depends on both springs and on the rack.
+        The links cannot be assembled up to the stops, or each side depends on both springs and on the rack.
     """
     linkage = Linkage(car, axle)
     data = getattr(car, axle)

@@ -1,1 +1,1 @@
-"""Worlds: one description from which the road file, what is drawn of it and its map are computed."""
+"""Worlds: descriptions from which a road file, a scene and a map are computed."""

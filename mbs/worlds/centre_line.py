@@ -1,4 +1,4 @@
-"""The line in the middle of a course: a curve through points, its stations and what lies beside it."""
+"""Centre line of a course: curve through points, stations, and offsets to its sides."""
 
 import math
 from collections.abc import Sequence
@@ -57,8 +57,8 @@ class CentreLine:
     def beside(self, x: Float, y: Float, guess: Float) -> tuple[Float, Float, Float]:
         """Nearest station, offset to the left and distance of places, m; `guess` lies near the station."""
         if self.straight:
-            way = self.points[-1] - self.points[0]
-            unit = way / np.hypot(*way)
+            chord = self.points[-1] - self.points[0]
+            unit = chord / np.hypot(*chord)
             dx, dy = x - self.points[0, 0], y - self.points[0, 1]
             along = dx * unit[0] + dy * unit[1]
             s, offset = np.clip(along, 0.0, self.length), unit[0] * dy - unit[1] * dx

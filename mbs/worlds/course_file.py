@@ -1,4 +1,4 @@
-"""Courses of a description: from segments, points or a CSV file to layers, and what is wrong with them."""
+"""Courses of a description from segments, points or a CSV file, converted to layers and checked."""
 
 import itertools
 import math
@@ -91,14 +91,16 @@ def _table(course: Course, folder: Path) -> dict[str, Float]:
     if not table or len(table["x"]) < 2:
         raise RoadFileError(f"{name} has fewer than two points.")
     x, y = table["x"], table["y"]
-    way = np.hypot(np.diff(x), np.diff(y))
-    if float(way.sum()) < 1.0:
-        raise RoadFileError(f"{name} is {way.sum():.3g} long; x and y must be in metres, not in degrees or kilometres.")
-    k = int(np.argmax(way))
-    if len(way) > 3 and way[k] > max(GAP * float(np.median(way)), 10.0):
+    distances = np.hypot(np.diff(x), np.diff(y))
+    if float(distances.sum()) < 1.0:
         raise RoadFileError(
-            f"{name} has a gap of {way[k]:.4g} m between points {k + 1} and {k + 2}, where others are "
-            f"{float(np.median(way)):.3g} m apart."
+            f"{name} is {distances.sum():.3g} long; x and y must be in metres, not in degrees or kilometres."
+        )
+    k = int(np.argmax(distances))
+    if len(distances) > 3 and distances[k] > max(GAP * float(np.median(distances)), 10.0):
+        raise RoadFileError(
+            f"{name} has a gap of {distances[k]:.4g} m between points {k + 1} and {k + 2}, where others are "
+            f"{float(np.median(distances)):.3g} m apart."
         )
     for column, low, high, unit in (("width", 1.0, 200.0, "metres"), ("bank", -1.0, 1.0, "a slope, 0.1 is 10 %")):
         if column in table and not ((table[column] >= low) & (table[column] <= high)).all():
@@ -108,7 +110,7 @@ def _table(course: Course, folder: Path) -> dict[str, Float]:
                 f"({unit})."
             )
     if "z" in table:
-        grades = np.abs(np.diff(table["z"])) / np.maximum(way, 1e-9)
+        grades = np.abs(np.diff(table["z"])) / np.maximum(distances, 1e-9)
         k = int(np.argmax(grades))
         if grades[k] > 1.0:
             raise RoadFileError(
@@ -188,7 +190,7 @@ def read_course(file: Path) -> dict[str, Float]:
 
 
 def _column(heading: str) -> str:
-    """What a column is by its heading; empty: it is not known, or not in metres."""
+    """Meaning of a column by its heading; empty: unknown, or not in metres."""
     name = re.sub("[ -]+", "_", heading.strip().lower())
     match = _IN_METRES.fullmatch(name)
     return COLUMNS.get(match[1] if match and name != "bank_m" else name, "")

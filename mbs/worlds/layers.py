@@ -1,4 +1,4 @@
-"""What is laid on the ground of a world: courses and level areas. Each has a height and a weight at every place."""
+"""Layers on the ground of a world, courses and level areas: height and weight at every position."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Kerbs, ramps and washboards: what is added to the heights of the ground, in a frame of their own."""
+"""Kerbs, ramps and washboards: additions to the height of the ground, in frames of their own."""
 
 import math
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class Footprint:
         return c * dx + s * dy, c * dy - s * dx
 
     def corners(self) -> Float:
-        """In earth axes, shape (4, 2), m."""
+        """Corners in earth axes, shape (4, 2), m."""
         c, s = _turn(self.yaw)
         ends = [(0.0, self.right), (self.length, self.right), (self.length, self.left), (0.0, self.left)]
         return np.array([(self.x + c * u - s * v, self.y + s * u + c * v) for u, v in ends])
@@ -58,7 +58,7 @@ def _turn(yaw: float) -> tuple[float, float]:
 
 
 def footprint(part: Kerb | Ramp | Washboard | Band) -> Footprint:
-    """Where an obstacle or a band lies."""
+    """Rectangle on the ground of an obstacle or a band."""
     x, y, yaw = part.at
     if isinstance(part, (Kerb, Band)):
         return Footprint(x, y, math.radians(yaw), part.length, part.right, part.left)
@@ -76,7 +76,7 @@ def _ramp_lines(ramp: Ramp) -> list[tuple[float, float]]:
 
 
 def ramp_length(ramp: Ramp) -> float:
-    """From where a ramp begins to where it ends, m."""
+    """Length of a ramp, m."""
     return _ramp_lines(ramp)[-1][0] + 0.5 * ramp.roundings[2]
 
 

@@ -1,4 +1,4 @@
-"""What is drawn of a terrain: patches of regular points, finer where straight lines between them would be off."""
+"""Drawn surface of a terrain: patches of regular points, refined where linear interpolation would be inaccurate."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Scenery of a world: what its description names, put onto the ground."""
+"""Scenery of a world: objects of its description, placed on the ground."""
 
 import math
 from collections.abc import Iterator, Sequence

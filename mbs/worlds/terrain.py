@@ -1,4 +1,4 @@
-"""Heights and surfaces of a world at any place, for the road file and for what is drawn alike."""
+"""Height and surface of a world at any position, for the road file and the scene."""
 
 import math
 from pathlib import Path

@@ -23,7 +23,7 @@ LOOKED_AT = 16
 
 @dataclass(frozen=True)
 class Deviation:
-    """How far the heights of a thin world are off, m: at most, and in all places but one of a thousand."""
+    """Deviation of the heights of a thinned world, m: the largest, and the 99.9 % quantile."""
 
     most: float
     nearly_all: float
@@ -31,7 +31,7 @@ class Deviation:
 
     @property
     def sentence(self) -> str:
-        """How far the heights are off, for people."""
+        """Deviation of the heights as a sentence."""
         return (
             f"Thin ground: its heights are off by at most {1e3 * self.most:.3g} mm and by "
             f"{1e3 * self.nearly_all:.2g} mm in 99.9 % of {self.places} places."

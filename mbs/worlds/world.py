@@ -61,7 +61,7 @@ def world(given: str, out: Path, picture: Path | None, thin: bool = False, table
 
 
 def _plausibilities(file: Path, road: Path) -> Sequence[Plausibility]:
-    """What was understood of the description of a world, and of the road that was made of it."""
+    """Plausibility of the description of a world, and of the road made from it."""
     found = described(file)
     return [*(plausibility_of(found) if found is not None else []), *plausibility_of(RoadFile(road))]
 

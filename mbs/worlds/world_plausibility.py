@@ -1,4 +1,4 @@
-"""What was understood of a world: whether each thing in it is there for a wheel or an eye."""
+"""Plausibility of a world: whether each object can be touched by a wheel or seen."""
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
@@ -40,7 +40,7 @@ def _plausibility_of_world(world: WorldDescription) -> list[Plausibility]:
 
 
 def world_plausibility(what: str, world: WorldDescription) -> Plausibility:
-    """What was understood of a world. `what`: its file."""
+    """Plausibility of a world. `what`: its file."""
     values, mistakes = _values(world), []
     outside = {v.of for v in values if not v.inside()}
     for key, thing in _things(world):
@@ -149,7 +149,7 @@ def _far(line: NDArray[np.float64], at: NDArray[np.float64]) -> float:
 
 
 def _outside(world: WorldDescription, key: str, places: Sequence[tuple[float, float]]) -> Value:
-    """How far the farthest of some places is outside."""
+    """Distance of the farthest of some points outside the world."""
     x0, y0, x1, y1 = world.bounds
     off, x, y = max((float(np.hypot(max(x0 - x, x - x1, 0.0), max(y0 - y, y - y1, 0.0))), x, y) for x, y in places)
     return Value(QUANTITIES["outside"], off, {key: [x, y], "bounds": list(world.bounds)}, key)
@@ -192,7 +192,7 @@ def _box(thing: Thing) -> tuple[float, float, float, float]:
 
 
 def changed_points(world: WorldDescription, thing: Thing) -> int:
-    """How many points of the grid of a world a thing raises or colours; of a large one a part of them."""
+    """Number of grid points of a world that an object raises or colours; of a large object a sample of them."""
     box, axes = _box(thing), []
     for k in range(2):
         first, step, last = world.bounds[k], world.spacing[k], world.bounds[k + 2]

@@ -1,4 +1,4 @@
-"""The JSON file of a world: what is drawn of it and where a car may start."""
+"""JSON file of a world: its scene and possible start positions."""
 
 import math
 from collections.abc import Callable
@@ -21,7 +21,7 @@ FINEST_CELL = 0.25
 def world_record(
     terrain: Terrain, tell: Callable[[float], None] = lambda part: None, step: float = 0.0
 ) -> dict[str, Any]:
-    """What the JSON file of a world says.
+    """Content of the JSON file of a world.
 
     `tell`: called with the part that is done, 0 to 1; `step`: m: the heights that are drawn are whole multiples of it;
     0: as they are.

@@ -1,4 +1,4 @@
-"""The description of a world as types: what a TOML file of one may say."""
+"""Types of the description of a world in TOML."""
 
 from typing import Annotated, Literal
 

@@ -9,7 +9,7 @@ from mbs import Settings, compile, simulate
 from mbs.scenes import kerb_test
 
 T = np.arange(0.0, kerb_test.DURATION + 0.5 * guides.RATE, guides.RATE)
-WAY = float(kerb_test.way(kerb_test.DURATION))
+WAY = float(kerb_test.distance(kerb_test.DURATION))
 
 
 def signals(pitch_rate: float = 0.0) -> guides.Signals:
@@ -23,7 +23,7 @@ def signals(pitch_rate: float = 0.0) -> guides.Signals:
 
 def test_signals_without_faults_return_the_motion() -> None:
     found = guides.motion(signals(0.05), WAY)
-    assert np.max(np.abs(found.way - kerb_test.way(T))) < 1e-3
+    assert np.max(np.abs(found.way - kerb_test.distance(T))) < 1e-3
     assert np.max(np.abs(found.guide(T) - found.way)) < 1e-3
     assert np.max(np.abs(found.heave)) < 1e-3
     assert found.pitch[-1] == pytest.approx(0.05 * np.pi * 9.0 / (2.0 * np.pi), rel=0.01)  # rad, nose down
@@ -33,9 +33,9 @@ def test_offset_and_drift_are_taken_out_and_a_sign_is_seen() -> None:
     given = signals()
     faulty = guides.Signals(T, given.force + 0.3 - 0.03 * T[:, np.newaxis, np.newaxis])
     found = guides.motion(faulty, WAY)
-    assert np.sqrt(np.mean((found.way - kerb_test.way(T)) ** 2)) < 0.05
+    assert np.sqrt(np.mean((found.way - kerb_test.distance(T)) ** 2)) < 0.05
     plain = cumulative_trapezoid(cumulative_trapezoid(faulty.force[:, 0, 0], T, initial=0.0), T, initial=0.0)
-    assert np.abs(plain - kerb_test.way(T)).max() > 5.0  # what drift would do
+    assert np.abs(plain - kerb_test.distance(T)).max() > 5.0  # what drift would do
     turned = guides.motion(guides.Signals(T, -given.force), -WAY)
     assert turned.way[-1] == pytest.approx(-WAY, rel=1e-9)
 

@@ -7,10 +7,9 @@ from importlib import import_module
 from tests.docs.test_documents import ROOT
 
 MODULES = {
-    "results": ("accuracy", "comparison", "convergence", "smooth_laws"),
+    "results": ("accuracy", "comparison", "convergence", "smooth_laws", "step_control"),
     "simulation": ("coarser_run", "fixed_steps", "refined_run", "controlled_pair", "tolerance_run"),
 }
-ELSEWHERE = (("settings.control", "ALLOWED"),)
 SOURCES = ("mbs/kernel/src/sensors/comparison.c", "fmu_src/native/src/half_steps.c")
 ELSE = {"SYSTEM_VERSION", "STATE_VERSION", "POSE", "LONGEST_SETTLING", "SETTLING_WORK", "OPEN", "FARTHEST", "FASTEST"}
 """Numbers of the header that are not of the check; any other is."""
@@ -32,8 +31,6 @@ def in_python() -> dict[str, float]:
                     continue
                 values = {t: getattr(module, t) for t in targets}
                 found |= {f"{name} {t}": v for t, v in values.items() if isinstance(v, int | float)}
-    for place, name in ELSEWHERE:
-        found[f"{place.split('.')[1]} {name}"] = getattr(import_module(f"mbs.{place}"), name)
     return found
 
 

@@ -7,7 +7,6 @@ import pytest
 import scipy.sparse as sp
 
 from mbs.common.errors import ModelError
-from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
 from mbs.flexible.fe_model import FiniteElementModel
@@ -19,6 +18,7 @@ from mbs.flexible.mass_lumping import lumped_masses
 from mbs.flexible.mass_points import nodal_mass_points
 from mbs.flexible.matrix_files import external_model, read_matrix
 from mbs.flexible.recovery import section_forces
+from mbs.flexible.relief_solution import inertia_relief
 from mbs.model import Model
 from tests.flexible.structures import STEEL, TUBE, portal, straight
 

@@ -8,12 +8,12 @@ from scipy.sparse.linalg import spsolve
 
 from benchmarks.car import frame_tables
 from benchmarks.car.statics import interface_forces
-from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.fe_model import FiniteElementModel
 from mbs.flexible.frequencies import natural_modes
 from mbs.flexible.inertia_integrals import shape_integrals
 from mbs.flexible.recovery import gauge_rows, peak_tube_stress, section_force_field
+from mbs.flexible.relief_solution import inertia_relief
 from mbs.vehicle import load
 
 CAR = load("prototype")

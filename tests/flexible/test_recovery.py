@@ -5,7 +5,6 @@ import pytest
 import scipy.sparse as sp
 from scipy.sparse.linalg import spsolve
 
-from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.frame import Beam, Frame
 from mbs.flexible.recovery import (
@@ -18,6 +17,7 @@ from mbs.flexible.recovery import (
     section_forces,
     stress_field,
 )
+from mbs.flexible.relief_solution import inertia_relief
 from mbs.flexible.section import rectangle
 from tests.flexible.structures import STEEL, TUBE, portal, straight
 

@@ -1,10 +1,10 @@
-/* From the first to the last call of an instance. */
+/* Life cycle of an instance: creation, set-up, initialisation, termination, reset and release. */
 #include <math.h>
 #include <string.h>
 
 #include "slave.h"
 
-/* One block behind the instance for all its arrays; false if there is no memory. */
+/* Allocates one block for all arrays of the instance; false if there is no memory. */
 static bool take_arrays(slave *s) {
   const slave_table *t = &slave_the_table;
   const ali3_sizes z = ali3_system_sizes(s->fidelity.system);
@@ -34,13 +34,14 @@ static bool take_arrays(slave *s) {
   return true;
 }
 
+/* A copy of a text; NULL if there is no memory. */
 static char *copy_of(const ali3_memory *memory, const char *text) {
   char *copy = memory->allocate(1, strlen(text) + 1);
   if (copy != NULL) strcpy(copy, text);
   return copy;
 }
 
-/* The System of the fidelity that the table starts with. */
+/* Loads the System of the fidelity that is the start value, and allocates the arrays; false: an error was logged. */
 static bool load(slave *s, const char *resources) {
   const slave_table *t = &slave_the_table;
   size_t fidelity = 0;
@@ -58,6 +59,7 @@ static bool load(slave *s, const char *resources) {
   return slave_fidelity_load(s, fidelity, &s->fidelity) && take_arrays(s);
 }
 
+/* Sets all variables to their start values and forgets every earlier step and warning. */
 static void start_values(slave *s) {
   const slave_table *t = &slave_the_table;
   const slave_call_state calls = {.phase = SLAVE_INSTANTIATED, .stop_time = HUGE_VAL};

@@ -50,7 +50,7 @@ def tangent(pattern: Pattern) -> list[str]:
 
 
 class _OfFront:
-    """What one front is the sum of."""
+    """Terms that are summed in one front."""
 
     def __init__(self, pattern: Pattern, front: Front) -> None:
         self.pattern, self.front = pattern, front

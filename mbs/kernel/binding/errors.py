@@ -1,4 +1,4 @@
-"""What a refused call of the kernel raises."""
+"""Error of a refused call of the kernel, with its status."""
 
 import ctypes
 import math
@@ -46,10 +46,10 @@ def status_remedy(status: int) -> str:
 
 
 def refused_new(library: ctypes.CDLL, status: int, what: str, reason: str = "") -> KernelError:
-    """What could not be made: `what`, the reason, by default the kernel's sentence for the status, and what helps."""
+    """Error for an object that could not be created: `what`, the reason, by default by the status, and the remedy."""
     return KernelError(status, f"{what}: {reason or status_text(library, status)} {status_remedy(status)}")
 
 
 def status_cause(status: int) -> Cause:
-    """What a refusal with a status comes from."""
+    """Cause of a refusal with a status."""
     return Cause(load_library().ali3_status_cause(status))

@@ -1,4 +1,4 @@
-"""A State of a System and the work space to step it."""
+"""Binding of one kernel instance: a state of a System, its inputs and parameters, and the calls that step it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Instance(StandingInstance):
         self._input_error: BaseException | None = None
         super().__init__(system)
         self._step = self._library.ali3_step
-        self._inputs: Any = None  # keeps what the kernel calls and reads
+        self._inputs: Any = None  # keeps alive the function or the tables that the kernel uses
 
     def _check(self, status: int) -> None:
         if status:
@@ -60,7 +60,7 @@ class Instance(StandingInstance):
         self._check(self._library.ali3_set_settings(self._handle, byref(fields)))
 
     def set_input(self, index: int, value: float) -> None:
-        """Value of an input from now on, clamped to its range."""
+        """Set an input; its value is clamped to its range."""
         self._check(self._library.ali3_set_input(self._handle, index, value))
 
     def get_input(self, index: int) -> float:
@@ -70,10 +70,10 @@ class Instance(StandingInstance):
         return value.value
 
     def set_input_function(self, function: Callable[[float, bool, Any], None] | None) -> None:
-        """Inputs as a function of time, asked for at every time at which a method looks at them; None ends that.
+        """Compute inputs by a function of time, called at every time at which a method evaluates them; None removes it.
 
-        `function`: called with the time in s, whether the value behind a jump is meant, and a writable array of all
-        inputs that holds the present ones. What it raises ends the step and is raised by `step` or `run`.
+        `function`: called with the time, s, whether the value after a jump is meant, and a writable array of all inputs
+        with their present values. An exception ends the step and is raised by `step` or `run`.
         """
 
         def ask(_: Any, t: float, after: int, values: Any) -> int:
@@ -89,20 +89,22 @@ class Instance(StandingInstance):
         self._check(self._library.ali3_set_input_function(self._handle, address, None))
 
     def set_input_tables(self, tables: Mapping[int, tuple[Any, Any]], tolerance: float) -> None:
-        """The same from tables, without a call of Python.
+        """Inputs as functions of time given by tables, which the kernel reads without calling Python.
 
-        `tables`: per number of an input two contiguous float64 buffers of equal length; times do not decrease;
+        `tables`: per number of an input two contiguous float64 buffers, times and values; times do not decrease;
         `tolerance`: times this near to a jump are at it, s.
         """
-        alive = {i: [buffer(x, len(table[0]), "a table", writable=False) for x in table] for i, table in tables.items()}
-        rows = [InputTable(i, len(a[0]), *(ctypes.cast(x, _DOUBLES) for x in a)) for i, a in alive.items()]
+        buffers = {
+            i: [buffer(x, len(table[0]), "a table", writable=False) for x in table] for i, table in tables.items()
+        }
+        rows = [InputTable(i, len(a[0]), *(ctypes.cast(x, _DOUBLES) for x in a)) for i, a in buffers.items()]
         context = InputTables(tolerance, len(rows), (InputTable * len(rows))(*rows))
         address = ctypes.cast(self._library.ali3_input_of_tables, c_void_p)
         self._check(self._library.ali3_set_input_function(self._handle, address, ctypes.cast(byref(context), c_void_p)))
-        self._inputs = (context, alive)
+        self._inputs = (context, buffers)
 
     def set_input_breaks(self, times: Any) -> None:
-        """Times at which the present function or tables jump, s, ascending: steps are made in parts that end there."""
+        """Set the times, s, ascending, at which the present function or tables jump: steps are divided there."""
         self._breaks = buffer(times, len(times), "the breaks", writable=False)
         self._check(self._library.ali3_set_input_breaks(self._handle, self._breaks, len(times)))
 
@@ -113,7 +115,7 @@ class Instance(StandingInstance):
         return value.value
 
     def set_road(self, index: int, path: str | os.PathLike[str] | None) -> None:
-        """A road file in place of a road of the System, for the next `initialise`; None: the System's own again.
+        """Replace a road of the System by a road file, from the next `initialise` on; None: the System's own again.
 
         Raises `KernelError`: the file is refused; the road stays as it was.
         """
@@ -126,17 +128,17 @@ class Instance(StandingInstance):
         self._check(status)
 
     def road_lost(self) -> str:
-        """What is wrong with which part of a road's file, after `ROAD_LOST`; else empty."""
+        """Fault of a road file after the status `ROAD_LOST`, with the part of the file; else empty."""
         return bytes(self._library.ali3_road_lost(self._handle)).decode(errors="replace")
 
     def beyond_table(self) -> tuple[int, float, float, float]:
-        """The coordinate that is farthest beyond its table, its value and both ends of the table; -1 if none is."""
+        """Coordinate farthest outside its table, its value and both ends of the table; -1 if none is outside."""
         column, numbers = c_int32(-1), (c_double * 3)()
         self._library.ali3_beyond_table(self._handle, byref(column), numbers)
         return column.value, *numbers
 
     def wheel_in_road(self) -> tuple[int, str]:
-        """The element whose wheel has its centre below a grid road, and words on it; -1 and none if there is none."""
+        """Element whose wheel centre is below a grid road, and a description; -1 and an empty text if there is none."""
         element, text = c_int32(-1), ctypes.create_string_buffer(512)
         self._library.ali3_wheel_in_road(self._handle, byref(element), text, len(text))
         return element.value, text.value.decode(errors="replace")
@@ -151,17 +153,17 @@ class Instance(StandingInstance):
         lateral_speed: float = 0.0,
         yaw_rate: float = 0.0,
     ) -> None:
-        """Start of a scene that is not tied to the ground (m, rad, m/s, rad/s); before `initialise`."""
+        """Set the start of a scene that is not fixed to the ground (m, rad, m/s, rad/s); before `initialise`."""
         pose = (x, y, z, yaw, speed, lateral_speed, yaw_rate)
         self._check(self._library.ali3_set_pose(self._handle, numbers(pose, POSE, "pose")))
 
     def set_q(self, q: Sequence[float] | None, qd: Sequence[float] | None = None) -> None:
-        """Coordinates (nq,) and rates (nq,) to start from; before `initialise`."""
+        """Set start values of coordinates (nq,) and rates (nq,); before `initialise`."""
         nq = self.system.sizes.nq
         self._check(self._library.ali3_set_q(self._handle, numbers(q, nq, "q"), numbers(qd, nq, "qd")))
 
     def set_switch(self, index: int, on: bool) -> None:
-        """Rows of a switch on or off; those that go on hold the values they have now."""
+        """Switch constraint rows on or off; rows that are switched on hold their present values."""
         self._check(self._library.ali3_set_switch(self._handle, index, int(on)))
 
     def get_switch(self, index: int) -> bool:
@@ -173,14 +175,14 @@ class Instance(StandingInstance):
     def settle(self, duration: float, h: float) -> float:
         """Hold the horizontal motion of a start while all else settles; after `initialise`.
 
-        `duration`: in s, at most `LONGEST_SETTLING`; `h`: of the steps, s. Returns the largest speed that is left
-        beside the held motion, m/s.
+        `duration`: in s, at most `LONGEST_SETTLING`; `h`: step, s. Returns the largest remaining speed relative to the
+        held motion, m/s.
         """
         self._start(self._library.ali3_settle(self._handle, duration, h))
         return float(self._library.ali3_unsettled(self._handle))
 
     def start_text(self) -> str:
-        """A sentence on a start on a road of a file that is not level; empty where there is nothing to say."""
+        """Sentence about a start on a road file that is not level there; else empty."""
         return self._text(self._library.ali3_start_text)
 
     def start_excess(self) -> tuple[float, int, str]:
@@ -189,53 +191,57 @@ class Instance(StandingInstance):
         Returns
         -------
         float
-            How much higher the scene must start, m, so that it is out of the way of all elements.
+            Height by which the scene must be raised so that no element refuses it, m.
         int
-            The element that refuses the start most; -1: none does.
+            Element that refuses the start by the largest excess; -1: none does.
         str
-            Its words, after its name.
+            Reason of that element, to be put after its name.
         """
         element, words = c_int32(), c_char_p()
         height = self._library.ali3_start_excess(self._handle, byref(element), byref(words))
         return float(height), element.value, (words.value or b"").decode()
 
     def method_excludes(self) -> str:
-        """What the method of the settings takes no System with, in words; empty if it takes all."""
+        """Property of Systems that the method of the settings does not accept; empty if it accepts all."""
         return bytes(self._library.ali3_method_excludes(self._handle)).decode()
 
     def step(self, h: float) -> None:
-        """One step of `h` seconds with the inputs as they are."""
+        """Make one step of `h` seconds with the present inputs."""
         status = self._step(self._handle, h)
         if status:
             self._check(status)
 
     def run(self, h: float, n: int, inputs: Any = None, every: int = 1, out: Any = None, positions: Any = None) -> int:
-        """`n` steps of `h` seconds.
+        """Make `n` steps of `h` seconds.
 
         Parameters
         ----------
         h : float
             Step, s.
         inputs : buffer of float64, shape (n, nu), optional
-            Input values, a row per step; None keeps them as they are.
+            Input values, a row per step; None keeps the present ones.
         every : int
-            Sensors are recorded after every so many steps.
+            Number of steps between two records of the sensors.
         out : writable buffer of float64, shape (n // every, ns), optional
-            Takes the sensor values.
+            Receives the sensor values.
         positions : writable buffer of float64, shape (n // every, nq), optional
-            Takes the coordinates at the same states.
+            Receives the coordinates of the same states.
 
         Returns
         -------
         int
-            Steps done; less than `n` never without a `KernelError`.
+            Number of steps made, `n` unless a `KernelError` is raised.
         """
         sizes = self.system.sizes
-        given = buffer(inputs, n * sizes.nu, "inputs", writable=False)
-        taken = buffer(out, n // every * sizes.ns if every > 0 else 0, "out", writable=True)
-        places = buffer(positions, n // every * sizes.nq if every > 0 else 0, "positions", writable=True)
+        records = n // every if every > 0 else 0
+        buffers = (
+            buffer(inputs, n * sizes.nu, "inputs", writable=False),
+            every,
+            buffer(out, records * sizes.ns, "out", writable=True),
+            buffer(positions, records * sizes.nq, "positions", writable=True),
+        )
         done = c_int64()
-        self._check(self._library.ali3_run(self._handle, h, n, given, every, taken, places, byref(done)))
+        self._check(self._library.ali3_run(self._handle, h, n, *buffers, byref(done)))
         return done.value
 
     def control_run(
@@ -249,29 +255,29 @@ class Instance(StandingInstance):
         positions: Any,
         done: int,
     ) -> int:
-        """Steps whose errors add up to a tolerance, see `ali3_control_run`.
+        """Make steps under error control, whose errors add up to a tolerance; see `ali3_control_run`.
 
         Parameters
         ----------
         control : ControlFields
             Changed in place.
         scale : buffer of float64, shape (nq,)
-            Size of a unit of each coordinate, m.
+            Length, m, that corresponds to one unit of each coordinate.
         t_end : float
-            Time that is the end of a step, s.
+            Time at which the last step must end, s.
         most_steps : int
-            After so many accepted steps the call returns.
+            Number of accepted steps after which the call returns.
         times : buffer of float64, shape (n,)
             Times to record at, ascending.
         sensors, positions : writable buffers of float64, shape (n, ns) and (n, nq)
-            Take the records; either may be None.
+            Receive the records; either may be None.
         done : int
-            Rows that are already written.
+            Number of rows that earlier calls have written.
 
         Returns
         -------
         int
-            Rows written, those before included.
+            Number of rows written, with those of earlier calls.
         """
         sizes, n = self.system.sizes, memoryview(times).nbytes // 8
         rows = (
@@ -289,26 +295,26 @@ class Instance(StandingInstance):
         return written.value
 
     def refresh(self) -> None:
-        """Accelerations and multipliers of the present inputs and guides, without a past: after a jump of theirs."""
+        """Compute accelerations and multipliers again after a jump of inputs or guides, discarding past steps."""
         self._check(self._library.ali3_refresh(self._handle))
 
     def follow(self, other: Instance) -> None:
-        """Take over the state of the same model without ports, and find the forces at the ports, for `sensors`.
+        """Take over the state of the same model without ports, and compute the forces at the ports, for `sensors`.
 
-        `other`: initialised; stays as it is. This System has the map of `mbs.compiler.ports.with_ports_of`.
+        `other`: initialised, not changed. This System has the map of `mbs.compiler.ports.with_ports_of`.
         """
         self._check(self._library.ali3_ports_follow(self._handle, other._handle))
 
     def balance_wrong(self) -> bool:
-        """Whether the energy balance says that the run is wrong; see ali3_report.balance."""
+        """Whether the energy balance shows that the run is wrong; see `ali3_report.balance`."""
         return bool(self._report().balance == Balance.WRONG)
 
     def branch_text(self) -> str:
-        """A sentence about the first change of the assembly mode of a closed loop; empty where there was none."""
+        """Sentence about the first change of the assembly mode of a closed loop; empty if there was none."""
         return self._text(self._library.ali3_branch_text)
 
     def rim_text(self) -> tuple[int, str]:
-        """The element whose rim was pressed deepest into a road and a sentence on it; -1 and none where none was."""
+        """Element whose rim was deepest in a road, and a sentence about it; -1 and an empty text if none was."""
         element, text = c_int32(-1), ctypes.create_string_buffer(1024)
         self._library.ali3_rim_text(self._handle, byref(element), text, len(text))
         return element.value, text.value.decode(errors="replace")
@@ -324,24 +330,24 @@ class Instance(StandingInstance):
         return float(self._library.ali3_time(self._handle))
 
     def save(self) -> bytes:
-        """All that continues bit for bit."""
+        """Complete state as bytes, from which a run continues bit for bit."""
         data = ctypes.create_string_buffer(self.system.state_size)
         self._check(self._library.ali3_state_save(self._handle, data, len(data)))
         return data.raw
 
     def restore(self, data: bytes) -> None:
-        """Continue from saved bytes of the same System; altered bytes are refused."""
+        """Restore a state that `save` of the same System returned; altered bytes raise `KernelError`."""
         self._check(self._library.ali3_state_restore(self._handle, bytes(data), len(data)))
 
     def snapshot(self) -> Any:
-        """A copy in memory of the state, for `at` of this instance: at less cost than `save`."""
+        """Copy of the state in memory, for `at` of this instance; faster than `save`."""
         data = ctypes.create_string_buffer(self.system.snapshot_size)
         self._library.ali3_snapshot_take(self._handle, data)
         return data
 
     @contextmanager
     def at(self, snapshot: Any) -> Iterator[None]:
-        """Go back to a snapshot of this instance, and return to the present state."""
+        """Context in which this instance is in the state of a snapshot; afterwards its present state is restored."""
         now = self.snapshot()
         self._library.ali3_snapshot_restore(self._handle, snapshot)
         try:
@@ -352,17 +358,17 @@ class Instance(StandingInstance):
     def evaluate(
         self, q: Sequence[float], qd: Sequence[float], y: Sequence[float] | None = None, t: float | None = None
     ) -> dict[str, Any]:
-        """Rows, forces and element outputs at given values; the state stays.
+        """Constraint rows, forces and element outputs at given coordinates; the state of the instance is not changed.
 
-        Result: `phi`, `phi_t`, `gamma` (nc,), `jacobian` (nnz_rows,) of the stored rows, `force` (nq,), `outputs`
+        Returns `phi`, `phi_t`, `gamma` (nc,), `jacobian` (nnz_rows,) of the stored rows, `force` (nq,), `outputs`
         (nout,).
         """
         s = self.system.sizes
         counts = {"phi": s.nc, "jacobian": s.nnz_rows, "phi_t": s.nc, "gamma": s.nc, "force": s.nq, "outputs": s.nout}
         values = {name: (c_double * n)() for name, n in counts.items()}
-        given = (numbers(q, s.nq, "q"), numbers(qd, s.nq, "qd"), numbers(y, s.ny, "y"))
+        arguments = (numbers(q, s.nq, "q"), numbers(qd, s.nq, "qd"), numbers(y, s.ny, "y"))
         time = self.time if t is None else t
-        self._check(self._library.ali3_evaluate(self._handle, *given, time, *values.values()))
+        self._check(self._library.ali3_evaluate(self._handle, *arguments, time, *values.values()))
         return values
 
     def tangent(self, h: float, lam: Sequence[float] | None = None) -> Any:
@@ -382,9 +388,9 @@ class Instance(StandingInstance):
     def element_step(
         self, q: Sequence[float], qd: Sequence[float], y_old: Sequence[float] | None, h: float
     ) -> tuple[Any, Any]:
-        """Element states (ny,) after `h` seconds at held q, qd, and the generalised force (nq,) with them."""
+        """Element states (ny,) after `h` seconds at constant q, qd, and the generalised force (nq,) in these states."""
         s = self.system.sizes
         y_new, force = (c_double * s.ny)(), (c_double * s.nq)()
-        given = (numbers(q, s.nq, "q"), numbers(qd, s.nq, "qd"), numbers(y_old, s.ny, "y_old"))
-        self._check(self._library.ali3_element_step(self._handle, *given, h, y_new, force))
+        arguments = (numbers(q, s.nq, "q"), numbers(qd, s.nq, "qd"), numbers(y_old, s.ny, "y_old"))
+        self._check(self._library.ali3_element_step(self._handle, *arguments, h, y_new, force))
         return y_new, force

@@ -17,7 +17,7 @@ _DOUBLES = POINTER(c_double)
 
 
 class RunEnd(NamedTuple):
-    """How the run of one instance ended."""
+    """End of the run of one instance."""
 
     done: int
     """Accepted steps."""

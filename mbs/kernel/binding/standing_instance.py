@@ -1,4 +1,4 @@
-"""A State of a System where it stands: set up, started, read."""
+"""Kernel instance without steps: settings, parameters, start, sensors and report."""
 
 import math
 from ctypes import byref, c_double, c_void_p

@@ -58,7 +58,7 @@ def coupled_slides(
 
 
 def _way(model: BodyVocabulary, body: Body, carrier: Body, axis: ArrayLike, factor: float, what: str) -> list[Product]:
-    """How far a body slides along an axis of its carrier, times a factor."""
+    """Travel of a body along an axis of its carrier, times a factor."""
     different(body, carrier, what)
     if model.owned(carrier, f"The {what}").is_point:
         raise ModelError(f"A carrier of {what} needs axes; '{carrier.name}' is a point mass.")

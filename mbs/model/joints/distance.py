@@ -76,9 +76,9 @@ def distance(model: BodyVocabulary, name: str, end_1: End, end_2: End, *, length
     slide, sign = (slide_1, 1.0) if slide_1 is not None else (slide_2, -1.0)
     guides: list[GuideTerm] = []
     if slide is not None:
-        for way, guide in slide.ways:
+        for direction, guide in slide.ways:
             guides += [
-                GuideTerm(guide, 1, dot_products(gap, way, sign)),
+                GuideTerm(guide, 1, dot_products(gap, direction, sign)),
                 GuideTerm(guide, 2, linear=Affine({}, 0.5)),
             ]
     joint = Joint(
@@ -108,5 +108,5 @@ def _drawing(model: BodyVocabulary, name: str, end_1: End, end_2: End, length: f
 
 
 def _place(body: Body, point: ArrayLike | None) -> ArrayLike:
-    """Where an end is; of a particle its own place."""
+    """Point of an end of the joint; for a particle its own position."""
     return body.com if point is None else point

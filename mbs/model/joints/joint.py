@@ -1,4 +1,4 @@
-"""What every joint is: a name and its equations."""
+"""Joint: a name, its equations and the data for sensors and drawing."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ SCALAR_FORCES = {
 
 @dataclass(frozen=True)
 class JointPlaces:
-    """Where a joint sits: its bodies and, on each in earth axes as drawn, its point and axis (if it has one)."""
+    """Position of a joint: its bodies and, on each in earth axes as drawn, its point and axis (if it has one)."""
 
     bodies: tuple[Body, Body]
     points: tuple[ArrayLike, ArrayLike]

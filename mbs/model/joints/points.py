@@ -1,4 +1,4 @@
-"""Joints that share a point: what they have in common, and the spherical joint."""
+"""Joints with a common point: their equations, and the spherical joint."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def shared_axis(
 
 
 def points_of(body_1: Body, p1: ArrayLike, body_2: Body, p2: ArrayLike) -> tuple[AffineVector, AffineVector]:
-    """Where a joint is, on either body."""
+    """Point of the joint on either body."""
     return body_1.point(p1), body_2.point(p2)
 
 

@@ -1,4 +1,4 @@
-"""Joints that slide along a line: what they have in common, point on line and cylindrical."""
+"""Joints that slide along a line: common equations, point on line and cylindrical joint."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What gears and racks couple: how far a wheel has turned against its carrier, and how fast."""
+"""Gears and racks: coupling of rotations of wheels relative to their carriers."""
 
 from mbs.common.affine import Affine
 from mbs.model.bodies import BodyVocabulary

@@ -62,7 +62,7 @@ def build() -> Model:
 
 @dataclass(frozen=True)
 class Replay:
-    """What came of a replay of the manoeuvre."""
+    """Result of a replay of the manoeuvre."""
 
     times: NDArray[np.float64]
     """Shape (n,): s; the switch times appear twice."""
@@ -140,7 +140,7 @@ def stages(
 
 
 def held_at() -> NDArray[np.float64]:
-    """Where the path that the torques were made for has the hand while it is pinned, m; shape (3,)."""
+    """Position of the pinned hand on the path for which the torques were computed, m; shape (3,)."""
     table = _table()
     return np.array(table[table[:, 0] == 2][0, 8:11])
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 GRAVITY = 9.81
 START_DEG = (-30.0, -20.0, -60.0, 0.0, 30.0, 0.0)
-"""Joint angles at the start and, if all goes well, at the end."""
+"""Joint angles at the start, to which the manoeuvre returns."""
 HAND_POINT = (0.05, 0.0, 0.20)
 """m, in the axes of link 6: on the gripper, off the roll axis."""
 STAGES_S = (2.0, 4.0, 2.0)
@@ -59,13 +59,13 @@ LINKS = (
 
 
 def frames(angles_deg: tuple[float, ...]) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Axes (columns) and origin of the base and of every link."""
+    """Axes (columns of a matrix) and origin, m, of the base and of every link in base axes."""
     R, p = np.eye(3), np.zeros(3)
-    found = [(R, p)]
+    frames_of_links = [(R, p)]
     for link, angle in zip(LINKS, angles_deg, strict=True):
         c, s = np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))
         ca, sa = np.cos(np.deg2rad(link.alpha_deg)), np.sin(np.deg2rad(link.alpha_deg))
         p = p + R @ np.array([link.a * c, link.a * s, link.d])
         R = R @ np.array([[c, -s * ca, s * sa], [s, c * ca, -c * sa], [0.0, sa, ca]])
-        found.append((R, p))
-    return found
+        frames_of_links.append((R, p))
+    return frames_of_links

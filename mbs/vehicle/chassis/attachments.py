@@ -1,4 +1,4 @@
-"""Which points of the chassis the rest of a car hangs on, found by building it on a rigid chassis that takes notes."""
+"""Points of the chassis to which other parts are attached, recorded while the car is built on a rigid chassis."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace

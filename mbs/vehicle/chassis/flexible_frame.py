@@ -1,4 +1,4 @@
-"""Modes of a flexible frame and what its gauges read, at every fidelity."""
+"""Flexible frame of a car: its modes at each fidelity, loads on it, and the readings of its strain gauges."""
 
 from dataclasses import replace
 from functools import cached_property
@@ -9,7 +9,6 @@ import scipy.sparse as sp
 
 from ali3.plausibility import Plausibility
 from mbs.common.errors import ModelError
-from mbs.flexible.attachment_modes import inertia_relief
 from mbs.flexible.body_plausibility import model_plausibility
 from mbs.flexible.component_modes import craig_bampton
 from mbs.flexible.damping import RayleighDamping
@@ -19,32 +18,36 @@ from mbs.flexible.mass_points import MassPoints
 from mbs.flexible.modal_body import ModalBody
 from mbs.flexible.reduced_body import ReducedBody
 from mbs.flexible.relief_matrices import InertiaRelief
+from mbs.flexible.relief_solution import inertia_relief
 from mbs.vehicle.chassis.frame_joints import FrameJoints
 from mbs.vehicle.chassis.frames.frame_section import FrameSection, Structure
 from mbs.vehicle.fidelity import Fidelity
 from mbs.vehicle.table import read_table
 
 MANY_MODES = 40
+"""Number of dynamic modes of the fidelity MANY_MODES."""
 LOAD_PATH_TOLERANCE = 5e-3
-"""Load paths whose deformation has less than this part of the largest, in the energy norm, are left out."""
-MOST_FORCE = 1e6  # N
+"""Load paths with a deformation below this part of the largest, in the energy norm, are left out."""
+MOST_FORCE = 1e6
+"""Largest force in a table of loads, N."""
 
 
 class FlexibleFrame:
-    """A frame as the chassis of a car.
+    """A flexible frame as the chassis of a car.
 
-    `folder`: of the file and its tables; `structure`: its finite elements and gauges.
+    `section`: of the car file; `folder`: of that file and its tables; `structure`: finite elements and gauges;
+    `joints`: where the suspension is attached.
 
     Attributes
     ----------
     interfaces : tuple of str
         Joints of the suspension.
     stiff_pairs : tuple of tuple of str
-        Pairs of them that a wishbone keeps apart: no load stretches the frame between them.
+        Pairs of them at constant distance, held by a wishbone: no load stretches the frame between them.
     carrying : tuple of str
-        Joints that carry what rides on the frame as on one rigid body.
+        Joints that carry the masses on the frame as if these were one rigid body.
     model : FiniteElementModel
-        Its interfaces at the hard points, with all that rides on it.
+        The frame with its interfaces at the hard points and the masses it carries.
     """
 
     def __init__(self, section: FrameSection, folder: Path, structure: Structure, joints: FrameJoints) -> None:
@@ -58,38 +61,38 @@ class FlexibleFrame:
 
     @cached_property
     def gauge_rows(self) -> np.ndarray:
-        """From nodal displacements and accelerations (`recovery`) to the readings of the gauges, in their order."""
+        """Matrix from nodal displacements and accelerations (`recovery`) to the readings of the gauges, in order."""
         rows = np.zeros((len(self.structure.readings), self.model.n_dof + 3 * len(self.model.positions)))
         for row, reading in zip(rows, self.structure.readings, strict=True):
             row[: len(reading.row)] = reading.row
         return rows
 
     def plausibility(self) -> list[Plausibility]:
-        """What was understood of the frame, with what rides on it, and held at its interfaces."""
+        """Plausibility of the frame with the masses it carries, and held at its interfaces."""
         held = [self.model.reference_freedoms(self.reference), *map(self.model.freedoms, self.interfaces)]
         return model_plausibility(self.model, held=np.concatenate(held))
 
     def place(self, joint: str) -> np.ndarray:
-        """Place of a joint, m."""
+        """Position of a joint, m, shape (3,)."""
         return np.asarray(self.model.positions[self.model.node(joint)])
 
     def shares(self, sums: np.ndarray) -> np.ndarray:
-        """Smallest weights of the carrying joints whose places and number have these sums: x, y, z, 1 of a point."""
+        """Smallest weights of the carrying joints with a given weighted sum of (x, y, z, 1). `sums`: shape (4,)."""
         rigid = np.vstack([np.transpose([self.place(joint) for joint in self.carrying]), np.ones(len(self.carrying))])
         return np.asarray(np.linalg.lstsq(rigid, sums, rcond=None)[0])
 
     def _riding(self) -> MassPoints:
-        """The masses that ride on the frame: like payloads they load it at the carrying joints."""
+        """Masses carried by the frame, which load it at the carrying joints as payloads do."""
         riding, model = self.structure.riding, self._bare
         freedoms = np.array([model.freedoms(joint) for joint in self.carrying])
-        places, rows = [self.place(joint) for joint in riding], np.zeros((len(riding), 3, model.n_dof))
-        for row, place in zip(rows, places, strict=True):
-            row[np.arange(3), freedoms] = self.shares(np.append(place, 1.0))[:, None]
+        positions, rows = [self.place(joint) for joint in riding], np.zeros((len(riding), 3, model.n_dof))
+        for row, position in zip(rows, positions, strict=True):
+            row[np.arange(3), freedoms] = self.shares(np.append(position, 1.0))[:, None]
         masses = np.array([*riding.values()], dtype=float)
-        return MassPoints(np.reshape(places, (-1, 3)), masses, sp.csr_array(rows.reshape(-1, model.n_dof)))
+        return MassPoints(np.reshape(positions, (-1, 3)), masses, sp.csr_array(rows.reshape(-1, model.n_dof)))
 
     def reduced(self, fidelity: Fidelity | int | str) -> ReducedBody:
-        """The frame with the modes of a flexible fidelity. `fidelity`: from LOAD_PATHS on."""
+        """The frame reduced to the modes of a fidelity, cached. `fidelity`: LOAD_PATHS or a finer one."""
         which = Fidelity.of(fidelity)
         if which not in self._reduced:
             self._reduced[which] = self._reduce(which).carrying(self._riding())
@@ -118,7 +121,7 @@ class FlexibleFrame:
     def recorded_loads(self) -> np.ndarray:
         """Principal combinations of the interface forces in driving, shape (3 n_interfaces, n), N.
 
-        Raises `ModelError`: there is no table of them, or it is not one of these interfaces.
+        Raises `ModelError`: the file names no table of them, or the table has other interfaces.
         """
         if self.section.loads is None:
             raise ModelError(
@@ -128,22 +131,22 @@ class FlexibleFrame:
         key = self.section.key("loads")
         rows = read_table(self.folder, self.section.loads, key, ("interface", "axis", "load_1"))
         columns = [title for title in rows[0].cells if title not in ("interface", "axis")]
-        found = {}
+        loads = {}
         for row in rows:
             if row["interface"] not in self.interfaces or row["axis"] not in ("x", "y", "z"):
-                known = ", ".join(self.interfaces)
-                what = f"{row['interface']} {row['axis']}"
-                raise ModelError(f"{row.where}: {what} is not an axis of a joint of the suspension; these are {known}.")
+                names = ", ".join(self.interfaces)
+                name = f"{row['interface']} {row['axis']}"
+                raise ModelError(f"{row.where}: {name} is not an axis of a joint of the suspension; these are {names}.")
             values = [row.number(column, -MOST_FORCE, MOST_FORCE, "N") for column in columns]
-            found[row["interface"], row["axis"]] = values
+            loads[row["interface"], row["axis"]] = values
         for name in self.interfaces:
             for axis in "xyz":
-                if (name, axis) not in found:
+                if (name, axis) not in loads:
                     raise ModelError(f"{key} ({self.section.loads}) has no line of joint {name}, axis {axis}.")
-        return np.array([found[name, axis] for name in self.interfaces for axis in "xyz"])
+        return np.array([loads[name, axis] for name in self.interfaces for axis in "xyz"])
 
     def settled_loads(self, forces: np.ndarray) -> np.ndarray:
-        """Interface forces with the wishbones' axial forces that keep their pivots apart.
+        """Interface forces together with the axial forces of the wishbones that keep their pivots at their distance.
 
         `forces`: in N, shape (3 n_interfaces, n).
         """
@@ -151,7 +154,7 @@ class FlexibleFrame:
         return np.asarray(forces - pairs @ np.linalg.solve(relief.forces[n:] @ pairs, relief.balanced[n:] @ forces))
 
     def deformation_energy(self, forces: np.ndarray) -> np.ndarray:
-        """Products of the deformations under interface forces, freely accelerated, in the energy norm, (n, n), J.
+        """Inner products of deformations of the free frame under interface forces, in the energy norm, (n, n), J.
 
         `forces`: in N, shape (3 n_interfaces, n).
         """
@@ -161,10 +164,12 @@ class FlexibleFrame:
 
     @cached_property
     def _relief_with_stretch(self) -> tuple[InertiaRelief, np.ndarray, int]:
-        """From loads to the gauges and to the stretch between pivots; forces per axial force; number of gauge rows."""
+        """Matrices from loads to gauges and to the stretch between pivots; interface forces per axial force of a
+        wishbone; number of gauge rows."""
         return self._with_stretch(self.gauge_rows)
 
     def _with_stretch(self, outputs: np.ndarray) -> tuple[InertiaRelief, np.ndarray, int]:
+        """The same for other rows of outputs."""
         model = self.model
         stretch = np.zeros((len(self.stiff_pairs), outputs.shape[1]))
         pairs = np.zeros((3 * len(self.interfaces), len(self.stiff_pairs)))
@@ -181,28 +186,28 @@ class FlexibleFrame:
 
     @cached_property
     def quasi_static(self) -> InertiaRelief:
-        """From interface forces and motion to the moments and half-bridges; wishbones keep their pivots apart."""
+        """Matrices from interface forces and rigid motion to the gauge readings, with wishbones of constant length."""
         return _settled(*self._relief_with_stretch)
 
     @cached_property
     def drawn(self) -> ReducedBody:
-        """The modes in which pictures show the frame at every fidelity: those of DYNAMIC."""
+        """Modes in which the frame is drawn at every fidelity: those of DYNAMIC."""
         return self.reduced(Fidelity.DYNAMIC)
 
     @cached_property
     def quasi_static_amplitudes(self) -> InertiaRelief:
-        """From interface forces and motion to the amplitudes of `drawn`.
+        """Matrices from interface forces and rigid motion to the amplitudes of `drawn`.
 
-        They solve the static equations of these modes, which contain the deformation under every interface force and
-        rigid acceleration; only of the deformation by the speed of rotation a part is left out.
+        The amplitudes solve the static equations of these modes, which represent the deformation under every interface
+        force and rigid acceleration exactly, that under the angular velocity in part.
         """
         return _settled(*self._with_stretch(self._amplitudes_of_displacements))
 
     def drawn_amplitudes(self, body: ModalBody) -> np.ndarray:
-        """Amplitudes of `drawn` per unit amplitude of another reduction of the frame, nearest in the energy norm.
+        """Matrix from amplitudes of another reduction of the frame to the nearest ones of `drawn` in the energy norm.
 
-        `body`: of this frame, with the same reference. Result, shape (n_modes of `drawn`, n_modes): the identity for
-        `drawn` itself.
+        `body`: a reduction of this frame with the same reference. Returns shape (n_modes of `drawn`, n_modes of
+        `body`), the identity for `drawn` itself.
         """
         if body is self.drawn:
             return np.eye(body.n_modes)
@@ -210,13 +215,13 @@ class FlexibleFrame:
 
     @cached_property
     def _amplitudes_of_displacements(self) -> np.ndarray:
-        """Amplitudes of `drawn` whose deformation is nearest to displacements; a rigid motion has none."""
+        """Matrix from nodal displacements to the nearest amplitudes of `drawn`; zero for a rigid motion."""
         drawn = self.drawn
         return np.linalg.solve(drawn.K, np.asarray((self.model.K @ drawn.modes).T))
 
 
 def _settled(relief: InertiaRelief, pairs: np.ndarray, n: int) -> InertiaRelief:
-    """The first n outputs, with the forces of each wishbone along its axis that undo the stretch."""
+    """The first n outputs of a relief, with axial forces of the wishbones that make the stretch zero."""
     undo = -relief.forces[:n] @ pairs @ np.linalg.inv(relief.forces[n:] @ pairs)
 
     def mixed(part: np.ndarray) -> np.ndarray:
@@ -232,7 +237,7 @@ def _settled(relief: InertiaRelief, pairs: np.ndarray, n: int) -> InertiaRelief:
 
 
 def _at_hard_points(model: FiniteElementModel, joints: FrameJoints) -> FiniteElementModel:
-    """The model with joints where the car's file has them, to the last digit: files of matrices print fewer."""
+    """The model with its joints exactly at the points of the car file, as files of matrices have fewer digits."""
     positions = model.positions.copy()
     for name, place in (*joints.accelerometers.items(), *joints.interfaces.items()):
         positions[model.node(name)] = place

@@ -1,4 +1,4 @@
-"""Which joints of a frame the suspension, the drive and the ground act on."""
+"""Joints of a frame on which suspension, drive and ground act."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

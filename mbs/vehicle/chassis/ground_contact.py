@@ -1,4 +1,4 @@
-"""Where the chassis touches the ground."""
+"""Contact points of the chassis with the ground."""
 
 from collections.abc import Callable, Mapping
 

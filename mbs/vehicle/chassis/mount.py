@@ -1,4 +1,4 @@
-"""What the rest of the car needs of the chassis, whatever its fidelity."""
+"""Interface of the chassis for other parts of the car, the same at every fidelity."""
 
 from dataclasses import dataclass
 
@@ -62,7 +62,7 @@ class Mount:
 
     @property
     def lever_carrier(self) -> Body:
-        """What levers of anti-roll bars turn on."""
+        """Body on which levers of anti-roll bars turn."""
         return self.body if self.body is self.frame else LeverCarrier(self.body, self.contact_frame[1])
 
 

@@ -1,4 +1,4 @@
-"""What a car file says of a frame of tubes."""
+"""Section of a car file for a tubular frame, with its tables."""
 
 from typing import Literal
 

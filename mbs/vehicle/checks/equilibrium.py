@@ -1,4 +1,4 @@
-"""Where the car comes to rest, against where it is drawn."""
+"""Check that the car at rest is in the drawn position."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -79,7 +79,7 @@ class Rest:
 
 
 def travel_output(m: Model, chassis: Body, spin: Spin, w: str) -> None:
-    """How far a wheel has moved in the chassis. `m`: as drawn; `w`: name of the wheel."""
+    """Add the travel of a wheel relative to the chassis as a sensor. `m`: as drawn; `w`: name of the wheel."""
     gap: AffineVector = spin.centre - chassis.point(spin.centre.value(m.drawn()))
     m.sense_vector(
         f"wheel_{w}.travel", gap, [chassis.vector(UP)], description="travel of the wheel centre, positive in bump"
@@ -87,7 +87,7 @@ def travel_output(m: Model, chassis: Body, spin: Spin, w: str) -> None:
 
 
 def rest_outputs(b: CarBuilder, steered: Steered, spins: Mapping[str, Spin]) -> None:
-    """What `settled` reads."""
+    """Add the sensors that `settled` reads."""
     chassis = b.chassis.frame
     for w, spin in spins.items():
         travel_output(b.m, chassis, spin, w)

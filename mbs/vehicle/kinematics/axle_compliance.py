@@ -29,7 +29,7 @@ LOADS = ("lateral_force", "longitudinal_force", "drive_force", "aligning_torque"
 
 @dataclass(frozen=True)
 class Compliance:
-    """What the left wheel of an axle does per load on both wheels."""
+    """Displacements and angles of the left wheel of an axle per load on both wheels."""
 
     fidelity: Fidelity
     freedoms: int

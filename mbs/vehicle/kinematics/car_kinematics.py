@@ -1,4 +1,4 @@
-"""Kinematics of a whole car: the curves of both axles, what they are at the drawing, and what is to be said."""
+"""Kinematics of a car: curves of both axles, values at the drawn position, and warnings."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

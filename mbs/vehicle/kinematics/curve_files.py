@@ -1,4 +1,4 @@
-"""Curves as CSV files with names and units in the headings, in SI units and with all digits."""
+"""Kinematic curves of an axle in CSV files: names and units in the headings, SI units, all digits."""
 
 import csv
 from os import PathLike
@@ -20,7 +20,7 @@ def write_curve(curve: Curve, file: str | PathLike[str]) -> None:
     Parameters
     ----------
     file : path
-        To be written; one that exists is replaced when the new one is whole.
+        File to write; an existing one is replaced only by a complete one.
 
     Raises
     ------
@@ -34,12 +34,12 @@ def write_curve(curve: Curve, file: str | PathLike[str]) -> None:
 
 
 def read_curve(file: str | PathLike[str]) -> Curve:
-    """Read what `write_curve` wrote to a file with the name of `curve_file`.
+    """Read a curve from a file that `write_curve` wrote under the name of `curve_file`.
 
     Parameters
     ----------
     file : path
-        As ``front_parallel.csv``.
+        Named AXLE_MOTION.csv, for instance ``front_parallel.csv``.
 
     Raises
     ------
@@ -51,17 +51,18 @@ def read_curve(file: str | PathLike[str]) -> Curve:
         raise TableError(f"{file} must be called AXLE_MOTION.csv: front or rear, and one of {', '.join(DIRECTIONS)}.")
     table = TextTable(file, TableError, units=True)
     for name in table.names:
-        _check(file, name, table.units.get(name, ""))
+        _check_heading(file, name, table.units.get(name, ""))
     return Curve(axle, motion, dict(zip(table.names, table.values(finite=False, least=0).T, strict=True)))
 
 
 def curve_file(curve: Curve) -> str:
-    """Name of the file of a curve, as ``front_parallel.csv``."""
+    """File name of a curve, for instance ``front_parallel.csv``."""
     return f"{curve.axle}_{curve.motion}.csv"
 
 
-def _check(file: str | PathLike[str], name: str, unit: str) -> None:
+def _check_heading(file: str | PathLike[str], name: str, unit: str) -> None:
+    """Raise `TableError` if a heading is not name and unit of a quantity of curves."""
     quantity = BY_NAME.get(name.removesuffix("_left").removesuffix("_right"))
     if quantity is None or quantity.unit != unit:
-        what = f"{name} [{quantity.unit}]" if quantity else "the name and unit of a quantity, as name [unit]"
-        raise TableError(f"{file}: the heading {brief(f'{name} [{unit}]' if unit else name)} must be {what}.")
+        required = f"{name} [{quantity.unit}]" if quantity else "the name and unit of a quantity, as name [unit]"
+        raise TableError(f"{file}: the heading {brief(f'{name} [{unit}]' if unit else name)} must be {required}.")

@@ -1,4 +1,4 @@
-"""A car whose chassis is held in its mean, with its steering and suspensions, without tyres, brakes and gravity."""
+"""Model of a car with its chassis held, with steering and suspensions, without tyres, brakes and gravity."""
 
 from dataclasses import dataclass
 

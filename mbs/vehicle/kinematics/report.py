@@ -75,7 +75,7 @@ def report(options: argparse.Namespace) -> int:
 
 
 def _content(found: Any, gives: Any) -> dict[str, Any]:
-    """What is written as JSON: SI units, null for what is not a number."""
+    """Content of the JSON file: SI units, null for what is not a number."""
     return {
         "car": found.car,
         "notes": list(found.notes),

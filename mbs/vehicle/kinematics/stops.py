@@ -1,4 +1,4 @@
-"""Where the stops of an axle's springs begin and end, in wheel travel."""
+"""Wheel travel at the beginning and the end of the stops of an axle."""
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator

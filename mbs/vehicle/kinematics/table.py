@@ -1,4 +1,4 @@
-"""What a car's axles are at the drawing, as a table of text."""
+"""Table of the kinematic measures of both axles at the drawn position, as text."""
 
 import math
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Place, attitude and instantaneous screw of a wheel and its carrier, and what ISO 8855 calls them.
+"""Position, attitude and rates of a wheel and its carrier, with the angles of ISO 8855.
 
 Vehicle axes: x forward, y left, z up; the chassis stands. Angles of the right wheel are those of its mirror image where
 their names say toe, camber or kingpin, and in vehicle axes where they say steer or inclination.
@@ -133,6 +133,6 @@ def steering_axis(linkage: Linkage, at: Position, side: int) -> SteeringAxis | N
     C, c = linkage.centre(side)
     turn = 0.5 * np.sum([np.cross(A @ at.q + a, A @ rate) for A, a in linkage.triad(side)], axis=0)
     speed, size = C @ rate, float(np.linalg.norm(turn))
-    way = np.asarray(turn) / size * (1.0 if turn[2] >= 0.0 else -1.0)
+    direction = np.asarray(turn) / size * (1.0 if turn[2] >= 0.0 else -1.0)
     point = C @ at.q + c + np.cross(turn, speed) / size**2
-    return SteeringAxis(way, np.asarray(point), float(turn @ speed) / size**2)
+    return SteeringAxis(direction, np.asarray(point), float(turn @ speed) / size**2)

@@ -1,4 +1,4 @@
-"""What a car does while its levels are compared."""
+"""Manoeuvres by which the levels of a car are compared."""
 
 import math
 from collections.abc import Collection

@@ -80,14 +80,14 @@ def measure(
     done, rows = 0.0, []
     for drive in drives:
         fine = _run(systems[finest], drive, FINE, grid, stresses=not finest.rigid)
-        way = float(np.linalg.norm(np.diff([fine[s] for s in POSITION], axis=1), axis=0).sum())
+        distance = float(np.linalg.norm(np.diff([fine[s] for s in POSITION], axis=1), axis=0).sum())
         done += drive.duration / FINE
         mine: list[tuple[System, dict[str, Any]]] = []
         for fidelity, system in systems.items():
             for h in steps:
                 tell(min(done / todo, 1.0))
                 row: dict[str, Any] = {"manoeuvre": drive.name, "fidelity": fidelity.name.lower(), "h_s": h}
-                mine.append((system, row | _errors(fidelity, system, drive, h, fine, max(way, 1.0), grid)))
+                mine.append((system, row | _errors(fidelity, system, drive, h, fine, max(distance, 1.0), grid)))
                 done += drive.duration / h
         for _ in range(repeats):
             for system, row in mine:
@@ -129,7 +129,7 @@ def _cost(system: System, drive: Drive, h: float, grid: float) -> float:
 
 
 def _end(drive: Drive, grid: float) -> float:
-    """How long a run is, s."""
+    """Duration of a run, s."""
     return grid * int(drive.duration / grid + 1e-9)
 
 

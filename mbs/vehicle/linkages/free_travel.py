@@ -1,4 +1,4 @@
-"""How far the links of an axle without stops let its wheels and its steering go."""
+"""Largest travel of wheels and steering that the links of an axle allow without stops."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""The suspension of an axle on a chassis that is held, as a mechanism whose wheels and rack are put to a place.
+"""Suspension of an axle on a fixed chassis as a mechanism with prescribed travel of wheels and rack.
 
 Of the car's templates the model has joints, springs and bars, but no tyres, brakes or gravity. With Phi(q, s) the
 conditions of the joints, s the rack's travel and c_z the heights of both wheel centres, a position solves
@@ -45,7 +45,7 @@ class NotReachedError(ValueError):
 
 @dataclass(frozen=True)
 class Position:
-    """Where the linkage stands and how it moves from there."""
+    """Position of the linkage, and its motion from there to first order."""
 
     travel: Array
     """Shape (2,): of the left and the right wheel centre along z from the drawing, m, positive in bump."""
@@ -129,7 +129,7 @@ class Linkage(StandingModel):
         return self._triads[side]
 
     def loaded_radius(self, side: int) -> float:
-        """From the wheel's centre down in its plane to the ground as drawn, m."""
+        """Distance from the wheel centre down in the wheel plane to the ground as drawn, m."""
         *_, up = self.data.alignment.axes(self._corners[side].side)
         return float(self.data.wheel.centre[2] / up[2])
 
@@ -190,8 +190,8 @@ class Linkage(StandingModel):
         rows = [jacobian]
         for spring in self.springs:
             D, d = self.linear(spring)
-            way = D @ at.q + d
-            rows.append((way @ D / np.linalg.norm(way))[None])
+            line_vector = D @ at.q + d
+            rows.append((line_vector @ D / np.linalg.norm(line_vector))[None])
         right = np.concatenate([-ahead, np.zeros(2)])
         return np.asarray(np.linalg.lstsq(np.vstack(rows), right, rcond=RANK_TOLERANCE)[0])
 

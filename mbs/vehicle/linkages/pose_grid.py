@@ -30,7 +30,7 @@ SAME = 1e-9
 
 @dataclass(frozen=True)
 class PoseGrid:
-    """Where the parts of an axle are, the chassis as drawn."""
+    """Poses of the parts of an axle on a grid of travel and rack, with the chassis as drawn."""
 
     linkage: Linkage
     compression: Array

@@ -1,4 +1,4 @@
-"""A compiled model at its start: its points over the coordinates, and what the kernel says of places near it."""
+"""Compiled model whose rows, forces and points are evaluated at positions near its start."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -1,1 +1,1 @@
-"""What was understood of a car file, in the numbers by which a car is known."""
+"""Plausibility of a car file: characteristic numbers of the car, with usual ranges."""

@@ -27,7 +27,7 @@ ABSOLUTE = 0.1  # m: lateral places of a table that are farther from 0 count fro
 
 @dataclass(frozen=True)
 class AxleRates:
-    """How springs and dampers act at the wheels of an axle."""
+    """Rates of springs and dampers at the wheels of an axle."""
 
     wheel_rate: float
     """N/m, of one wheel."""

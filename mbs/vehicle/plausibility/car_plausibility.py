@@ -1,4 +1,4 @@
-"""What was understood of a car file."""
+"""Plausibility of a car file, from all its parts."""
 
 import copy
 import math

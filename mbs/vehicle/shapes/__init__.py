@@ -1,4 +1,4 @@
-"""What a car looks like, drawn from its hard points and dimensions: no part of its motion.
+"""Drawing of a car from its hard points and dimensions, without effect on its motion.
 
 A function of an axle draws both sides; its name is "front" or "rear".
 """

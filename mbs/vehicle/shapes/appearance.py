@@ -1,4 +1,4 @@
-"""What the shapes of a car share: its bodies by name, how thick its tubes are drawn, how they are painted."""
+"""Common data for the shapes of a car: bodies by name, tube radius, paints."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -65,7 +65,7 @@ class Looks:
         return next(body for body in self.m.bodies if body.name == name)
 
     def rod_end(self, axle: str) -> Owner:
-        """What the inner end of a tie rod or toe link of an axle is on."""
+        """Body on which the inner end of a tie rod or toe link of an axle is."""
         return self.rack if axle in self.steered else self.chassis
 
     def shape(self, of: Owner, kind: Kind, **fields: Any) -> None:
@@ -102,6 +102,6 @@ def inboard(point: Sequence[float], way: float) -> Point:
 
 
 def share_along(a: Sequence[float], b: Sequence[float], p: Sequence[float]) -> float:
-    """Where the foot of a point lies on the line from `a` (0) to `b` (1)."""
+    """Relative position of the foot of a point on the line from `a` (0) to `b` (1)."""
     line = np.subtract(b, a)
     return float(line @ np.subtract(p, a) / (line @ line))

@@ -1,8 +1,7 @@
-"""Looks of a car without a frame of tubes: a body lofted over its wheels, from its length, width, height and axles.
+"""Drawn body of a car without a tubular frame: a surface lofted over its wheels, from length, width, height and axles.
 
-It is that of a hatchback, of a van where the car is high for its length, and of both in between.
-
-The shares in the tables are those of no car: a picture, as everything here.
+Its outline is that of a hatchback, of a van if the car is high for its length, and a mean of both in between. The
+proportions are those of no particular car; nothing here enters the simulation.
 """
 
 from collections.abc import Sequence
@@ -23,7 +22,7 @@ GREY: Paint = {"material": "plastic", "color": "#565c65"}
 LAMP: Paint = {"material": "plastic", "color": "#eef4ff"}
 TAIL_LAMP: Paint = {"material": "plastic", "color": "#a3101c"}
 Detail: TypeAlias = "tuple[float, float, float, tuple[float, float, float], Paint]"
-"""Place over the length, the half width and the height; size, m; looks."""
+"""Position relative to the length, half width and height; size, m; paint."""
 LAMPS: tuple[Detail, ...] = (
     (0.987, 0.56, 0.335, (0.10, 0.28, 0.09), LAMP),
     (0.012, 0.70, 0.53, (0.06, 0.22, 0.16), TAIL_LAMP),
@@ -32,8 +31,8 @@ TRIM: tuple[Detail, ...] = ((0.993, 0.30, 0.235, (0.08, 0.50, 0.10), DARK),)
 
 
 class Outline(NamedTuple):
-    """A side view: places from the rear end are over the length, heights over that of the car, half widths over the
-    largest."""
+    """Side view of a body: positions from the rear end relative to the length, heights relative to the height of the
+    car, half widths relative to the largest."""
 
     deck: NDArray[np.float64]  # rows of place, height, half width of the lower body
     roof: NDArray[np.float64]  # likewise, from the rear window to the lower edge of the windscreen
@@ -78,59 +77,58 @@ VAN = Outline(
     np.array([0.40, 0.885, 0.57]),
 )
 ARCH = 0.055  # m between tyre and arch
-GAP = 0.02  # m between an arch and what the cabin opens
-DASHBOARD = 0.13, 0.42  # m: ahead of the middle of the steering wheel, and its thickness at most
-RIM = 6  # cross-sections of the lower body: its points from here on are over the cabin
+GAP = 0.02  # m between an arch and the opening over the cabin
+DASHBOARD = 0.13, 0.42  # m: distance ahead of the middle of the steering wheel, and largest thickness
+RIM = 6  # index in a cross-section of the lower body from which its points are above the cabin
 FRONT_OVERHANG = 0.53  # share of both overhangs
-SLIM = 0.36  # height over length, and at most
-TALL = 4.4  # height over the radius of a front tyre, where nothing tells it
-MASS = 0.39  # height of the centre of mass over that of the car, where that is more
-LOW, HIGH = 0.385, 0.42  # height over length: up to here a hatchback, from here on a van
+SLIM = 0.36  # assumed height over length, if that is less than by TALL
+TALL = 4.4  # assumed height over the radius of a front tyre
+MASS = 0.39  # height of the centre of mass over that of the car, if that gives a higher car
+LOW = 0.385  # height over length up to which the body is that of a hatchback
+HIGH = 0.42  # and from which it is that of a van
 
 
 @dataclass(frozen=True)
 class BodyShell:
-    """Surfaces of the body."""
+    """Surfaces of the drawn body of a car, in its drawing axes."""
 
     car: CarContent
 
     @property
     def height(self) -> float:
-        """Of the roof, m: of the highest point that may touch the ground if up there, else by its other numbers."""
+        """Height of the roof, m: of the highest ground contact point if it is on the roof, else estimated."""
         contact = self.car.chassis.ground_contact
-        points = (
-            [p[2] + contact.radius for p in contact.points if not isinstance(p, str)] if contact is not None else []
-        )
-        highest = max(points, default=0.0)
-        guess = min(SLIM * self.car.vehicle.length, TALL * self.car.front.tyre.radius)
-        guess = max(guess, self.car.vehicle.reference_point[2] / MASS)
-        return highest if highest > 0.25 * self.car.vehicle.length else guess
+        points = [] if contact is None else [p for p in contact.points if not isinstance(p, str)]
+        highest = max((p[2] + contact.radius for p in points), default=0.0) if contact is not None else 0.0
+        estimate = min(SLIM * self.car.vehicle.length, TALL * self.car.front.tyre.radius)
+        estimate = max(estimate, self.car.vehicle.reference_point[2] / MASS)
+        return highest if highest > 0.25 * self.car.vehicle.length else estimate
 
     @cached_property
     def outline(self) -> Outline:
-        """By its height over its length."""
+        """Outline between those of a hatchback and a van, by the ratio of height and length."""
         slender = self.height / self.car.vehicle.length
         share = min(max((slender - LOW) / (HIGH - LOW), 0.0), 1.0)
         return Outline(*((1.0 - share) * low + share * high for low, high in zip(HATCHBACK, VAN, strict=True)))
 
     @property
     def windscreen(self) -> float:
-        """Place of its lower edge over the length."""
+        """Position of the lower edge of the windscreen, relative to the length."""
         return float(self.outline.roof[-1, 0])
 
     @property
     def rear_end(self) -> float:
-        """Its x, m."""
+        """x of the rear end of the car, m."""
         car = self.car
         overhangs = car.vehicle.length - car.wheelbase
         return car.rear.wheel.centre[0] - (1.0 - FRONT_OVERHANG) * overhangs
 
     def place(self, share: float | NDArray[np.float64]) -> NDArray[np.float64]:
-        """x at a share of the length from the rear end, m."""
+        """x at a position relative to the length, from the rear end, m."""
         return np.asarray(self.rear_end + share * self.car.vehicle.length)
 
     def share(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The other way round."""
+        """Position relative to the length, from the rear end, of x in m."""
         return np.asarray((x - self.rear_end) / self.car.vehicle.length)
 
     def deck(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -159,28 +157,31 @@ class BodyShell:
         return np.asarray(edge)
 
     def stations(self) -> NDArray[np.float64]:
-        """x of the cross-sections, m: dense along the arches."""
+        """x of the cross-sections, m, ascending: dense along the arches."""
         shares = np.concatenate([np.linspace(0.0, 1.0, 29), [0.005, 0.015, 0.985, 0.995]])
-        ways = [self.place(shares), np.array(self.cabin)]
+        positions = [self.place(shares), np.array(self.cabin)]
         for axle in (self.car.front, self.car.rear):
             radius = axle.tyre.radius + ARCH
-            ways.append(axle.wheel.centre[0] + radius * np.cos(np.linspace(0.0, np.pi, 17)))
-            ways.append(axle.wheel.centre[0] + radius * np.array([-1.002, 1.002]))
-        return np.unique(np.concatenate(ways))
+            positions.append(axle.wheel.centre[0] + radius * np.cos(np.linspace(0.0, np.pi, 17)))
+            positions.append(axle.wheel.centre[0] + radius * np.array([-1.002, 1.002]))
+        return np.unique(np.concatenate(positions))
 
     @property
     def cabin(self) -> tuple[float, float]:
-        """x of the ends of what is open to those within: from the arch of the rear wheels to the windscreen, m."""
+        """x of both ends of the opening over the cabin, m: from the arch of the rear wheels to the windscreen."""
         rear = self.car.rear
         return rear.wheel.centre[0] + rear.tyre.radius + ARCH + GAP, float(self.place(self.windscreen)) - GAP
 
     def lower_body(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Wheel houses as deep as steered tyres reach, sides, bonnet, tail; open over the cabin for the driver."""
+        """Mesh of wheel houses, sides, bonnet and tail, open over the cabin.
+
+        Vertices, m, and triangles; the wheel houses are as deep as steered tyres reach.
+        """
         x, inner = self.stations(), min(a.wheel.centre[1] - a.tyre.radius for a in (self.car.front, self.car.rear))
         (deck, half), low, sill = self.deck(x), self.lower_edge(x), self.sill(x)
         top = np.maximum(deck, low + 0.02)  # over a wheel that is higher than the bonnet
         rise = top - low
-        places, triangles = loft(
+        points, triangles = loft(
             [
                 np.array(
                     [
@@ -201,9 +202,9 @@ class BodyShell:
         )
         ring = 17  # points of a cross-section, both sides; those of the caps come last
         rear, front = self.cabin
-        point, at = triangles % ring, places[triangles, 0]
-        over = (point >= RIM) & (point < ring - RIM) & (at >= rear) & (at <= front)
-        return places, triangles[~over.all(axis=1)]
+        point, x_of_corner = triangles % ring, points[triangles, 0]
+        in_cabin = (point >= RIM) & (point < ring - RIM) & (x_of_corner >= rear) & (x_of_corner <= front)
+        return points, triangles[~in_cabin.all(axis=1)]
 
     def dashboard(self, ahead: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Middle and size of a box from ahead of the steering wheel to the windscreen, above the wheel houses, m."""
@@ -224,16 +225,17 @@ class BodyShell:
         return lower, np.column_stack([x, y, np.maximum(roof - 0.045, lower[:, 2])])
 
     def windows(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Everything between deck and roof."""
+        """Mesh of the surface between lower body and roof: vertices, m, and triangles."""
         share = np.linspace(self.outline.roof[0, 0], self.windscreen, 25)
         return loft(self._above(share, 0.0))
 
     def panel(self) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """The roof."""
+        """Mesh of the roof panel: vertices, m, and triangles."""
         share = np.linspace(self.outline.panel[0], self.outline.panel[1], 15)
         return loft([section[1:] for section in self._above(share, 0.006)])
 
     def _above(self, share: NDArray[np.float64], lifted: float) -> list[NDArray[np.float64]]:
+        """Cross-sections of the left half above the lower body, m, with the roof raised by `lifted`, m."""
         lower, upper = self.edge(share)
         height = np.maximum(self.roof(lower[:, 0])[0], lower[:, 2] + 0.004)
         sections = []
@@ -245,7 +247,7 @@ class BodyShell:
 
 
 def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
-    """Draw the body. `clear`: whether pages can make it see-through, onto the frame in it."""
+    """Draw the body. `clear`: whether the page can make it transparent to show the frame in it."""
     car, chassis, m = looks.car, looks.chassis, looks.m
     shell = BodyShell(car)
     m.mesh_shape(chassis, *shell.lower_body(), name="body", cover=clear, **ACCENT)
@@ -272,7 +274,7 @@ def body_shell_shapes(looks: Looks, *, clear: bool) -> None:
 
 
 def _details(looks: Looks, shell: BodyShell, side: float, details: Sequence[Detail]) -> None:
-    """Lamps, a grille and a mirror."""
+    """Draw boxes on one side of the car: lamps, grille, mirror. `side`: 1 left, -1 right."""
     chassis, half = looks.chassis, 0.5 * looks.car.vehicle.width
     for share, across, height, size, paint in details:
         place = float(shell.place(share)), side * across * half, height * shell.height

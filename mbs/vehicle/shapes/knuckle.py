@@ -1,4 +1,4 @@
-"""Looks of what carries a wheel: hub, arms to its joints, arm of the tie rod."""
+"""Shapes of a wheel carrier: hub, arms to its joints, steering arm."""
 
 from __future__ import annotations
 

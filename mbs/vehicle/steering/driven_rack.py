@@ -1,4 +1,4 @@
-"""Parts of steerings by angle whose rack is driven: by a port or by a table, with friction of the column."""
+"""Parts of steerings with a prescribed rack: motion by a port or by a table, column friction."""
 
 from numpy.typing import ArrayLike
 

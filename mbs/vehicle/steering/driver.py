@@ -1,4 +1,4 @@
-"""What a driver asks of a steering."""
+"""Steering demand of the driver."""
 
 from mbs.model.model import Model
 from mbs.model.records import Input

@@ -1,4 +1,4 @@
-"""Planar linkage of a Pitman arm, a centre link and an idler arm: where its parts stand at an angle of the arm.
+"""Planar linkage of Pitman arm, centre link and idler arm: positions as functions of the angle of the arm.
 
 In the plane of the linkage, points as complex numbers, the arm turned by phi about P: ``A = P + (A0 - P) e^(i phi)``;
 the joint B of link and idler arm is where circles about A and about the idler's pivot I meet, on the side on which it

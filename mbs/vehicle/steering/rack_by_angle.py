@@ -1,4 +1,4 @@
-"""Rack that the steering wheel moves without compliance."""
+"""Steering rack driven by the angle of the steering wheel, without compliance."""
 
 import math
 from collections.abc import Iterator
@@ -20,6 +20,7 @@ from mbs.vehicle.steering.steering_outputs import rack_outputs, rack_torque_outp
 
 
 def _not_required(schema: dict[str, Any]) -> None:
+    """Make `rack_per_turn` optional in the JSON schema, as a table can give it."""
     schema["required"].remove("rack_per_turn")
 
 
@@ -41,21 +42,21 @@ class RackByAngle(RackSection):
 
     @model_validator(mode="before")
     @classmethod
-    def _per_turn_of_table(cls, given: Any) -> Any:
-        """Straight ahead the mirrored curve has the slope from the first row to the second."""
+    def _per_turn_of_table(cls, data: Any) -> Any:
+        """Set a missing `rack_per_turn` from the first two rows of the table, the slope straight ahead."""
         with suppress(KeyError, TypeError, ValueError, IndexError, ZeroDivisionError):
-            angle, travel = given["rack_by_wheel_angle"][1]
-            return {"rack_per_turn": 0.36 * travel / angle, **given}
-        return given
+            angle, travel = data["rack_by_wheel_angle"][1]
+            return {"rack_per_turn": 0.36 * travel / angle, **data}
+        return data
 
     def faults(self) -> Iterator[str]:
-        """A table rises and reaches to full lock."""
+        """Yield a sentence if the table does not rise or does not reach full lock."""
         if self.rack_by_wheel_angle is not None:
             key, travel = self.key("rack_by_wheel_angle"), self.key("rack_travel")
             yield from table_faults(key, self.rack_by_wheel_angle, travel, self.rack_travel)
 
     def oddities(self) -> Iterator[str]:
-        """A table is stretched."""
+        """Yield a sentence if the angles of the table are scaled."""
         table = self.by_table
         if table is not None and abs(table.factor - 1.0) > SAME:
             turn = 2.0 * math.pi * table.slope
@@ -66,7 +67,7 @@ class RackByAngle(RackSection):
             )
 
     def port_faults(self) -> Iterator[str]:
-        """A table gives the travel that the port asks for."""
+        """Yield a sentence if there is a table although the port gives the travel of the rack."""
         if self.by_table is not None:
             yield (
                 f"{self.key('rack_by_wheel_angle')} is there, and ports.steering asks for the travel of the rack "
@@ -75,18 +76,18 @@ class RackByAngle(RackSection):
 
     @cached_property
     def by_table(self) -> RackTable | None:
-        """The curve of a table, None where the ratio is constant."""
+        """Curve of the table; None if the ratio is constant."""
         if self.rack_by_wheel_angle is None:
             return None
         return RackTable(self.rack_by_wheel_angle, self.rack_per_turn / (2.0 * math.pi))
 
     @property
     def wheel_angle_max(self) -> float:
-        """By the table where there is one."""
+        """Angle of the steering wheel at full lock, rad; by the table if there is one."""
         return super().wheel_angle_max if self.by_table is None else self.by_table.at(self.rack_travel)[0]
 
     def wheel_at(self, motion: float) -> tuple[float, float]:
-        """By the table where there is one."""
+        """Angle of the steering wheel, rad, and its slope at a travel of the rack; by the table if there is one."""
         return super().wheel_at(motion) if self.by_table is None else self.by_table.at(motion)
 
     def build(self, b: CarBuilder, way: float) -> Steered:

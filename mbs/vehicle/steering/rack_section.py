@@ -1,4 +1,4 @@
-"""What every steering with a rack has in a car file."""
+"""Base class of the sections of steerings with a rack in a car file."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Travel of the rack by the angle of the steering wheel, of a steering whose ratio varies."""
+"""Variable steering ratio: travel of the rack as a table of the angle of the steering wheel."""
 
 import math
 from collections.abc import Iterator

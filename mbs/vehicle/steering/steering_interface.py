@@ -1,4 +1,4 @@
-"""What a steering gives the rest of the car."""
+"""Interface of a steering for other parts of the car."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What every steering reports to the driver, and what a rack reports."""
+"""Outputs of steerings: those of every steering, and those of a rack."""
 
 from mbs.model.joints.joint import Joint
 from mbs.model.model import Model

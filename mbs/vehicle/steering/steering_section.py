@@ -1,4 +1,4 @@
-"""What the rest of a car asks of every steering in a file."""
+"""Base class of the sections of steerings in a car file."""
 
 from abc import abstractmethod
 from collections.abc import Iterator
@@ -35,7 +35,7 @@ class SteeringSection(Section):
     @property
     @abstractmethod
     def full(self) -> float:
-        """Its motion at full lock, m or rad."""
+        """Motion at full lock, m or rad."""
 
     @property
     @abstractmethod

@@ -23,7 +23,7 @@ class Hub:
 
 @dataclass(frozen=True)
 class WheelCurves:
-    """What a table says of one wheel."""
+    """Kinematic curves of one wheel from its table."""
 
     travel: Array
     """Shape (n,): of this wheel, m."""

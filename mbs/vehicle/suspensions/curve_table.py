@@ -86,7 +86,7 @@ class CurveTable:
         return any(name.endswith("_right") for name in self.columns)
 
     def exchanged(self) -> CurveTable:
-        """The same with both variables exchanged."""
+        """Copy of the table with both variables exchanged."""
         columns = {name: values.T for name, values in self.columns.items()}
         return replace(self, travel=self.second, second=self.travel, columns=columns)
 

@@ -1,4 +1,4 @@
-"""An axle by its curves: where its wheels stand over travel and rack is a table, in place of links."""
+"""Axle given by kinematic curves: wheel positions as a table of travel and rack, without links."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What templates of independent suspensions share: both sides are alike, each steered or held by a rod."""
+"""Base class of independent suspensions: two mirrored sides, each steered or held by a rod."""
 
 import math
 from abc import abstractmethod
@@ -14,11 +14,13 @@ from mbs.vehicle.springs import AxleSprings
 from mbs.vehicle.steering import Steering
 from mbs.vehicle.suspensions.suspension_section import SuspensionSection
 
-FACTOR = 1.6  # the estimate leaves out the angle of the tie rods and the inclination of the steering axis
+FACTOR = 1.6
+"""Accepted ratio of the declared and the estimated wheel angle: the estimate neglects the angle of the tie rods and the
+inclination of the steering axis."""
 
 
 class IndependentSuspension(SuspensionSection):
-    """Base of the templates."""
+    """Base class of the templates of independent suspensions."""
 
     kind: str
     """Names the template."""
@@ -36,15 +38,15 @@ class IndependentSuspension(SuspensionSection):
         return point
 
     def steering_oddities(self, steering: Steering, centre: Point) -> Iterator[str]:
-        """The ends of the tie rods on the steering arms."""
-        given, angle_key = steering.front_wheel_angle_max, steering.key("front_wheel_angle_max")
+        """Yield a sentence if the declared wheel angle at full lock does not fit the steering arm and rack travel."""
+        angle, angle_key = steering.front_wheel_angle_max, steering.key("front_wheel_angle_max")
         key, travel = steering.lateral_travel
         length = abs(self.rod_point("outer")[0] - centre[0])
-        about = math.asin(min(1.0, travel / max(length, 1e-3)))
-        if not about / FACTOR <= given <= about * FACTOR:
+        estimate = math.asin(min(1.0, travel / max(length, 1e-3)))
+        if not estimate / FACTOR <= angle <= estimate * FACTOR:
             yield (
-                f"{angle_key} is {given:g} rad, but {key}, {travel:.3g} m to the side, on a steering arm {length:.3g} "
-                f"m long gives about {about:.2g} rad."
+                f"{angle_key} is {angle:g} rad, but {key}, {travel:.3g} m to the side, on a steering arm {length:.3g} "
+                f"m long gives about {estimate:.2g} rad."
             )
 
     def corners(self, b: CarBuilder, axle: str, springs: AxleSprings, tie_rod: TieRodEnd) -> Iterator[Corner]:

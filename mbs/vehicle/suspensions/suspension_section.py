@@ -1,4 +1,4 @@
-"""What the rest of a car asks of every suspension in a file."""
+"""Base class of the sections of suspensions in a car file."""
 
 from collections.abc import Iterator
 from pathlib import Path

@@ -67,18 +67,18 @@ class MagicFormula(TyreSection, of=MagicTyre):
         return f"{_IN_FILE.get(field, field)} of {super().key('file')}"
 
     def tyre(self, side: str) -> MagicTyre:
-        """The tyre of the engine. `side`: "left" or "right": of the car."""
+        """Force element of a tyre. `side`: side of the car, "left" or "right"."""
         assert self._read is not None, "the file is opened with the car"
-        more = {name: getattr(self, name) for name in FACTORS}
-        made = self._read.tyre(
+        factors = {name: getattr(self, name) for name in FACTORS}
+        tyre = self._read.tyre(
             side,
             self.signs,
             self.pressure,
             reference_friction=self.reference_friction,
             friction_factor=self.grip,
-            **more,
+            **factors,
         )
-        return made if self.bore is None else replace(made, bore=self.bore.element(TyreBore))
+        return tyre if self.bore is None else replace(tyre, bore=self.bore.element(TyreBore))
 
     @property
     def file_numbers(self) -> Mapping[str, float]:
@@ -87,7 +87,7 @@ class MagicFormula(TyreSection, of=MagicTyre):
         return self._read.numbers
 
     def oddities(self) -> Iterator[str]:
-        """What the file lacks or what of it is not used."""
+        """Yield a sentence for each coefficient that the file lacks or that is not used."""
         assert self._read is not None
         yield from (f"{self.key('file')} ({self.file}): {note}" for note in self._read.notes)
 
@@ -116,38 +116,41 @@ class MagicFormula(TyreSection, of=MagicTyre):
 
     @property
     def nominal_load(self) -> float:
-        """Load of the file, N."""
+        """Nominal load according to the file, N."""
         return self._left.nominal_load
 
     @property
     def largest_load(self) -> tuple[float, str]:
-        """Load up to which forces grow, N, and the key that says it."""
+        """Load up to which forces grow, N, and the key of the car file that determines it."""
         return self._left.largest_load, self.key("file")
 
     @property
     def friction(self) -> tuple[float, float]:
-        """Largest longitudinal and lateral force over the load, without shifts, at the nominal load and the pressure of
-        the car, on the road of the reference.
+        """Largest longitudinal and lateral force relative to the load, without shifts.
+
+        At the nominal load, the pressure of the car and the reference friction.
         """
         return self._friction("X"), self._friction("Y")
 
     def _friction(self, axis: str) -> float:
         c, dfz = self._left.coefficients, 1.0 / self._left.coefficients.get("LFZO", 1.0) - 1.0
-        more = self._left.pressure
-        of_pressure = 1.0 + c.get(f"PP{axis}3", 0.0) * more + c.get(f"PP{axis}4", 0.0) * more**2
+        pressure = self._left.pressure
+        of_pressure = 1.0 + c.get(f"PP{axis}3", 0.0) * pressure + c.get(f"PP{axis}4", 0.0) * pressure**2
         largest = abs(c[f"PD{axis}1"] + c.get(f"PD{axis}2", 0.0) * dfz) * of_pressure * c.get(f"LMU{axis}", 1.0)
         return largest * (self.lmux if axis == "X" else self.lmuy)
 
     @property
     def carcass(self) -> tuple[float, float, float, float]:
-        """Along the heading: slip stiffness at the nominal load, N, stiffness of the carcass, N/m, its damping over
-        that at rest, s, and how that fades by the square of the speed, s2/m2.
+        """Longitudinal properties of the carcass.
+
+        Slip stiffness at the nominal load, N; stiffness, N/m; damping over stiffness at rest, s, and its decrease with
+        the square of the speed, s2/m2.
         """
         by_slip, stiffness = self._left.along
         return by_slip, stiffness, self._left.settling, 1.0
 
     def rolling_radius(self, loaded: float) -> float:
-        """Way of a free wheel per radian, m, at rest with a loaded radius. `loaded`: in m."""
+        """Rolling radius of a free wheel, m, that rolls slowly with a loaded radius. `loaded`: that radius, m."""
         t, c = self._left, self._left.coefficients
         free = self.radius
         depth, inflated = free - loaded, 1.0 + c.get("PFZ1", 0.0) * t.pressure

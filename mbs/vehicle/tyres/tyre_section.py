@@ -1,4 +1,4 @@
-"""What tyres of a car file share, whatever their formula."""
+"""Base class of the sections of tyres in a car file, for every formula."""
 
 from pathlib import Path
 

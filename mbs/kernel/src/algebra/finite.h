@@ -1,4 +1,4 @@
-/* Whether numbers are finite. */
+/* Test whether all numbers of an array are finite. */
 #ifndef ALI3_FINITE_H
 #define ALI3_FINITE_H
 #include <stdbool.h>
@@ -6,8 +6,8 @@
 
 #include "number_pairs.h"
 
-/* Products that begin with 0 stay 0 with finite numbers and become NaN with others; four, so that they need not wait for
- * each other. */
+/* 0 times finite numbers stays 0, times infinite ones or NaN it becomes NaN. Four independent products hide the latency
+ * of the multiplication. */
 static inline __attribute__((always_inline)) bool ali3_finite_inlined(const double *v, int64_t n) {
   ali3_four a = {0}, b = {0}, c = {0}, d = {0};
   int64_t i = 0;

@@ -1,4 +1,5 @@
-/* What the symmetric and the unsymmetric factorization of the fronts share. */
+/* Operations on a front that the symmetric and the unsymmetric factorization share: check of a pivot, forward
+ * substitution, gathering and scattering of unknowns. */
 #ifndef ALI3_FRONT_BLOCK_H
 #define ALI3_FRONT_BLOCK_H
 #include <math.h>
@@ -8,10 +9,10 @@
 #include "processor.h"
 #include "real.h"
 
-enum { PANEL = 4 };
+enum { PANEL = 4 }; /* pivots that are eliminated together */
 
 #ifdef ALI3_WIDTH
-/* A lane with a bad pivot is told by in->singular; the others go on. */
+/* Checks a pivot in every lane: one with a bad pivot is marked in in->singular; the others continue. */
 static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate, real d) {
   const truth good = (ali3_abs(d) > 1e-14 * in->mass.floor[coordinate]) & (ali3_abs(d) < 1e300);
   *in->singular |= ~good & *in->at_work;
@@ -19,7 +20,7 @@ static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate
   return ALI3_OK;
 }
 #else
-/* A pivot D must neither vanish beside the mass of its coordinate nor be infinite. */
+/* Checks that a pivot d neither vanishes relative to the mass of its coordinate nor is infinite; counts negative ones. */
 static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate, double d) {
   if (fabs(d) > 1e-14 * in->mass.floor[coordinate] && fabs(d) < 1e300) {
     if (d < 0.0) in->report.negative_pivots++;
@@ -30,7 +31,7 @@ static inline ali3_status ali3_check_pivot(ali3_instance *in, int32_t coordinate
 }
 #endif
 
-/* x becomes L^-1 x in the pivots, reduced by them in the rest; two columns are one sum. */
+/* Forward substitution, two columns at a time: x becomes L^-1 x in the pivots, and the rest of x is reduced by them. */
 ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_t n_pivot, int32_t n) {
   int64_t p = 0;
   for (; p + 1 < n_pivot; p += 2) {
@@ -43,8 +44,8 @@ ALI3_INLINED void ali3_front_forward(const real *block, real *restrict x, int32_
   if (p < n_pivot) ali3_add_multiple(x + p + 1, block + p * n + p + 1, -x[p], n - p - 1);
 }
 
-/* Unknowns of a front, `width` of each coordinate: of its pivots, which lie side by side in b, then of the rest. Without a
- * rest they are worked on in b. */
+/* Gathers the unknowns of a front from b, `width` for each coordinate: first those of its pivots, then the rest. Without a
+ * rest they are contiguous in b and need no copy. */
 ALI3_INLINED real *ali3_front_unknowns(ali3_instance *in, int32_t f, int32_t width, real *b) {
   const ali3_system *S = in->system;
   const int32_t first = S->front_col[f], n_pivot = S->front_col[f + 1] - first;
@@ -56,7 +57,7 @@ ALI3_INLINED real *ali3_front_unknowns(ali3_instance *in, int32_t f, int32_t wid
   return x;
 }
 
-/* They go back to b, the pivots or all. */
+/* Scatters the unknowns of a front to b: all, or those of its pivots. */
 ALI3_INLINED void ali3_front_put_back(const ali3_instance *in, int32_t f, int32_t width, const real *x, bool all,
                                       real *restrict b) {
   const ali3_system *S = in->system;

@@ -1,11 +1,11 @@
-/* Numbers of several instances, side by side and back: as many numbers as there are lanes are a square of vectors, which
- * is transposed. */
+/* Copies between arrays of several instances and one array with the numbers of all lanes interleaved. Blocks of as many
+ * numbers as there are lanes form a square matrix of vectors, which is transposed in registers. */
 #ifndef ALI3_LANE_COPIES_H
 #define ALI3_LANE_COPIES_H
 #ifdef ALI3_WIDTH
-typedef real loose __attribute__((aligned(8)));
+typedef real unaligned_real __attribute__((aligned(8)));
 
-/* Blocks of numbers of a and b, each as long as its distance, change places. */
+/* One pass of a transposition: blocks of `distance` numbers of a and b are exchanged; the two results. */
 #if ALI3_WIDTH == 8
 #define ALI3_LOW(a, b, distance)                                                                                       \
   (distance == 1   ? __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14)                                          \
@@ -25,6 +25,7 @@ typedef real loose __attribute__((aligned(8)));
 #define ALI3_HIGH(a, b, distance) __builtin_shufflevector(a, b, 1, 3)
 #endif
 
+/* Transposes in log2(ALI3_WIDTH) passes. */
 static inline void transpose(real square[ALI3_WIDTH]) {
 #pragma GCC unroll 3
   for (int distance = 1; distance < ALI3_WIDTH; distance *= 2)
@@ -37,25 +38,27 @@ static inline void transpose(real square[ALI3_WIDTH]) {
     }
 }
 
-static void put_side_by_side(double *to, const double *const lane[], int32_t n) {
+/* n numbers of each lane -> `to`, where number i of all lanes is contiguous. */
+static void interleave(double *to, const double *const lane[], int32_t n) {
   int32_t i = 0;
   for (; i + ALI3_WIDTH <= n; i += ALI3_WIDTH) {
     real square[ALI3_WIDTH];
-    for (int l = 0; l < ALI3_WIDTH; l++) square[l] = *(const loose *)(lane[l] + i);
+    for (int l = 0; l < ALI3_WIDTH; l++) square[l] = *(const unaligned_real *)(lane[l] + i);
     transpose(square);
-    for (int l = 0; l < ALI3_WIDTH; l++) *(loose *)(to + (i + l) * ALI3_WIDTH) = square[l];
+    for (int l = 0; l < ALI3_WIDTH; l++) *(unaligned_real *)(to + (i + l) * ALI3_WIDTH) = square[l];
   }
   for (; i < n; i++)
     for (int l = 0; l < ALI3_WIDTH; l++) to[i * ALI3_WIDTH + l] = lane[l][i];
 }
 
-static void take_apart(double *const lane[], const double *from, int32_t n) {
+/* The inverse of `interleave`. */
+static void separate(double *const lane[], const double *from, int32_t n) {
   int32_t i = 0;
   for (; i + ALI3_WIDTH <= n; i += ALI3_WIDTH) {
     real square[ALI3_WIDTH];
-    for (int l = 0; l < ALI3_WIDTH; l++) square[l] = *(const loose *)(from + (i + l) * ALI3_WIDTH);
+    for (int l = 0; l < ALI3_WIDTH; l++) square[l] = *(const unaligned_real *)(from + (i + l) * ALI3_WIDTH);
     transpose(square);
-    for (int l = 0; l < ALI3_WIDTH; l++) *(loose *)(lane[l] + i) = square[l];
+    for (int l = 0; l < ALI3_WIDTH; l++) *(unaligned_real *)(lane[l] + i) = square[l];
   }
   for (; i < n; i++)
     for (int l = 0; l < ALI3_WIDTH; l++) lane[l][i] = from[i * ALI3_WIDTH + l];

@@ -1,10 +1,12 @@
 /* Torque on a body from inputs, in earth or body axes. For orthonormal a, b, c the generalised forces (m x a)/2, (m x
  * b)/2, (m x c)/2 do the work m . dtheta, and no work on the conditions that keep the frame orthonormal.
- * The frame has the vectors a, b, c, in the plane a alone, and there only the third input counts. Axes: 1, of the body. */
+ * Signals: the vectors a, b, c of the frame; in the plane a alone, and there only the third input counts. Integer AXES: 1
+ * if the inputs are components in body axes, 0 in earth axes. */
 #include "body_torque_fields.h"
 #include "element.h"
 #include "element_math.h"
 
+/* f = m x a: in the plane the frame is the vector a alone. */
 static void planar(ali3_element_args *a) {
   const double m = ali3_input_or_zero(a->input, a->integer[THIRD]);
   a->f[0] = -m * a->u[1]; /* its tangent is antisymmetric */
@@ -17,10 +19,10 @@ static void evaluate(ali3_element_args *a) {
     planar(a);
     return;
   }
-  double given[3], m[3];
-  for (int j = 0; j < 3; j++) m[j] = given[j] = ali3_input_or_zero(a->input, a->integer[j]);
+  double input[3], m[3];
+  for (int j = 0; j < 3; j++) m[j] = input[j] = ali3_input_or_zero(a->input, a->integer[j]);
   if (a->integer[AXES])
-    for (int i = 0; i < 3; i++) m[i] = given[0] * a->u[i] + given[1] * a->u[3 + i] + given[2] * a->u[6 + i];
+    for (int i = 0; i < 3; i++) m[i] = input[0] * a->u[i] + input[1] * a->u[3 + i] + input[2] * a->u[6 + i];
   for (int j = 0; j < 3; j++) {
     ali3_cross(m, a->u + 3 * j, a->f + 3 * j);
     for (int i = 0; i < 3; i++) a->f[3 * j + i] *= 0.5;
@@ -29,7 +31,7 @@ static void evaluate(ali3_element_args *a) {
   for (int j = 0; j < 3; j++)
     for (int k = 0; k < 3; k++) { /* block (j, k): (m_k [v_j]x - m_j [v_k]x) / 4 */
       double x[3];
-      for (int i = 0; i < 3; i++) x[i] = 0.25 * a->wK * (given[k] * a->u[3 * j + i] - given[j] * a->u[3 * k + i]);
+      for (int i = 0; i < 3; i++) x[i] = 0.25 * a->wK * (input[k] * a->u[3 * j + i] - input[j] * a->u[3 * k + i]);
       double *S = a->S + 27 * j + 3 * k;
       S[1] = -x[2], S[2] = x[1];
       S[9] = x[2], S[11] = -x[0];

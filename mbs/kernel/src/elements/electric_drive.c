@@ -3,19 +3,19 @@
  * f and g are orthonormal on the frame, the rates of both wheels absolute about the axis f x g. Integers: throttle input
  * (0..1), and a selector input (-1, 0, 1) or none. States: none, with a selector those of selector.h.
  *
- * In the direction engaged the torque is the throttle's part of min(max torque, max power / speed), which fades beyond
- * the limit speed, less the other part of the regeneration torque, which follows the sign of the speed and fades to
- * zero around standstill. What gears and motor lose is taken in both directions of the power. The inertia of the rotor
- * is not here: it belongs to the spins. */
+ * In the direction engaged the torque is throttle times min(max torque, max power / speed), which fades beyond the limit
+ * speed, minus (1 - throttle) times the regeneration torque, which has the sign of the speed and fades to zero around
+ * standstill. Gears and motor have losses in both directions of the power. The inertia of the rotor is part of the
+ * spins, not of this element. */
 #include "../algebra/small_vectors.h"
 #include "electric_drive_fields.h"
 #include "element.h"
 #include "selector.h"
 
 #define LIMITER_WIDTH 0.05 /* of the limit speed */
-/* Bits of the pieces of its law. */
+/* Bits that tell apart the smooth pieces of the law. */
 enum { BY_POWER = 1, LIMITED = 2, CUT_OFF = 4, TAKES_BY_POWER = 8, DRIVES = 16, DIRECTIONS = 32 };
-#define BARELY 1e-3 /* of the fade: the gears lose nothing yet */
+#define BARELY 1e-3 /* share of GEAR_FADE below which the loss of the gears is negligible */
 #define GEAR_FADE 5.0 /* rad/s of the motor, below which the loss of the gears, a friction, fades */
 
 typedef struct {
@@ -40,15 +40,15 @@ static torque motor(const double *p, double throttle, double speed, int reverse)
   } else if (over > 0.0) {
     full = (torque){full.value * (1.0 - over), full.slope * (1.0 - over) - full.value / width, full.piece | LIMITED};
   }
-  const torque taken = envelope(p[REGENERATION_TORQUE], p[REGENERATION_POWER], speed);
+  const torque regeneration = envelope(p[REGENERATION_TORQUE], p[REGENERATION_POWER], speed);
   const double x = ali3_clamp(speed / p[REGENERATION_SPEED], -1.0, 1.0), fade = 0.5 * x * (3.0 - x * x);
-  const double steep = 1.5 * (1.0 - x * x) / p[REGENERATION_SPEED], closed = 1.0 - throttle;
-  return (torque){throttle * full.value - closed * taken.value * fade,
-                  throttle * full.slope - closed * (taken.slope * fade + taken.value * steep),
-                  full.piece | (taken.piece ? TAKES_BY_POWER : 0u)};
+  const double fade_slope = 1.5 * (1.0 - x * x) / p[REGENERATION_SPEED], closed = 1.0 - throttle;
+  return (torque){throttle * full.value - closed * regeneration.value * fade,
+                  throttle * full.slope - closed * (regeneration.slope * fade + regeneration.value * fade_slope),
+                  full.piece | (regeneration.piece ? TAKES_BY_POWER : 0u)};
 }
 
-/* Torque behind the gears per ratio: they take power in both directions. */
+/* Torque at the output of the gears, divided by their ratio: they lose power in both directions of the power. */
 static torque geared(double efficiency, torque m, double speed) {
   const int drives = m.value > 0.0 ? speed >= 0.0 : speed <= 0.0;
   const double x = ali3_clamp(fabs(speed) / GEAR_FADE, 0.0, 1.0), sign = speed < 0.0 ? -1.0 : 1.0;
@@ -58,10 +58,12 @@ static torque geared(double efficiency, torque m, double speed) {
                   m.piece | (drives || x < BARELY ? DRIVES : 0u)};
 }
 
+/* Angular velocity of the frame about the axis of the wheels, rad/s. */
 static double frame_rate(const ali3_element_args *a) {
   return 0.5 * (ali3_dot(a->ud + 2, a->u + 5) - ali3_dot(a->ud + 5, a->u + 2));
 }
 
+/* Mean angular velocity of both wheels relative to the frame, rad/s. */
 static double wheel_rate(const ali3_element_args *a) { return 0.5 * (a->ud[0] + a->ud[1]) - frame_rate(a); }
 
 static double selector_of(const ali3_element_args *a) { return a->input[a->integer[1]]; }
@@ -84,7 +86,8 @@ static void evaluate(ali3_element_args *a) {
   double b[8] = {0.5, 0.5}; /* the mean relative rate is b . ud */
   for (int i = 0; i < 3; i++) b[2 + i] = -0.5 * a->u[5 + i], b[5 + i] = 0.5 * a->u[2 + i];
   for (int i = 0; i < 8; i++) a->f[i] = total * b[i];
-  if (a->S && slope < 0.0) ali3_add_outer(a->S, 8, -a->wC * slope, b); /* turning of f, g within the step is left out */
+  if (a->S && slope < 0.0)
+    ali3_add_outer(a->S, 8, -a->wC * slope, b); /* without the rotation of f, g within the step */
   a->potential = 0.0;
   a->out[0] = speed;
   a->out[1] = m.value;

@@ -40,14 +40,14 @@ typedef struct {
 
 typedef void ali3_element_function(ali3_element_args *a);
 
-/* What an element says of a start. */
+/* Verdict of an element on a start. */
 typedef struct {
-  double excess; /* above 0: no scene is meant to start like this; of two elements the larger one is named */
-  double rise;   /* above 0: the height, m, by which the scene must rise at least to be out of the element's way */
-  double pressed; /* above 0: how much deeper than a wheel holds its rim is in the road, m */
+  double excess; /* above 0: the start is refused; the element with the largest value is named */
+  double rise;   /* above 0: least height by which the scene must be raised so that the element accepts it, m */
+  double pressed; /* above 0: depth of a rim in the road beyond what the wheel can carry, m */
 } ali3_start_verdict;
 
-/* What a number of an element must be, and the sentence for one that is not; the tables are written from the classes in
+/* Allowed range of a number of an element, and the sentence for one outside; the tables are generated from the classes in
  * Python, see *_fields.h. */
 typedef enum { ALI3_IS_ANY, ALI3_IS_NOT_NEGATIVE, ALI3_IS_POSITIVE, ALI3_IS_SHARE, ALI3_IS_FRACTION } ali3_range;
 typedef struct {
@@ -55,56 +55,57 @@ typedef struct {
   const char *text;
 } ali3_field;
 
-/* The same of an integer: below 0 or `least`, or above `most` or the last of what it is a number of. */
+/* Allowed range of an integer: not below 0 or `least`, and not above `most` or the last index of the list it refers to. */
 typedef enum { ALI3_OF_NUMBERS, ALI3_OF_INPUTS, ALI3_OF_ROADS } ali3_numbered;
 typedef struct {
   ali3_numbered of;
   int32_t least, most;
-  int32_t reals, states; /* of each that it counts */
+  int32_t reals, states; /* of a count: reals and states for each counted item */
   const char *text;
 } ali3_integer;
 
-/* What a type of elements is; what is not named is 0 or NULL: not so, or none. */
+/* A type of elements. Members that an initialiser does not name are 0 or NULL: the property does not hold, or there is no
+ * such function. */
 typedef struct ali3_element_type {
   ali3_element_function *evaluate;
   /* Forces over a step by a discrete gradient, for elements whose potential is not quadratic in their signals:
-   * f . (u1 - u0) = -(V(u1) - V(u0)) minus what dampers take, exactly. It sees the middle of the step, u, and
-   * ud = (u1 - u0) / (2 h), its h being half a step. NULL: evaluate is exact there, or as good. */
+   * f . (u1 - u0) = -(V(u1) - V(u0)) minus the dissipation of dampers, exactly. It is called at the middle of the step, u,
+   * with ud = (u1 - u0) / (2 h), its h being half a step. NULL: `evaluate` is exact or accurate enough there. */
   ali3_element_function *discrete;
   ali3_element_function *accept; /* once per accepted step, and with h = 0 at a start: discrete changes in y_new */
-  /* Springs with end stops, whose first outputs are length and force: whether these lie beyond one. */
+  /* Of springs with end stops, whose first outputs are length and force: whether the length is beyond a stop. */
   bool (*stops)(const double *real, const double *out);
-  /* Of these: the share of a step of size h at which the first of those with a kink is met or left, from
-   * the outputs at its start and at its end; 1: none is. */
+  /* Of the same springs: share of a step of size h at which the first stop with a kink is met or left, from the outputs at
+   * the start and the end of the step; 1: none is. */
   double (*event)(const double *real, int32_t nreal, const double *from, const double *to, double h);
-  bool conservative; /* a potential, or a force of inputs alone: steps of order four may be composed of it */
-  /* whether a conservative element takes energy with these data */
+  bool conservative; /* a potential, or a force of inputs alone: composed steps of order four accept it */
+  /* Whether a conservative element dissipates energy with these data. */
   bool (*lossy)(const double *real, int32_t nreal, const int32_t *integer);
-  /* Verdict on a start, from u, real, integer and roads, with the scene raised by `raised`, m; and its words, after the
-   * element's name. */
+  /* Verdict on a start, from u, real, integer and roads, with the scene raised by `raised`, m; and the sentence for a
+   * refusal, which follows the name of the element. */
   ali3_start_verdict (*start)(const ali3_element_args *a, double raised);
   const char *start_words;
-  /* How deep the element is in its road with the scene raised by `raised`, m; < 0: above it. From u, real, integer and
-   * roads; *part: raising the scene by this share of the depth brings it towards 0 and not beyond. */
+  /* Depth of the element in its road with the scene raised by `raised`, m; < 0: above it. From u, real, integer and
+   * roads; *part: share of the depth by which the scene can be raised without passing depth 0. */
   double (*depth)(const ali3_element_args *a, double raised, double *part);
-  /* Sizes without what its integers count; -1: any. nint are the integers that must be there, of all that `integers`
-   * has. With one of the others, or where there are none, nreal_more and nstate_more may follow. */
+  /* Sizes without the items that its integers count; -1: any. nint is the number of required integers, of all in
+   * `integers`. With an optional one, or if there are none, nreal_more reals and nstate_more states may follow. */
   int32_t nsig, nreal, nint, nstate, nout;
-  int32_t nsig_plane; /* of an element in the plane, where they are others; 0: they are not */
+  int32_t nsig_plane; /* number of signals in the plane, if it differs from that in space; 0: it does not */
   int32_t nreal_more, nstate_more;
-  const ali3_field *fields; /* what its numbers must be: the first ones, then the last nreal_more */
+  const ali3_field *fields; /* ranges of its reals: the first ones, then the last nreal_more */
   int32_t nfields;
   const ali3_integer *integers;
   int32_t nintegers;
-  /* NULL or one sentence for bad data that the fields do not say */
+  /* NULL or one sentence for bad data that the ranges of `fields` do not exclude. */
   const char *(*check)(int32_t nsig, const double *real, int32_t nreal, const int32_t *integer, int32_t nint);
 } ali3_element_type;
 
-/* Whether the sizes of an element are those of its type; its signals may be in space or in the plane. */
+/* Whether the sizes of an element agree with its type, in space or in the plane. */
 bool ali3_element_fits(const ali3_element_type *type, int32_t nsig, int32_t nreal, const int32_t *integer, int32_t nint,
                        int32_t nstate, int32_t nout);
 
-/* NULL or one sentence for bad data: by the declared numbers and integers, then by the type's own check. */
+/* NULL or one sentence for bad data: first by the declared ranges of reals and integers, then by the check of the type. */
 const char *ali3_element_check(const ali3_element_type *type, int32_t nsig, const double *real, int32_t nreal,
                                const int32_t *integer, int32_t nint, int32_t n_inputs, int32_t n_roads);
 

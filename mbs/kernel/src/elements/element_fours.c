@@ -50,8 +50,8 @@ static void evaluate(ali3_instance *in, const ali3_force_call *call, const int32
   for (int32_t i = 0; i < n; i++)
     for (int l = 0; l < ALI3_FOUR; l++)
       to->u[i][l] = in->element.u[signal[l][i]], to->ud[i][l] = in->element.ud[signal[l][i]];
-  put_side_by_side((double *)to->numbers, own, size->nreal);
-  put_side_by_side((double *)to->y_old, old, size->nstate);
+  interleave((double *)to->numbers, own, size->nreal);
+  interleave((double *)to->y_old, old, size->nstate);
   memset(to->f, 0, (size_t)n * sizeof *to->f);
   if (tangent) memset(to->S, 0, (size_t)(n * n) * sizeof *to->S);
   memcpy(integer, S->el_int + size->integer, (size_t)size->nint * sizeof *integer);
@@ -77,10 +77,10 @@ static void evaluate(ali3_instance *in, const ali3_force_call *call, const int32
                          .S = tangent ? to->S : NULL,
                          .out = to->out};
   law_of(S->el_kind[e[0]])(&a);
-  take_apart(f, (const double *)to->f, n);
-  if (tangent) take_apart(T, (const double *)to->S, n * n);
-  take_apart(y_new, (const double *)to->y_new, size->nstate);
-  take_apart(out, (const double *)to->out, size->nout);
+  separate(f, (const double *)to->f, n);
+  if (tangent) separate(T, (const double *)to->S, n * n);
+  separate(y_new, (const double *)to->y_new, size->nstate);
+  separate(out, (const double *)to->out, size->nout);
   for (int l = 0; l < ALI3_FOUR; l++) call->potential[e[l]] = a.potential[l], in->element.idle[e[l]] = a.idle != 0;
 }
 

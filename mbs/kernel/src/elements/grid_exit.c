@@ -1,33 +1,34 @@
-/* Level rays from the point are followed to where the surface falls below it; the nearest such place is the foot, with
- * the direction of the best ray refined. The distance is then continuous in the point and its gradient the normal of the
- * face, so that what a face takes up it also gives back. It has a kink where two faces are equally far: there the normal
- * jumps from one to the other, the distance does not. */
+/* Horizontal exit of a point below the surface of a grid road. Horizontal rays from the point are followed to where the
+ * surface falls below it; the nearest such position is the foot, with the direction of the shortest ray refined. The
+ * distance is continuous in the point and its gradient is the normal of the face, so that the contact is conservative. It
+ * has a kink where two faces are equally distant: there the normal jumps from one to the other, the distance does not. */
 #include "grid_exit.h"
 
 #include <math.h>
 
 #include "../algebra/elementary.h"
 
-/* MOST: places that are looked at on a ray. The distance is that of the tangent plane at the foot, so that what is left
- * of a halving or of an angle is in it to second order only. */
+/* Number of rays, most samples on a ray, bisections of a crossing, golden sections of the direction. The distance is that
+ * of the tangent plane at the foot, so that errors of position and direction enter it in second order only. */
 enum { RAYS = 16, MOST = 64, HALVINGS = 24, SECTIONS = 10 };
 
-static int is_out(const ali3_grid *g, ali3_cell *cell, const double point[3], const double way[2], double r) {
-  return ali3_grid_is_below(g, cell, point[0] + r * way[0], point[1] + r * way[1], point[2]);
+/* Whether the surface is below the height of the point at horizontal distance r along `direction`. */
+static int is_out(const ali3_grid *g, ali3_cell *cell, const double point[3], const double direction[2], double r) {
+  return ali3_grid_is_below(g, cell, point[0] + r * direction[0], point[1] + r * direction[1], point[2]);
 }
 
-/* Distance along a way to the first place out of the surface, `reach` where none is nearer. */
-static double crossing(const ali3_grid *g, ali3_cell *cell, const double point[3], const double way[2], double step,
-                       double reach) {
+/* Distance along `direction` to the first position outside the surface, `reach` if there is none nearer. */
+static double crossing(const ali3_grid *g, ali3_cell *cell, const double point[3], const double direction[2],
+                       double step, double reach) {
   double in = 0.0, out = 0.0;
   do {
     in = out;
     out += step;
     if (!(in < reach)) return reach;
-  } while (!is_out(g, cell, point, way, out));
+  } while (!is_out(g, cell, point, direction, out));
   for (int i = 0; i < HALVINGS && in < reach; i++) {
     const double middle = 0.5 * (in + out);
-    if (is_out(g, cell, point, way, middle))
+    if (is_out(g, cell, point, direction, middle))
       out = middle;
     else
       in = middle;
@@ -35,10 +36,11 @@ static double crossing(const ali3_grid *g, ali3_cell *cell, const double point[3
   return fmin(out, reach);
 }
 
+/* The same along the direction of an angle, rad. */
 static double crossing_at(const ali3_grid *g, ali3_cell *cell, const double point[3], double angle, double step,
                           double reach) {
-  const double way[2] = {ali3_cos(angle), ali3_sin(angle)};
-  return crossing(g, cell, point, way, step, reach);
+  const double direction[2] = {ali3_cos(angle), ali3_sin(angle)};
+  return crossing(g, cell, point, direction, step, reach);
 }
 
 int ali3_grid_exit(const ali3_grid *g, const double point[3], double reach, double foot[2]) {

@@ -1,4 +1,4 @@
-/* Checksum. */
+/* CRC-32 checksum (ISO 3309, as in zip files). */
 #ifndef ALI3_CRC32_H
 #define ALI3_CRC32_H
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* A flexible body in the arrays of a System, and the loops that its files share. */
+/* View of one flexible body in the arrays of a System and of an instance, and the loops shared by the files here. */
 #ifndef ALI3_BODY_ARRAYS_H
 #define ALI3_BODY_ARRAYS_H
 #include <string.h>
@@ -14,7 +14,7 @@ enum {
   ALI3_FLEX_SECOND = 12,
   ALI3_FLEX_COUPLING = 21,
   ALI3_FLEX_OF_MODE = 9
-}; /* places in the work of a body; numbers of each of its modes after them */
+}; /* offsets in the work array of a body: A, S, J, then D with ALI3_FLEX_OF_MODE numbers a mode */
 
 typedef struct {
   int32_t n;                          /* modes */
@@ -24,6 +24,7 @@ typedef struct {
   real *A, *S, *J, *D;                /* axes; P eta; J - J0; 9 x n */
 } ali3_flexible;
 
+/* The view of flexible body b. */
 static inline ali3_flexible ali3_flexible_of(const ali3_instance *in, int32_t b) {
   const ali3_system *s = in->system;
   const int64_t first = s->flex_mode_ptr[b], n = s->flex_mode_ptr[b + 1] - first, square = s->flex_square[b];
@@ -52,9 +53,9 @@ static inline ali3_flexible ali3_flexible_of(const ali3_instance *in, int32_t b)
 }
 
 #ifndef ALI3_WIDTH
-enum { ALI3_FEW = 2, ALI3_MANY = 8 }; /* fours of rows that are worked on together */
+enum { ALI3_FEW = 2, ALI3_MANY = 8 }; /* vectors of four rows in a tile: small and large tiles */
 
-/* Rows i to i + 4 fours - 1 of start + M x go to out: their sums stay in registers, in the order of `ali3_add_product`. */
+/* Writes rows i to i + 4 fours - 1 of start + M x, summed in registers in the order of `ali3_add_product`. */
 ALI3_INLINED void ali3_tile(int64_t n, const double *M, const double *x, const ali3_four *start, int fours, int64_t i,
                             double *out) {
   ali3_four sum[ALI3_MANY];
@@ -79,7 +80,7 @@ ALI3_INLINED void ali3_tile(int64_t n, const double *M, const double *x, const a
   for (int t = 0; t < fours; t++) ((ali3_four *)(out + i))[t] = sum[t];
 }
 
-/* out = start + M x, M by columns; four columns at once. The last rows may be worked on twice. */
+/* out = start + M x, M by columns; four columns at once. The last rows may be computed twice, with the same result. */
 ALI3_INLINED void ali3_add_product(int32_t n, const double *restrict M, const double *restrict x, const double *start,
                                    double *out) {
   const int32_t few = 4 * ALI3_FEW, many = 4 * ALI3_MANY;
@@ -123,12 +124,12 @@ ALI3_INLINED void ali3_accumulate(int32_t n, const double *restrict M, const rea
   ali3_add_product(n, M, x, out, out);
 }
 
-/* x times three rows that follow each other. */
+/* Dot products of x with three contiguous rows. */
 ALI3_INLINED void ali3_three_products(int32_t n, const real *restrict rows, const real *restrict x, real out[3]) {
   for (int k = 0; k < 3; k++) out[k] = ali3_product_from_far(rows + k * n, x, n);
 }
 
-/* y += the multiples of three rows that follow each other, in turn. */
+/* Adds three contiguous rows times their factors to y, one after the other. */
 ALI3_INLINED void ali3_add_three_rows(int32_t n, const real *restrict rows, const real *factor, real *restrict y) {
   const real *restrict second = rows + n, *restrict third = second + n;
   const real a = factor[0], b = factor[1], c = factor[2];
@@ -139,7 +140,7 @@ static inline void ali3_gather(int32_t n, const int32_t *index, const real *from
   for (int32_t i = 0; i < n; i++) to[i] = from[index[i]];
 }
 
-/* to += weight x at the modes */
+/* Adds weight x to the coordinates of the modes. */
 ALI3_INLINED void ali3_add_to_modes(const ali3_flexible *f, const real *x, double weight, real *to) {
   for (int32_t j = 0; j < f->n; j++) to[f->mode[j]] += weight * x[j];
 }

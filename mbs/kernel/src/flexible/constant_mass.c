@@ -1,4 +1,4 @@
-/* M x of the constant mass matrix. */
+/* Product M x of the constant mass matrix with a vector. */
 #include <stdbool.h>
 
 #include "../algebra/number_pairs.h"
@@ -6,9 +6,9 @@
 #include "../instance.h"
 #include "mass.h"
 
-enum { MANY = 8 };
+enum { MANY = 8 }; /* least number of rows with the same columns that are summed column by column */
 
-/* out += the multiples of four columns, in turn. */
+/* Adds four columns times their entries of x to `out`, one after the other. */
 ALI3_INLINED void add_columns(const real *val, const int32_t *mirror, const real *x, const int32_t *col, int32_t n,
                               real *restrict out) {
   const real *restrict a = val + mirror[0], *restrict b = val + mirror[1], *restrict c = val + mirror[2],
@@ -18,7 +18,7 @@ ALI3_INLINED void add_columns(const real *val, const int32_t *mirror, const real
   for (int32_t j = 0; j < n; j++) out[j] = (((out[j] + w * a[j]) + y * b[j]) + z * c[j]) + v * d[j];
 }
 
-/* Rows i to i + n - 1, which have the same columns. */
+/* Writes rows i to i + n - 1 of M x, which have the same columns. */
 ALI3_INLINED void many_rows(const ali3_instance *in, int32_t i, int32_t n, const real *x, real *out) {
   const ali3_system *S = in->system;
   const real *val = in->mass.val, none = {0};
@@ -29,9 +29,9 @@ ALI3_INLINED void many_rows(const ali3_instance *in, int32_t i, int32_t n, const
   for (; k < end; k++) ali3_add_multiple(out + i, val + S->mass_mirror[k], x[col[k]], n);
 }
 
-/* Rows with the same columns, those of the modes of a flexible body, are summed side by side, column by column: as M is
- * symmetric, the entries of a column lie side by side in its row. `stretches`: rows have modes side by side, which
- * are one sum of four. */
+/* Rows with the same columns, as the modes of a flexible body have, are summed together, column by column: M is
+ * symmetric, so the entries of a column are contiguous in its row. `stretches`: whether rows have contiguous columns,
+ * which are summed four at a time. */
 ALI3_INLINED void times_mass(const ali3_instance *in, const real *x, real *out, bool stretches) {
   const ali3_system *S = in->system;
   const real *val = in->mass.val;

@@ -1,4 +1,4 @@
-/* States of motion, and the time. */
+/* State of the motion of an instance, stored copies of it, and its clock. */
 #ifndef ALI3_INSTANCE_STATES_H
 #define ALI3_INSTANCE_STATES_H
 #include <stdbool.h>
@@ -21,13 +21,13 @@ typedef struct {
   double *history; /* of a method: whose it is (ALI3_METHOD_*), count of past steps, their middles relative to now, s */
   double *own; /* nq: velocity (energy-momentum) or algorithmic acceleration (generalised-alpha) */
   double *past_a, *past_lam; /* ALI3_PAST x nq, x nc: mean accelerations and multipliers of past steps, newest first */
-  double *work, *stored; /* J: since the start, at the start; see ../state/work.c */
+  double *work, *stored; /* J: work since the start, stored energy at the start; see ../state/work.c */
   double *watched; /* power, then forces, at the end of the last step */
-  double *step_force, *step_way; /* n_work_force: mean forces of the last step, ways of their signals */
-  double *by_inputs; /* n_input_work, J: what jumps of inputs since the start added to the stored energy */
+  double *step_force, *step_way; /* n_work_force: mean forces of the last step, displacements of their signals */
+  double *by_inputs; /* n_input_work, J: stored energy that jumps of inputs have added since the start */
 } ali3_vectors;
 
-/* States beside the present one and the next. */
+/* Stored states of an instance other than the present one and the next. */
 typedef struct {
   ali3_vectors start; /* before a step that may be halved */
   ali3_vectors whole; /* before a composed step */

@@ -1,6 +1,6 @@
-/* Instances of one System that advance together, each in a lane. A `real` of the group holds a number of every lane, side
- * by side. Sources written in `real` are compiled for instances and for groups: the members have the same names in both
- * (see real.h and kernels.h). */
+/* A group of instances of one System that advance together, each in a lane of the vectors of the processor. A `real` of
+ * the group holds one number of every lane. Sources written in `real` are compiled for instances and for groups, so the
+ * members have the same names in both (see real.h and kernels.h). */
 #ifndef ALI3_GROUP_H
 #define ALI3_GROUP_H
 #include "../algebra/real.h"
@@ -13,6 +13,7 @@ typedef truth ali3_mask; /* all bits of a lane, or none; counts too */
 typedef int64_t ali3_mask;
 #endif
 
+/* Vectors of a state, as those of ali3_vectors, for all lanes. */
 typedef struct {
   real *q, *qd, *qdd, *lam;
   real *s, *sd, *sdd; /* guides */
@@ -23,11 +24,11 @@ typedef struct {
 
 typedef struct ali3_lane_group ali3_lane_group;
 
-/* Functions that are compiled for a number of lanes. */
+/* Functions compiled for one number of lanes. */
 typedef struct ali3_lane_code {
-  /* A step of the lanes in group->lanes to group->next; group->good has those that converged. */
+  /* Makes a step of the lanes in group->lanes to group->next; group->good marks those that converged. */
   void (*step)(struct ali3_lane_group *group);
-  /* n numbers of each lane become those of the group, and back. */
+  /* Copies n numbers of each lane to the group, interleaved, and back. */
   void (*spread)(double *to, const double *const lane[], int32_t n);
   void (*collect)(double *const lane[], const double *from, int32_t n);
 } ali3_lane_code;
@@ -35,7 +36,7 @@ typedef struct ali3_lane_code {
 struct ali3_lane_group {
   const ali3_system *system;
   const ali3_lane_code *code;
-  int32_t width, used; /* lanes, and how many of them have an instance */
+  int32_t width, used; /* number of lanes, and of those with an instance */
   ali3_instance *lane[ALI3_MOST_LANES];
   ali3_settings settings; /* those of all lanes */
   ali3_rule rule;
@@ -44,7 +45,7 @@ struct ali3_lane_group {
   struct {
     real *val, *floor, *floor_inverse, *gravity, *gravity_const;
     bool isotropic;
-  } mass; /* this and what follows as that of an instance, with numbers of all lanes */
+  } mass; /* this and the following members are those of an instance, with the numbers of all lanes */
   struct {
     real *D, *d0, *r, *x, *w, *hat, *Q, *stage, *shifted, *Phi, *Phit, *gamma, *mu, *lam, *drive;
   } step;
@@ -72,14 +73,14 @@ struct ali3_lane_group {
   struct {
     real *mean, *follows;
   } guide;
-  real *ways; /* displacements of elements whose work is watched, see ../state/work.c */
+  real *ways; /* displacements of elements whose work is summed, see ../state/work.c */
   real *el_real, *input, *out, *potential;
   ali3_lane_road *road;
   bool *by_law; /* ne: the element is computed in vectors */
-  real *mean_a, *newton_lam; /* what a step leaves to the history */
-  double *discarded; /* takes the numbers of lanes that did not make the step */
-  /* one mask each: lanes that make the step, that count the work, that evaluate elements, that converged, and that met a
-   * singular tangent */
+  real *mean_a, *newton_lam; /* of the last step, for the history */
+  double *discarded; /* receives the numbers of lanes that did not make the step */
+  /* one mask each: lanes that make the step, whose work is counted, that evaluate elements, that converged, and that have
+   * a singular tangent */
   ali3_mask *lanes, *at_work, *evaluated, *good, *singular;
   ali3_mask *iterations, *worst_row, *worst_coordinate;
   struct {
@@ -92,7 +93,7 @@ struct ali3_lane_group {
 
 extern const ali3_lane_code ali3_code_lanes_2, ali3_code_lanes_4, ali3_code_lanes_8;
 
-/* Element e of the lanes in group->evaluated, one by one; f: its forces. */
+/* Evaluates element e of the lanes in group->evaluated, one lane after the other; f: its forces. */
 void ali3_lane_element(ali3_lane_group *group, int32_t e, real *f, bool tangent);
 void ali3_lane_elements_accept(ali3_lane_group *group, int32_t lane);
 #endif

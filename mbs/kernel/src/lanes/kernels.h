@@ -60,7 +60,7 @@ void ali3_mass_times(const ali3_instance *in, const real *x, real *out) {
 #include "../algebra/lane_copies.h"
 #include "lane_step.h"
 
-const ali3_lane_code ALI3_CODE = {.step = step, .spread = put_side_by_side, .collect = take_apart};
+const ali3_lane_code ALI3_CODE = {.step = step, .spread = interleave, .collect = separate};
 
 #if defined(__clang__) && defined(ALI3_INSTRUCTIONS)
 #pragma clang attribute pop

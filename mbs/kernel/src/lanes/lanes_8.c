@@ -1,4 +1,4 @@
-/* Eight lanes. */
+/* The step compiled for groups of eight lanes with AVX-512. */
 #if defined(__x86_64__)
 #define ALI3_WIDTH 8
 #define ALI3_CODE ali3_code_lanes_8
@@ -8,5 +8,5 @@
 #endif
 #include "kernels.h"
 #else
-#include "group.h" /* no processor of another kind is asked for them */
+#include "group.h" /* on other processors no group has eight lanes */
 #endif

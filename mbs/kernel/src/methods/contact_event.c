@@ -1,6 +1,6 @@
-/* A stop that is met or left within a step: the step is made again up to there and on from there. The force has a kink
- * there, of which the trapezoidal rule misses a share that depends on where in the step it lies, so that errors of two
- * steps would not tell of each other. The time is that of the last trial, and is found again in its parts. */
+/* Location of contact events: a step in which an end stop is met or left is divided at that time. The force has a kink
+ * there; the error that the trapezoidal rule makes of it depends on its position in the step, so that errors at two step
+ * sizes could not be compared. The time is that of the last trial step, and is computed again in its parts. */
 #include "contact_event.h"
 
 #include <math.h>
@@ -9,15 +9,15 @@
 #include "../elements/element.h"
 #include "abrupt_force.h"
 
-enum { EVENTS = 4 }; /* at which a step is divided at most */
+enum { EVENTS = 4 }; /* most events at which a step is divided */
 
-/* A step as it is asked for begins, whose parts may be halved so deep. Of cars events cost more than they gain:
- * theory.md. */
+/* Begins a requested step, whose parts may be halved `depth` times. Not for Systems with roads: for cars the location of
+ * events costs more than it gains (theory.md). */
 void ali3_events_begin(ali3_instance *in, int32_t depth) {
   in->parting.events_left = depth > 0 && in->system->nr == 0 ? EVENTS : -1;
 }
 
-/* The first share of the step from in->now to in->next at which an element says so; else 1. */
+/* Share of the step from in->now to in->next at which the first element reports an event; 1 if none does. */
 static double first_event(const ali3_instance *in, double h) {
   const ali3_system *S = in->system;
   double first = 1.0;
@@ -37,7 +37,7 @@ bool ali3_contact_event(ali3_instance *in, const ali3_request *request) {
   const double h = request->h, share = first_event(in, h), near = ALI3_AT_END * in->inputs.whole_length;
   if (!(share * h > near && (1.0 - share) * h > near)) return false;
   if (in->parting.events_left == 0) {
-    in->report.abrupt_steps++; /* one that is not located is told as such */
+    in->report.abrupt_steps++; /* an event that is not located is reported */
     return false;
   }
   if (!ali3_leaves_parts(in, request, in->report.last_iterations)) return false;

@@ -1,5 +1,5 @@
-/* Guides s(t): polynomial pieces of time, or an input, or the sum of two, through a critically damped filter of second
- * order, or a curve over another guide. */
+/* Guides (driving functions) s(t): polynomial pieces in time; an input or a sum of two, filtered by a critically damped
+ * system of second order; or a curve over another guide. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@ enum { GAIN = 1, GAIN_2 = 3, LOW, HIGH };
 
 bool ali3_guide_filters(int32_t type) { return type == ALI3_GUIDE_OF_INPUT || type == ALI3_GUIDE_OF_TWO_INPUTS; }
 
-/* What inputs ask of a filtered guide. */
+/* Demand of the inputs of a filtered guide: gain times input, or the sum of two. */
 double ali3_guide_demand(const ali3_instance *in, int32_t g, const double *input) {
   const ali3_system *S = in->system;
   const double *real = in->parameters.guide_real + S->guide_real_ptr[g];
@@ -21,13 +21,14 @@ double ali3_guide_demand(const ali3_instance *in, int32_t g, const double *input
   return S->guide_type[g] == ALI3_GUIDE_OF_INPUT ? first : first + real[GAIN_2] * input[S->guide_second[g]];
 }
 
-/* A demand held between the limits of its guide. */
+/* A demand clamped to the limits of its guide. */
 double ali3_guide_held(const ali3_instance *in, int32_t g, double demand) {
   const double *real = in->parameters.guide_real + in->system->guide_real_ptr[g];
   if (in->system->guide_type[g] == ALI3_GUIDE_OF_INPUT) return demand;
   return demand < real[LOW] ? real[LOW] : demand > real[HIGH] ? real[HIGH] : demand;
 }
 
+/* Value to which a filtered guide tends at given inputs. */
 static double target_of(const ali3_instance *in, int32_t g, const double *input) {
   return ali3_guide_held(in, g, ali3_guide_demand(in, g, input));
 }
@@ -66,7 +67,7 @@ const char *ali3_guide_check(int32_t type, const double *real, int32_t nreal) {
   return NULL;
 }
 
-/* The piece of a guide of time that a time within its breaks lies in; at a break the one behind it. */
+/* Index of the piece of a guide of time that contains a time within its breaks; at a break the piece after it. */
 static int32_t piece_at(const double *real, double time) {
   const double *breaks = real + 1;
   int32_t low = 0, high = (int32_t)real[0];
@@ -80,7 +81,7 @@ static int32_t piece_at(const double *real, double time) {
   return low;
 }
 
-/* Value and rates of a piece at x behind its break. */
+/* Value and rates of a piece, x seconds after its break. */
 static void piece(const double *real, int32_t i, double x, double *s, double *sd, double *sdd) {
   const double *c = real + 2 + (int32_t)real[0] + 6 * i;
   *s = ((((c[5] * x + c[4]) * x + c[3]) * x + c[2]) * x + c[1]) * x + c[0];
@@ -88,7 +89,7 @@ static void piece(const double *real, int32_t i, double x, double *s, double *sd
   *sdd = ((20.0 * c[5] * x + 12.0 * c[4]) * x + 6.0 * c[3]) * x + 2.0 * c[2];
 }
 
-/* Value and rates at time t; outside the breaks the end values at rest. */
+/* Value and rates of a guide of time at t; outside its breaks it rests at its end values. */
 static void guide_of_time(const double *real, double t, double *s, double *sd, double *sdd) {
   const int32_t n = (int32_t)real[0];
   const double *breaks = real + 1;
@@ -99,11 +100,11 @@ static void guide_of_time(const double *real, double t, double *s, double *sd, d
   if (!inside) *sd = *sdd = 0.0;
 }
 
-/* Of rate and acceleration of a guide of time: a jump by more than this part of their range is no noise of samples, nor
- * round-off of their largest value. */
+/* A jump of the rate or acceleration of a guide of time counts if it is larger than ABRUPT times their range, which is
+ * more than noise of samples, and than SAME times their largest value, which is more than round-off. */
 static const double ABRUPT = 0.05, SAME = 1e-9;
 
-/* Rates and accelerations of guides of time, by which their jumps are judged. */
+/* Measures the range of rate and acceleration of each guide of time, and from it the least jump that counts. */
 void ali3_guides_measure(ali3_instance *in) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
@@ -124,7 +125,7 @@ void ali3_guides_measure(ali3_instance *in) {
   }
 }
 
-/* Whether rate or acceleration of a guide of time jump at a break; before the first and behind the last it rests. */
+/* Whether rate or acceleration of a guide of time jump at break i; before the first and after the last it rests. */
 static bool jumps(const double *real, int32_t i, const double *least) {
   const int32_t n = (int32_t)real[0];
   double s, before[2] = {0.0, 0.0}, behind[2] = {0.0, 0.0};
@@ -133,6 +134,7 @@ static bool jumps(const double *real, int32_t i, const double *least) {
   return fabs(behind[0] - before[0]) > least[0] || fabs(behind[1] - before[1]) > least[1];
 }
 
+/* The first break after t and before `end` of all guides of time, else `end`; with `all` false only breaks that jump. */
 static double first_break(const ali3_instance *in, double t, double end, bool all) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++) {
@@ -149,7 +151,7 @@ static double first_break(const ali3_instance *in, double t, double end, bool al
 /* The first break of a guide of time after t and before `end`, else `end`. */
 double ali3_guides_until(const ali3_instance *in, double t, double end) { return first_break(in, t, end, true); }
 
-/* The first one at which its rate or acceleration jumps. */
+/* The first such break at which rate or acceleration of the guide jump. */
 double ali3_guides_break(const ali3_instance *in, double t, double end) { return first_break(in, t, end, false); }
 
 /* s = f(u): s' = f' u' and s'' = f' u'' + f'' u'^2. */
@@ -162,7 +164,7 @@ static void guide_by_table(const ali3_instance *in, ali3_vectors *v, int32_t g) 
   v->sdd[g] = slope * v->sdd[u] + curvature * v->sd[u] * v->sd[u];
 }
 
-/* Guides of time at t and those by tables; filtered ones stay. */
+/* Evaluates guides of time and by tables at t; filtered ones keep their values. */
 void ali3_guides_time(const ali3_instance *in, ali3_vectors *v, double t) {
   const ali3_system *S = in->system;
   for (int32_t g = 0; g < S->size.ng; g++)
@@ -197,5 +199,5 @@ void ali3_guides_step(const ali3_instance *in, const ali3_vectors *from, ali3_ve
     to->sdd[g] = w * w * (target - to->s[g]) - 2.0 * w * to->sd[g];
     in->guide.follows[g] = from->sd[g] != 0.0 || from->sdd[g] != 0.0 || to->sd[g] != 0.0 || to->sdd[g] != 0.0;
   }
-  ali3_guides_time(in, to, t); /* behind those that tables go over */
+  ali3_guides_time(in, to, t); /* last, as tables may depend on filtered guides */
 }

@@ -1,4 +1,5 @@
-/* Sensor values of the present state: a function for each type of sensor_types.h, of its integers and reals. */
+/* Values of sensors in the present state: one function for each type of sensor_types.h, called with the integers v and the
+ * reals of the sensor. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +14,7 @@
 #include "../tabled/tabled.h"
 #include "sensors.h"
 
-/* Signal i (order 0) or its first or second rate. */
+/* Value of signal i (order 0), its rate (1) or its second rate (2). */
 static double signal(const ali3_instance *in, int32_t i, int32_t order) {
   const double *own = order == 0 ? in->now.q : (order == 1 ? in->now.qd : in->now.qdd);
   const double *x = in->system->n_tabled > 0 ? in->tabled.extended[order] : own;
@@ -26,7 +27,7 @@ static void vector(const ali3_instance *in, const int32_t *v, int32_t order, dou
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* Of a vector (order 0) or its rates along a moving axis. */
+/* Component along a moving axis of a vector (order 0) or of its rates. */
 static double along(const ali3_instance *in, const int32_t *points, const int32_t *axis, int32_t order) {
   double p[3], a[3];
   vector(in, points, order, p);
@@ -51,7 +52,7 @@ static double value_component(const ali3_instance *in, const int32_t *v, const d
   return along(in, v + 1, v + 4, v[0]);
 }
 
-/* A signal of modes, which may lie side by side, or one of its rates. */
+/* Value or rate of a signal of modal coordinates; contiguous coordinates are summed four at a time. */
 static double signal_of_modes(const ali3_instance *in, int32_t i, int32_t order) {
   const ali3_system *S = in->system;
   const int32_t first = S->sig_ptr[i], n = S->sig_ptr[i + 1] - first, *col = S->sig_col + first;
@@ -60,6 +61,7 @@ static double signal_of_modes(const ali3_instance *in, int32_t i, int32_t order)
   return (order == 0 ? S->sig_const[i] : 0.0) + ali3_product_from_far(S->sig_val + first, x + col[0], n);
 }
 
+/* Position of a point of a flexible body or its rates, by Leibniz' rule: r + sum of axis_i times signal_i of its modes. */
 void ali3_carried(const ali3_instance *in, const int32_t *v, int32_t order, double out[3]) {
   static const double binomial[3][3] = {{1.0}, {1.0, 1.0}, {1.0, 2.0, 1.0}};
   vector(in, v, order, out);
@@ -99,7 +101,8 @@ static double value_angular_rate(const ali3_instance *in, const int32_t *v, cons
   return real[0] * (0.5 * (dot(ad, b) - dot(bd, a)));
 }
 
-/* Scalar first, w >= 0; the largest of the four is found from the trace and the others follow from it. */
+/* Quaternion of a frame, scalar first and >= 0. The largest component follows from the diagonal of the rotation matrix,
+ * the others from it, which avoids a small divisor. */
 void ali3_quaternion(const ali3_instance *in, const int32_t *v, double n[4]) {
   double R[3][3];
   for (int i = 0; i < 3; i++) {
@@ -143,7 +146,7 @@ static double value_element_output(const ali3_instance *in, const int32_t *v, co
   return real[0] * in->now.out[in->system->el_out_ptr[v[0]] + v[1]];
 }
 
-/* Kinetic energy, that of gravity and of elements, their sum. */
+/* Kinetic energy, potential energy of gravity, potential energy of elements and elastic bodies, and their sum, J. */
 static void energies(const ali3_instance *in, double kinds[4]) {
   const ali3_system *S = in->system;
   double kinetic = 0.0, gravity = in->mass.gravity_const, elastic = 0.0;
@@ -183,7 +186,7 @@ static double value_reaction(const ali3_instance *in, const int32_t *v, const do
   return sum;
 }
 
-/* A multiplier times a constant weight, up to three signals and a guide. */
+/* A multiplier times a constant weight, up to three signals and the value of a guide. */
 static double reaction_product(const ali3_instance *in, const int32_t *term, double weight) {
   double value = weight * in->system->row_scale[term[0]] * in->now.lam[term[0]];
   for (int i = 1; i < 4; i++)
@@ -197,7 +200,7 @@ static double value_reaction_products(const ali3_instance *in, const int32_t *v,
   return sum;
 }
 
-/* The same, some of them times the slope of a guide by a table. */
+/* Sum of such products, where some are multiplied by the slope of a guide given by a table. */
 static double value_reaction_by_table(const ali3_instance *in, const int32_t *v, const double *weight) {
   double sum = 0.0;
   for (int32_t k = 0; k < v[0]; k++) {
@@ -234,11 +237,11 @@ static double value_angle_about(const ali3_instance *in, const int32_t *v, const
   return ali3_atan2(dot(cross, c), dot(a, b));
 }
 
-/* Forces at the ports, specific acceleration and spin of the origin in body axes, times constant weights. */
+/* Weighted sum of forces at the ports, specific acceleration of the origin and second rates of the axes, in body axes. */
 static double value_quasi_static(const ali3_instance *in, const int32_t *v, const double *real) {
   const int32_t n = v[0], *row = v + 13;
   const double *gravity = real, *weight = real + 3;
-  double axis[3][3], rdd[3], add[3], sum = 0.0;
+  double axis[3][3], rdd[3], axis_dd[3], sum = 0.0;
   for (int i = 0; i < 3; i++) vector(in, v + 4 + 3 * i, 0, axis[i]);
   vector(in, v + 1, 2, rdd);
   for (int k = 0; k < 3; k++) rdd[k] -= gravity[k];
@@ -250,8 +253,8 @@ static double value_quasi_static(const ali3_instance *in, const int32_t *v, cons
   for (int i = 0; i < 3; i++) sum += weight[i] * dot(axis[i], rdd);
   weight += 3;
   for (int j = 0; j < 3; j++) {
-    vector(in, v + 4 + 3 * j, 2, add);
-    for (int i = 0; i < 3; i++) sum += weight[3 * i + j] * dot(axis[i], add);
+    vector(in, v + 4 + 3 * j, 2, axis_dd);
+    for (int i = 0; i < 3; i++) sum += weight[3 * i + j] * dot(axis[i], axis_dd);
   }
   return sum;
 }
@@ -303,23 +306,25 @@ static double value(const ali3_instance *in, int32_t i) {
   return value_of[S->sen_type[i]](in, S->sen_int + S->sen_int_ptr[i], in->parameters.sen_real + S->sen_real_ptr[i]);
 }
 
+/* Evaluates lookup-table bodies in the present state, if there are any. */
 static void prepare(const ali3_instance *in) {
   if (in->system->n_tabled == 0) return;
   ali3_tabled_prepare(in, in->now.q);
   ali3_tabled_extend(in, in->now.q, in->now.qd, in->now.qdd, true);
 }
 
-/* Of n sensors; `number` NULL: the first n. Energies, of which each takes all, are found once. */
+/* Values of n sensors, by their numbers or, with `number` NULL, of the first n. The energies are computed once for all
+ * sensors of energy. */
 static void evaluate(const ali3_instance *in, int32_t n, const int32_t *number, double *out) {
   const ali3_system *S = in->system;
   double kinds[4];
-  bool known = false;
+  bool have_energies = false;
   prepare(in);
   for (int32_t k = 0; k < n; k++) {
     const int32_t i = number != NULL ? number[k] : k;
     const bool energy = S->sen_type[i] == ALI3_SENSOR_ENERGY;
-    if (energy && !known) energies(in, kinds);
-    known = known || energy;
+    if (energy && !have_energies) energies(in, kinds);
+    have_energies = have_energies || energy;
     out[k] = energy ? kinds[S->sen_int[S->sen_int_ptr[i]]] : value(in, i);
   }
 }

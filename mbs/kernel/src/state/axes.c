@@ -1,7 +1,7 @@
-/* Axes of wheels whose direction on their carrier parameters write. The vectors f, g and e of a wheel are signals, linear
- * in the three axes of its carrier. An instance whose axes are those of the drawing has the System as it was loaded. Any
- * other has a System of its own, `turned` with other coefficients, so that no step knows of it and no step pays for it.
- * The diametral inertia I (1 - e e') of the wheel, which its carrier has, turns along. */
+/* Axes of wheels whose direction on their carrier is set by parameters. The vectors f, g and e of a wheel are signals,
+ * linear in the three axes of its carrier. An instance with the drawn axes uses the System as it was loaded; any other
+ * has a copy of the System, `turned`, with its own coefficients, so that steps cost the same. The diametral inertia
+ * I (1 - e e') of the wheel, which belongs to its carrier, turns with the axis. */
 #include <string.h>
 
 #include "../algebra/elementary.h"
@@ -10,6 +10,7 @@
 #include "axes.h"
 
 enum { X, Y, Z, AXES, REALS = ALI3_AXIS_REALS, SIGNALS = ALI3_AXIS_SIGNALS };
+enum { AZIMUTH, ELEVATION }; /* of an axis, rad: in axis_real */
 enum { MOMENTS = 4 }; /* in ali3_tabled.mass: the first of xx, yy, zz, yz, zx, xy */
 
 void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
@@ -27,14 +28,15 @@ void ali3_axes_place(const ali3_system *s, ali3_instance *in, ali3_pool *p) {
 
 /* Columns: forward and level, along the axis, up in the plane of the wheel. */
 static void axes_of(const double *angle, double R[AXES][AXES]) {
-  const double c = ali3_cos(angle[0]), s = ali3_sin(angle[0]), cl = ali3_cos(angle[1]), sl = ali3_sin(angle[1]);
-  const double columns[AXES][AXES] = {{c, s, 0.0}, {-s * cl, c * cl, sl}, {s * sl, -c * sl, cl}};
+  const double ca = ali3_cos(angle[AZIMUTH]), sa = ali3_sin(angle[AZIMUTH]);
+  const double ce = ali3_cos(angle[ELEVATION]), se = ali3_sin(angle[ELEVATION]);
+  const double columns[AXES][AXES] = {{ca, sa, 0.0}, {-sa * ce, ca * ce, se}, {sa * se, -ca * se, ce}};
   for (int i = 0; i < AXES; i++)
     for (int k = 0; k < AXES; k++) R[i][k] = columns[k][i];
 }
 
-/* The turn from the drawing. */
-static void turn_of(const ali3_instance *in, int64_t k, double Q[AXES][AXES]) {
+/* Rotation matrix from the drawn axes of wheel k to those that its parameters give. */
+static void rotation_of(const ali3_instance *in, int64_t k, double Q[AXES][AXES]) {
   double now[AXES][AXES], drawn[AXES][AXES];
   axes_of(in->parameters.axis_real + REALS * k, now);
   axes_of(in->base->axis_real + REALS * k, drawn);
@@ -45,11 +47,11 @@ static void turn_of(const ali3_instance *in, int64_t k, double Q[AXES][AXES]) {
     }
 }
 
-static void turn(const double Q[AXES][AXES], const double *v, double out[AXES]) {
+static void rotate(const double Q[AXES][AXES], const double *v, double out[AXES]) {
   for (int i = 0; i < AXES; i++) out[i] = Q[i][X] * v[X] + Q[i][Y] * v[Y] + Q[i][Z] * v[Z];
 }
 
-/* Numbers, not bits: 0 has two signs. */
+/* Compares numbers, not bits, as 0 has two signs. */
 static bool equal(const double *one, const double *other, int64_t n) {
   for (int64_t i = 0; i < n; i++)
     if (one[i] != other[i]) return false;
@@ -63,13 +65,13 @@ bool ali3_axis_as_drawn(const ali3_instance *in, int64_t k) {
 void ali3_axis_moments(const ali3_instance *in, int64_t k, double change[3][3]) {
   const double inertia = in->base->axis_inertia[k], *drawn = in->base->axis_vector + SIGNALS * k + 2 * AXES;
   double Q[AXES][AXES], e[AXES];
-  turn_of(in, k, Q);
-  turn(Q, drawn, e);
+  rotation_of(in, k, Q);
+  rotate(Q, drawn, e);
   for (int i = 0; i < AXES; i++)
     for (int j = 0; j < AXES; j++) change[i][j] = inertia * (e[i] * e[j] - drawn[i] * drawn[j]);
 }
 
-/* Signal `to` becomes the sum of w times those of the carrier's axes, whose coordinates it has. */
+/* Writes signal `to` as the sum of w times the signals of the carrier's axes, on whose coordinates it depends. */
 static void write_signal(ali3_instance *in, int32_t to, const int32_t *frame, const double w[AXES]) {
   const ali3_system *T = in->base->turned;
   const int32_t first = T->sig_ptr[to], n = T->sig_ptr[to + 1] - first;
@@ -86,15 +88,15 @@ static void write_signal(ali3_instance *in, int32_t to, const int32_t *frame, co
 static void write_signals(ali3_instance *in, int64_t k) {
   const ali3_system *T = in->base->turned;
   double Q[AXES][AXES], w[AXES];
-  turn_of(in, k, Q);
+  rotation_of(in, k, Q);
   for (int v = 0; v < 3; v++) {
-    turn(Q, T->axis_vector + SIGNALS * k + AXES * v, w);
+    rotate(Q, T->axis_vector + SIGNALS * k + AXES * v, w);
     for (int x = 0; x < AXES; x++)
       write_signal(in, T->axis_signal[SIGNALS * k + AXES * v + x], T->axis_frame + SIGNALS * k + x, w);
   }
 }
 
-/* As derived: the coefficients of the signals of all elements in turn. */
+/* Copies the coefficients of the signals of all elements, one element after the other. */
 static void write_entries(ali3_instance *in) {
   const ali3_system *T = in->base->turned;
   double *to = in->axes.entry;
@@ -103,23 +105,23 @@ static void write_entries(ali3_instance *in) {
 }
 
 static void write_moments(ali3_instance *in, int64_t k) {
-  static const int place[6][2] = {{X, X}, {Y, Y}, {Z, Z}, {Y, Z}, {Z, X}, {X, Y}};
+  static const int entry[6][2] = {{X, X}, {Y, Y}, {Z, Z}, {Y, Z}, {Z, X}, {X, Y}};
   const int32_t table = in->base->axis_table[k];
   double change[AXES][AXES];
   if (table < 0) return;
   ali3_axis_moments(in, k, change);
   for (int i = 0; i < 6; i++)
-    in->axes.mass[ALI3_TABLED_MOMENTS * table + MOMENTS + i] += change[place[i][0]][place[i][1]];
+    in->axes.mass[ALI3_TABLED_MOMENTS * table + MOMENTS + i] += change[entry[i][0]][entry[i][1]];
 }
 
-/* The spin of a start with a speed: that of a wheel that rolls, whose loaded radius grows as it leans. */
+/* Writes the spin of wheel k at a start with a speed: it rolls, and its loaded radius grows with its inclination. */
 static void write_speed(ali3_instance *in, int64_t k) {
   const ali3_system *S = in->base;
   const double *radius = S->axis_rolling + 2 * k, *drawn = S->axis_real + REALS * k,
                *now = in->parameters.axis_real + REALS * k;
   if (!S->size.has_pose || !(radius[0] > 0.0)) return;
-  const double leaned = radius[0] + radius[1] * (1.0 / ali3_cos(now[1]) - 1.0 / ali3_cos(drawn[1]));
-  in->axes.speed[S->axis_spin[k]] = ali3_cos(now[0]) * ali3_cos(now[1]) / leaned;
+  const double leaned = radius[0] + radius[1] * (1.0 / ali3_cos(now[ELEVATION]) - 1.0 / ali3_cos(drawn[ELEVATION]));
+  in->axes.speed[S->axis_spin[k]] = ali3_cos(now[AZIMUTH]) * ali3_cos(now[ELEVATION]) / leaned;
 }
 
 void ali3_axes_apply(ali3_instance *in) {

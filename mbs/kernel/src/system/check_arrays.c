@@ -1,4 +1,4 @@
-/* Lengths and values of all arrays of a System, as their list has them. */
+/* Checks the lengths and values of all arrays of a System against their list, ALI3_SYSTEM_ARRAYS. */
 #include "../rows/assembly_mode.h"
 #include "../rows/guides.h"
 #include "../system.h"
@@ -19,9 +19,10 @@ typedef struct {
   const void *items;
   int64_t n, length;
   values_rule rule;
-  int64_t low, high; /* of a range; of offsets the last one in `high` */
+  int64_t low, high; /* ends of the range, `high` excluded; of OFFSETS_TO the last offset in `high` */
 } limits_of_array;
 
+/* Offsets begin with 0, do not decrease, and end with the length of the array that they divide. */
 static ali3_status check_offsets(ali3_message m, const limits_of_array *a) {
   const int32_t *v = a->items;
   if (a->n == 0 && a->high == 0) return ALI3_OK;
@@ -35,6 +36,7 @@ static ali3_status check_offsets(ali3_message m, const limits_of_array *a) {
   return ALI3_OK;
 }
 
+/* Numbers are finite, or infinite where the list allows it, but not NaN. */
 static ali3_status check_numbers(ali3_message m, const limits_of_array *a) {
   const double *v = a->items;
   for (int64_t i = 0; i < a->n; i++)
@@ -59,7 +61,7 @@ static ali3_status check_values(ali3_message m, const limits_of_array *a) {
 }
 
 /* clang-format off */
-/* What the words of the list mean; `n` is the length of the array at hand. */
+/* Expansions of the words of the list; `n` is the length of the array that is checked. */
 #define ANY n
 #define RELATED_LENGTH n
 #define OR_NONE(size) (n == 0 ? 0 : (size))
@@ -75,7 +77,8 @@ static ali3_status check_values(ali3_message m, const limits_of_array *a) {
 #define OR_INFINITE NUMBERS_OR_INFINITE, 0, 0
 /* clang-format on */
 
-/* First the lengths, then what stands in the arrays: a reason names the one that is too short, not one that ends there. */
+/* Checks all lengths before all values, so that a message names an array that is too short, not one whose offsets end
+ * beyond it. */
 ali3_status ali3_check_arrays(const ali3_system *s, ali3_message m) {
 #define ALI3_SIZE(name, array, each, words) const int64_t name = s->n_##array / each;
   ALI3_SYSTEM_SIZES(ALI3_SIZE)

@@ -1,4 +1,6 @@
-/* What of tabled bodies and of elements on them is derived when a System is loaded: their places in the fronts. */
+/* Derives, when a System is loaded, where lookup-table bodies and the elements on them act in the fronts of the tangent.
+ * Elements on the same bodies form a group, which has its own signals, coordinates and, where all signals are points,
+ * directions or numbers of these bodies, a decomposition in such parts. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,17 +30,17 @@ void ali3_tabled_place(ali3_system *s, ali3_pool *p, size_t n_entry) {
   s->el_entry_dependent = ali3_pool_items(p, n_entry, sizeof *s->el_entry_dependent);
 }
 
-/* Where a list has a value; -1: nowhere. */
+/* Index of a value in a list; -1: it is not in it. */
 static int32_t place_of(const int32_t *list, int32_t n, int32_t value) {
   for (int32_t i = 0; i < n; i++)
     if (list[i] == value) return i;
   return -1;
 }
 
-/* Coordinate k of an item: of its base, then its parameters; -1: it has none. */
+/* Coordinate k of an item, first those of its base, then its parameters; -1: it has none. */
 static int32_t coordinate(const ali3_tabled *c, int32_t k) { return k < 12 ? c->frame[k] : c->param[k - 12]; }
 
-/* Places of the coordinates of an item in a front; false: one is not there. */
+/* Writes the local indices of the coordinates of an item in a front; false: one is not in the front. */
 static bool find(const ali3_system *s, const ali3_tabled *c, int32_t front, int32_t *loc) {
   const int32_t *idx = s->front_idx + s->front_ptr[front], size = s->front_ptr[front + 1] - s->front_ptr[front];
   for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++) {
@@ -49,6 +51,7 @@ static bool find(const ali3_system *s, const ali3_tabled *c, int32_t front, int3
   return true;
 }
 
+/* Fills in item i; *dependents and *coefficients count those of the items before it and are advanced. */
 static ali3_status derive_item(const ali3_system *s, int32_t i, int32_t *dependents, int64_t *coefficients,
                                ali3_message m) {
   ali3_tabled *c = s->tabled + i;
@@ -76,14 +79,14 @@ static int ascending(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* The item that has a dependent. */
+/* The item to which a dependent belongs. */
 static int32_t owner(const ali3_system *s, int32_t dependent) {
   int32_t i = s->n_tabled - 1;
   while (s->tabled[i].first > dependent) i--;
   return i;
 }
 
-/* Vectors of items that signals of elements have. */
+/* Lists for each item its vectors on which a signal of an element depends. */
 static void derive_seen(ali3_system *s) {
   for (int32_t a = 0; a < s->n_active; a++)
     for (int32_t k = s->sig_ptr[s->active_signal[a]]; k < s->sig_ptr[s->active_signal[a] + 1]; k++) {
@@ -97,17 +100,18 @@ static void derive_seen(ali3_system *s) {
     }
 }
 
-/* Where F has the entry of places i and j of a front. */
+/* Index in the array of all fronts of the entry at local indices i and j of a front. */
 static int32_t entry_at(const ali3_system *s, int32_t front, int32_t i, int32_t j) {
   const int32_t size = s->front_ptr[front + 1] - s->front_ptr[front];
   return (int32_t)s->front_off[front] + (i >= j ? j * size + i : i * size + j);
 }
 
+/* Indices of the entries that couple the coordinates of a base with the one at local index `loc`. */
 static void entries_of_base(const ali3_system *s, const ali3_tabled_base *base, int32_t loc, int32_t *at) {
   for (int i = 0; i < ALI3_TABLED_BODY; i++) at[i] = entry_at(s, base->front, base->loc[i], loc);
 }
 
-/* The parameter of a base that has coordinate `column` at `loc` in its front. */
+/* Number of the parameter of a base with coordinate `column`, at `loc` in its front; it is added if it is new. */
 static int32_t parameter_of(ali3_system *s, ali3_tabled_base *base, int32_t column, int32_t loc) {
   int32_t p = base->first;
   while (p < base->end && s->tabled_parameter[p].column != column) p++;
@@ -117,7 +121,7 @@ static int32_t parameter_of(ali3_system *s, ali3_tabled_base *base, int32_t colu
   return p;
 }
 
-/* Bodies by their bases. */
+/* Collects the bodies with the same base, front and gravity. */
 static void derive_bases(ali3_system *s) {
   for (int32_t i = 0; i < s->n_tabled; i++) s->tabled[i].base = -1;
   for (int32_t i = 0; i < s->n_tabled; i++) {
@@ -145,6 +149,7 @@ static void derive_bases(ali3_system *s) {
   }
 }
 
+/* Adds a value to a list unless it is in it; false: the list is full. */
 static bool add_once(int32_t *list, int32_t *count, int32_t most, int32_t value) {
   if (place_of(list, *count, value) >= 0) return true;
   if (*count == most) return false;
@@ -152,8 +157,8 @@ static bool add_once(int32_t *list, int32_t *count, int32_t most, int32_t value)
   return true;
 }
 
-/* Items that element e has signals of, and places in its front of all its coordinates. */
-static ali3_status looks_at(const ali3_system *s, int32_t e, ali3_tabled_group *of, ali3_message m) {
+/* Collects the signals of element e, the items on which they depend, and the local indices of all their coordinates. */
+static ali3_status collect_element(const ali3_system *s, int32_t e, ali3_tabled_group *of, ali3_message m) {
   const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
   bool room = true;
   for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++) {
@@ -167,16 +172,16 @@ static ali3_status looks_at(const ali3_system *s, int32_t e, ali3_tabled_group *
     }
   }
   for (int32_t n = 0; n < of->n_item; n++) {
-    int32_t found[ALI3_TABLED_COLUMNS];
-    if (!find(s, s->tabled + of->item[n], of->front, found))
+    int32_t loc_of_item[ALI3_TABLED_COLUMNS];
+    if (!find(s, s->tabled + of->item[n], of->front, loc_of_item))
       return ali3_bad(m, "a coordinate of table %d is not in the front of element %d", (int)of->item[n], (int)e);
     for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++)
-      room = room && (found[k] < 0 || add_once(of->loc, &of->m, ALI3_TABLED_MOST, found[k]));
+      room = room && (loc_of_item[k] < 0 || add_once(of->loc, &of->m, ALI3_TABLED_MOST, loc_of_item[k]));
   }
   return room ? ALI3_OK : ali3_bad(m, "element %d is on too many lookup-table bodies and coordinates", (int)e);
 }
 
-/* Whether an element that looks at `of` can be one of the group, whose coordinates and signals then grow. */
+/* Adds the coordinates and signals of an element, `of`, to a group with the same items; false: they do not fit. */
 static bool joins(ali3_tabled_group *group, const ali3_tabled_group *of) {
   ali3_tabled_group both = *group;
   if (group->front != of->front || group->n_item != of->n_item) return false;
@@ -189,15 +194,15 @@ static bool joins(ali3_tabled_group *group, const ali3_tabled_group *of) {
   return true;
 }
 
-/* What the entries of element e are of: a coordinate of its group, or a dependent of one of its items. */
+/* Notes for each entry of the signals of element e its coordinate in the group, or its item and dependent. */
 static void derive_entries(ali3_system *s, int32_t e, ali3_tabled_group *group) {
   const int32_t *loc = s->el_loc + s->el_loc_ptr[e];
   int32_t at = s->el_entry_ptr[e];
   for (int32_t i = s->el_sig_ptr[e]; i < s->el_sig_ptr[e + 1]; i++) {
-    const int32_t signal = s->el_sig[i], place = place_of(group->signal, group->n_signal, signal);
-    s->tabled_signal[i] = place;
-    group->entry[place] = at;
-    group->n_entry[place] = s->sig_ptr[signal + 1] - s->sig_ptr[signal];
+    const int32_t signal = s->el_sig[i], number = place_of(group->signal, group->n_signal, signal);
+    s->tabled_signal[i] = number;
+    group->entry[number] = at;
+    group->n_entry[number] = s->sig_ptr[signal + 1] - s->sig_ptr[signal];
     for (int32_t k = s->sig_ptr[signal]; k < s->sig_ptr[signal + 1]; k++, at++, loc++) {
       const int32_t d = s->sig_col[k] - s->size.nq;
       s->el_entry_dependent[at] = d < 0 ? -1 : d - s->tabled[owner(s, d)].first;
@@ -207,8 +212,8 @@ static void derive_entries(ali3_system *s, int32_t e, ali3_tabled_group *group) 
   }
 }
 
-/* What entry k of a group is, if it may be of component x of a vector: which of r and Y of the base, or from 4 on which
- * vector of which item; -1: it may not. */
+/* The vector to whose component x entry k of a group belongs: 0 for r and 1 to 3 for the axes of the base, 4 + 4 item +
+ * vector for an item; -1: none. */
 static int32_t source_of(const ali3_system *s, const ali3_tabled_group *group, const int32_t *frame, int32_t k, int x) {
   const int32_t d = s->el_entry_dependent[k], local = s->el_entry_local[k];
   if (d >= 0) return s->tabled[group->item[local]].n == ALI3_TABLED_BODY && d % 3 == x ? 4 + 4 * local + d / 3 : -1;
@@ -216,7 +221,7 @@ static int32_t source_of(const ali3_system *s, const ali3_tabled_group *group, c
   return at >= 0 && at % 3 == x ? at / 3 : -1;
 }
 
-/* Whether signals i to i + 2 of a group are the components of a vector; *place: whether r is in it. */
+/* Whether signals i to i + 2 of a group are the components of a vector; *place: whether it is a point, thus has r. */
 static bool is_vector(const ali3_system *s, const ali3_tabled_group *group, const int32_t *frame, int32_t i,
                       bool *place) {
   const int32_t first = group->entry[i], n = group->n_entry[i];
@@ -235,7 +240,7 @@ static bool is_vector(const ali3_system *s, const ali3_tabled_group *group, cons
   return true;
 }
 
-/* Whether signal i of a group is of tabled numbers and coordinates beside those of its base. */
+/* Whether signal i of a group depends only on lookup-table numbers and on coordinates other than those of its base. */
 static bool is_number(const ali3_system *s, const ali3_tabled_group *group, const int32_t *frame, int32_t i) {
   for (int32_t k = group->entry[i], end = k + group->n_entry[i]; k < end; k++) {
     const int32_t local = s->el_entry_local[k];
@@ -248,30 +253,31 @@ static bool is_number(const ali3_system *s, const ali3_tabled_group *group, cons
   return true;
 }
 
-/* Vectors that share an element; false: not all of a vector is there, one after the other. */
+/* Lists for each vector those with which it shares an element; false: an element has only part of a vector, or not in
+ * order. */
 static bool derive_beside(const ali3_system *s, ali3_tabled_group *group) {
   for (int32_t o = group->first; o < group->end; o++) {
-    const int32_t *place = s->tabled_signal + s->el_sig_ptr[s->tabled_order[o]];
+    const int32_t *signal = s->tabled_signal + s->el_sig_ptr[s->tabled_order[o]];
     const int32_t n = s->el_sig_ptr[s->tabled_order[o] + 1] - s->el_sig_ptr[s->tabled_order[o]];
-    int32_t met[ALI3_TABLED_SIGNALS], n_met = 0;
+    int32_t vectors[ALI3_TABLED_SIGNALS], n_vectors = 0;
     for (int32_t i = 0; i < n; i++) {
-      const int32_t part = group->part[place[i]];
+      const int32_t part = group->part[signal[i]];
       if (part == ALI3_TABLED_COMPONENT) return false;
       if (part < 0) continue;
-      if (i + 2 >= n || place[i + 1] != place[i] + 1 || place[i + 2] != place[i] + 2) return false;
-      met[n_met++] = part;
+      if (i + 2 >= n || signal[i + 1] != signal[i] + 1 || signal[i + 2] != signal[i] + 2) return false;
+      vectors[n_vectors++] = part;
       i += 2;
     }
-    for (int32_t i = 0; i < n_met; i++)
-      for (int32_t k = 0; k < n_met; k++) {
-        ali3_tabled_list *list = group->beside + met[i];
-        if (memchr(list->at, met[k], list->n) == NULL) list->at[list->n++] = (uint8_t)met[k];
+    for (int32_t i = 0; i < n_vectors; i++)
+      for (int32_t k = 0; k < n_vectors; k++) {
+        ali3_tabled_list *list = group->beside + vectors[i];
+        if (memchr(list->at, vectors[k], list->n) == NULL) list->at[list->n++] = (uint8_t)vectors[k];
       }
   }
   return true;
 }
 
-/* The parts of the signals of a group; returns whether it has them. */
+/* Divides the signals of a group into vectors and numbers; false: this is not possible. */
 static bool derive_parts(const ali3_system *s, ali3_tabled_group *group) {
   const int32_t *frame = NULL;
   int32_t slots[ALI3_TABLED_SINGLES], base = -1;
@@ -321,13 +327,14 @@ static bool derive_parts(const ali3_system *s, ali3_tabled_group *group) {
   return derive_beside(s, group);
 }
 
+/* Orders the coordinates of group g and derives its elements, entries, parts and the size of its work array. */
 static void derive_group(ali3_system *s, int32_t g) {
   ali3_tabled_group *group = s->tabled_group + g;
-  int32_t found[ALI3_TABLED_COLUMNS];
+  int32_t loc[ALI3_TABLED_COLUMNS];
   qsort(group->loc, (size_t)group->m, sizeof *group->loc, ascending);
   for (int32_t n = 0; n < group->n_item; n++) {
-    find(s, s->tabled + group->item[n], group->front, found);
-    for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++) group->slot[n][k] = place_of(group->loc, group->m, found[k]);
+    find(s, s->tabled + group->item[n], group->front, loc);
+    for (int32_t k = 0; k < ALI3_TABLED_COLUMNS; k++) group->slot[n][k] = place_of(group->loc, group->m, loc[k]);
   }
   group->first = group->end = g == 0 ? 0 : group[-1].end;
   for (int32_t e = 0; e < s->size.ne; e++) {
@@ -341,13 +348,14 @@ static void derive_group(ali3_system *s, int32_t g) {
   if (work > s->tabled_square) s->tabled_square = work;
 }
 
+/* Assigns each element on lookup-table bodies to a group. */
 static ali3_status derive_groups(ali3_system *s, ali3_message m) {
   for (int32_t e = 0; e < s->size.ne; e++) {
     ali3_tabled_group of = {.front = s->el_front[e]};
     int32_t g = 0;
     s->el_tabled[e] = -1;
     if (s->el_front[e] < 0 || !ali3_on_tabled(s, e)) continue;
-    CHECK(looks_at(s, e, &of, m));
+    CHECK(collect_element(s, e, &of, m));
     while (g < s->n_tabled_group && !joins(s->tabled_group + g, &of)) g++;
     s->el_tabled[e] = g;
     if (g == s->n_tabled_group) s->tabled_group[s->n_tabled_group++] = of;

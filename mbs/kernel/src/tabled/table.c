@@ -35,7 +35,7 @@ static inline const real *points(const double *const point[LANES], int64_t at, i
 #ifdef ALI3_WIDTH
   const double *from[LANES];
   for (int l = 0; l < LANES; l++) from[l] = point[l] + at;
-  put_side_by_side((double *)room, from, n);
+  interleave((double *)room, from, n);
   return room;
 #else
   (void)n, (void)room;

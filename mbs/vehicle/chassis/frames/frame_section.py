@@ -1,4 +1,4 @@
-"""What every flexible frame gives, whatever it comes from."""
+"""Base class of the sections of flexible frames in a car file."""
 
 from abc import abstractmethod
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""What frames that come as matrices of another program share."""
+"""Base class of frames given as matrices of another program."""
 
 from abc import abstractmethod
 from pathlib import Path

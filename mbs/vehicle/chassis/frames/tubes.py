@@ -18,7 +18,7 @@ class TubesFrame(TubeTables):
     """
 
     def tubular(self, folder: Path) -> TubularFrame:
-        """Its tables. `folder`: of the car's file."""
+        """Tables of the frame. `folder`: of the car file."""
         return TubularFrame(self, folder)
 
     def structure(self, folder: Path) -> Structure:

@@ -1,4 +1,4 @@
-"""What a gauge reports."""
+"""Reading of a gauge: name, unit and row on the nodal displacements."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass

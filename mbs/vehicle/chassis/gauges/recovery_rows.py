@@ -33,7 +33,7 @@ class RecoveryRows(Section):
     torsional_moment or stress), node, axis (x, y, z, rx, ry, rz), factor (N, N m or Pa per m or rad)."""
 
     def readings(self, name: str, model: FiniteElementModel, folder: Path) -> Iterator[Reading]:
-        """What it reports.
+        """Readings of the gauge.
 
         Raises `ModelError`: the table is missing or does not fit the nodes, or a rigid motion would be read as a
         stress.

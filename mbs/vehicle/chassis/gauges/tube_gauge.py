@@ -66,14 +66,14 @@ class TubeGauge(Section):
         return StrainGauge(name, elements[number], along - number, (radius * y, radius * z))
 
     def readings(self, gauge: StrainGauge, frame: Frame) -> Iterator[Reading]:
-        """What it reports.
+        """Readings of the gauge.
 
         `gauge`: from `strain_gauge`; `frame`: with its tube.
         """
         name = gauge.name
         fibre = self.fibre if isinstance(self.fibre, str) else f"{self.fibre:g} deg"
         one, other = ("upper", "lower") if self.fibre == "top" else (fibre, "opposite")
-        way = "right-handed about the tube from its first to its last joint"
+        direction_text = "right-handed about the tube from its first to its last joint"
         rows = {
             "half": (
                 ("bending_moment", "N.m", f"bending moment at gauge {name}, positive: {one} fibre pulled"),
@@ -85,7 +85,7 @@ class TubeGauge(Section):
                 (STRESS, "Pa", f"mean normal stress at gauge {name}, positive: pulled"),
             ),
             "torsion": (
-                ("torsional_moment", "N.m", f"torsional moment at gauge {name}, positive: far end {way}"),
+                ("torsional_moment", "N.m", f"torsional moment at gauge {name}, positive: far end {direction_text}"),
                 (STRESS, "Pa", f"shear stress by torsion at the surface at gauge {name}, sign of the moment"),
             ),
         }[self.bridge]

@@ -1,4 +1,4 @@
-"""The tolerance of a run, checked, and how a run chose its steps with the error that it estimates."""
+"""Record of a run under a tolerance: the method and steps that were chosen, and the estimated error."""
 
 from __future__ import annotations
 
@@ -6,18 +6,13 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from mbs.common.checks import is_finite, shown
-
-LEAST_TOLERANCE, MOST_TOLERANCE = 1e-11, 0.5
-DEFAULT_TOLERANCE = 1e-3
-"""Of runs in equal steps that are chosen; at most what a run begins with whose tolerance is that of sensors."""
 ALLOWED = 3.0
-"""A guess of the error up to so many tolerances passes without a warning: it may be too small by as much again."""
+"""Estimated errors up to this multiple of the tolerance pass without a warning: they may be too small by as much."""
 
 
 @dataclass(frozen=True)
 class Control:
-    """How `simulate` chose its steps."""
+    """Method, steps and estimated error of a run whose steps `simulate` chose."""
 
     tolerance: float
     """Accepted error of positions in parts of `length`."""
@@ -75,44 +70,3 @@ class Control:
         if self.error <= self.tolerance:
             return f"{self.method}{reason}: {steps}; within the tolerance {of}, as a coarser run shows"
         return f"{self.method}{reason}: {steps}; error estimated from a coarser run: {self.error:.0e}, tolerance {of}"
-
-
-@dataclass(frozen=True)
-class Tolerance:
-    """What a run may err by."""
-
-    share: float
-    """Of positions, in parts of the model's length."""
-    sensors: Mapping[str, float] = field(default_factory=dict)
-    """Of sensors, in their units; they decide in place of positions."""
-
-
-def checked_tolerance(tolerance: object, units: Mapping[str, str], length: float) -> Tolerance:
-    """The tolerance of a run, or one sentence: a number, or numbers by sensor.
-
-    `units`: of the sensors that the System computes, by name; `length`: of the model, m.
-    """
-    if isinstance(tolerance, Mapping):
-        return _of_sensors(tolerance, units, length)
-    value = float(tolerance) if is_finite(tolerance) else math.nan  # type: ignore[arg-type]
-    if LEAST_TOLERANCE <= value <= MOST_TOLERANCE:
-        return Tolerance(value)
-    what = "it is below what round-off leaves; " if 0.0 < value < LEAST_TOLERANCE else ""
-    raise ValueError(
-        f"The tolerance is {shown(tolerance)}; {what}it must be a number between {LEAST_TOLERANCE:g} and "
-        f"{MOST_TOLERANCE:g}: the largest error of positions in parts of the model's length; or errors of sensors in "
-        "their units, by name."
-    )
-
-
-def _of_sensors(given: Mapping[object, object], units: Mapping[str, str], length: float) -> Tolerance:
-    for name, value in given.items():
-        if name not in units:
-            raise ValueError(f"A tolerance is given for {shown(name)}; the System computes no such sensor.")
-        if not (is_finite(value) and float(value) > 0.0):  # type: ignore[arg-type]
-            raise ValueError(f"The tolerance of {name!r} is {shown(value)}; it must be a number above 0.")
-    if not given:
-        raise ValueError("The tolerance names no sensor; give one error by name, or a number.")
-    allowed = {str(name): float(value) for name, value in given.items()}  # type: ignore[arg-type]
-    shares = [value / length for name, value in allowed.items() if units[name] == "m"]
-    return Tolerance(min(max(min(shares, default=DEFAULT_TOLERANCE), LEAST_TOLERANCE), DEFAULT_TOLERANCE), allowed)
