@@ -14,27 +14,27 @@ ROOT = Path(__file__).resolve().parents[1]
 def problems(root: Path, tag: str | None) -> list[str]:
     """Sentences about what does not fit."""
     version = version_of(root)
-    found = []
+    results = []
     cited = _first(r"^version: *(\S+)$", root / "CITATION.cff")
     if cited != version:
-        found.append(f"CITATION.cff says version {cited}, pyproject.toml {version}.")
+        results.append(f"CITATION.cff says version {cited}, pyproject.toml {version}.")
     if tag is None:
-        return found
+        return results
     if tag != f"v{version}":
-        found.append(f"The tag is {tag}; pyproject.toml says version {version}, whose tag is v{version}.")
+        results.append(f"The tag is {tag}; pyproject.toml says version {version}, whose tag is v{version}.")
     date, text = section(root, version)
     if date is None:
-        return [*found, f"CHANGELOG.md has no heading '## [{version}] - YYYY-MM-DD'."]
+        return [*results, f"CHANGELOG.md has no heading '## [{version}] - YYYY-MM-DD'."]
     if not text:
-        found.append(f"The section [{version}] of CHANGELOG.md is empty.")
+        results.append(f"The section [{version}] of CHANGELOG.md is empty.")
     for name, pattern in (
         ("CITATION.cff", r"^date-released: *[\"']?([\d-]+)"),
         ("fmu_src/description/description.py", r'^RELEASE_DATE = "([\d-]+)T'),
     ):
         other = _first(pattern, root / name)
         if other != date:
-            found.append(f"CHANGELOG.md says that {version} is of {date}, {name} says {other or 'nothing'}.")
-    return found
+            results.append(f"CHANGELOG.md says that {version} is of {date}, {name} says {other or 'nothing'}.")
+    return results
 
 
 def version_of(root: Path) -> str | None:
@@ -45,13 +45,13 @@ def version_of(root: Path) -> str | None:
 def section(root: Path, version: str | None) -> tuple[str | None, str]:
     """Date and text of a version in CHANGELOG.md; None without a heading with a date."""
     text = (root / "CHANGELOG.md").read_text(encoding="utf-8")
-    found = re.search(rf"^## \[{re.escape(str(version))}\] - (\d{{4}}-\d\d-\d\d)\n(.*?)(?=^## |\Z)", text, re.M | re.S)
-    return (found[1], found[2].strip()) if found else (None, "")
+    match = re.search(rf"^## \[{re.escape(str(version))}\] - (\d{{4}}-\d\d-\d\d)\n(.*?)(?=^## |\Z)", text, re.M | re.S)
+    return (match[1], match[2].strip()) if match else (None, "")
 
 
 def _first(pattern: str, file: Path) -> str | None:
-    found = re.search(pattern, file.read_text(encoding="utf-8"), re.M)
-    return found[1] if found else None
+    match = re.search(pattern, file.read_text(encoding="utf-8"), re.M)
+    return match[1] if match else None
 
 
 def main() -> int:

@@ -16,15 +16,15 @@ def commands(text: str) -> list[str]:
 
 def main() -> int:
     """Run the command."""
-    found = commands(README.read_text(encoding="utf-8"))
-    if len(found) != 2:
+    result = commands(README.read_text(encoding="utf-8"))
+    if len(result) != 2:
         print(
-            f"error: README.md has {len(found)} indented commands that start with '{START}' under '{SECTION}'; "
+            f"error: README.md has {len(result)} indented commands that start with '{START}' under '{SECTION}'; "
             "there must be two.",
             file=sys.stderr,
         )
         return 1
-    print(found[int(sys.argv[1]) - 1])
+    print(result[int(sys.argv[1]) - 1])
     return 0
 
 

@@ -1,4 +1,4 @@
-"""Test files with a test that was skipped for want of a Python package: ``python .ci/skipped_for_packages.py LOG``.
+"""Test files with a test skipped because of a missing Python package: ``python .ci/skipped_for_packages.py LOG``.
 
 LOG is the output of pytest with ``-ra``. The environment of the test command has not every package; these files are run
 once more where all are installed.

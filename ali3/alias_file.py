@@ -1,4 +1,4 @@
-"""What stands in an alias file, names that another program has for our variables, and in those that it extends."""
+"""The content of an alias file (names of another program for our variables) and of the files that it extends."""
 
 import math
 from collections.abc import Mapping
@@ -25,7 +25,7 @@ _KEYS = ("name", "factor", "offset", "unit")
 
 @dataclass
 class Entry:
-    """One of our names."""
+    """An entry of an alias file: the variable of another program for one of our names."""
 
     ours: str
     value: dict[str, Any]
@@ -43,7 +43,7 @@ class Entry:
 
 @dataclass
 class Content:
-    """All of a file."""
+    """The content of an alias file."""
 
     file: str
     entries: dict[str, Entry] = field(default_factory=dict)
@@ -56,7 +56,7 @@ class Content:
 def read_content(file: Path, depth: int = 0) -> Content:
     """Read a file and those that it extends; `UserError` with the file and the key."""
     table = read_toml(file, UserError, f"The alias file {file}")
-    made = Content(str(file))
+    content = Content(str(file))
     base = table.pop(EXTENDS, None)
     if base is not None:
         if not isinstance(base, str):
@@ -64,16 +64,16 @@ def read_content(file: Path, depth: int = 0) -> Content:
         if depth >= _MOST_FILES:
             raise UserError(f"{file}: more than {_MOST_FILES} files extend one another; does one extend itself?")
         below = read_content(_found(base, file), depth + 1)
-        made = Content(str(file), dict(below.entries), dict(below.constants), dict(below.needs))
+        content = Content(str(file), dict(below.entries), dict(below.constants), dict(below.needs))
     partial = table.pop(PARTIAL, False)
     if not isinstance(partial, bool):
         raise UserError(f"{file}: {PARTIAL} is {partial!r}; it must be true or false.")
-    made.constants |= _numbers(table.pop(CONSTANTS, {}), file)
-    made.needs |= _texts(table.pop(NEEDS, {}), file)
+    content.constants |= _numbers(table.pop(CONSTANTS, {}), file)
+    content.needs |= _texts(table.pop(NEEDS, {}), file)
     label = file.name if file.parent == SHIPPED else str(file)
     for ours, value in table.items():
-        made.entries[ours] = Entry(ours, _entry(value, f"{file}: '{ours}'"), label, partial)
-    return made
+        content.entries[ours] = Entry(ours, _entry(value, f"{file}: '{ours}'"), label, partial)
+    return content
 
 
 def shipped_names() -> list[str]:

@@ -1,4 +1,4 @@
-"""Archives (zip), such as FMUs and SSPs, are listed, read and unpacked here only."""
+"""Lists, reads and unpacks zip archives such as FMUs and SSPs; nothing else in the project opens one."""
 
 from __future__ import annotations
 
@@ -25,8 +25,11 @@ LARGEST_ARCHIVE = 2_000_000_000
 LARGEST_UNPACKED = 1_000_000_000
 """Bytes of all entries of an archive."""
 MOST_ENTRIES = 50_000
-_END, _END_64 = b"PK\5\6", b"PK\6\6"
-_END_SIZE, _END_64_SIZE, _MOST_COMMENT = 22, 56 + 20, 65535  # bytes
+_END = b"PK\5\6"
+_END_64 = b"PK\6\6"
+_END_SIZE = 22  # bytes
+_END_64_SIZE = 56 + 20  # bytes
+_MOST_COMMENT = 65535  # bytes
 _ENTRY = 46 + 200
 """Bytes of an entry in the directory of an archive, with a long name."""
 _LONGEST_NAME = 255  # bytes, on all usual file systems
@@ -36,7 +39,7 @@ _DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, ValueError, KeyError, Runt
 
 @dataclass(frozen=True)
 class Fault:
-    """Why an archive is not unpacked."""
+    """The reason why an archive is not unpacked."""
 
     words: str
     """The rest of a sentence that begins with the name of the archive."""
@@ -86,17 +89,17 @@ class Archive:
 
     def read(self, entry: str, largest: int = LARGEST_UNPACKED) -> bytes:
         """Content of a file. `largest`: bytes."""
-        what = f"{entry} in {self._name}"
+        label = f"{entry} in {self._name}"
         if entry not in self._sizes:
             raise self._error(f"{self._name} has no {entry}.")
         if (size := self._sizes[entry]) > raised(largest):
-            raise self._error(f"{what} has {size} bytes; it must have {at_most(size, largest)}.")
+            raise self._error(f"{label} has {size} bytes; it must have {at_most(size, largest)}.")
         try:
             return self._archive.read(entry)
         except _DAMAGED as fault:
-            raise self._error(f"{what} cannot be unpacked: {one_line(str(fault)).rstrip('.')}.") from None
+            raise self._error(f"{label} cannot be unpacked: {one_line(str(fault)).rstrip('.')}.") from None
         except OSError as fault:
-            raise self._error(f"{what} cannot be read: {reason(fault)}.") from None
+            raise self._error(f"{label} cannot be read: {reason(fault)}.") from None
 
     def unpack(self, folder: Path, wanted: Callable[[str], bool] = lambda name: True) -> None:
         """Write the files whose names are `wanted` into a folder. Raises `OSError` too: it cannot be written."""
@@ -167,19 +170,19 @@ def _directory_size(stream: BinaryIO) -> int | None:
 
 def _faults(archive: zipfile.ZipFile, unpacked: int) -> list[Fault]:
     entries = archive.infolist()
-    found = [fault for info in entries if (fault := _fault_of(info)) is not None]
+    results = [fault for info in entries if (fault := _fault_of(info)) is not None]
     counts = Counter(info.filename.rstrip("/").casefold() for info in entries)
     if twice := next((name for name, count in counts.items() if count > 1), None):
-        found.append(Fault(f"has the entry {brief(twice)} twice"))
+        results.append(Fault(f"has the entry {brief(twice)} twice"))
     files = {info.filename.casefold() for info in entries if not info.filename.endswith("/")}
     if inside := next((name for name in counts for n in _folders(name) if n in files), None):
-        found.append(Fault(f"has the entry {brief(inside)} in a folder that is a file too"))
+        results.append(Fault(f"has the entry {brief(inside)} in a folder that is a file too"))
     if len(entries) > raised(MOST_ENTRIES):
-        found.append(Fault(f"has {len(entries)} entries; it must have {at_most(len(entries), MOST_ENTRIES)}"))
+        results.append(Fault(f"has {len(entries)} entries; it must have {at_most(len(entries), MOST_ENTRIES)}"))
     size = sum(info.file_size for info in entries)
     if size > raised(unpacked):
-        found.append(Fault(f"has {size} bytes when it is unpacked; it must have {at_most(size, unpacked)}"))
-    return found
+        results.append(Fault(f"has {size} bytes when it is unpacked; it must have {at_most(size, unpacked)}"))
+    return results
 
 
 def _folders(name: str) -> list[str]:
@@ -189,21 +192,21 @@ def _folders(name: str) -> list[str]:
 
 def _fault_of(info: zipfile.ZipInfo) -> Fault | None:
     raw = info.orig_filename  # as it stands there: `filename` ends at a zero byte
-    what = f"the entry {brief(raw)}"
+    label = f"the entry {brief(raw)}"
     if raw.startswith("/") or re.match(r"[A-Za-z]:", raw):
-        return Fault(f"has {what}, which is an absolute path", "APPNOTE 4.4.17.1")
+        return Fault(f"has {label}, which is an absolute path", "APPNOTE 4.4.17.1")
     if "\\" in raw:
-        return Fault(f"has {what}, with a backslash", "APPNOTE 4.4.17.1")
+        return Fault(f"has {label}, with a backslash", "APPNOTE 4.4.17.1")
     parts = raw.removesuffix("/").split("/")
     if ".." in parts:
-        return Fault(f"has {what}, which leads out of its folder")
+        return Fault(f"has {label}, which leads out of its folder")
     if not raw.isprintable() or "" in parts or "." in parts or any(len(p.encode()) > _LONGEST_NAME for p in parts):
-        return Fault(f"has {what}, which is not a file name")
+        return Fault(f"has {label}, which is not a file name")
     if info.flag_bits & 1:
-        return Fault(f"has {what}, which is encrypted", "ISO/IEC 21320-1")
+        return Fault(f"has {label}, which is encrypted", "ISO/IEC 21320-1")
     if info.compress_type not in _METHODS:
-        return Fault(f"has {what}, packed by method {info.compress_type}; stored and deflate are", "ISO/IEC 21320-1")
+        return Fault(f"has {label}, packed by method {info.compress_type}; stored and deflate are", "ISO/IEC 21320-1")
     kind = stat.S_IFMT(info.external_attr >> 16)
     if kind not in (0, stat.S_IFREG, stat.S_IFDIR):
-        return Fault(f"has {what}, which is {'a link' if kind == stat.S_IFLNK else 'no file'}")
+        return Fault(f"has {label}, which is {'a link' if kind == stat.S_IFLNK else 'no file'}")
     return None

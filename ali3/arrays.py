@@ -1,4 +1,4 @@
-"""Arrays of NumPy (``.npy``, ``.npz``), whose headers are checked against the file's size before memory is taken."""
+"""Arrays of NumPy (``.npy``, ``.npz``), checked against the size of the file before memory is allocated."""
 
 import io
 import math
@@ -51,11 +51,11 @@ def _array(stream: IO[bytes], size: int, error: Error, name: str) -> NDArray[np.
         raise error(f"{name} cannot be read as an array: {reader_stops(fault)}") from None
     if kind.hasobject:
         raise error(f"{name} contains Python objects, which are not read.")
-    count, there = math.prod(shape), size - stream.tell()
-    if any(n < 0 for n in shape) or count * kind.itemsize != there:
+    count, present = math.prod(shape), size - stream.tell()
+    if any(n < 0 for n in shape) or count * kind.itemsize != present:
         raise error(
-            f"{name} cannot be read: its shape {shape} of {kind} needs {count * kind.itemsize} bytes; it has {there}."
+            f"{name} cannot be read: its shape {shape} of {kind} needs {count * kind.itemsize} bytes; it has {present}."
         )
-    check_memory(_COPIES * there, error, name)
-    array = np.frombuffer(stream.read(there), kind)
+    check_memory(_COPIES * present, error, name)
+    array = np.frombuffer(stream.read(present), kind)
     return array.reshape(shape[::-1]).T if by_columns else array.reshape(shape)

@@ -1,4 +1,4 @@
-"""Where commands keep what they have made and can make again."""
+"""The cache folder of the user: files that commands have made and can make again."""
 
 import atexit
 import functools
@@ -31,8 +31,8 @@ def cache_folder(*parts: str, name: str = "ali3", variable: str = VARIABLE) -> P
             return folder.absolute()
     except (OSError, RuntimeError) as error:  # no home folder, or none to write to
         if given:
-            words = reason(error) if isinstance(error, OSError) else str(error)
-            raise FileError(f"{variable} is '{given}', which cannot be written: {words}.") from None
+            message = reason(error) if isinstance(error, OSError) else str(error)
+            raise FileError(f"{variable} is '{given}', which cannot be written: {message}.") from None
     folder = _passing(name).joinpath(*parts)
     folder.mkdir(parents=True, exist_ok=True)
     return folder

@@ -1,4 +1,4 @@
-"""What a process was asked last, kept in a file of its folder so that its end does not take it away."""
+"""The last call that a process was asked to make, stored in a file so that it is known after the process crashes."""
 
 import mmap
 from collections.abc import Callable
@@ -56,8 +56,8 @@ def last_call(folder: Path) -> str:
     if len(content) != _RECORD.size:  # the process has overwritten it
         return ""
     inside, name, time = _RECORD.unpack(content)
-    words = name.rstrip(b"\0").decode("utf-8", "replace")
-    if not words.isidentifier():
+    message = name.rstrip(b"\0").decode("utf-8", "replace")
+    if not message.isidentifier():
         return ""
-    at = f" at {time:.9g} s" if time >= 0.0 and words.endswith("DoStep") else ""
-    return f" {'in' if inside else 'after'} {words}{at}"
+    at = f" at {time:.9g} s" if time >= 0.0 and message.endswith("DoStep") else ""
+    return f" {'in' if inside else 'after'} {message}{at}"

@@ -1,4 +1,4 @@
-"""What a chart shows, in words that its file carries: pictures of documents are compared with what draws them."""
+"""A text in the file of a chart that lists what it shows, so that two versions of a picture can be compared."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _KEY = "Description"
 
 
 def png_metadata(figure: Figure) -> dict[str, str | None]:
-    """What `Figure.savefig` takes as metadata of a PNG; the same figure gives the same bytes."""
+    """The metadata of a PNG for `Figure.savefig`; the same figure gives the same bytes."""
     return {"Software": None, _KEY: described(figure)}
 
 
@@ -48,4 +48,4 @@ def _panel(axes: Axes) -> list[str]:
     parts = {"panel": title, "x": axes.get_xlabel(), "y": axes.get_ylabel(), "curves": ", ".join(curves)}
     rows = groupby(axes.texts, lambda text: text.get_position()[1])
     texts = [": ".join(filter(None, (text.get_text() for text in row))) for _, row in rows]
-    return ["; ".join(f"{name} {words}" for name, words in parts.items() if words), *filter(None, texts)]
+    return ["; ".join(f"{name} {message}" for name, message in parts.items() if message), *filter(None, texts)]

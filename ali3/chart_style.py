@@ -1,4 +1,4 @@
-"""How charts look: colours, fonts and lines; needs no matplotlib."""
+"""Colours, fonts and lines of charts, as plain data that needs no matplotlib."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""How charts are written."""
+"""Writes charts of matplotlib as SVG or PNG files."""
 
 import contextlib
 import io
@@ -28,7 +28,7 @@ MANY_POINTS = 200
 
 @dataclass(frozen=True)
 class Drawing:
-    """A figure that is drawn."""
+    """A figure, drawn as SVG."""
 
     svg: bytes
     words: str
@@ -38,8 +38,8 @@ class Drawing:
 
     def write(self, file: Path) -> Path:
         """Write it; gives the file."""
-        with atomic_file(file) as made:
-            made.write_bytes(self.svg)
+        with atomic_file(file) as temporary:
+            temporary.write_bytes(self.svg)
         return file
 
 
@@ -51,7 +51,7 @@ def _however_long() -> Iterator[None]:
         yield
 
 
-def drawing(figure: Figure, words: str) -> Drawing:
+def drawing(figure: Figure, message: str) -> Drawing:
     """Draw a figure as SVG, and close it; the same figure gives the same bytes.
 
     `words`: what it shows, in a sentence; its title in the file, which tells what each panel shows too; empty: as the
@@ -59,7 +59,7 @@ def drawing(figure: Figure, words: str) -> Drawing:
     """
     content = io.BytesIO()
     shown = described(figure)
-    title, description = (escape(clean(text)) for text in (words or shown.partition("\n")[0], shown))
+    title, description = (escape(clean(text)) for text in (message or shown.partition("\n")[0], shown))
     figure.set_dpi(_DOTS)
     with plt.rc_context({"svg.hashsalt": "ali3"}), _however_long():
         # once: savefig draws a figure and its layout twice
@@ -71,11 +71,11 @@ def drawing(figure: Figure, words: str) -> Drawing:
     before, root, rest = content.getvalue().partition(b"<svg ")
     tag, _, content_of_it = rest.partition(b">")
     named = f' role="img">\n <title>{title}</title>\n <desc>{description}</desc>'.encode()
-    return Drawing(before + root + tag + named + content_of_it, words, (width, height))
+    return Drawing(before + root + tag + named + content_of_it, message, (width, height))
 
 
 def save_picture(figure: Figure, file: Path) -> None:
     """Write a figure as PNG, with what it shows in words, and close it; the same figure gives the same bytes."""
-    with atomic_file(file) as made, _however_long():
-        figure.savefig(made, dpi=110, metadata=png_metadata(figure))
+    with atomic_file(file) as temporary, _however_long():
+        figure.savefig(temporary, dpi=110, metadata=png_metadata(figure))
     plt.close(figure)

@@ -1,4 +1,4 @@
-"""Processes that this program has started: who ends them, and how they have ended."""
+"""Ends child processes of this program, and describes how a child process ended."""
 
 import signal
 import sys
@@ -36,13 +36,13 @@ def ignore_stopping() -> None:
         signal.signal(number, signal.SIG_IGN)
 
 
-def how_ended(code: int | None, said: str = "", call: str = "") -> str:
+def how_ended(code: int | None, message: str = "", call: str = "") -> str:
     """How a process has ended that was to go on, as the end of a sentence, such as ``crashed (SIGSEGV)``.
 
     `code`: as `subprocess` and `multiprocessing` give it; `said`: what it wrote to its standard error; the last line is
     quoted; `call`: during what, such as `` in fmi2DoStep at 0.1 s``.
     """
-    last = (said.strip().splitlines() or [""])[-1]
+    last = (message.strip().splitlines() or [""])[-1]
     words = f"{call}: {last}" if last else call
     if code is not None and code < 0:
         known = {int(number): number.name for number in signal.Signals}

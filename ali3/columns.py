@@ -1,4 +1,4 @@
-"""Many texts for a person: rows in columns, the first names of a list."""
+"""Aligns texts in columns for a terminal, and shortens long lists of names."""
 
 from collections.abc import Container, Iterable, Sequence
 

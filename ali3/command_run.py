@@ -40,10 +40,10 @@ def run_command(work: Callable[[], int], errors: Sequence[type[Exception]] = (),
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return NO_READER
     except Exception as error:
-        words = sentence(error, errors)
-        if words is None:
+        message = sentence(error, errors)
+        if message is None:
             raise
-        return _end(f"error: {shortened(words)}", getattr(error, "status", WRONG_USE))
+        return _end(f"error: {shortened(message)}", getattr(error, "status", WRONG_USE))
 
 
 def sentence(error: Exception, errors: Sequence[type[Exception]] = ()) -> str | None:

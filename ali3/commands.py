@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 
 class Command(NamedTuple):
-    """A subcommand."""
+    """A subcommand of ali3: name, module and extra."""
 
     name: str
     """As the user types it."""

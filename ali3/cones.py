@@ -1,4 +1,4 @@
-"""Where cones stand beside the lanes of a track."""
+"""Positions of the cones beside the lanes of a track."""
 
 from collections.abc import Sequence
 
@@ -8,7 +8,7 @@ _APART = 5.0  # m, about
 
 
 def cone_places(gates: Sequence[Gate]) -> list[tuple[float, float]]:
-    """Where cones stand along both edges of lanes, x and y in m: at their ends and about every 5 m."""
+    """Positions (x, y) in m of cones along both edges of lanes: at their ends and about every 5 m."""
     places = []
     for gate in gates:
         length = gate.x_end - gate.x_start

@@ -1,4 +1,4 @@
-"""Processes that see no more of the machine than they need: by bubblewrap, on Linux (option ``--confined``)."""
+"""Confines processes to the files that they need, by bubblewrap on Linux (option ``--confined``)."""
 
 import os
 import shutil
@@ -26,7 +26,7 @@ def confine() -> None:
 
 
 def is_confined() -> bool:
-    """Whether they are."""
+    """Whether processes of `ali3.isolated_processes` are confined."""
     return _SWITCH in os.environ
 
 
@@ -76,7 +76,7 @@ def _bubblewrap() -> tuple[str, ...]:
 def _places() -> tuple[str, ...]:
     """Folders of Python and of this program; those that `_SYSTEM` has are left out."""
     root = Path(ali3.__file__).resolve().parents[1]
-    found = [Path(sys.prefix), Path(sys.base_prefix), Path(sys.executable).resolve().parents[1]]
-    if not any(root.is_relative_to(place) for place in found):  # a clone: its packages alone
-        found += [file.parent for file in root.glob("*/__init__.py")]
-    return tuple(dict.fromkeys(str(place) for place in found if not place.is_relative_to("/usr")))
+    results = [Path(sys.prefix), Path(sys.base_prefix), Path(sys.executable).resolve().parents[1]]
+    if not any(root.is_relative_to(place) for place in results):  # a clone: its packages alone
+        results += [file.parent for file in root.glob("*/__init__.py")]
+    return tuple(dict.fromkeys(str(place) for place in results if not place.is_relative_to("/usr")))

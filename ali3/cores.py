@@ -1,4 +1,4 @@
-"""How many processes are worth running at a time."""
+"""The number of processes to run at a time on this machine."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""Decimal numbers as text."""
+"""Parses decimal numbers from text."""
 
 import argparse
 import math

@@ -1,4 +1,4 @@
-"""Which extra of the installation brings a package: read from the metadata that pyproject.toml becomes."""
+"""Finds the extra of the installation that contains a package, from the metadata of the installed distribution."""
 
 import re
 import sys
@@ -48,11 +48,11 @@ def command_needs(extra: str) -> None:
 
 def extras() -> dict[str, set[str]]:
     """Distributions that each extra of the installation asks for; what is needed without an extra under ``""``."""
-    found: dict[str, set[str]] = {}
+    results: dict[str, set[str]] = {}
     for requirement in _requirements("ali3"):
         marked = re.search(r"""extra == ['"]([\w.-]+)['"]""", requirement)
-        found.setdefault(marked[1] if marked else "", set()).add(_name(requirement))
-    return found
+        results.setdefault(marked[1] if marked else "", set()).add(_name(requirement))
+    return results
 
 
 def _extra_of(package: str, wanted: str = "") -> str | None:
@@ -86,5 +86,5 @@ def _distribution(package: str) -> str:
 
 
 def _install(extra: str | None, more: str = "") -> str:
-    what = f'"ali3[{extra}]"' if extra else "ali3"
-    return f"run: python -m pip install {what} {more}".rstrip()
+    label = f'"ali3[{extra}]"' if extra else "ali3"
+    return f"run: python -m pip install {label} {more}".rstrip()

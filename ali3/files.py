@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all."""
+"""Writes files atomically: a file is complete or not there."""
 
 import json
 import os
@@ -41,8 +41,8 @@ def atomic_file(file: str | os.PathLike[str], make_parents: bool = True) -> Iter
 
 def write_text(file: str | os.PathLike[str], text: str) -> None:
     """Write a whole text file in UTF-8; see `atomic_file`."""
-    with atomic_file(file) as made:
-        made.write_text(text, encoding="utf-8")
+    with atomic_file(file) as temporary:
+        temporary.write_text(text, encoding="utf-8")
 
 
 def write_json(file: str | os.PathLike[str], content: Any) -> None:
@@ -84,5 +84,5 @@ def _check_file(file: str | os.PathLike[str], target: Path) -> None:
     except FileError:
         raise
     except (OSError, ValueError) as error:
-        words = reason(error) if isinstance(error, OSError) else str(error)
-        raise FileError(f"{file} cannot be written: {words}.") from None
+        message = reason(error) if isinstance(error, OSError) else str(error)
+        raise FileError(f"{file} cannot be written: {message}.") from None

@@ -1,4 +1,4 @@
-"""Folders that are written whole or not at all, and those of a cache that are used no more."""
+"""Writes folders atomically, and removes folders of a cache that are no longer used."""
 
 import os
 import shutil

@@ -15,7 +15,9 @@ from typing import IO, Any
 import numpy as np
 
 _HEAD = struct.Struct("<BQQ")
-_ARRAY, _BYTES = "\0array", "\0bytes"  # keys that no text of ours has
+# keys that no text of ours has
+_ARRAY = "\0array"
+_BYTES = "\0bytes"
 _KINDS = "biufS"
 MOST_TEXT, MOST_BYTES = 200_000_000, 8_000_000_000
 """Bytes that a frame may have, of text and of arrays."""

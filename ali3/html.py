@@ -18,7 +18,7 @@ def page(
     scripts: Sequence[str] = (),
     sources: Mapping[str, str] | None = None,
 ) -> str:
-    """A whole page.
+    """A complete HTML page as text.
 
     Its content security policy lets it fetch nothing, show pictures that stand in it, and take only this style and
     these scripts, which it knows by their SHA-256. Markup that a text has smuggled into the body can thus neither run,

@@ -1,4 +1,4 @@
-"""Reports of HTML elements; text in them is escaped because it is text."""
+"""HTML elements for reports; their text is always escaped."""
 
 from __future__ import annotations
 
@@ -73,5 +73,5 @@ def document(title: str, body: Iterable[HtmlElement]) -> str:
 
 
 def markup(parts: Iterable[HtmlElement]) -> str:
-    """Elements as text."""
+    """HTML text of elements."""
     return "\n".join(str(lxml.html.tostring(part, encoding="unicode", method="html")) for part in parts)

@@ -75,12 +75,12 @@ class _Process:
             self.store = Path(f"/proc/self/fd/{self._memory}")
         passed = (life, self._memory) if life >= 0 else ()
         command = module_command("ali3.worker", str(self.folder), str(life), str(Path.cwd()), str(self.store))
-        told = {**os.environ, **environment}
-        environment = told | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
+        reported = {**os.environ, **environment}
+        environment = reported | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
         self._confined = is_confined()
         if self._confined:
             command = confined(command, reads, (*writes, self.folder))
-            environment = confined_environment(told, self.folder)
+            environment = confined_environment(reported, self.folder)
         try:
             self.process = subprocess.Popen(
                 command,
@@ -325,6 +325,6 @@ class Isolated(Generic[T, R]):
             process, self._process = self._process, None
         if process is None:
             return "was ended", "", None
-        how, call, kept, left = process.end(finish)
-        self.left += left
+        how, call, kept, remaining = process.end(finish)
+        self.left += remaining
         return how, call, kept

@@ -1,4 +1,4 @@
-"""Reads JSON files that others wrote, as `ali3.reading` does others."""
+"""Reads untrusted JSON files with the limits of `ali3.reading`."""
 
 import json
 import os
@@ -44,7 +44,7 @@ def json_of(data: bytes, error: Error, name: str, finite: bool = True) -> Any:
 
 
 class _TwiceError(Exception):
-    """A key that stands twice."""
+    """A key occurs twice in an object."""
 
 
 def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Why a library does not read a file, in a sentence."""
+"""Turns errors of a library that reads a file into one sentence."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -1,4 +1,4 @@
-"""Limits of what is read, which one environment variable raises: all of them by one factor."""
+"""Limits on the size of files that are read; one environment variable scales all of them by a factor."""
 
 import math
 import os
@@ -14,12 +14,12 @@ VARIABLE = "ALI3_LIMITS"
 def factor() -> float:
     """By how much limits are raised. Raises `UserError`: the variable is not a number of at least 1."""
     text = os.environ.get(VARIABLE, "1")
-    found = 0.0
+    result = 0.0
     with suppress(ValueError):
-        found = parse_number(text)
-    if found < 1.0:
+        result = parse_number(text)
+    if result < 1.0:
         raise UserError(f"The environment variable {VARIABLE} is {brief(text)}; it must be a number of at least 1.")
-    return found
+    return result
 
 
 def raised(most: float) -> int:

@@ -1,4 +1,4 @@
-"""Folders that one program has for itself."""
+"""Locks a folder, so that one program at a time writes in it."""
 
 import os
 from collections.abc import Iterator

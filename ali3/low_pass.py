@@ -1,4 +1,4 @@
-"""Low-pass filters for recorded signals that shift nothing in time."""
+"""Zero-phase low-pass filters for recorded signals."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray

@@ -1,4 +1,4 @@
-"""Values and sentences as a message shows them: in one line, and cut where they are long."""
+"""Formats values and sentences for messages: in one line, shortened if they are long."""
 
 import datetime
 import math
@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping
 
 VALUE, SENTENCE = 60, 400
 """Characters of a value in a sentence, and of a sentence with texts of a file in it."""
-_WORD, _MESSAGE = 240, 2000  # of a text without a blank, and of a whole message, that is shown as it is
+_WORD = 240  # longest word that is shown as it is
+_MESSAGE = 2000  # longest message that is shown as it is
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")  # by XML
 
 
@@ -57,9 +58,9 @@ def one_line(sentence: str, most: int = SENTENCE) -> str:
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in sentence)
 
 
-def sentence_of(words: str) -> str:
+def sentence_of(message: str) -> str:
     """Words that are the end of a sentence as a whole one: with a capital and a full stop; nothing of nothing."""
-    return f"{words[0].upper()}{words[1:]}." if words else ""
+    return f"{message[0].upper()}{message[1:]}." if message else ""
 
 
 def place_text(path: Iterable[int | str]) -> str:

@@ -1,4 +1,4 @@
-"""Files that a file names are read only where they lie below one folder, and only so many."""
+"""Opens files that another file names, if they lie below a given folder, up to a largest number of them."""
 
 import os
 from pathlib import Path
@@ -25,8 +25,8 @@ class NamedFiles:
         """A regular file by its name in a file of the folder `beside`; `where`: file and line that name it."""
         place = f"{where}: " if where else ""
         try:
-            found = beside / name
-            if not found.resolve().is_relative_to(self._folder.resolve()):
+            result = beside / name
+            if not result.resolve().is_relative_to(self._folder.resolve()):
                 raise self._error(f"{place}{brief(name)} is not below the folder {self._folder}.")
         except (OSError, ValueError, RuntimeError) as fault:  # a circle of links is a RuntimeError
             if isinstance(fault, self._error):
@@ -37,6 +37,6 @@ class NamedFiles:
             raise self._error(
                 f"{place}more than {raised(MOST_FILES)} files are named; {brief(name)} is the first too many."
             )
-        check_file(found, self._left, self._error, f"{place}{brief(name)}")
-        self._left -= int(found.stat().st_size / factor())
-        return found
+        check_file(result, self._left, self._error, f"{place}{brief(name)}")
+        self._left -= int(result.stat().st_size / factor())
+        return result

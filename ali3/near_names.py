@@ -1,4 +1,4 @@
-"""Names that may be meant by one that is not known."""
+"""Suggests known names that are close to an unknown one."""
 
 from collections.abc import Iterable
 from difflib import get_close_matches
@@ -17,14 +17,14 @@ def near_names(name: str, known: Iterable[str], most: int = MOST, closeness: flo
     `name`: which is not among them; `closeness`: least share of characters that two spellings have in common, see
     `difflib.get_close_matches`; 0 to 1.
     """
-    asked = name[:_LONGEST].lower()
+    requested = name[:_LONGEST].lower()
     spelt: dict[str, list[str]] = {}
     for one in known:
         spelt.setdefault(one.lower(), []).append(one)
-    near = [asked] if asked in spelt else get_close_matches(asked, spelt, most, closeness)
-    near = near or [one for one in spelt if one.rpartition(".")[2] == asked.rpartition(".")[2]]
-    if not near and len(asked) >= _SHORTEST:
-        near = [one for one in spelt if asked in one]
+    near = [requested] if requested in spelt else get_close_matches(requested, spelt, most, closeness)
+    near = near or [one for one in spelt if one.rpartition(".")[2] == requested.rpartition(".")[2]]
+    if not near and len(requested) >= _SHORTEST:
+        near = [one for one in spelt if requested in one]
     return [one for key in near for one in spelt[key]][:most]
 
 

@@ -1,4 +1,4 @@
-"""Options that several commands have: each has one name, one form and one meaning in all of them."""
+"""Command-line options that several commands share."""
 
 import argparse
 import re
@@ -44,7 +44,7 @@ class Parser(argparse.ArgumentParser):
 
 
 class Option(NamedTuple):
-    """What an option is wherever it stands."""
+    """Form and meaning of an option, the same in all commands."""
 
     metavar: str
     """Of its value in the help; empty for one without a value."""
@@ -143,15 +143,15 @@ def add_option(parser: argparse._ActionsContainer, name: str, usual: str = "", *
     ``action``, ``dest``.
     """
     option = SHARED[name]
-    words = option.help + (f"; default: {usual}" if usual else "")
+    message = option.help + (f"; default: {usual}" if usual else "")
     if option.metavar:
         more |= {"metavar": option.metavar, "type": option.type}
     else:
         more["action"] = "store_true"
     if more.get("action") == "append":
         more.setdefault("default", [])
-        words = words if option.help.endswith("repeatable") else words + "; repeatable"
-    parser.add_argument(name, *option.other_names, help=words, **more)
+        message = message if option.help.endswith("repeatable") else message + "; repeatable"
+    parser.add_argument(name, *option.other_names, help=message, **more)
 
 
 def given_of(parser: argparse.ArgumentParser, options: argparse.Namespace, names: Sequence[str]) -> list[str]:

@@ -15,7 +15,9 @@ from pathlib import Path
 
 LEFT = "left"
 """File of the folder with the number of processes that were still there at the end."""
-_SUBREAPER, _PARENT_DEATH = 36, 1  # of prctl
+# of prctl
+_SUBREAPER = 36
+_PARENT_DEATH = 1
 _PATIENCE = 5.0  # s until processes are gone that were killed
 
 
@@ -45,10 +47,10 @@ def begin_supervisor(life: int, folder: Path) -> None:
     with suppress(ProcessLookupError):
         os.kill(process, signal.SIGKILL)
     status = os.waitpid(process, 0)[1]
-    left = _end_children()
-    if left:
+    remaining = _end_children()
+    if remaining:
         with suppress(OSError):
-            (folder / LEFT).write_text(str(left), encoding="ascii")
+            (folder / LEFT).write_text(str(remaining), encoding="ascii")
     if _is_orphan(life):
         shutil.rmtree(folder, ignore_errors=True)
     code = os.waitstatus_to_exitcode(status)
@@ -97,11 +99,11 @@ def _end_children() -> int:
 
 def _children() -> list[int]:
     """Children of this process that are alive."""
-    found = []
+    results = []
     for entry in os.scandir("/proc"):
         if entry.name.isdigit():
             with suppress(OSError, ValueError, IndexError):
                 state, parent = Path(entry.path, "stat").read_text().rpartition(")")[2].split()[:2]
                 if int(parent) == os.getpid() and state not in "ZX":
-                    found.append(int(entry.name))
-    return found
+                    results.append(int(entry.name))
+    return results

@@ -1,4 +1,4 @@
-"""Processes: how others are named and begun, and what memory this one may take."""
+"""State of this process: the process that it works for, its store, and the name of its command."""
 
 import mmap
 import sys
@@ -69,7 +69,7 @@ def path_of_caller(text: str) -> str:
 
 
 def command_name(name: str) -> str:
-    """How the user of this program types another command, such as ``ali3 build``."""
+    """Another command as the user of this program types it, such as ``ali3 build``."""
     if _prefix is not None:
         return f"{_prefix} {name}"
     in_clone = Path(__file__).resolve().parents[1].joinpath("build_fmu.py").is_file()

@@ -119,11 +119,11 @@ def _entry(name: str, kind: str, element: Any, where: str) -> Entry:
 
 
 def _check_once(names: Iterable[str], what: str, rule: str) -> None:
-    seen: set[str] = set()
+    visited: set[str] = set()
     for name in names:
-        if name in seen:
+        if name in visited:
             raise ParameterSetError(f"{what} '{name}' occurs twice; {rule}.")
-        seen.add(name)
+        visited.add(name)
 
 
 def _words(message: str) -> str:

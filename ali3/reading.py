@@ -43,17 +43,17 @@ def check_file(file: str | os.PathLike[str], largest: int, error: Error = FileEr
     """
     name = name or str(file)
     try:
-        found = Path(file).stat()
+        path = Path(file).stat()
     except FileNotFoundError:
         raise error(f"{name} cannot be read: there is no such file.") from None
     except OSError as fault:
         raise error(f"{name} cannot be read: {reason(fault)}.") from None
     except ValueError as fault:
         raise error(f"{brief(name)} is not a file name: {fault}.") from None
-    if not stat.S_ISREG(found.st_mode):
-        raise error(_no_regular(name, found.st_mode))
-    if found.st_size > raised(largest):
-        raise error(f"{name} has {found.st_size} bytes; it must have {at_most(found.st_size, largest)}.")
+    if not stat.S_ISREG(path.st_mode):
+        raise error(_no_regular(name, path.st_mode))
+    if path.st_size > raised(largest):
+        raise error(f"{name} has {path.st_size} bytes; it must have {at_most(path.st_size, largest)}.")
     return Path(file)
 
 
@@ -148,8 +148,8 @@ def toml_of(data: bytes, error: Error, name: str) -> dict[str, Any]:
 
 def file_text(data: bytes, error: Error, name: str) -> str:
     """Text of the content of a file in UTF-8, without a byte order mark."""
-    if words := other_encoding(data):
-        raise error(f"{name} is {words}.")
+    if message := other_encoding(data):
+        raise error(f"{name} is {message}.")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as fault:
@@ -167,7 +167,7 @@ def other_encoding(data: bytes) -> str:
 
 
 def too_deep(error: Error, name: str) -> NoReturn:
-    """Refuse what is nested too deep."""
+    """Refuse content that is nested too deeply."""
     raise error(f"{name} cannot be read: its lists or tables are nested more than {DEEPEST} deep.")
 
 

@@ -1,4 +1,4 @@
-"""Keeps files of the user out of the search path of modules."""
+"""Removes the current folder from the module search path, so that files of the user are not imported."""
 
 import os
 import sys

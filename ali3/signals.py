@@ -1,4 +1,4 @@
-"""What ends a program from outside: Ctrl-C, `timeout`, a container, a terminal that is closed."""
+"""Handles signals that end a program: Ctrl-C, `timeout`, a stopped container, a closed terminal."""
 
 import os
 import signal

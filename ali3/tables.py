@@ -1,4 +1,4 @@
-"""Reads tables of text (CSV) that other programs wrote; the one place that defines lines, cells and numbers of them."""
+"""Reads tables of text (CSV) that other programs wrote; defines what their lines, cells and numbers are."""
 
 import csv
 import math
@@ -116,8 +116,8 @@ class TextTable:
                 if len(cells) != self.width:
                     what = "heading" if self.names else "first line"
                     hint = "; decimal marks must be points." if self._mark == "," and len(cells) > self.width else "."
-                    found = f"{len(cells)} values where the {what} has {self.width} columns"
-                    raise self.error(f"{self.name}, line {line}: {found}{hint}")
+                    result = f"{len(cells)} values where the {what} has {self.width} columns"
+                    raise self.error(f"{self.name}, line {line}: {result}{hint}")
                 yield Row(line, cells)
 
     def numbers(self, row: Row, finite: bool = True, first: int = 0) -> list[float]:
@@ -130,16 +130,16 @@ class TextTable:
             cells = [cell.replace(",", ".") for cell in cells]
         text = "".join(cells)
         try:
-            found = list(map(float, cells))
+            results = list(map(float, cells))
         except ValueError:
-            found = []
+            results = []
         # `float` takes 1_0 and digits of other scripts too.
-        if found and text.isascii() and "_" not in text and (not finite or all(map(math.isfinite, found))):
-            return found
+        if results and text.isascii() and "_" not in text and (not finite or all(map(math.isfinite, results))):
+            return results
         k = next(k for k, cell in enumerate(row.cells) if k >= first and not is_number(cell, self.decimal, finite))
-        what = f", column {brief(self.names[k])}" if self.names else ""
+        label = f", column {brief(self.names[k])}" if self.names else ""
         word = "finite number" if is_number(row.cells[k], self.decimal, finite=False) else "number"
-        raise self.error(f"{self.name}, line {row.line}{what}: {brief(row.cells[k])} is not a {word}.")
+        raise self.error(f"{self.name}, line {row.line}{label}: {brief(row.cells[k])} is not a {word}.")
 
     def values(self, every: int = 1, finite: bool = True, least: int = 1) -> NDArray[np.float64]:
         """Numbers of the lines, shape (n, columns). `every`, `finite`: as of `rows` and `numbers`; `least`: least n."""
@@ -154,8 +154,8 @@ class TextTable:
         line = 0
         try:
             with TextIOWrapper(open_file(file, largest, self.error, self.name), encoding="utf-8-sig") as stream:
-                if words := other_encoding(stream.buffer.read(200)):
-                    raise self.error(f"{self.name} is {words}.")
+                if message := other_encoding(stream.buffer.read(200)):
+                    raise self.error(f"{self.name} is {message}.")
                 stream.seek(0)
                 while text := stream.readline(LONGEST_LINE + 1):
                     line += 1
@@ -211,7 +211,7 @@ class TextTable:
 
     def comment_cells(self) -> list[tuple[int, list[str]]]:
         """Number and cells of each comment, read so far, that has as many cells as the first line."""
-        found = []
+        results = []
         for line, comment in self.comments:
             text = comment.lstrip("# \t")
             for mark in (self._mark or ",", *_MARKS, " "):
@@ -220,18 +220,18 @@ class TextTable:
                 except ValueError:  # no line of a table
                     continue
                 if len(cells) == self.width:
-                    found.append((line, cells))
+                    results.append((line, cells))
                     break
-        return found
+        return results
 
     def _take_names(self, cells: list[str], units: bool) -> None:
-        seen = set[str]()  # a table may have a million columns
+        visited = set[str]()  # a table may have a million columns
         for cell in cells:
             match = HEADING.fullmatch(cell) if units else None
             name = match["name"] if match else cell
-            if name in seen:
+            if name in visited:
                 raise self.error(f"{self.name} has the column {brief(name)} twice.")
-            seen.add(name)
+            visited.add(name)
             self.names.append(name)
             if match:
                 self.units[name] = match["unit"]

@@ -1,4 +1,4 @@
-"""Key paths of a typed file, seen in its types: which table stands where, and what a key must be."""
+"""Finds the type and limits of a key path in the types of a typed file."""
 
 import types
 from collections.abc import Iterator, Mapping, Sequence
@@ -19,8 +19,8 @@ def keys_of(table: Table) -> dict[str, FieldInfo]:
 
 def annotation_of(field: FieldInfo) -> Any:
     """Type of a field with what is annotated to it."""
-    told = [*field.metadata, *([field] if field.title else [])]
-    return Annotated[(field.annotation, *told)] if told else field.annotation
+    reported = [*field.metadata, *([field] if field.title else [])]
+    return Annotated[(field.annotation, *reported)] if reported else field.annotation
 
 
 def templates(annotation: Any) -> list[Table]:
@@ -34,21 +34,21 @@ def templates(annotation: Any) -> list[Table]:
 
 def value_type_of(annotation: Any) -> Any | None:
     """Type of the values of a table whose keys the user chooses; None for any other type."""
-    found = _dict_of(annotation)
-    return None if found is None else found[1]
+    result = _dict_of(annotation)
+    return None if result is None else result[1]
 
 
 def key_type_of(annotation: Any) -> Any:
     """Type of the keys of such a table; text for any other type."""
-    found = _dict_of(annotation)
-    return str if found is None else found[0]
+    result = _dict_of(annotation)
+    return str if result is None else result[0]
 
 
 def _dict_of(annotation: Any) -> tuple[Any, ...] | None:
     if get_origin(annotation) is dict:
         return get_args(annotation)
     if get_origin(annotation) in (Annotated, Union, types.UnionType):
-        return next((found for inner in get_args(annotation) if (found := _dict_of(inner)) is not None), None)
+        return next((result for inner in get_args(annotation) if (result := _dict_of(inner)) is not None), None)
     return None
 
 
@@ -85,11 +85,11 @@ def annotation_at(top: Any, path: Sequence[str], data: Any) -> Any | None:
 
 def chosen(annotation: Any, data: Any) -> Table | None:
     """The table among those of a type that the data name by `kind`."""
-    found = templates(annotation)
-    if len(found) == 1:
-        return found[0]
+    result = templates(annotation)
+    if len(result) == 1:
+        return result[0]
     kind = data.get("kind") if isinstance(data, Mapping) else None
-    return next((table for table in found if kind in kinds_of(table)), None)
+    return next((table for table in result if kind in kinds_of(table)), None)
 
 
 def table_at(top: Any, path: Sequence[str], data: Any) -> Table | None:
@@ -98,10 +98,10 @@ def table_at(top: Any, path: Sequence[str], data: Any) -> Table | None:
     `top`: the whole file: a model, or several of which the key ``kind`` chooses one; `path`: keys from the top; `data`:
     the file's content, which says the kinds of templates.
     """
-    here = data
+    node = data
     for key in path:
-        here = item_of(here, key)
-    return chosen(annotation_at(top, path, data), here)
+        node = item_of(node, key)
+    return chosen(annotation_at(top, path, data), node)
 
 
 def all_keys(table: Table, path: str = "") -> Iterator[str]:
@@ -127,15 +127,15 @@ def holds_keys(top: Any, path: Sequence[str], data: Any) -> bool:
 
 
 def words(annotation: Any) -> str:
-    """What a value of a type is, in words."""
+    """A description of the values of a type, in words."""
     title = title_of(annotation)
     if title:
         return title
     if templates(annotation) or value_type_of(annotation) is not None:
         return "a table"
-    told = next((item.range for item in _metadata(annotation) if hasattr(item, "range")), None)
-    if told is not None:  # a physical quantity
-        return f"a number, {told}"
+    reported = next((item.range for item in _metadata(annotation) if hasattr(item, "range")), None)
+    if reported is not None:  # a physical quantity
+        return f"a number, {reported}"
     origin, inner = get_origin(annotation), get_args(annotation)
     if origin is Annotated:
         limits = [item for item in inner[1:] if not isinstance(item, FieldInfo)]
@@ -179,7 +179,7 @@ def _metadata(annotation: Any) -> tuple[Any, ...]:
 
 
 def item_of(data: Any, key: str) -> Any:
-    """What stands under a key of a table or at a place of a list; None where nothing does.
+    """The item under a key of a table or at an index of a list; None without one.
 
     `key`: key, or place from 0.
     """
@@ -198,5 +198,5 @@ def _element(annotation: Any, key: str) -> Any | None:
     if origin is tuple and key.isdigit():
         return inner[0] if inner[-1] is Ellipsis else inner[int(key)] if int(key) < len(inner) else None
     if origin in (Annotated, Union, types.UnionType):
-        return next((found for item in inner if (found := _element(item, key)) is not None), None)
+        return next((result for item in inner if (result := _element(item, key)) is not None), None)
     return None

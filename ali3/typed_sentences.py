@@ -1,4 +1,4 @@
-"""From what the types of a file refuse to sentences: key path, value, and what would be right."""
+"""Writes a sentence for each error of a typed file: key path, value, and what would be right."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -23,7 +23,8 @@ from ali3.typed_paths import (
 )
 
 ELSEWHERE = 3  # places of a key that a sentence names
-UNKNOWN, MISSING = "extra_forbidden", "missing"
+UNKNOWN = "extra_forbidden"
+MISSING = "missing"
 Loc = Sequence["int | str"]
 NOTHING: Mapping[str, str] = {}
 
@@ -60,24 +61,24 @@ class Sentences:
         self._words_of = place
 
     def place(self, path: Sequence[str]) -> str:
-        """Where in the file something stands."""
+        """The location of a key in the file."""
         return self._words_of(path) or "the file"
 
     def of(self, error: ValidationError) -> list[str]:
         """A sentence for each fault; a misspelt key is not told as missing too."""
         items = sorted(error.errors(include_url=False), key=lambda item: item["type"] != UNKNOWN)
         missing = [self._path(item["loc"]) for item in items if item["type"] == MISSING]
-        found, meant = [], []
+        results, meant = [], []
         for item in items:
             if item["type"] == UNKNOWN:
                 path = self._path(item["loc"])
                 near = None if self.place(path) in self._places(path) else self._near(path, _in_table(missing, path))
                 meant += [[*path[:-1], near]] if near else []
-                found.append(self._unknown(path, near))
+                results.append(self._unknown(path, near))
             elif item["type"] != MISSING or self._path(item["loc"]) not in meant:
-                found.append(self._sentence(item))
+                results.append(self._sentence(item))
         gone = [self._missing(path) for path in meant]
-        return [one_line(sentence) for sentence in dict.fromkeys(found) if sentence not in gone]
+        return [one_line(sentence) for sentence in dict.fromkeys(results) if sentence not in gone]
 
     def _sentence(self, item: Any) -> str:
         kind, loc = item["type"], item["loc"]
@@ -92,10 +93,10 @@ class Sentences:
             return f"{self.place(path)}: {item['ctx']['error']}." if path else f"{item['ctx']['error']}."
         if kind in ("union_tag_invalid", "union_tag_not_found"):
             tables = templates(annotation_at(self.top, path, self.data))
-            known = ", ".join(repr(name) for table in tables for name in kinds_of(table))
+            known_names = ", ".join(repr(name) for table in tables for name in kinds_of(table))
             if kind == "union_tag_not_found":
-                return f"{self.place([*path, 'kind'])} is missing; it must be one of {known}."
-            return f"{self.place([*path, 'kind'])} is {value_text(_tag(item))}; it must be one of {known}."
+                return f"{self.place([*path, 'kind'])} is missing; it must be one of {known_names}."
+            return f"{self.place([*path, 'kind'])} is {value_text(_tag(item))}; it must be one of {known_names}."
         if kind == "quantity":
             return f"{self._coordinate(path)} is {value_text(item['input'])}; it must be {item['ctx']['range']}."
         if kind == MISSING:  # an element of a list that is too short
@@ -111,7 +112,7 @@ class Sentences:
         return f"{self._coordinate(path)} is {value_text(value)}; it must be {right}{limits}."
 
     def _form(self, item: Any) -> str:
-        """What a text with a pattern must be."""
+        """The form that a text with a pattern must have."""
         pattern = item["ctx"]["pattern"]
         annotation = annotation_at(self.top, self._path(item["loc"]), self.data)
         return self.forms.get(pattern) or title_of(annotation) or f"text of the form {pattern}"
@@ -132,9 +133,9 @@ class Sentences:
         if places and self.place(path) not in places:
             return f"{self.place(path)} is not known; '{path[-1]}' stands at {some_of(places, ELSEWHERE)}."
         table = table_at(self.top, path[:-1], self.data)
-        known = ", ".join(keys_of(table)) if table else "none"
+        known_names = ", ".join(keys_of(table)) if table else "none"
         why = f"belongs to another kind than {value_text(self._kind(path))}" if places else "is not known"
-        return f"{self.place(path)} {why}; the keys of {self.place(path[:-1])} are {known}."
+        return f"{self.place(path)} {why}; the keys of {self.place(path[:-1])} are {known_names}."
 
     def _places(self, path: Sequence[str]) -> list[str]:
         """Where a key of that name stands, in all templates."""
@@ -143,37 +144,37 @@ class Sentences:
 
     def _kind(self, path: Sequence[str]) -> Any:
         """Kind of the innermost template that a key is in."""
-        here: Any = self.data
+        node: Any = self.data
         kind = None
         for part in path[:-1]:
-            here = item_of(here, part)
-            kind = here.get("kind", kind) if isinstance(here, Mapping) else kind
+            node = item_of(node, part)
+            kind = node.get("kind", kind) if isinstance(node, Mapping) else kind
         return kind
 
     def _near(self, path: Sequence[str], missing: Sequence[str]) -> str | None:
         """The key that is meant, first among those that are missing."""
         table = table_at(self.top, path[:-1], self.data)
-        known = list(keys_of(table)) if table else []
-        near = near_names(path[-1], missing, 1) or near_names(path[-1], known, 1)
+        known_names = list(keys_of(table)) if table else []
+        near = near_names(path[-1], missing, 1) or near_names(path[-1], known_names, 1)
         return near[0] if near else None
 
     def _path(self, loc: Loc) -> list[str]:
         """Key path of an error, without the names of templates and types that stand in it."""
         path: list[str] = []
-        here: Any = self.data
+        node: Any = self.data
         template: Any = None  # the table whose template stood in the path last
         for part in loc:
-            if isinstance(here, Mapping) and part == here.get("kind") and here is not template:
-                template = here  # a table may have a key of the same name as its template
-            elif isinstance(here, Mapping) and part in here:
+            if isinstance(node, Mapping) and part == node.get("kind") and node is not template:
+                template = node  # a table may have a key of the same name as its template
+            elif isinstance(node, Mapping) and part in node:
                 path.append(str(part))
-                here = here[part]
-            elif isinstance(here, (list, tuple)) and isinstance(part, int):
+                node = node[part]
+            elif isinstance(node, (list, tuple)) and isinstance(part, int):
                 path.append(str(part))
-                here = here[part] if part < len(here) else None
-            elif part != "[key]" and isinstance(here, Mapping) and holds_keys(self.top, path, self.data):
+                node = node[part] if part < len(node) else None
+            elif part != "[key]" and isinstance(node, Mapping) and holds_keys(self.top, path, self.data):
                 path.append(str(part))
-                here = None
+                node = None
         return path
 
     def _coordinate(self, path: Sequence[str]) -> str:
@@ -191,13 +192,13 @@ def _in_table(paths: Sequence[Sequence[str]], path: Sequence[str]) -> list[str]:
 
 
 def _tag(item: Any) -> Any:
-    """What stands as the kind of a template."""
+    """The value given as the kind of a template."""
     given = item["input"]
     return given.get("kind") if isinstance(given, Mapping) else item["ctx"]["tag"]
 
 
 def _limits(item: Any) -> str:
-    """What a text or a list must satisfy beside its type."""
+    """Limits of a text or list beyond its type."""
     context = item.get("ctx", {})
     if item["type"] == "string_too_long":
         return f" of at most {context['max_length']} characters"

@@ -14,11 +14,20 @@ from typing import NamedTuple
 from ali3.decimal_number import DECIMAL, number, parse_number, short
 from ali3.unit_definition import UnitDefinition
 
-_DEGREE, _INCH, _POUND_FORCE, _G = math.pi / 180.0, 0.0254, 4.4482216152605, 9.80665
-_ANGLE, _RATE, _LENGTH = {"rad": 1}, {"rad": 1, "s": -1}, {"m": 1}
-_SPEED, _ACCELERATION = {"m": 1, "s": -1}, {"m": 1, "s": -2}
-_FORCE, _TORQUE = {"kg": 1, "m": 1, "s": -2}, {"kg": 1, "m": 2, "s": -2}
-_PRESSURE, _POWER, _TIME = {"kg": 1, "m": -1, "s": -2}, {"kg": 1, "m": 2, "s": -3}, {"s": 1}
+_DEGREE = math.pi / 180.0
+_INCH = 0.0254
+_POUND_FORCE = 4.4482216152605
+_G = 9.80665
+_ANGLE = {"rad": 1}
+_RATE = {"rad": 1, "s": -1}
+_LENGTH = {"m": 1}
+_SPEED = {"m": 1, "s": -1}
+_ACCELERATION = {"m": 1, "s": -2}
+_FORCE = {"kg": 1, "m": 1, "s": -2}
+_TORQUE = {"kg": 1, "m": 2, "s": -2}
+_PRESSURE = {"kg": 1, "m": -1, "s": -2}
+_POWER = {"kg": 1, "m": 2, "s": -3}
+_TIME = {"s": 1}
 
 UNITS: dict[str, tuple[dict[str, int], float, float]] = {
     "1": ({}, 1.0, 0.0),
@@ -116,17 +125,17 @@ class Misread(NamedTuple):
 
 def misread(unit: str) -> list[Misread]:
     """The mistakes that are made with values in a unit, the usual ones first; "" for one that is not known: all."""
-    found = []
+    results = []
     for group in _MISTAKEN:
         own = _named(unit) if unit else group[0]
         if own not in group:
             continue
         first = group[own == group[0]]
         pairs = [(first, own), (own, first), *((other, own) for other in group if other not in (own, first))]
-        found += [Misread(_scale(a) / _scale(b), a, b, first in (a, b)) for a, b in pairs]
+        results += [Misread(_scale(a) / _scale(b), a, b, first in (a, b)) for a, b in pairs]
         if unit:
             break  # a number in degrees is an angle first
-    return sorted(found, key=lambda one: not one.usual)
+    return sorted(results, key=lambda one: not one.usual)
 
 
 def _named(unit: str) -> str:
@@ -165,11 +174,11 @@ def _compound(text: str) -> UnitDefinition | None:
     exponents, factor = Counter[str](), 1.0
     for part, sign in ((above, 1), (below.strip("()"), -1)):
         for word in part.split(".") if part else []:
-            found = re.fullmatch(r"(.*?[^\d]|1)(\d?)", word)
-            name = "" if found is None else OTHER_NAMES.get(found[1], found[1])
-            if found is None or name not in UNITS or UNITS[name][2]:
+            match = re.fullmatch(r"(.*?[^\d]|1)(\d?)", word)
+            name = "" if match is None else OTHER_NAMES.get(match[1], match[1])
+            if match is None or name not in UNITS or UNITS[name][2]:
                 return None
-            power = sign * int(found[2] or 1)
+            power = sign * int(match[2] or 1)
             factor *= UNITS[name][1] ** power
             exponents.update({base: power * n for base, n in UNITS[name][0].items()})
     return UnitDefinition({base: n for base, n in exponents.items() if n}, factor)

@@ -1,4 +1,4 @@
-"""What comes out of a packed file is measured before, or while, it is taken into memory."""
+"""Checks the unpacked size of a compressed file before or while it is read into memory."""
 
 import gzip
 import io

@@ -1,4 +1,4 @@
-"""Warnings for a user as lines."""
+"""Formats warnings for a user, one a line."""
 
 import sys
 import warnings

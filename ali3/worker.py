@@ -1,4 +1,4 @@
-"""The life of a process of `ali3.isolated_processes`: work, then tasks, as pickles; results as frames.
+"""The program of a process of `ali3.isolated_processes`: it reads tasks as pickles and returns results as frames.
 
 When its input is closed, because who asked has ended, it ends in the middle of a task too.
 """
@@ -37,10 +37,10 @@ def _serve(folder: Path) -> None:
         try:
             write_frame(sink, DONE, work(task, lambda word: write_frame(sink, TOLD, word)))
         except Exception as error:
-            words = sentence(error)
-            if words is None:
+            message = sentence(error)
+            if message is None:
                 raise
-            write_frame(sink, ERROR, (words, getattr(error, "status", WRONG_USE)))
+            write_frame(sink, ERROR, (message, getattr(error, "status", WRONG_USE)))
 
 
 def _receive(source: IO[bytes], arrived: queue.SimpleQueue[Any]) -> None:
@@ -54,7 +54,7 @@ def _receive(source: IO[bytes], arrived: queue.SimpleQueue[Any]) -> None:
 
 
 def _limit_memory() -> None:
-    """What is asked for beyond is refused to who asks, and ends nothing else on the machine."""
+    """Limit the memory of this process: an allocation beyond it fails here and affects no other process."""
     if sys.platform != "linux":
         return
     import resource

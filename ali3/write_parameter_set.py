@@ -1,4 +1,4 @@
-"""Writes parameter sets, by `pyssp_standard`."""
+"""Writes parameter sets with the package `pyssp_standard`."""
 
 import os
 from importlib.metadata import version
@@ -27,8 +27,8 @@ def write_parameter_set(parameters: ParameterSet, file: str | os.PathLike[str], 
         It cannot be written.
     """
     data = parameter_set_bytes(parameters, as_built)
-    with atomic_file(file) as made:
-        made.write_bytes(data)
+    with atomic_file(file) as temporary:
+        temporary.write_bytes(data)
 
 
 def parameter_set_bytes(parameters: ParameterSet, as_built: bool) -> bytes:

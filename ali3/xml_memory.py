@@ -1,4 +1,4 @@
-"""How lxml reports that memory was not enough."""
+"""Recognises errors of lxml that mean that memory was not enough."""
 
 
 def is_lack_of_memory(error: Exception) -> bool:

@@ -15,9 +15,11 @@ def commands() -> dict[str, Path]:
 
 def main() -> int:
     """Print each command with the first words of its documentation."""
-    found = {name: ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) for name, file in commands().items()}
-    width = max(map(len, found))
-    for name, text in sorted(found.items()):
+    results = {
+        name: ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) for name, file in commands().items()
+    }
+    width = max(map(len, results))
+    for name, text in sorted(results.items()):
         print(f"python -m benchmarks.{name:{width}}  {' '.join((text or '').split()).partition(':')[0]}")
     return 0
 

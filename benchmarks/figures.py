@@ -46,7 +46,9 @@ from mbs.vehicle import load
 from mbs.vehicle.kinematics.car_kinematics import kinematics
 from mbs.vehicle.kinematics.table import TITLED, rows
 
-SPEED, PAPER, STABILITY = "docs/speed.md", "docs/speed_and_accuracy.md", "docs/stability.md"
+SPEED = "docs/speed.md"
+PAPER = "docs/speed_and_accuracy.md"
+STABILITY = "docs/stability.md"
 
 
 def paper_table_1() -> list[RemadeTable]:
@@ -120,14 +122,14 @@ def handled() -> list[RemadeTable]:
 def drawn() -> list[RemadeTable]:
     """Linkages of the hatchback as drawn, and frames of two cars."""
     titles = ("bump steer", "roll centre height", "motion ratio of the spring", "wheel rate")
-    found = {title: (front, rear) for title, front, rear, *_ in rows(kinematics(load("hatchback"), (-0.01, 0.01), 3))}
-    said = [f"| {title} | {' | '.join(found[title])} |" for title in (*titles, TITLED["roll_wheel_rate"][1])]
-    said.append(f"straight ahead, {found['steering ratio'][0]} for the hatchback")
+    results = {title: (front, rear) for title, front, rear, *_ in rows(kinematics(load("hatchback"), (-0.01, 0.01), 3))}
+    reported = [f"| {title} | {' | '.join(results[title])} |" for title in (*titles, TITLED["roll_wheel_rate"][1])]
+    reported.append(f"straight ahead, {results['steering ratio'][0]} for the hatchback")
     frames = [stiffness(load(name)) for name in ("hatchback", "prototype")]
     torsion = " | ".join(f"{f.torsion / 1e3:.3g}" for f in frames)
     hertz = " | ".join(", ".join(f"{x:.1f}" for x in f.frequencies) for f in frames)
     return [
-        *(RemadeTable("docs/kinematics.md", sentence) for sentence in said),
+        *(RemadeTable("docs/kinematics.md", sentence) for sentence in reported),
         RemadeTable("docs/cars.md", f"| torsion, kN m/deg | {torsion} |"),
         RemadeTable("docs/cars.md", f"| first frequencies, free, with all masses, Hz | {hertz} |"),
     ]
@@ -165,8 +167,8 @@ def instructions() -> list[RemadeTable]:
     rows = json.loads(scene_instructions.STORED.read_text(encoding="utf-8"))["rows"]
     block = scene_instructions.instruction_blocks(rows)["instructions"]
     step = next(row["instructions"] for row in rows_of(block) if row["scene"] == "double four-bar")
-    said = RemadeTable(PAPER, f"A step at 0.03 s takes {step} instructions")
-    return [RemadeTable(SPEED, block, "instructions", ("scene", "step, ms")), said]
+    reported = RemadeTable(PAPER, f"A step at 0.03 s takes {step} instructions")
+    return [RemadeTable(SPEED, block, "instructions", ("scene", "step, ms")), reported]
 
 
 def outputs() -> list[RemadeTable]:
@@ -192,7 +194,7 @@ def trust_page() -> list[RemadeTable]:
     held = [r for r in rows_of(between(read("docs/fmu.md"), "held inputs")) if r["h, ms"] == "10"]
     *smooth, worst = (row["FMU, inputs held"].split(", ") for row in held)
     late, loads = (max((cells[k] for cells in smooth), key=lambda cell: float(cell.split()[0])) for k in (0, 1))
-    said = (
+    reported = (
         f"wheel loads to {max(float(row[column]) for row in kerb):.1%} at {column} up to {kerb[-1]['speed m s']} m/s",
         f"path to {path:.1e} of its length, loads to {load:.1%} at {column}, up to {fastest:.0f} m/s²",
         f"20 steps in a period: {share:.1%} of the frequency",
@@ -201,7 +203,7 @@ def trust_page() -> list[RemadeTable]:
         f"at {column} the path to {late}, loads to {loads}",
         f"kerb, full lock and brake at once: {worst[1]} of the load",
     )
-    return [RemadeTable(page, sentence.replace("%", " %").replace("  %", " %")) for sentence in said]
+    return [RemadeTable(page, sentence.replace("%", " %").replace("  %", " %")) for sentence in reported]
 
 
 def readme() -> list[RemadeTable]:
@@ -211,13 +213,13 @@ def readme() -> list[RemadeTable]:
     kerb = {next(iter(row.values())): row for row in rows_of(read("docs/flexible_car.md").partition("## The kerb")[2])}
     time = kerb["time for the 15 s, s"]
     steps = {(r["scene"], r["step, ms"]): r["instructions"] for r in rows_of(between(read(SPEED), "instructions"))}
-    said = (
+    reported = (
         f"takes {min(ratios):.0f} to {most:.0f} times as long as the best method",
         f"takes {time['fidelity 3']} s of processor time with 71 modes ({time['paper']} s in the paper)",
         f"and {time['fidelity 1']} s with a rigid frame",
         f"{steps['slalom', '5']} instructions a step of 5 ms",
     )
-    return [RemadeTable("README.md", sentence) for sentence in said]
+    return [RemadeTable("README.md", sentence) for sentence in reported]
 
 
 def elements(whole: bool) -> list[RemadeTable]:
@@ -272,8 +274,8 @@ def chosen_fidelity() -> list[RemadeTable]:
 
 def others_tests() -> list[RemadeTable]:
     """CommonRoad's Escort and the tyre of the rig; `benchmarks.validation` writes all."""
-    found = [*published_tests.by_commonroad(list(published_tests.CARS)[:1]), *tyre_rig.compared()]
-    text = table([figure.row(value) for figure, value in found], published_tests.COLUMNS)
+    results = [*published_tests.by_commonroad(list(published_tests.CARS)[:1]), *tyre_rig.compared()]
+    text = table([figure.row(value) for figure, value in results], published_tests.COLUMNS)
     return [RemadeTable("docs/validation.md", text, "others", ("test",))]
 
 
@@ -335,9 +337,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 write_text(DOCS.parent / again.page, written(again, read(again.page)))
         print(f"{len(made)} tables and charts written")
         return 0
-    said = all_differences(made)
-    print("\n".join(said) or f"{len(made)} tables, sentences and charts of the pages are as they are made now.")
-    return 1 if said else 0
+    reported = all_differences(made)
+    print("\n".join(reported) or f"{len(made)} tables, sentences and charts of the pages are as they are made now.")
+    return 1 if reported else 0
 
 
 if __name__ == "__main__":

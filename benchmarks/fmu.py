@@ -27,8 +27,8 @@ def _calls(options: Namespace) -> list[dict[str, Any]]:
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         for kind in watched(list(KINDS)):
             fmu = build_fmu(system, name, Path(folder), [fmpy.platform], kind=kind)
-            asked = options.steps, min(options.repeats, 64), options.instances
-            rows += fmu_calls.measure(fmu, kind, Path(folder, kind), *asked)
+            requested = options.steps, min(options.repeats, 64), options.instances
+            rows += fmu_calls.measure(fmu, kind, Path(folder, kind), *requested)
     return rows
 
 
@@ -43,8 +43,8 @@ def _held(options: Namespace) -> list[dict[str, Any]]:
 def _plant(options: Namespace) -> list[dict[str, Any]]:
     from benchmarks.car import plant_steps  # needs the extra `learn`
 
-    asked = options.several, options.repeats, options.steps
-    return [row for name in watched(plant_steps.ENVIRONMENTS) for row in plant_steps.measure(name, *asked)]
+    requested = options.several, options.repeats, options.steps
+    return [row for name in watched(plant_steps.ENVIRONMENTS) for row in plant_steps.measure(name, *requested)]
 
 
 def _plant_blocks(rows: Sequence[Row]) -> dict[str, str]:

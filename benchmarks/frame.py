@@ -20,9 +20,9 @@ def _stiffness(options: Namespace) -> list[dict[str, Any]]:
     cars = options.cars or [name for name in car_names() if load(name).chassis.frame is not None]
     rows = []
     for name in cars:
-        found = stiffness(load(name))
-        hertz = {f"f{k + 1}, Hz": float(f) for k, f in enumerate(found.frequencies)}
-        rows.append({"car": name, "between": " and ".join(found.joints), "kN m/deg": found.torsion / 1e3, **hertz})
+        result = stiffness(load(name))
+        hertz = {f"f{k + 1}, Hz": float(f) for k, f in enumerate(result.frequencies)}
+        rows.append({"car": name, "between": " and ".join(result.joints), "kN m/deg": result.torsion / 1e3, **hertz})
     return rows
 
 

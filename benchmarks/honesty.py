@@ -33,8 +33,8 @@ def _scenes(options: Namespace) -> list[dict[str, Any]]:
 def _random(options: Namespace) -> list[dict[str, Any]]:
     if unknown := sorted({*options.family} - {*FAMILIES}):
         raise UserError(f"There is no family {unknown[0]!r}; there are {', '.join(FAMILIES)}.")
-    asked = [(family, number) for family in options.family for number in range(options.random)]
-    return [row for family, number in watched(asked) for row in rows_of(family, options.seed, [number])]
+    requested = [(family, number) for family in options.family for number in range(options.random)]
+    return [row for family, number in watched(requested) for row in rows_of(family, options.seed, [number])]
 
 
 PARTS = {

@@ -35,18 +35,18 @@ def closed_form(damping: float) -> np.ndarray:
 
 def main(picture: str = "quarter_car.png") -> float:
     """Largest relative difference of the eigenvalues from those of the matrices."""
-    system, dampings, found, runs = mbs.compile(quarter_car()), (200.0, 700.0, 1200.0, 1700.0), [], []
+    system, dampings, results, runs = mbs.compile(quarter_car()), (200.0, 700.0, 1200.0, 1700.0), [], []
     for damping in dampings:
         model = mbs.linearise(mbs.Simulation(system, parameters={"damping": damping}))
-        found.append(np.sort_complex([mode.eigenvalue for mode in model.oscillating_modes()]))
+        results.append(np.sort_complex([mode.eigenvalue for mode in model.oscillating_modes()]))
         runs.append(mbs.simulate(system, 2.0, 0.002, inputs={"load": -LOAD}, parameters={"damping": damping}))
         modes = ", ".join(f"{m.frequency_hz:.3f} Hz with {m.damping_ratio:.3f}" for m in model.oscillating_modes())
         print(f"damping {damping:g} N s/m: {modes} of the critical damping")
-    difference = max(float(np.abs(f / closed_form(d) - 1.0).max()) for f, d in zip(found, dampings, strict=True))
+    difference = max(float(np.abs(f / closed_form(d) - 1.0).max()) for f, d in zip(results, dampings, strict=True))
     print(f"largest difference from the two-by-two matrices: {difference:.1e}")
     figure = Figure(figsize=(9.0, 3.2), layout="constrained")
     left, right = figure.subplots(1, 2)
-    left.plot(np.real(found), np.imag(found), "o")
+    left.plot(np.real(results), np.imag(results), "o")
     left.set(xlabel="real part of the eigenvalue, 1/s", ylabel="imaginary part, 1/s")
     for damping, run in zip(dampings, runs, strict=True):
         right.plot(run.t, 1e3 * (run["body.height"] - run["body.height"][0]), label=f"{damping:g} N s/m")

@@ -42,15 +42,15 @@ def closed_form(t: np.ndarray) -> np.ndarray:
 def main(picture: str = "robot_arm.png") -> float:
     """Largest difference of the torques from the closed form over the largest torque."""
     run = mbs.simulate(mbs.compile(robot_arm()), t_end=TIMES[-1], h=0.002)
-    found, expected = np.array([run["torque 0"], run["torque 1"]]), closed_form(run.t)
-    difference = float(np.abs(found - expected).max() / np.abs(expected).max())
-    print(f"torques up to {np.abs(found).max():.1f} N m, {difference:.1e} of that from the closed form")
+    results, expected = np.array([run["torque 0"], run["torque 1"]]), closed_form(run.t)
+    difference = float(np.abs(results - expected).max() / np.abs(expected).max())
+    print(f"torques up to {np.abs(results).max():.1f} N m, {difference:.1e} of that from the closed form")
     figure = Figure(figsize=(9.0, 3.4), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=(1.0, 1.6))
     x, y = (np.array([0.0 * run.t, run[f"end 0 {c}"], run[f"end 1 {c}"]]) for c in "xy")
     left.plot(x[:, ::125], y[:, ::125], "k-o", x[2], y[2], lw=0.7, ms=2)
     left.set(xlabel="m", ylabel="m", aspect="equal")
-    right.plot(run.t, found.T, run.t[::50], expected.T[::50], "k.")
+    right.plot(run.t, results.T, run.t[::50], expected.T[::50], "k.")
     right.set(xlabel="time, s", ylabel="torques, N m; dots: closed form")
     figure.savefig(picture, dpi=90)
     return difference

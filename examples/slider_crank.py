@@ -39,11 +39,11 @@ def exact_speed(angle: np.ndarray) -> np.ndarray:
 def main(picture: str = "slider_crank.png") -> float:
     """Largest relative error of the speed in the run with a tolerance."""
     system = mbs.compile(slider_crank())
-    with warnings.catch_warnings(record=True) as said:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         coarse = mbs.simulate(system, t_end=2.0, h=0.001)
     fine = mbs.simulate(system, t_end=2.0, tolerance=1e-3, times=coarse.t)
-    print(f"with h = 1 ms: {said[0].message}\n\nwith a tolerance: {fine}\n")
+    print(f"with h = 1 ms: {caught[0].message}\n\nwith a tolerance: {fine}\n")
     errors = [np.abs(run["speed"][1:] / exact_speed(run["angle"][1:]) - 1.0) for run in (coarse, fine)]
     print(f"error of the speed: {errors[0].max():.1e} with h = 1 ms, {errors[1].max():.1e} with the tolerance")
     figure = Figure(figsize=(9.0, 3.2), layout="constrained")

@@ -147,10 +147,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             python = _environment(work / name, f"{clone if name in OF_THE_CLONE else wheel}", name)
             seconds = time.monotonic() - begin
             answers = list(_answers(name, python, work, clone))
-            wrong = [words for _, words in answers if words]
-            asked = sum(was_asked for was_asked, _ in answers)
-            print(f"{name:<11} {seconds:>6.0f} s {len(answers):>6} {asked:>6} {len(wrong):>6}", flush=True)
-            print("".join(f"  {words}\n" for words in wrong), end="", flush=True)
+            wrong = [message for _, message in answers if message]
+            requested = sum(was_asked for was_asked, _ in answers)
+            print(f"{name:<11} {seconds:>6.0f} s {len(answers):>6} {requested:>6} {len(wrong):>6}", flush=True)
+            print("".join(f"  {message}\n" for message in wrong), end="", flush=True)
             bad += len(wrong)
             shutil.rmtree(work / name)
     return int(bad > 0)
@@ -167,9 +167,9 @@ def _answers(name: str, python: Path, work: Path, clone: Path) -> Iterator[tuple
         yield _answer(name, extra, python, f"ali3 {line}", files)
     for reader in READERS:
         for file in reader.files or ("",):
-            asked, words = _answer(name, reader.extra, python, reader.what.format(file), files)
-            yield asked, words
-            for how in () if asked or words or not file else reader.bad:
+            requested, message = _answer(name, reader.extra, python, reader.what.format(file), files)
+            yield requested, message
+            for how in () if requested or message or not file else reader.bad:
                 done = _run(python, reader.what.format(f"{how}/{file}"), files)
                 yield False, _wrong(done, 2, "")
     shutil.rmtree(files)
@@ -179,8 +179,8 @@ def _answer(name: str, extra: str, python: Path, what: str, files: Path) -> tupl
     """Where the extra is there it works; elsewhere it is asked for, unless other extras have brought the same."""
     own = extras().get(name, set()) | extras()[""]
     done = _run(python, what, files)
-    asked = done.returncode != 0 and not extras()[extra] <= own
-    return asked, _wrong(done, 2 if asked else 0, f'"ali3[{extra}]"' if asked else "")
+    requested = done.returncode != 0 and not extras()[extra] <= own
+    return requested, _wrong(done, 2 if requested else 0, f'"ali3[{extra}]"' if requested else "")
 
 
 def _run(python: Path, what: str, files: Path) -> subprocess.CompletedProcess[str]:
@@ -197,10 +197,10 @@ def _ran(command: Sequence[str | Path], folder: Path) -> subprocess.CompletedPro
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
 
 
-def _wrong(done: subprocess.CompletedProcess[str], status: int, words: str) -> str:
+def _wrong(done: subprocess.CompletedProcess[str], status: int, message: str) -> str:
     """Empty, or the command with the end of what it said."""
     last = (done.stderr.strip().splitlines() or [""])[-1]
-    sentence = status == 0 or (last.startswith("error: ") and words in last and ("ali3[" in last) == bool(words))
+    sentence = status == 0 or (last.startswith("error: ") and message in last and ("ali3[" in last) == bool(message))
     if done.returncode == status and sentence and "No module named" not in done.stderr:
         return ""
     return f"{shlex.join(map(str, done.args[-4:]))}: exit code {done.returncode}, {last[-300:]}"

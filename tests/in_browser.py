@@ -52,8 +52,8 @@ _FINDINGS = """async () => (await axe.run(document, { resultTypes: ['violations'
 def axe_findings(page: Any) -> list[str]:
     """What axe-core finds in a page of playwright, a line for each rule."""
     page.evaluate(AXE.read_text(encoding="utf-8"))
-    found: list[str] = page.evaluate(_FINDINGS)
-    return found
+    result: list[str] = page.evaluate(_FINDINGS)
+    return result
 
 
 @contextmanager
@@ -102,10 +102,10 @@ def wait_for(page: Any, holds: Callable[[], Any], what: object, timeout: float =
     return value
 
 
-def wait_text(page: Any, element: str, words: str) -> None:
+def wait_text(page: Any, element: str, message: str) -> None:
     """An element, by its name for programs, has these words: a picture comes later than what it shows."""
     text = page.locator(f'[data-a3="{element}"]').first.text_content
-    wait_for(page, lambda: words in text(), lambda: f"'{words}' in '{element}', which says '{text()}'")
+    wait_for(page, lambda: message in text(), lambda: f"'{message}' in '{element}', which says '{text()}'")
 
 
 def wait_drawn(page: Any) -> None:

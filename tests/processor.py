@@ -27,9 +27,9 @@ def mathematics() -> ctypes.CDLL:
 
 
 def _environment() -> ctypes.Array[ctypes.c_char]:
-    found = ctypes.create_string_buffer(_BYTES)
-    assert mathematics().fegetenv(found) == 0
-    return found
+    result = ctypes.create_string_buffer(_BYTES)
+    assert mathematics().fegetenv(result) == 0
+    return result
 
 
 def _register() -> int:

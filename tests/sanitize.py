@@ -51,11 +51,11 @@ OPTIONS = {
 def runtimes(compiler: str) -> list[str]:
     """Libraries that have to be there before Python starts; empty where the compiler has no checks of addresses."""
     names = ["libasan.so", "libubsan.so"] if "gcc" in compiler else [f"libclang_rt.asan-{os.uname().machine}.so"]
-    found = []
+    results = []
     for name in names:
         result = subprocess.run([compiler, f"-print-file-name={name}"], capture_output=True, text=True, check=False)
-        found.append(result.stdout.strip())
-    return found if all(Path(path).is_file() for path in found) else []
+        results.append(result.stdout.strip())
+    return results if all(Path(path).is_file() for path in results) else []
 
 
 def objects(command: Sequence[str], sources: Sequence[Path], folder: Path) -> list[str]:
@@ -65,11 +65,11 @@ def objects(command: Sequence[str], sources: Sequence[Path], folder: Path) -> li
     """
     folder.mkdir(parents=True, exist_ok=True)
     version = subprocess.run([command[0], "--version"], capture_output=True, check=True).stdout
-    words = version + " ".join(part for part in command if "-I" not in part).encode()
+    message = version + " ".join(part for part in command if "-I" not in part).encode()
 
     def made(source: Path) -> str:
         text = subprocess.run([*command, "-E", "-P", source], capture_output=True, check=True).stdout
-        file = folder / f"{hashlib.sha256(words + text).hexdigest()}.o"
+        file = folder / f"{hashlib.sha256(message + text).hexdigest()}.o"
         if not file.is_file():
             part = file.with_suffix(f".{os.getpid()}")  # whole at once: other processes look for it too
             subprocess.run([*command, "-c", source, "-o", part], check=True)

@@ -1,1 +1,1 @@
-"""Draws what moves: a page (three.js) of scenes and recordings, JSON and arrays; knows no model and no FMU."""
+"""Draws scenes and recordings in a page (three.js); it knows neither models nor FMUs."""

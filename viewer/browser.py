@@ -59,14 +59,14 @@ def find_chromium() -> Path:
     """
     named = os.environ.get(VARIABLE)
     if named:
-        found = shutil.which(named)
-        if found is None:
+        result = shutil.which(named)
+        if result is None:
             raise BrowserError(f"The environment variable {VARIABLE} names {named}, which is not a program.")
-        return Path(found)
+        return Path(result)
     for name in _NAMES:
-        found = shutil.which(name)
-        if found is not None:
-            return Path(found)
+        result = shutil.which(name)
+        if result is not None:
+            return Path(result)
     for place in _places():
         if place.is_file() and os.access(place, os.X_OK):
             return place

@@ -1,4 +1,4 @@
-"""Finds the scripts that draw: in a wheel they are files, in a clone they are built on first use and kept."""
+"""Finds the scripts of the page: files in a wheel; in a clone they are built on first use and cached."""
 
 import hashlib
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The public names of errors of what is drawn, and what helps where the page that draws is missing."""
+"""The public names of errors of scenes and recordings, and advice if the scripts of the page are missing."""
 
 from ali3.scene.errors import SceneError, ViewerError
 

@@ -101,8 +101,8 @@ def write_gltf(
         raise ViewerError(f"{recording.name!r} has no shape that can be drawn; there is nothing to write to {path}.")
     if target.suffix.lower() == ".gltf":
         content = _as_text(content)
-    with atomic_file(path) as made:
-        made.write_bytes(content)
+    with atomic_file(path) as temporary:
+        temporary.write_bytes(content)
     notes = list(recording.notes)
     notes += [f"{item['name']} is not drawn: {item['why']}" for item in recording.missing]
     notes += answer["notes"]

@@ -1,4 +1,4 @@
-"""One HTML file with the script of the viewer and data."""
+"""Writes an HTML file that contains the script of the viewer and data."""
 
 import json
 from html import escape

@@ -1,4 +1,4 @@
-"""Colours and sizes of what is drawn, which the page reads too."""
+"""Colours and sizes of shapes, shared with the page."""
 
 import json
 from pathlib import Path

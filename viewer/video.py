@@ -106,9 +106,9 @@ def write_mp4(
         chosen = {**(options or {}), "controls": False, "play": False}
         write_page(page, shown, options=chosen)
         pictures = _told(screenshot(page, times, size, camera), len(times), progress)
-        with closing(pictures), atomic_file(path) as made:
-            encode(made, pictures)
-            written = made.stat().st_size
+        with closing(pictures), atomic_file(path) as temporary:
+            encode(temporary, pictures)
+            written = temporary.stat().st_size
     return WrittenFilm(target, written, len(times), len(times) / fps, notes_of(shown))
 
 

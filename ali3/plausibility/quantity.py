@@ -1,4 +1,4 @@
-"""A quantity by which an engineer knows a thing: its name, unit, and the ranges in which things of its kind lie."""
+"""A quantity of an object (such as the mass of a car): its name, unit and usual ranges for each kind of object."""
 
 import csv
 from collections.abc import Mapping
@@ -17,7 +17,7 @@ WIDEST = ""
 
 @dataclass(frozen=True, eq=False)
 class Quantity:
-    """A row of the table."""
+    """A row of the table of quantities."""
 
     name: str
     """As the field has it, as "bounce frequency"."""
@@ -53,8 +53,8 @@ class Quantity:
 def quantities_of(thing: str) -> Mapping[str, Quantity]:
     """Quantities of a kind of thing by short keys, from the table beside this file. `thing`: as "car"."""
     with TABLE.open(encoding="utf-8", newline="") as file:
-        found = [row for row in csv.DictReader(file) if row["thing"] == thing]
-    return {row["key"]: _quantity(row) for row in found}
+        results = [row for row in csv.DictReader(file) if row["thing"] == thing]
+    return {row["key"]: _quantity(row) for row in results}
 
 
 def _quantity(row: Mapping[str, str]) -> Quantity:
@@ -65,8 +65,8 @@ def _quantity(row: Mapping[str, str]) -> Quantity:
 
 def _ranges(text: str) -> dict[str, Range]:
     """Ranges of kinds as the table has them: ``KIND LOW HIGH, ...``, or ``LOW HIGH`` of all."""
-    found = {}
+    results = {}
     for part in filter(None, text.split(", ")):
         *kind, low, high = part.split()
-        found["".join(kind)] = float(low), float(high)
-    return found
+        results["".join(kind)] = float(low), float(high)
+    return results

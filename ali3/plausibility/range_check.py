@@ -1,4 +1,4 @@
-"""Values of quantities of a file, compared with their ranges, and sentences on those outside."""
+"""Compares quantities of a file with their usual ranges, and writes a sentence for each one outside."""
 
 import math
 import warnings
@@ -16,7 +16,11 @@ from ali3.units import typeset
 
 ROUNDING = 1e-9  # of the range
 FEWEST_OTHERS = 10
-MOST_KEYS, MOST_CAUSES, MOST_OTHERS, LONGEST, MOST_SHOWN = 3, 4, 1, 4, 10
+MOST_KEYS = 3
+MOST_CAUSES = 4
+MOST_OTHERS = 1
+LONGEST = 4
+MOST_SHOWN = 10
 
 
 @dataclass(frozen=True)
@@ -37,11 +41,11 @@ class Value:
         return f"{self.of} {self.quantity.name}".strip()
 
     def inside(self, kind: str = WIDEST) -> bool:
-        """Whether it is in the range of a kind. What has no range is."""
+        """Whether the value lies in the range of a kind of object; true without a range."""
         return self._within(self.quantity.range(kind))
 
     def mended(self, kind: str = WIDEST) -> bool:
-        """Whether it is where undoing a mistake must bring it."""
+        """Whether a value lies where the correction of a mistake must bring it."""
         return self._within(self.quantity.near or self.quantity.range(kind))
 
     def _within(self, bounds: Range | None) -> bool:
@@ -70,7 +74,7 @@ class Mistake:
 
 @dataclass(frozen=True)
 class Plausibility:
-    """What was understood of a file.
+    """Quantities of a file compared with their usual ranges.
 
     `values` in the order in which they are shown; `mistakes` with the commonest first.
     """
@@ -150,8 +154,8 @@ class Plausibility:
             best = max((names for *_, names in mended), key=len, default=frozenset())
             if not best:
                 break
-            found = [(m, after) for m, after, names in mended if names == best]
-            named = [(m, after) for m, after in found if not m.guessed] or found
+            results = [(m, after) for m, after, names in mended if names == best]
+            named = [(m, after) for m, after in results if not m.guessed] or results
             causes, after = [m.words for m, _ in named][:MOST_CAUSES], named[0][1]
             first = next(v for v in left if v.name in best)
             value = next(v for v in after if v.name == first.name)
@@ -179,8 +183,8 @@ class Plausibility:
         poor = {v.name for v in self.values if v.inside(self.kind) and not v.mended(self.kind)}
         wrong |= {v.name for v in after if v.name in own - poor and not v.mended(self.kind)}
         mended = (names & {v.name for v in after}) - wrong
-        left = {key for v in self.outside if v.name not in mended for key in v.keys} - changed
-        mended -= {v.name for v in self.outside if left & set(v.keys)}
+        remaining = {key for v in self.outside if v.name not in mended for key in v.keys} - changed
+        mended -= {v.name for v in self.outside if remaining & set(v.keys)}
         return frozenset() if wrong & own or wrong - before else frozenset(mended)
 
     def _sentence(self, group: Sequence[Value], cause: str) -> str:
@@ -192,8 +196,8 @@ class Plausibility:
         sentence += f"; {cause}" if cause else ""
         if len(group) > 1:
             others = (f"{v.name} {v.quantity.shown(v.value)} ({_range(v.quantity, self.kind)})" for v in group[1:])
-            left = f" and {len(group) - 1 - MOST_OTHERS} more" if len(group) - 1 > MOST_OTHERS else ""
-            sentence += f"; outside too: {', '.join(list(others)[:MOST_OTHERS])}{left}"
+            remaining = f" and {len(group) - 1 - MOST_OTHERS} more" if len(group) - 1 > MOST_OTHERS else ""
+            sentence += f"; outside too: {', '.join(list(others)[:MOST_OTHERS])}{remaining}"
         sentence += "."
         sentence += f" It follows from {', '.join(shown)}{more}." if shown else ""
         return (f"{self.what}: " if self.what else "") + sentence

@@ -1,4 +1,4 @@
-"""What readers return says what was understood of it."""
+"""The summary that each reader returns: how the content of a file was interpreted."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def plausibility_of(thing: Any) -> Sequence[Plausibility]:
 
 
 class Summarised:
-    """Something that a reader returns."""
+    """An object that a reader returns, with a plausibility summary."""
 
     def summary(self) -> str:
         """What was understood of it: quantities that are known of such things, and where they usually lie.

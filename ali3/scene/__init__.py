@@ -1,1 +1,1 @@
-"""What is drawn of a model or an FMU: the scene, its check, and recordings of motions of it."""
+"""The scene of a model or an FMU (its drawing as data), its check, and recordings of its motion."""

@@ -1,4 +1,4 @@
-"""Fewer times of a recording: which are kept, and how well the motion between them is the recorded one."""
+"""Thins the times of a recording, and measures the error of the motion interpolated between the remaining ones."""
 
 from collections.abc import Mapping
 from typing import Any

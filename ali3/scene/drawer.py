@@ -1,4 +1,4 @@
-"""What draws recordings: pages, notebooks, glTF files, films."""
+"""The interface of what draws recordings as pages, notebooks, glTF files and films."""
 
 import os
 from collections.abc import Mapping, Sequence

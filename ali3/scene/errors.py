@@ -1,4 +1,4 @@
-"""Errors of what is drawn, each one sentence for the user."""
+"""Errors in scenes and recordings, each one sentence for the user."""
 
 from ali3.errors import UserError
 

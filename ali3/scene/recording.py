@@ -1,4 +1,4 @@
-"""A run as it is drawn: a scene, times and named columns; checked, and thinned to what a page carries."""
+"""A recording of a run: scene, times and named columns, checked, and thinned for a page."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _LARGEST = 1e30  # of a pose; pictures and glTF hold floats of 32 bits
 
 
 class Recording:
-    """A run that can be drawn.
+    """The recording of a run: scene, times and named columns.
 
     Parameters
     ----------
@@ -248,14 +248,14 @@ def _times(t: ArrayLike, name: str) -> NDArray[np.float64]:
 
 
 def _column(name: str, values: ArrayLike, count: int) -> NDArray[np.float64]:
-    found = np.asarray(values)
-    if found.dtype.kind not in "fiub":
-        raise ViewerError(f"The column {name!r} contains no numbers, but {found.dtype}.")
-    if found.shape != (count,):
+    result = np.asarray(values)
+    if result.dtype.kind not in "fiub":
+        raise ViewerError(f"The column {name!r} contains no numbers, but {result.dtype}.")
+    if result.shape != (count,):
         raise ViewerError(
-            f"The column {name!r} has the shape {found.shape}; there are {count} times, so it must be ({count},)."
+            f"The column {name!r} has the shape {result.shape}; there are {count} times, so it must be ({count},)."
         )
-    return found.astype(np.float64, copy=False)
+    return result.astype(np.float64, copy=False)
 
 
 def _any_number(values: NDArray[np.float64]) -> bool:

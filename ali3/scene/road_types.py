@@ -1,4 +1,4 @@
-"""Roads of a scene: what the ground looks like."""
+"""Types of the roads in a scene, which describe the shape of the drawn ground."""
 
 from typing import Annotated, Literal
 
@@ -12,7 +12,7 @@ Sides = tuple[Annotated[Whole, Field(ge=2)], Annotated[Whole, Field(ge=2)]]
 
 
 class Road(Part):
-    """What all roads have."""
+    """Fields of all roads."""
 
     variables: dict[Literal["file", "kerb_x", "kerb_height", "friction", "friction_factor"], Name] | None = None
     """Parameters of the FMU by what they set; a host applies them before it draws."""
@@ -81,7 +81,7 @@ class Patch(Part):
 
 
 class SurfaceMap(Part):
-    """What the ground is made of, by cells, y fastest."""
+    """Surface class of each cell of the ground, y fastest."""
 
     origin: tuple[Number, Number]
     """x and y of the middle of its first cell, m."""

@@ -1,4 +1,4 @@
-"""Which columns the parts of a scene read, and a scene without the parts whose columns are not there."""
+"""The columns that the parts of a scene read, and a scene without the parts whose columns are missing."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -11,12 +11,12 @@ def columns_of(part: Mapping[str, Any]) -> list[str]:
 
     `part`: of a scene that was checked.
     """
-    found = [*part.get("position", ()), *part.get("quaternion", ()), *part.get("amplitudes", ())]
-    found += [part[key] for key in ("angle", "way", "value", "computed") if key in part]
-    found += [name for name in part.get("vector", ()) if name is not None]
+    results = [*part.get("position", ()), *part.get("quaternion", ()), *part.get("amplitudes", ())]
+    results += [part[key] for key in ("angle", "way", "value", "computed") if key in part]
+    results += [name for name in part.get("vector", ()) if name is not None]
     for names in part.get("tyre", {}).values():
-        found += names
-    return found
+        results += names
+    return results
 
 
 def pose_columns(scene: Mapping[str, Any]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Which frames the parts of a scene lie on."""
+"""The frames that the parts of a scene are attached to."""
 
 from collections.abc import Mapping
 from typing import Any

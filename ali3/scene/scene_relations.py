@@ -1,4 +1,4 @@
-"""Checks that concern several places of a scene: names are those of frames and meshes, arrays fit each other, axes are
+"""Checks across several entries of a scene: names are those of frames and meshes, arrays fit each other, axes are
 orthonormal. They follow the check of types; each fault is a sentence.
 """
 
@@ -20,22 +20,22 @@ _UNIT = 1e-3  # by how much the axes of a shape may miss those of a turn
 @np.errstate(over="ignore", invalid="ignore")  # products of numbers above 1e154 are no unit vectors and no plane
 def relation_errors(scene: Mapping[str, Any]) -> list[str]:
     """Sentences on a scene whose parts have the right types. `scene`: checked by the types."""
-    found = list(_frames(scene))
+    result = list(_frames(scene))
     for k, shape in enumerate(scene["shapes"]):
-        found += _shape(scene, shape, ("shapes", k))
+        result += _shape(scene, shape, ("shapes", k))
     for name, mesh in (scene.get("meshes") or {}).items():
-        found += _mesh(mesh, ("meshes", name))
+        result += _mesh(mesh, ("meshes", name))
     for k, part in enumerate(scene.get("flexible") or []):
-        found += _flexible(scene, part, ("flexible", k))
+        result += _flexible(scene, part, ("flexible", k))
     for k, arrow in enumerate(scene.get("arrows") or []):
-        found += _users(scene, arrow, ("arrows", k))
+        result += _users(scene, arrow, ("arrows", k))
     for k, road in enumerate(scene.get("roads") or []):
-        found += _road(road, ("roads", k))
+        result += _road(road, ("roads", k))
     if not any(scene.get("up") or (0.0, 0.0, 1.0)):
-        found.append("up is [0, 0, 0]; it must have a direction.")
+        result.append("up is [0, 0, 0]; it must have a direction.")
     if scene.get("focus") and scene["focus"] not in _known(scene):
-        found.append(_no_frame(scene, ("focus",), scene["focus"]))
-    return found
+        result.append(_no_frame(scene, ("focus",), scene["focus"]))
+    return result
 
 
 def _known(scene: Mapping[str, Any]) -> list[str]:
@@ -74,15 +74,15 @@ def _frames(scene: Mapping[str, Any]) -> Iterator[str]:
 
 def _circles(scene: Mapping[str, Any]) -> Iterator[str]:
     done = {GROUND}
-    left = dict(scene["frames"])
-    while left:
-        ready = [name for name, frame in left.items() if done.issuperset(frames_of(frame))]
+    remaining = dict(scene["frames"])
+    while remaining:
+        ready = [name for name, frame in remaining.items() if done.issuperset(frames_of(frame))]
         if not ready:
-            yield f"{place(('frames', next(iter(left))))} stands on itself through other frames."
+            yield f"{place(('frames', next(iter(remaining))))} stands on itself through other frames."
             return
         done.update(ready)
         for name in ready:
-            del left[name]
+            del remaining[name]
 
 
 def _length(found: int, right: int, path: tuple[str | int, ...], each: str) -> Iterator[str]:

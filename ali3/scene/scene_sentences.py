@@ -1,4 +1,4 @@
-"""A sentence for each error that pydantic finds in a scene: place, value, and what would be right."""
+"""A sentence for each error that pydantic finds in a scene: path, value, and what would be right."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -12,7 +12,8 @@ from ali3.scene import road_types, scenery_types
 from ali3.scene import scene_types as types
 from ali3.scene.scene_values import NAME, UNIT, Part
 
-UNKNOWN, MISSING = "extra_forbidden", "missing"
+UNKNOWN = "extra_forbidden"
+MISSING = "missing"
 _PATTERNS = {
     NAME: "a name without control characters, '<' and '>'",
     UNIT: "a unit such as 'N.m', without control characters, quotes, '&', '<' and '>', of at most 40 characters",
@@ -71,7 +72,7 @@ def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
             path = _path(scene, item["loc"])[:-1]
             lengths[path] = max(lengths.get(path, 0), item["loc"][-1] + 1)
     lost = {_path(scene, item["loc"]) for item in items if item["type"] == MISSING}
-    found: list[str] = []
+    results: list[str] = []
     for item in items:
         path = _path(scene, item["loc"])
         if item["type"] == UNKNOWN:
@@ -79,13 +80,13 @@ def sentences(scene: Mapping[str, Any], error: ValidationError) -> list[str]:
             near = _near(str(path[-1]), keys) or _near(str(path[-1]), _keys(item["loc"]))
             if near is not None:
                 lost.discard((*path[:-1], near))
-                found.append(f"{place(path)} is not known; did you mean '{near}'?")
+                results.append(f"{place(path)} is not known; did you mean '{near}'?")
             else:
-                known = ", ".join(_keys(item["loc"]))
-                found.append(f"{place(path)} is not known; the keys of {place(path[:-1])} are {known}.")
+                known_names = ", ".join(_keys(item["loc"]))
+                results.append(f"{place(path)} is not known; the keys of {place(path[:-1])} are {known_names}.")
         elif item["type"] != MISSING or path in lost:
-            found.append(_sentence(scene, item, path, lengths))
-    return list(dict.fromkeys(found))
+            results.append(_sentence(scene, item, path, lengths))
+    return list(dict.fromkeys(results))
 
 
 def place(path: Sequence[str | int]) -> str:
@@ -159,18 +160,18 @@ def _at(scene: Any, path: Sequence[str | int]) -> Any:
 def _path(scene: Any, loc: Sequence[str | int]) -> tuple[str | int, ...]:
     """Place of an error, without the names of types that pydantic puts into it."""
     path: list[str | int] = []
-    here: Any = scene
+    node: Any = scene
     for k, part in enumerate(loc):
         last = k == len(loc) - 1
-        if isinstance(here, Mapping):
-            if part in here and not (part == here.get("kind") and not last and _is_tag(here, loc, k)):
+        if isinstance(node, Mapping):
+            if part in node and not (part == node.get("kind") and not last and _is_tag(node, loc, k)):
                 path.append(part)
-                here = here[part]
+                node = node[part]
             elif last and part != "[key]" and part not in _MODELS:
                 path.append(part)
-        elif isinstance(here, (list, tuple)) and isinstance(part, int):
+        elif isinstance(node, (list, tuple)) and isinstance(part, int):
             path.append(part)
-            here = here[part] if part < len(here) else None
+            node = node[part] if part < len(node) else None
     return tuple(path)
 
 

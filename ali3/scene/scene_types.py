@@ -1,4 +1,4 @@
-"""The format of a scene as types: what stands in which place, and of what kind it is."""
+"""The format of a scene as types: the entries of each object and their kinds."""
 
 from typing import Annotated, Any, Literal
 
@@ -102,7 +102,7 @@ Frame = Annotated[
 
 
 class Shape(Part):
-    """What all shapes have."""
+    """Fields of all shapes."""
 
     name: Title | None = None
     body: Title | None = None
@@ -284,7 +284,7 @@ class Flexible(Part):
 
 
 class Arrow(Part):
-    """What all arrows have."""
+    """Fields of all arrows."""
 
     name: Name
     unit: Unit = "N"
@@ -352,7 +352,7 @@ AnyArrow = Annotated[
 
 
 class Missing(Part):
-    """What is not drawn."""
+    """A part that is not drawn, and why."""
 
     name: Text
     why: Text

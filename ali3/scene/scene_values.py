@@ -1,4 +1,4 @@
-"""Values that stand in scenes: numbers, texts, vectors, arrays as text."""
+"""Types of single values in scenes: numbers, texts, vectors, arrays encoded as text."""
 
 from typing import Annotated, Literal
 

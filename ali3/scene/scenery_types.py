@@ -1,4 +1,4 @@
-"""Scenery: what stands and is painted along a road and is only seen; no wheel feels it."""
+"""Types of scenery: objects and road paint that are drawn along a road and have no contact with wheels."""
 
 from typing import Annotated, Literal
 
@@ -23,7 +23,7 @@ class Line(Part):
 
 
 class Upright(Part):
-    """What stands at a place."""
+    """Fields of objects that stand upright at a point."""
 
     at: Vector
     """Its foot, on the ground, m."""

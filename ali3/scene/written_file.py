@@ -1,4 +1,4 @@
-"""What was written of recordings: where it is, how large, and what there is to say of it."""
+"""The result of writing a recording to a file: path, size and notes."""
 
 from pathlib import Path
 from typing import NamedTuple

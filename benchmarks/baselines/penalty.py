@@ -10,9 +10,12 @@ import scipy.linalg
 
 from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 
-DAMPING, FREQUENCY = 1.0, 10.0  # of the constraint oscillators, -, 1/s
-ITERATIONS, SETTLED = 30, 1e-10  # of the accelerations; change of a component in parts of 1 + the largest
-PROJECTIONS, CLOSED = 5, 1e-12  # of the positions; mass-normalised Phi
+DAMPING = 1.0  # damping ratio of the constraint oscillators
+FREQUENCY = 10.0  # their frequency, 1/s
+ITERATIONS = 30  # largest number of iterations of the accelerations
+SETTLED = 1e-10  # converged change of a component, relative to 1 + the largest
+PROJECTIONS = 5  # largest number of projections of the positions
+CLOSED = 1e-12  # converged mass-normalised Phi
 
 
 class Penalty:

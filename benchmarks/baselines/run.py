@@ -28,7 +28,7 @@ METHODS: dict[str, Method] = {
 
 @dataclass(frozen=True)
 class Run:
-    """What came out: position sensors (n, k) and energies (n,) at times t (n,), and how it ended.
+    """Results of a run: position sensors (n, k) and energies (n,) at times t (n,), and how it ended.
 
     `status` is "finished", "refused" or "diverged"; `reason` one line; counts of evaluations and factorizations.
     """
@@ -93,7 +93,7 @@ def run(
                         states.append(x)
             else:
                 wanted = h * every * np.arange(1, steps // every + 1)
-                found = solve_ivp(
+                solution = solve_ivp(
                     chosen.rates,
                     (0.0, t_end),
                     mechanism.start,
@@ -102,10 +102,10 @@ def run(
                     rtol=rtol,
                     atol=0.01 * rtol,
                 )
-                times += found.t.tolist()
-                states += list(found.y.T)
-                if not found.success:
-                    raise RefusedError(f"scipy's {solver} gave up: {found.message}", float(times[-1]))
+                times += solution.t.tolist()
+                states += list(solution.y.T)
+                if not solution.success:
+                    raise RefusedError(f"scipy's {solver} gave up: {solution.message}", float(times[-1]))
     except RefusedError as refusal:
         status = "diverged" if "infinite" in str(refusal) else "refused"
         reason, stopped = str(refusal), refusal.time

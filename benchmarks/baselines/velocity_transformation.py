@@ -10,7 +10,9 @@ from benchmarks.baselines.mechanism import Array, Mechanism, RefusedError
 RANK = 1e-9
 """Share of the largest pivot below which a row counts as redundant at the start."""
 SINGULAR = 1e-12
-NEWTON, CLOSED, OPEN = 20, 1e-12, 1e-8
+NEWTON = 20
+CLOSED = 1e-12
+OPEN = 1e-8
 
 
 class VelocityTransformation:

@@ -20,7 +20,8 @@ from hosts.fmu.fmu import Fmu
 from mbs import Trajectory
 
 STEPS = (0.01, 0.005, 0.002, 0.001)  # s
-PATH_BOUND, LOAD_BOUND = 0.01, 0.03  # of path length and of the largest wheel load
+PATH_BOUND = 0.01  # of the path length
+LOAD_BOUND = 0.03  # of the largest wheel load
 BEFORE = 1e-8  # s: at a jump of an input the value before it
 ERRORS = ("path_error_rel", "wheel_load_error_rel")
 TITLES = {
@@ -37,7 +38,8 @@ TITLES = {
 SMALLER = {"kerb_lock_brake": (0.002,)}
 """Steps beside those of 10 and 5 ms, s."""
 HELD = ("the same through the FMU, inputs held",)
-TIMES, SHOWN = ("us per step", "times real time"), 0.005
+TIMES = ("us per step", "times real time")
+SHOWN = 0.005
 WITHOUT_INPUTS = ("kerb_drop", "drop")
 
 
@@ -77,16 +79,16 @@ def run_of_fmu(
 def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = manoeuvres.PROTOTYPE) -> dict[str, Any]:
     """One row: a manoeuvre with one step."""
     t, values, length = trajectories.read(name, car)
-    found: Trajectory = manoeuvres.run(name, h, car=car, every=round(manoeuvres.sampling(name, car) / h))
-    report = found.report
+    result: Trajectory = manoeuvres.run(name, h, car=car, every=round(manoeuvres.sampling(name, car) / h))
+    report = result.report
     assert report is not None
-    if len(found.t) != len(t) or not np.allclose(found.t, t, rtol=0.0, atol=1e-6):
+    if len(result.t) != len(t) or not np.allclose(result.t, t, rtol=0.0, atol=1e-6):
         raise UserError(
             f"The reference of {name} is of another duration; "
             f"run python -m benchmarks.car references --car {car} --only {name}."
         )
-    error = trajectories.path_error(found, values)
-    duration = float(found.t[-1])
+    error = trajectories.path_error(result, values)
+    duration = float(result.t[-1])
     system, manoeuvre = manoeuvres.system_of(name, car), manoeuvres.load(name, car)
     spent = manoeuvres.time_on(system, manoeuvre, h, repeats, time.process_time)
     held, followed = "_fmpy_held", "_fmpy_followed"
@@ -96,7 +98,7 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
         "h_s": h,
         "path_error_m": error,
         "path_error_rel": error / length,
-        "wheel_load_error_rel": trajectories.load_error(found, values),
+        "wheel_load_error_rel": trajectories.load_error(result, values),
         "iterations_mean": report.mean_iterations,
         "iterations_max": report.max_iterations,
         "halvings": report.halvings,
@@ -131,9 +133,9 @@ def _errors(row: Row, way: str = "") -> str | None:
 def car_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Speed and accuracy by manoeuvre, and what held inputs cost."""
     order = list(TITLES)
-    known = sorted((r for r in rows if r["manoeuvre"] in TITLES), key=lambda r: order.index(r["manoeuvre"]))
+    known_names = sorted((r for r in rows if r["manoeuvre"] in TITLES), key=lambda r: order.index(r["manoeuvre"]))
     lines: list[dict[str, Any]] = []
-    for r in known:
+    for r in known_names:
         if r["h_s"] in (0.01, 0.005, *SMALLER.get(r["manoeuvre"], ())):
             lines.append(
                 {
@@ -152,7 +154,7 @@ def car_blocks(rows: Sequence[Row]) -> dict[str, str]:
             "FMU with derivatives": _errors(r, "_fmpy_followed"),
             "FMU, inputs held": _errors(r, "_fmpy_held"),
         }
-        for r in known
+        for r in known_names
         if r["h_s"] in (0.01, 0.002) and r["manoeuvre"] not in WITHOUT_INPUTS and _errors(r, "_fmpy_held")
     ]
     blocks = {"car": table(lines, dict.fromkeys(lines[0], ""))}

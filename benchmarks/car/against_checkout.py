@@ -59,12 +59,12 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
             f"{checkout} is not a working tree of this project: it has no mbs/kernel/src; git worktree add FOLDER "
             "COMMIT makes one."
         )
-    what = f"the program that repeats steps, with the kernel of {checkout},"
+    label = f"the program that repeats steps, with the kernel of {checkout},"
     include = (kernel / "include",)
     header = (kernel / "include" / "ali3.h").read_text(encoding="utf-8")
     defines = () if "ali3_system_attach" in header else ("LOOPS_ALONE",)
     build.compile_c(
-        [SOURCE, *sources], build.host_target(), program, include=include, defines=defines, what=what, shared=False
+        [SOURCE, *sources], build.host_target(), program, include=include, defines=defines, what=label, shared=False
     )
     wanted = json.dumps([[scene.name, scene.step] for scene in scenes])
     command = [sys.executable, "-c", _COMMANDS, scene_instructions.__file__, str(program), wanted, str(steps)]
@@ -73,8 +73,8 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
     if done.returncode != 0:
         last = done.stderr.strip().rsplit("\n", 1)[-1]
         raise RuntimeError(f"The packages of {checkout} do not make these scenes: {last}")
-    found: dict[str, list[str]] = json.loads(done.stdout.rsplit("\n", 2)[-2])
-    return found
+    record: dict[str, list[str]] = json.loads(done.stdout.rsplit("\n", 2)[-2])
+    return record
 
 
 def measure(

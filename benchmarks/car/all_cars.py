@@ -19,7 +19,9 @@ from benchmarks.car.scene_instructions import measure as count
 from benchmarks.shared.command import watched
 from benchmarks.shared.pages import Row, table
 
-STEP, SMALLER, FINE = 0.005, (0.002, 0.001), 0.0002  # s
+STEP = 0.005  # s
+SMALLER = (0.002, 0.001)  # s
+FINE = 0.0002  # s
 COUNTED = 500  # steps
 STORED = Path(__file__).parents[1] / "data" / "car_table.json"
 
@@ -29,8 +31,8 @@ def measure(cars: Sequence[str], repeats: int) -> list[dict[str, Any]]:
     with tempfile.TemporaryDirectory() as folder:
         program = compiled(Path(folder))
         rows = [row_of(car, repeats, program, Path(folder)) for car in watched(cars)]
-    found = {row["car"]: row for row in (*json.loads(STORED.read_text("utf-8"))["rows"], *rows)}
-    return [found[car] for car in manoeuvres.CARS if car in found]
+    results = {row["car"]: row for row in (*json.loads(STORED.read_text("utf-8"))["rows"], *rows)}
+    return [results[car] for car in manoeuvres.CARS if car in results]
 
 
 def inside(row: Row) -> bool:
@@ -39,7 +41,7 @@ def inside(row: Row) -> bool:
 
 
 def row_of(car: str, repeats: int, program: Path, folder: Path) -> dict[str, Any]:
-    """What is known of a car."""
+    """The row of a car: its errors against its references, and its cost."""
     rows = [accuracy.measure(name, STEP, None, repeats, car) for name in trajectories.referenced(car)]
     path, load = (max(rows, key=lambda row: row[key]) for key in accuracy.ERRORS)
     needs: dict[str, float | None] = {}
@@ -48,7 +50,7 @@ def row_of(car: str, repeats: int, program: Path, folder: Path) -> dict[str, Any
             finer = (accuracy.measure(row["manoeuvre"], h, None, 1, car) for h in SMALLER)
             needs[row["manoeuvre"]] = next((r["h_s"] for r in finer if inside(r)), None)
     worst = load["manoeuvre"]
-    found, fine = (manoeuvres.run(worst, h, car=car) for h in (STEP, FINE))
+    results, fine = (manoeuvres.run(worst, h, car=car) for h in (STEP, FINE))
     slowest = min(rows, key=lambda row: row["realtime_factor"])
     scene = Scene(car, STEP, COUNTED, lambda: manoeuvres.system_of("slalom", car), "slalom")
     return {
@@ -56,7 +58,7 @@ def row_of(car: str, repeats: int, program: Path, folder: Path) -> dict[str, Any
         "manoeuvres": len(rows),
         "path": {key: path[key] for key in ("manoeuvre", "path_error_rel")},
         "load": {key: load[key] for key in ("manoeuvre", "wheel_load_error_rel")},
-        "load_in_time": trajectories.load_error_in_time(found, fine, 0.5 * STEP),
+        "load_in_time": trajectories.load_error_in_time(results, fine, 0.5 * STEP),
         "needs": needs,
         "realtime": {key: slowest[key] for key in ("manoeuvre", "realtime_factor")},
         "instructions": count(scene, program, folder)["instructions"],

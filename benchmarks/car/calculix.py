@@ -27,8 +27,10 @@ from mbs.vehicle.environment import GRAVITY
 
 CAR = load("prototype")
 FRAME = CAR.frame_section.tubular(CAR.folder)
-INTERFACES, REFERENCE = CAR.flexible_frame.interfaces, str(CAR.flexible_frame.reference)
-STEEL, SECTIONS = FRAME.material, FRAME.tube_sections
+INTERFACES = CAR.flexible_frame.interfaces
+REFERENCE = str(CAR.flexible_frame.reference)
+STEEL = FRAME.material
+SECTIONS = FRAME.tube_sections
 
 STORED = Path(__file__).parents[2] / "tests" / "data" / "calculix" / "frames.json"
 TUBE_LENGTH = 1.5  # m, of the main tube of the frame
@@ -53,9 +55,9 @@ def deck(frame: Frame, steps: str) -> str:
         start, end = frame.positions[beam.i], frame.positions[beam.j]
         nodes.append((start + end) / 2)
         outer, wall = _pipe(beam.section)
-        left = ",".join(f"{v:.9g}" for v in beam_axes(start, end)[1][1])
+        remaining = ",".join(f"{v:.9g}" for v in beam_axes(start, end)[1][1])
         lines += [f"*ELEMENT,TYPE=B32R,ELSET=E{number}", f"{number},{beam.i + 1},{len(nodes)},{beam.j + 1}"]
-        lines += [f"*BEAM SECTION,ELSET=E{number},MATERIAL=STEEL,SECTION=PIPE", f"{outer:.9g},{wall:.9g}", left]
+        lines += [f"*BEAM SECTION,ELSET=E{number},MATERIAL=STEEL,SECTION=PIPE", f"{outer:.9g},{wall:.9g}", remaining]
     for node in np.flatnonzero(frame.masses):
         number = len(frame.beams) + int(node) + 1
         lines += [f"*ELEMENT,TYPE=MASS,ELSET=M{number}", f"{number},{node + 1}"]
@@ -150,13 +152,13 @@ def gauge_moments(refinement: int) -> list[float]:
 
 def _bending_moments(frd: str) -> dict[int, float]:
     """Fifth section force of every node of a result file: bending in the plane of the section's second axis."""
-    block, found = "", {}
+    block, results = "", {}
     for line in frd.splitlines():
         if line.startswith(" -4"):
             block = line.split()[1]
         elif line.startswith(" -1") and block == "STRESS":
-            found[int(line[3:13])] = float(line[61:73])
-    return found
+            results[int(line[3:13])] = float(line[61:73])
+    return results
 
 
 def _pipe(section: Section) -> tuple[float, float]:
@@ -165,7 +167,8 @@ def _pipe(section: Section) -> tuple[float, float]:
     return radius, radius - float(np.sqrt(radius**2 - section.area / np.pi))
 
 
-TUBE, FRAMES = (16, 32, 64), (2, 4, 8)  # meshes: elements, refinements
+TUBE = (16, 32, 64)  # elements of a tube, for each mesh
+FRAMES = (2, 4, 8)  # refinements of the frame, for each mesh
 CASES: dict[str, tuple[Callable[[int], Any], tuple[int, ...]]] = {
     "tube_tip_deflection_m": (tip_deflection, TUBE),
     "tube_clamped_hz": (clamped_frequencies, TUBE),

@@ -1,4 +1,4 @@
-"""Wheel loads of a car that climbs an edge in neutral: a kerb, and what partners at its road port may answer."""
+"""Wheel loads of a car that climbs an edge in neutral: a kerb, and contact planes that a partner may return."""
 
 from collections.abc import Sequence
 from functools import cache
@@ -12,12 +12,17 @@ from hosts.common.wheels import WHEELS
 from mbs.elements.road import ANSWER, KerbRoad
 from mbs.vehicle import load
 
-EDGE, STEP, TIME, UP = 0.9, 0.002, 1.0, np.array([0.0, 0.0, 1.0])  # m, s, s
+EDGE = 0.9  # m
+STEP = 0.002  # s
+TIME = 1.0  # s
+UP = np.array([0.0, 0.0, 1.0])
 EDGES = [
     *(("hatchback", h) for h in (0.01, 0.02, 0.05, 0.08, 0.12)),
     *(("prototype", h) for h in (0.02, 0.05, 0.08)),
 ]  # m
-HEIGHT, DEEPER, SUM = "height below", "deeper of both", "sum of both"
+HEIGHT = "height below"
+DEEPER = "deeper of both"
+SUM = "sum of both"
 COLUMNS = {"car": "", "edge, m": "g", "kerb, kN": ".2f"} | dict.fromkeys((HEIGHT, DEEPER, SUM), ".2f")
 COLUMNS |= {f"turn, {name}": ".2f" for name in (DEEPER, SUM)}
 

@@ -1,4 +1,4 @@
-"""Errors by steps in a period, by speed over a kerb and by acceleration: what limits a run can be trusted in."""
+"""Errors by steps in a period, by speed over a kerb and by acceleration: the limits within which a run is accurate."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -16,7 +16,8 @@ IN_A_PERIOD = (100, 50, 20, 10)  # steps
 SPEEDS = (5.0, 10.0, 20.0, 30.0)  # m/s
 STEPS = (0.001, 0.002, 0.005, 0.01)  # s
 FINE = 2e-4  # s
-BEFORE, BEHIND = 0.2, 1.0  # s of the run before and behind the kerb
+BEFORE = 0.2  # s of the run before the kerb
+BEHIND = 1.0  # s of the run behind it
 HARD = {
     "launch_and_brake": "vx",
     "step_steer_given_throttle": "vy",
@@ -73,14 +74,14 @@ def kerb(speed: float) -> dict[str, Any]:
 def acceleration(name: str, h: float) -> dict[str, Any]:
     """Errors of a hard manoeuvre against its stored reference, and its largest horizontal acceleration."""
     t, values, length = trajectories.read(name)
-    found = manoeuvres.run(name, h, every=round(manoeuvres.sampling(name) / h))
+    result = manoeuvres.run(name, h, every=round(manoeuvres.sampling(name) / h))
     size = values["chassis.ay"] if HARD[name] == "vy" else np.gradient(values["speed"], t)
     return {
         "manoeuvre": name.replace("_", " "),
         "largest_m_s2": float(np.abs(size).max()),
         "h_s": h,
-        "path_error": trajectories.path_error(found, values) / length,
-        "load_error": trajectories.load_error(found, values),
+        "path_error": trajectories.path_error(result, values) / length,
+        "load_error": trajectories.load_error(result, values),
     }
 
 

@@ -59,12 +59,12 @@ def errors_of(found: Trajectory, name: str, fidelity: Fidelity, h: float) -> dic
 
 
 def measure(name: str, fidelity: Fidelity, h: float, repeats: int) -> dict[str, Any]:
-    """One row."""
-    found = fidelity_runs.run(name, fidelity, h)
-    report = found.report
+    """The row of a model: errors and cost."""
+    result = fidelity_runs.run(name, fidelity, h)
+    report = result.report
     assert report is not None
-    error = errors_of(found, name, fidelity, h)
-    duration = float(found.t[-1])
+    error = errors_of(result, name, fidelity, h)
+    duration = float(result.t[-1])
     spent = fidelity_runs.cpu_time(name, fidelity, h, repeats)
     return {
         "manoeuvre": name,

@@ -35,7 +35,7 @@ def system_of(name: str, fidelity: Fidelity) -> System:
 
 
 def manoeuvre_of(name: str) -> Manoeuvre:
-    """The guided one needs no inputs."""
+    """The manoeuvre of a model; the guided one needs no inputs."""
     if name == "kerb_test":
         return Manoeuvre(name, np.zeros(0), {}, kerb_test.DURATION)
     return manoeuvres.load(name)
@@ -83,11 +83,11 @@ def read_peaks(name: str) -> dict[str, float]:
 def errors(values: dict[str, NDArray[np.float64]], reference: dict[str, NDArray[np.float64]]) -> dict[str, float]:
     """Errors by `OUTPUTS`, of what there are values."""
 
-    found = {"motion": path_error(values, reference), "wheel_load": error_of_change(values, reference, LOADS)}
+    results = {"motion": path_error(values, reference), "wheel_load": error_of_change(values, reference, LOADS)}
     if MOMENTS[0] not in values:
-        return found
+        return results
     return {
         "moment": error_of_change(values, reference, tuple(FILTERED + s for s in MOMENTS)),
         "moment_unfiltered": error_of_change(values, reference, MOMENTS),
-        **found,
+        **results,
     }

@@ -93,7 +93,7 @@ def time_from_fmpy(folder: Path, steps: int, repeats: int) -> dict[str, float]:
         slave.fmi2FreeInstance(slave.component)
         return wall
 
-    found = {"instantiate_to_initialised": 1e6 * best_time(renewed, repeats)}
+    results = {"instantiate_to_initialised": 1e6 * best_time(renewed, repeats)}
     start()
     clock = [0]
 
@@ -113,7 +113,7 @@ def time_from_fmpy(folder: Path, steps: int, repeats: int) -> dict[str, float]:
         "save_restore_free": state,
     }
     for quantity, action in actions.items():
-        found[quantity] = 1e6 * best_time(lambda action=action: _repeat(action, steps), repeats) / steps
+        results[quantity] = 1e6 * best_time(lambda action=action: _repeat(action, steps), repeats) / steps
     get = actions["get_again"]
 
     def get_after_steps() -> float:
@@ -125,9 +125,9 @@ def time_from_fmpy(folder: Path, steps: int, repeats: int) -> dict[str, float]:
             wall += time.perf_counter() - begin
         return wall
 
-    found["get_all"] = 1e6 * best_time(get_after_steps, repeats) / steps
+    results["get_all"] = 1e6 * best_time(get_after_steps, repeats) / steps
     slave.fmi2FreeInstance(slave.component)
-    return found
+    return results
 
 
 def _repeat(action: Callable[[], Any], count: int) -> None:
@@ -136,10 +136,10 @@ def _repeat(action: Callable[[], Any], count: int) -> None:
 
 
 def fmu_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """Microseconds a call by host."""
-    found = {(r["quantity"], r["kind"], r["host"]): r["value"] for r in rows}
+    """The table of microseconds per call for each host."""
+    results = {(r["quantity"], r["kind"], r["host"]): r["value"] for r in rows}
     lines = [
-        {"microseconds": title} | {host: found.get((name, *key)) for host, key in HOSTS.items()}
+        {"microseconds": title} | {host: results.get((name, *key)) for host, key in HOSTS.items()}
         for name, title in CALLS.items()
     ]
     return {"fmu calls": table(lines, {"microseconds": "", **dict.fromkeys(HOSTS, ".3g")})}

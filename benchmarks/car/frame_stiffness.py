@@ -11,7 +11,8 @@ from mbs.flexible.frequencies import natural_modes
 from mbs.vehicle import Car
 
 COUPLE = 1e3  # N m; the frame is linear
-RIGID, MODES = 6, 4
+RIGID = 6
+MODES = 4
 
 
 @dataclass(frozen=True)
@@ -34,9 +35,12 @@ def stiffness(car: Car) -> Stiffness:
     flexible = car.flexible_frame
     model = flexible.model
     middle = 0.5 * (car.front.wheel.centre[0] + car.rear.wheel.centre[0])
-    left = [name for name in flexible.interfaces if flexible.place(name)[1] > 0.0]
+    remaining = [name for name in flexible.interfaces if flexible.place(name)[1] > 0.0]
     front, rear = (
-        max((n for n in left if (flexible.place(n)[0] > middle) == ahead), key=lambda n: float(flexible.place(n)[2]))
+        max(
+            (n for n in remaining if (flexible.place(n)[0] > middle) == ahead),
+            key=lambda n: float(flexible.place(n)[2]),
+        )
         for ahead in (True, False)
     )
     load = np.zeros((model.n_dof, 1))
@@ -58,5 +62,5 @@ def _width(place: NDArray[np.float64]) -> float:
 
 def _up(model: FiniteElementModel, place: NDArray[np.float64]) -> NDArray[np.int64]:
     """Freedoms along z of the node at a place and of its image."""
-    found = [int(np.linalg.norm(model.positions - place * [1.0, side, 1.0], axis=1).argmin()) for side in (1.0, -1.0)]
-    return np.array(model.dof[found, 2])
+    results = [int(np.linalg.norm(model.positions - place * [1.0, side, 1.0], axis=1).argmin()) for side in (1.0, -1.0)]
+    return np.array(model.dof[results, 2])

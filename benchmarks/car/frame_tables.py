@@ -18,7 +18,8 @@ from mbs.flexible.recovery import gauge_rows
 from mbs.flexible.relief_solution import inertia_relief
 
 Array = NDArray[np.float64]
-FREQUENCIES, FIRST = 15, 5
+FREQUENCIES = 15
+FIRST = 5
 DYNAMIC_MODES = FRAME.section.dynamic_modes
 FIGURES = {
     "tube_tip_deflection_m": ("tube of 1.5 m, tip deflection under 100 N, mm", 1e3, ".3f", 1),
@@ -37,11 +38,11 @@ def mass_errors(kind: str) -> Array:
     `kind`: "consistent" or "lumped".
     """
     frame = FRAME.frame()[0]
-    exact, found = (
+    exact, results = (
         natural_modes(model, 6 + FREQUENCIES)[0][6:]
         for model in (frame.finite_element_model(), frame.finite_element_model(kind, rotary=False))
     )
-    return np.asarray(found / exact - 1.0)
+    return np.asarray(results / exact - 1.0)
 
 
 def mass_table() -> str:
@@ -82,8 +83,8 @@ def moments_by_modes() -> dict[str, tuple[int, Array]]:
 
 def modes_table() -> str:
     """Moments at the gauges at rest by the modes of the frame, and without any."""
-    found: dict[str, tuple[int | None, Array]] = {**moments_by_modes(), "none: inertia relief": (None, moments())}
-    rows = [{"modes": n, "number": k, "SG1, SG2, N m": m[0], "SG3, SG4, N m": m[2]} for n, (k, m) in found.items()]
+    results: dict[str, tuple[int | None, Array]] = {**moments_by_modes(), "none: inertia relief": (None, moments())}
+    rows = [{"modes": n, "number": k, "SG1, SG2, N m": m[0], "SG3, SG4, N m": m[2]} for n, (k, m) in results.items()]
     return table(rows, {"modes": "", "number": "d", "SG1, SG2, N m": ".2f", "SG3, SG4, N m": ".2f"})
 
 

@@ -24,16 +24,16 @@ WAYS = {
 def error(fmu: Path, name: str, step: float, follow: bool) -> float:
     """Largest error of the place at communication points, over the length of the path."""
     _, values, length = trajectories.read(name)
-    found = run_of_fmu(fmu, name, step, follow, inner=INNER)
+    result = run_of_fmu(fmu, name, step, follow, inner=INNER)
     every = max(1, round(step / manoeuvres.sampling(name)))
-    return trajectories.path_error(found, {n: values[n][::every] for n in trajectories.POSITION}) / length
+    return trajectories.path_error(result, {n: values[n][::every] for n in trajectories.POSITION}) / length
 
 
 def measured(fmus: dict[str, Path], names: Sequence[str] = MANOEUVRES) -> list[dict[str, Any]]:
     """A row for each manoeuvre and step, with the errors of the three ways; `fmus`: by kind."""
     return [
         {"manoeuvre": TITLES[name], "H, ms": 1000.0 * step}
-        | {words: error(fmus[kind], name, step, follow) for kind, follow, words in WAYS.values()}
+        | {message: error(fmus[kind], name, step, follow) for kind, follow, message in WAYS.values()}
         for name in names
         for step in STEPS
     ]
@@ -41,7 +41,7 @@ def measured(fmus: dict[str, Path], names: Sequence[str] = MANOEUVRES) -> list[d
 
 def blocks(rows: Sequence[Row]) -> dict[str, str]:
     """The table of the page."""
-    forms = {"manoeuvre": "", "H, ms": "g"} | {words: ".1e" for *_, words in WAYS.values()}
+    forms = {"manoeuvre": "", "H, ms": "g"} | {message: ".1e" for *_, message in WAYS.values()}
     return {"errors over the communication step": table(rows, forms)}
 
 
@@ -51,8 +51,8 @@ def draw(rows: Sequence[Row], file: Path) -> None:
     figure, axes = pyplot().subplots(1, len(names), figsize=(4.2 * len(names), 3.6), sharey=True, layout="constrained")
     for name, ax in zip(names, axes, strict=True):
         mine = [row for row in rows if row["manoeuvre"] == name]
-        for (*_, words), mark in zip(WAYS.values(), ("o-", "s-", "x--"), strict=True):
-            ax.loglog([row["H, ms"] for row in mine], [row[words] for row in mine], mark, label=words)
+        for (*_, message), mark in zip(WAYS.values(), ("o-", "s-", "x--"), strict=True):
+            ax.loglog([row["H, ms"] for row in mine], [row[message] for row in mine], mark, label=message)
         ax.set_title(name)
         ax.set_xlabel("communication step, ms")
         ax.set_xticks([1000.0 * step for step in STEPS], [f"{1000.0 * step:g}" for step in STEPS])

@@ -20,7 +20,8 @@ from mbs.settings.input_signals import InputSignals
 from mbs.simulation.prepared_system import prepared
 
 CARS = 16  # two full groups of the widest lanes
-PARTS, SECONDS = 20, 4.0  # parts of a run, length of it, s
+PARTS = 20  # parts of a run
+SECONDS = 4.0  # length of a run, s
 LANES = {
     "lanes": ("slalom", "lane change"),
     "lanes tables": ("slalom, tables", "lane change, tables"),
@@ -161,7 +162,7 @@ def _step(
 
 
 def lane_blocks(rows: Sequence[Row]) -> dict[str, str]:
-    """What lanes give, and their memory."""
+    """Tables of the gain by lanes, and of their memory."""
     tables = {name: [row for row in rows if row["scene"] in scenes] for name, scenes in LANES.items()}
     blocks = {name: _table_of_ways(part) for name, part in tables.items() if part}
     return blocks | {"lanes memory": _memory(rows)}

@@ -24,7 +24,8 @@ from mbs.vehicle.chassis.flexible_frame import FlexibleFrame
 
 GUIDED = "kerb_test"
 MANOEUVRES = ("launch_and_brake", "kerb_drop", "step_steer_given_throttle", "slalom", "drop", "full_lock", GUIDED)
-H, EVERY = 0.005, 4
+H = 0.005
+EVERY = 4
 KEEP = 1e-4
 """Combinations with less than this part of the largest deformation, in the energy norm, are left out."""
 
@@ -44,7 +45,7 @@ def port_forces(car: Car, name: str) -> NDArray[np.float64]:
     interfaces = car.flexible_frame.interfaces
     rows = [[k for k, row in enumerate(names) if row == f"chassis.{node}"] for node in interfaces]
     scale = system.arrays["row_scale"]
-    found = []
+    results = []
     inputs = list(signals.columns())
     for k in range(round(manoeuvre.stop_time / H)):
         values = signals.at(np.array([(k + 1) * H]), 1e-6 * H)[0]
@@ -55,8 +56,8 @@ def port_forces(car: Car, name: str) -> NDArray[np.float64]:
             s = driven.sensors
             A = Rotation.from_quat([s[f"chassis.q{c}"] for c in "xyzw"]).as_matrix()
             lam = driven.state.lam * scale
-            found.append(np.concatenate([A.T @ lam[r] for r in rows]))
-    return np.array(found).T
+            results.append(np.concatenate([A.T @ lam[r] for r in rows]))
+    return np.array(results).T
 
 
 def mirrored(frame: FlexibleFrame, forces: NDArray[np.float64]) -> NDArray[np.float64]:

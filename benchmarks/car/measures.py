@@ -18,9 +18,12 @@ from mbs.vehicle import Car
 from mbs.vehicle.environment import GRAVITY
 from mbs.vehicle.kinematics import kinematics as found_by_hand
 
-TURN_SPEED, TURN_STEERING, TURN_TIME = 22.22, 0.10, 40.0  # m/s, of full steering at the end, s
+TURN_SPEED = 22.22  # m/s
+TURN_STEERING = 0.10  # share of full steering at the end
+TURN_TIME = 40.0  # s
 TURN_RANGE = (0.05, 0.30)  # g, of the straight line through angles over lateral acceleration
-INTERVAL, STEP = 0.02, 0.01  # s, of the driver and of the steps
+INTERVAL = 0.02  # s between acts of the driver
+STEP = 0.01  # step, s
 HUNDRED = 100.0 / 3.6  # m/s
 PEDALS = (0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
 APPLY = 0.4  # s, in which the pedal goes down
@@ -30,7 +33,7 @@ HOP_MODES = 25.0  # Hz: those of the wheels are slower, those of the tyres' carc
 
 @dataclass(frozen=True)
 class Measure:
-    """A number about a car."""
+    """A measure of a car, with unit and usual range."""
 
     name: str
     unit: str
@@ -101,16 +104,16 @@ def _modes(car: Car) -> dict[str, float]:
     bounce, pitch = sorted(level, key=lambda m: m.frequency_hz)
     hop = [m for m in modes if BODY_MODES < m.frequency_hz < HOP_MODES][:2]
     front, rear = sorted(hop, key=lambda m: -_front_share(model, m))
-    found = {"roll_frequency": rolling.frequency_hz}
+    results = {"roll_frequency": rolling.frequency_hz}
     for name, mode in (("bounce", bounce), ("pitch", pitch)):
-        found |= {f"{name}_frequency": mode.frequency_hz, f"{name}_damping": mode.damping_ratio}
+        results |= {f"{name}_frequency": mode.frequency_hz, f"{name}_damping": mode.damping_ratio}
     for name, mode in (("front", front), ("rear", rear)):
-        found |= {f"hop_frequency_{name}": mode.frequency_hz, f"hop_damping_{name}": mode.damping_ratio}
-    return found
+        results |= {f"hop_frequency_{name}": mode.frequency_hz, f"hop_damping_{name}": mode.damping_ratio}
+    return results
 
 
 def _front_share(model: LinearModel, mode: Mode) -> float:
-    """How much of a motion is that of the front axle's parts."""
+    """The share of the front axle's parts in a mode."""
     size = {"F": 0.0, "R": 0.0}
     for name, value in zip(model.coordinates, mode.shape, strict=True):
         words = name.partition(".")[0].split()

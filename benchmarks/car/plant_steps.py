@@ -23,7 +23,9 @@ from benchmarks.shared.pages import Row, crossed
 from hosts.plant.environments import CarEnvironment
 
 ENVIRONMENTS = ("LaneKeeping", "AntiLockBraking", "ProvingGroundLap")
-FMPY, CAR, ONE = "FMPy", "car in Python", "environment"
+FMPY = "FMPy"
+CAR = "car in Python"
+ONE = "environment"
 Way: TypeAlias = tuple[Callable[[], object], Callable[[int], object]]
 """A new start, and a step of a number."""
 

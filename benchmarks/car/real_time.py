@@ -25,15 +25,21 @@ from mbs.common.progress import progress_for
 from mbs.elements.road import GridRoad
 
 LIMITED_STEP = 2.0  # ms
-FIDELITIES, STEPS = (0, 1, 2, 3), (1.0, 2.0, 5.0, 10.0)
+FIDELITIES = (0, 1, 2, 3)
+STEPS = (1.0, 2.0, 5.0, 10.0)
 LIMITS = {0: (6, 8, 12, 12), 1: (4, 6, 12, 12), 2: (3, 3, 8, 12), 3: (3, 3, 8, 12)}
 """Limits of the iterations of a step by fidelity, for each of `STEPS`: what a quarter of the deadline has time for."""
-EDGE, SPACING = 150.0, 0.25  # m: half the side of the square, between points
-KERB, KERB_LENGTH, KERB_DISTANCE = 0.08, 2.0, 15.0  # m
+EDGE = 150.0  # half the side of the square, m
+SPACING = 0.25  # between points, m
+KERB = 0.08  # m
+KERB_LENGTH = 2.0  # m
+KERB_DISTANCE = 15.0  # m
 ROUGHNESS = 0.01  # m, standard deviation before smoothing
 RAMPS = ((25.0, -75.0, 0.3), (25.0, 0.0, 0.5), (25.0, 75.0, 0.7), (75.0, -37.5, 1.0), (75.0, 37.5, 1.0))
 """Place of the lower edge and height at the upper one, m; they rise along x."""
-RAMP_LENGTH, RAMP_WIDTH, FRICTION = 8.0, 6.0, 0.9
+RAMP_LENGTH = 8.0
+RAMP_WIDTH = 6.0
+FRICTION = 0.9
 
 
 def measure(options: Namespace) -> list[dict[str, Any]]:

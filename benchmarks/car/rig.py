@@ -14,8 +14,10 @@ from mbs.elements.road import PlaneRoad
 from mbs.model.model import Model
 from mbs.vehicle import Car
 
-DURATION, STEP = 4.0, 0.002  # s
-HEAVE, ROLL = 0.04, np.radians(3.0)  # amplitudes, m and rad
+DURATION = 4.0  # s
+STEP = 0.002  # s
+HEAVE = 0.04  # amplitude, m
+ROLL = np.radians(3.0)  # amplitude, rad
 NEAR = {"travel": 0.01, "roll": np.radians(1.0), "angle": 0.5}  # ranges of the fits: m, rad, rad
 WHEELS = {"front": ("FL", "FR"), "rear": ("RL", "RR")}
 NEUTRAL = {"drive.creep_torque": 0.0}
@@ -32,7 +34,7 @@ def kinematics(car: Car) -> dict[str, float]:
     and ``lock_outer`` (rad).
     """
     heave, roll, steer = (moved(car, kind) for kind in ("heave", "roll", "steer"))
-    found: dict[str, float] = {}
+    results: dict[str, float] = {}
     for axle, (left, right) in WHEELS.items():
         z = heave[f"wheel_{left}.travel"]
         track = getattr(car, axle).track
@@ -42,7 +44,7 @@ def kinematics(car: Car) -> dict[str, float]:
             ("bump_steer", heave[f"wheel_{left}.steer"]),
             ("bump_camber", -heave[f"wheel_{left}.inclination"]),
         ):
-            found[f"{axle}.{name}"] = slope(z, values, NEAR["travel"])
+            results[f"{axle}.{name}"] = slope(z, values, NEAR["travel"])
         phi = (roll[f"wheel_{right}.travel"] - roll[f"wheel_{left}.travel"]) / track
         tilt = roll["chassis.roll"] - phi  # of the axle on its tyres
         shift = 0.5 * (contact_y(roll, left) + contact_y(roll, right))
@@ -53,12 +55,12 @@ def kinematics(car: Car) -> dict[str, float]:
             ("roll_camber", roll[f"wheel_{left}.inclination"] - tilt),
             ("roll_stiffness", moment),
         ):
-            found[f"{axle}.{name}"] = slope(phi, values, NEAR["roll"])
+            results[f"{axle}.{name}"] = slope(phi, values, NEAR["roll"])
     angle = steer["steering_wheel_angle"]
     mean = 0.5 * (steer["wheel_FL.steer"] + steer["wheel_FR.steer"])
-    found["steering_ratio"] = 1.0 / slope(angle, mean, NEAR["angle"])
-    found["lock_inner"], found["lock_outer"] = steer["wheel_FL.steer"][-1], steer["wheel_FR.steer"][-1]
-    return found
+    results["steering_ratio"] = 1.0 / slope(angle, mean, NEAR["angle"])
+    results["lock_inner"], results["lock_outer"] = steer["wheel_FL.steer"][-1], steer["wheel_FR.steer"][-1]
+    return results
 
 
 def moved(car: Car, motion: str) -> Trajectory:

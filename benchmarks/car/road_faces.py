@@ -9,8 +9,11 @@ from benchmarks.shared.pages import Row, table
 from mbs.elements.road import GridRoad, KerbRoad
 from mbs.vehicle import load
 
-SPEED, STEP, FACE = 3.0, 0.001, 2.0  # m/s, s, m from where the car starts
-HEIGHTS, SPACINGS = (0.12, 0.05, 0.02), (0.02, 0.05, 0.1, 0.2, 0.25)  # m
+SPEED = 3.0  # m/s
+STEP = 0.001  # s
+FACE = 2.0  # m from the start of the car
+HEIGHTS = (0.12, 0.05, 0.02)  # m
+SPACINGS = (0.02, 0.05, 0.1, 0.2, 0.25)  # m
 COLUMNS = {"height, m": "g", "kerb, kN": ".1f"} | {f"{s:g} m": ".1f" for s in SPACINGS}
 
 
@@ -23,9 +26,9 @@ def face(height: float, spacing: float) -> GridRoad:
 
 def peak(car: str, road: GridRoad | KerbRoad) -> float:
     """Largest load of the left front wheel while it climbs, N."""
-    made = mbs.compile(load(car).model(road))
+    system = mbs.compile(load(car).model(road))
     pose, neutral = mbs.Pose(speed=SPEED), {"selector": 0.0}
-    run = mbs.simulate(made, 1.5, STEP, pose=pose, inputs=neutral, estimate_error=False)
+    run = mbs.simulate(system, 1.5, STEP, pose=pose, inputs=neutral, estimate_error=False)
     return float(run["wheel_FL.Fz"].max())
 
 

@@ -40,10 +40,10 @@ def instructions(command: Sequence[str]) -> int | None:
         return None
     options = ("--tool=callgrind", "--callgrind-out-file=/dev/null")
     done = subprocess.run([valgrind, *options, *command], capture_output=True, text=True, check=True)
-    found = _COLLECTED.search(done.stderr)
-    if found is None:
+    result = _COLLECTED.search(done.stderr)
+    if result is None:
         raise RuntimeError(f"{valgrind} did not say how many instructions it has counted.")
-    return int(found[1])
+    return int(result[1])
 
 
 class Scene(NamedTuple):
@@ -125,8 +125,8 @@ def measure(scene: Scene, program: Path, folder: Path) -> dict[str, Any]:
     whole, before = instructions(command), instructions(still)
     row: dict[str, Any] = {"scene": scene.name, "step_ms": 1e3 * scene.step, "steps": scene.steps}
     row |= {k: n / scene.steps for k, n in zip(("iterations", "factorizations", "solves"), counts, strict=True)}
-    found = None if whole is None or before is None else round((whole - before) / scene.steps)
-    return row | {"instructions": found}
+    result = None if whole is None or before is None else round((whole - before) / scene.steps)
+    return row | {"instructions": result}
 
 
 def input_rows(manoeuvre: Manoeuvre, system: System, times: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""What every step of a wild drive of an FMU costs: processor time of its thread, iterations, what a limit left."""
+"""Cost of each step of an FMU in random driving, such as processor time of its thread and iterations."""
 
 import gc
 import time
@@ -16,7 +16,8 @@ from hosts.driving.random_driver import RandomDriver, Target, wild_start
 from hosts.fmu.fmu import Fmu, StepRefusedError
 
 RUN = 20.0  # s, after which the car starts again
-ROLLED, LYING = 1.2, 3.0  # rad, s: a car that lies so long starts again
+ROLLED = 1.2  # roll angle of a car that lies, rad
+LYING = 3.0  # time after which a lying car starts again, s
 _READ = ("chassis.roll", "solver.iterations", "solver.halvings", "solver.capped_steps", "solver.capped_residual")
 
 
@@ -44,7 +45,7 @@ def drive(
     seed: int,
     progress: Callable[[float], None],
 ) -> Costs:
-    """Drive wildly and measure.
+    """Drive an FMU with random inputs and measure each step.
 
     Parameters
     ----------

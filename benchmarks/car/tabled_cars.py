@@ -67,18 +67,18 @@ def table_of(rows: Sequence[Row]) -> str:
 
 
 def verdict(rows: Sequence[Row]) -> str:
-    """Where the car by tables is outside of 1 % of the path and 3 % of the loads."""
+    """Rows in which the car by tables differs by more than 1 % in its path or 3 % in its loads."""
     outside = [
         f"{r['car']}, {r['manoeuvre'].replace('_', ' ')}"
         for r in rows
         if r["tables_path"] > accuracy.PATH_BOUND or r["tables_load"] > accuracy.LOAD_BOUND
     ]
     smooth = [r for r in rows if r["manoeuvre"] in SMOOTH]
-    said = f"Tables are outside of 1 % of the path and 3 % of the loads in: {'; '.join(outside) or 'none'}."
+    reported = f"Tables are outside of 1 % of the path and 3 % of the loads in: {'; '.join(outside) or 'none'}."
     if smooth:
         path, loads = (max(r[f"tables_{key}"] for r in smooth) for key in ("path", "load"))
-        said += f" In smooth manoeuvres they are within {path:.1e} and {100.0 * loads:.2g} %."
-    return said
+        reported += f" In smooth manoeuvres they are within {path:.1e} and {100.0 * loads:.2g} %."
+    return reported
 
 
 def _errors(row: Row, what: str) -> str:

@@ -108,6 +108,6 @@ def write_replay(car: str = manoeuvres.PROTOTYPE) -> None:
     inputs = dict(zip(("steering", "throttle", "brake"), rows.T[1:], strict=True))
     folder = manoeuvres.FOLDER if car == manoeuvres.PROTOTYPE else manoeuvres.FOLDER / car
     name = manoeuvres.OWN[0]
-    made = Manoeuvre(name, rows[:, 0], inputs, float(rows[-1, 0]), dict(closed.start))
-    words = "What the host's driver did in the double lane change; made by python -m benchmarks.car references"
-    write_manoeuvre(made, folder / f"{name}.toml", words)
+    manoeuvre = Manoeuvre(name, rows[:, 0], inputs, float(rows[-1, 0]), dict(closed.start))
+    message = "What the host's driver did in the double lane change; made by python -m benchmarks.car references"
+    write_manoeuvre(manoeuvre, folder / f"{name}.toml", message)

@@ -30,7 +30,7 @@ class Shown:
 
     @property
     def cars(self) -> list[str]:
-        """Those that have it."""
+        """The cars that have a variable."""
         return list(self.starts)
 
 
@@ -61,7 +61,7 @@ def blocks(found: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
     """Tables of the page by their marks, from `tables`: one for each causality, start values of every car beside each
     other.
     """
-    made = {}
+    results = {}
     for causality, title in _TITLES.items():
         members = [s for s in shown(found) if s.variable.causality == causality]
         starts = causality != "output"
@@ -81,8 +81,8 @@ def blocks(found: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
                     _plain(s),
                 ]
             )
-        made[f"car {title}"] = "\n".join("| " + " | ".join(row) + " |" for row in rows)
-    return made
+        results[f"car {title}"] = "\n".join("| " + " | ".join(row) + " |" for row in rows)
+    return results
 
 
 def _table(name: str) -> tuple[Variable, ...]:

@@ -1,4 +1,4 @@
-"""What a step of the car's FMU costs as WebAssembly: native, wasmtime, Node, Chromium, by turns."""
+"""Time of a step of the car's FMU, native and as WebAssembly in wasmtime, Node and Chromium, measured in turn."""
 
 import gzip
 import importlib.metadata
@@ -21,7 +21,8 @@ from benchmarks.shared.pages import Row, crossed
 from fmu_src.build.build import build_fmu
 from fmu_src.build.scene_registry import load_fidelities
 
-FIDELITIES, INNER = (0, 2), 10
+FIDELITIES = (0, 2)
+INNER = 10
 PLAN = {"inputs": ["steering", "throttle"], "values": [0.1, 0.3], "inner": INNER}
 KINDS = {"inner": "inner step, ten a call", "each": "one a call, inputs set, outputs read"}
 Measure = Callable[[Mapping[str, Any]], dict[str, Any]]
@@ -62,16 +63,16 @@ def _outputs(fmu: Path) -> list[str]:
 
 def _timed(plan: Mapping[str, Any], start: Callable[[], None], works: Mapping[str, Callable[[], None]]) -> Any:
     """As in `clock.js`."""
-    found: dict[str, Any] = {}
+    results: dict[str, Any] = {}
     for kind, work in works.items():
-        found[kind] = []
+        results[kind] = []
         for run in range(plan["warmUp"] + plan["repeats"]):
             start()
             begin = time.perf_counter()
             work()
             if run >= plan["warmUp"]:
-                found[kind].append(1e6 * (time.perf_counter() - begin) / plan["steps"])
-    return found
+                results[kind].append(1e6 * (time.perf_counter() - begin) / plan["steps"])
+    return results
 
 
 def _measure(
@@ -119,14 +120,14 @@ def _native(fmu: Path, folder: Path) -> Measure:
             slave.enterInitializationMode()
             slave.exitInitializationMode()
 
-        found = _measure(
+        result = _measure(
             plan,
             start,
             lambda t, h: slave.fmi2DoStep(c, t, h, 1),
             lambda: slave.fmi2SetReal(c, known, len(given), put),
             lambda: slave.fmi2GetReal(c, references, len(outputs), values),
         )
-        return found | {"end": values[0]}
+        return result | {"end": values[0]}
 
     return measure
 
@@ -152,14 +153,14 @@ def _wasmtime(fmu: Path) -> Measure:
             module.enterInitializationMode()
             module.exitInitializationMode()
 
-        found = _measure(
+        result = _measure(
             plan,
             start,
             lambda t, h: do_step(t, h, 1),
             lambda: set_real(known, len(given), put),
             lambda: get_real(references, len(outputs), values),
         )
-        return found | {"end": struct.unpack("<d", module.bytes_at(values, 8))[0]}
+        return result | {"end": struct.unpack("<d", module.bytes_at(values, 8))[0]}
 
     return measure
 
@@ -171,7 +172,7 @@ def measure(steps: int, repeats: int, rounds: int) -> list[dict[str, Any]]:
         fmu = build_fmu(systems, name, folder, [fmpy.platform, "wasm32"], kind="native")
         h = float(fmpy.read_model_description(str(fmu)).defaultExperiment.stepSize)
         hosts, versions = open_hosts(fmu, Path(folder, "unpacked"), stack)
-        found: dict[tuple[int, str, str], list[float]] = {}
+        results: dict[tuple[int, str, str], list[float]] = {}
         for fidelity in watched(FIDELITIES):
             many = max(INNER, (steps if fidelity == 0 else steps // 2) // INNER * INNER)
             start = {"initial.speed": 15.0, "fidelity": fidelity}
@@ -182,7 +183,7 @@ def measure(steps: int, repeats: int, rounds: int) -> list[dict[str, Any]]:
                     times = timed(plan)
                     ends.add(times.pop("end"))
                     for kind, values in times.items():
-                        found.setdefault((fidelity, kind, host), []).extend(values)
+                        results.setdefault((fidelity, kind, host), []).extend(values)
             if len(ends) != 1:
                 raise RuntimeError(f"The hosts do not end at the same place: {sorted(ends)}.")
         wasm, _ = resources_of(fmu)
@@ -190,7 +191,7 @@ def measure(steps: int, repeats: int, rounds: int) -> list[dict[str, Any]]:
     print("hosts: " + ", ".join(f"{host} {version}" for host, version in versions.items()))
     return [
         {"fidelity": str(fidelity), "what": KINDS[kind], "host": host, "best_us": min(values)}
-        for (fidelity, kind, host), values in found.items()
+        for (fidelity, kind, host), values in results.items()
     ]
 
 

@@ -1,1 +1,1 @@
-"""How the integration methods do on scenes with a known motion: error, time, stability, warnings, growth."""
+"""Integration methods on scenes with a known motion: error, time, stability, warnings, growth of cost."""

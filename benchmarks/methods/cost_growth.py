@@ -15,8 +15,11 @@ from mbs.flexible.component_modes import craig_bampton
 from mbs.scenes import double_four_bar
 from mbs.vehicle import load
 
-STEP, END = 0.01, 0.6  # s: up to before the first singular position
-CHASSIS_STEP, CHASSIS_STEPS = 0.005, 100  # s
+# s: up to before the first singular position
+STEP = 0.01
+END = 0.6
+CHASSIS_STEP = 0.005  # s
+CHASSIS_STEPS = 100  # s
 FITTED_FROM = 10  # N: below it the fixed cost of a step shows
 WINDOWS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 REPEATS = 9

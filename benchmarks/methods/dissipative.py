@@ -59,8 +59,8 @@ def beam(settings: mbs.Settings, h: float) -> CaseRun:
     """Deflection of the tip against geometrically exact beams."""
     t = _run("beam", spinning_beam.DURATION, h, settings, 0.02)
     time_ref, _, expected = np.loadtxt(SPIN_UP, delimiter=",", skiprows=2).T
-    _, found = spinning_beam.in_turning_axes(t.t, t["tip.x"], t["tip.y"])
-    return float(np.abs(np.interp(time_ref, t.t, found) - expected).max() / np.abs(expected).max()), t
+    _, result = spinning_beam.in_turning_axes(t.t, t["tip.x"], t["tip.y"])
+    return float(np.abs(np.interp(time_ref, t.t, result) - expected).max() / np.abs(expected).max()), t
 
 
 def four_bar(settings: mbs.Settings, h: float) -> CaseRun:
@@ -72,7 +72,7 @@ def four_bar(settings: mbs.Settings, h: float) -> CaseRun:
 
 
 def rest(settings: mbs.Settings, h: float) -> CaseRun:
-    """How far the braked car moves in 100 s."""
+    """Displacement of the braked car in 100 s."""
     t = _run("car", 100.0, h, settings, 0.1, {"brake": 1.0})
     place = np.array([t[f"chassis.{c}"] for c in "xyz"])
     return float(np.linalg.norm(place - place[:, :1], axis=0).max()), t

@@ -37,7 +37,7 @@ NEARLY_FLAT = (1e-5, 1e-3)  # by which the arms of a change point differ, of the
 
 @dataclass(frozen=True)
 class CaseRun:
-    """What a run gives of a case."""
+    """The result of a run of a case."""
 
     values: Mapping[str, Array]
     """Of sensors, at the instants."""
@@ -90,15 +90,15 @@ def planar(rng: np.random.Generator) -> Case:
 
 
 def spatial(rng: np.random.Generator) -> Case:
-    """The same in space."""
+    """A random spatial mechanism."""
     return _drawn(*random_mechanisms.drawing(rng, 3))
 
 
 def machines(rng: np.random.Generator) -> Case:
     """Masses on a line with belts, brakes, plays, cams, impacts and stops."""
     kind, machine = random_machines.machine(rng)
-    found = masses_on_a_line.motion(machine)
-    truth = {f"x{i}": found[:, i] for i in range(len(machine.masses)) if i not in machine.driven}
+    result = masses_on_a_line.motion(machine)
+    truth = {f"x{i}": result[:, i] for i in range(len(machine.masses)) if i not in machine.driven}
     return Case(kind, truth=truth, **simulated(mbs.compile(random_machines.model_of(machine)), machine.span))
 
 
@@ -286,14 +286,14 @@ def _tumbling_body(rng: np.random.Generator) -> Case:
         return np.asarray(-np.cross(w, moments * w) / moments)
 
     t = np.linspace(0.0, span, INSTANTS + 1)
-    found = solve_ivp(rates, (0.0, span), turn, t_eval=t, method="DOP853", rtol=1e-12, atol=1e-13).y
+    solution = solve_ivp(rates, (0.0, span), turn, t_eval=t, method="DOP853", rtol=1e-12, atol=1e-13).y
     m = mbs.Model("tumbling body", gravity=(0.0, 0.0, 0.0))
     body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=np.diag(moments))
     m.initial_velocity(body, linear=(0.0, 0.0, 0.0), angular=turn)
     for c in "xyz":
         m.sense_rotation(f"rate.{c}", body, c, order=1)
         m.sense_position(f"centre.{c}", body, None, c)
-    truth = {f"rate.{c}": found[k] for k, c in enumerate("xyz")}
+    truth = {f"rate.{c}": solution[k] for k, c in enumerate("xyz")}
     return Case("body", truth=truth, **simulated(mbs.compile(m), span), tolerances=())
 
 

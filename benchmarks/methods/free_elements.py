@@ -27,8 +27,12 @@ from mbs.flexible.material import Material
 from mbs.flexible.section import round_bar
 from mbs.model.body import Body
 
-O, X, Y, Z = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-COM, INERTIA = (0.3, 0.1, -0.2), (0.05, 0.08, 0.1)
+O = (0.0, 0.0, 0.0)
+X = (1.0, 0.0, 0.0)
+Y = (0.0, 1.0, 0.0)
+Z = (0.0, 0.0, 1.0)
+COM = (0.3, 0.1, -0.2)
+INERTIA = (0.05, 0.08, 0.1)
 PLACE = (0.3, 0.0)
 Joined = Callable[[mbs.Model, Body], object]
 

@@ -1,4 +1,4 @@
-"""Free mechanisms of each joint and each force: what a run of many steps does to their energy, teeth and angles."""
+"""Free mechanisms of each joint and each force: errors of energy, teeth and angles after many steps."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.shared.pages import Row, crossed, table
 from mbs.settings.methods import METHOD_TABLE
 
-STEP, STEPS, EVERY = 0.01, 100_000, 10
+STEP = 0.01
+STEPS = 100_000
+EVERY = 10
 TURNS = (0.01, 0.05, 0.2, 0.5)
 """Rate of the fastest wheel, or of the force, times the step, rad."""
 WRONG = 1e-3
@@ -55,8 +57,8 @@ def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p", t
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             checked = mbs.simulate(system, steps * STEP, STEP, **options)
-        words = {w.category.__name__ for w in caught} | {"notice" for _ in checked.notices}
-        row["told"] = ", ".join(sorted(words))
+        message = {w.category.__name__ for w in caught} | {"notice" for _ in checked.notices}
+        row["told"] = ", ".join(sorted(message))
     if free.angles:
         way = {end: r[end] - r[end][0] for end in {*free.angles, *(end for tie in free.ties for end in tie[:2])}}
         slips = [np.max(np.abs(way[a] - i * way[b])) / np.max(np.abs(way[a])) for a, b, i in free.ties]

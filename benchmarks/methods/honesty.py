@@ -42,13 +42,13 @@ def measure(name: str, method: str, h: float) -> dict[str, Any]:
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", mbs.AccuracyWarning)
-            found = scene.run(method, h)
+            result = scene.run(method, h)
     except mbs.SimulationError as refused:
         return row | {"reason": str(refused), "cpu_s": time.process_time() - begin}
-    accuracy = found.accuracy
+    accuracy = result.accuracy
     assert accuracy is not None
     row["cpu_s"] = time.process_time() - begin
-    error, estimate = scene.error(found)
+    error, estimate = scene.error(result)
     wrong, warned = not error <= WRONG_ERROR, bool(caught)
     return row | {
         "ended": "finished",
@@ -90,21 +90,21 @@ def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
 
 def honesty_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Wrong runs caught and right ones disturbed, and by name those that went against the rule."""
-    said = []
+    reported = []
     for verdict in (VERDICTS[3], VERDICTS[1]):
-        found = [r for r in rows if r["verdict"] == verdict]
-        for method in dict.fromkeys(r["method"] for r in found):
-            runs = (f"{r['scene']} at {r['h_s']:g} s ({r['error']:.2g})" for r in found if r["method"] == method)
-            said.append(f"- {TITLES[method]}, {verdict.replace('wrong, ', '')}: {'; '.join(runs)}.")
+        results = [r for r in rows if r["verdict"] == verdict]
+        for method in dict.fromkeys(r["method"] for r in results):
+            runs = (f"{r['scene']} at {r['h_s']:g} s ({r['error']:.2g})" for r in results if r["method"] == method)
+            reported.append(f"- {TITLES[method]}, {verdict.replace('wrong, ', '')}: {'; '.join(runs)}.")
     short = [
         f"{r['scene']} at {r['h_s']:g} s, {TITLES[r['method']]}: {r['error']:.1e}, estimate {r['estimate']:.1e}"
         for r in rows
         if r["estimate"] is not None and r["error"] > max(HOLDS, FACTOR * r["estimate"])
     ]
-    said += [f"- More than {FACTOR:g} times the estimate: {'; '.join(short) or 'none'}."]
+    reported += [f"- More than {FACTOR:g} times the estimate: {'; '.join(short) or 'none'}."]
     return {
         "honesty": table(summary(rows), SUMMARY),
-        "honesty exceptions": "\n".join(said),
+        "honesty exceptions": "\n".join(reported),
         "honesty crank": crank_table(rows),
     }
 

@@ -1,4 +1,4 @@
-"""What `benchmarks.honesty` runs: each scene with its judged sensors and their true values."""
+"""The scenes of `benchmarks.honesty`, each with the sensors that are judged and their true values."""
 
 import re
 from collections.abc import Callable, Mapping
@@ -167,7 +167,7 @@ def _car_truth(name: str) -> dict[str, Array]:
     """The default with a step at which it differs from the stored references by 1e-4 of what is judged, or less."""
     every = round(manoeuvres.sampling(name) / CAR_STEP)
     fine = manoeuvres.run(name, CAR_STEP, every=every)
-    return {n: fine[n] for n, what in compared_sensors(manoeuvres.system_of(name)).items() if what.always}
+    return {n: fine[n] for n, sensor in compared_sensors(manoeuvres.system_of(name)).items() if sensor.always}
 
 
 def _car(name: str) -> Scene:

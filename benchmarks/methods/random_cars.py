@@ -19,7 +19,8 @@ Array = NDArray[np.float64]
 CARS = ("prototype", "hatchback")
 STEPS = (0.02, 0.01, 0.005, 0.002)  # s
 INTERVAL = 0.02  # s, of the record
-REFERENCE, CHECK = 2.5e-4, 1e-4  # s, steps of energy-momentum and of ALi3-P
+REFERENCE = 2.5e-4  # step of energy-momentum, s
+CHECK = 1e-4  # step of ALi3-P, s
 AGREE = 0.01  # of the range: by which they may differ
 
 
@@ -87,7 +88,7 @@ def agreed(system: mbs.System, simulate: Callable[[str, float], mbs.Trajectory])
         fine, other = simulate("ali3p", CHECK), simulate("energy_momentum", REFERENCE)
     except mbs.SimulationError as refused:
         raise NoReferenceError(str(refused)) from refused
-    judged = {name: what for name, what in compared_sensors(system).items() if what.always}
+    judged = {name: sensor for name, sensor in compared_sensors(system).items() if sensor.always}
     apart = max(differences(other, fine, judged, None, length_of(system))[0].values())
     if not apart <= AGREE:
         raise NoReferenceError(f"two methods differ by {apart:.1e} of the range")

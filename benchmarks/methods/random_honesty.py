@@ -76,7 +76,7 @@ def judged(case: Case, rng: np.random.Generator) -> Iterator[dict[str, Any]]:
     h = float(rng.choice(case.steps))
     every = max(1, round(case.span / intervals / h))
     fixed = case.span / intervals / every  # the nearest step that ends at the instants
-    sensors = {name: what for name, what in compared_sensors(case.system).items() if name in case.truth}
+    sensors = {name: sensor for name, sensor in compared_sensors(case.system).items() if name in case.truth}
     size = sizes_of(case.truth, sensors, length_of(case.system))
 
     def of_range(values: Mapping[str, Array]) -> float:
@@ -102,11 +102,11 @@ def _verdict(
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            found = run()
+            result = run()
     except mbs.SimulationError as refused:
         return row | {"cpu_s": time.process_time() - begin, "reason": str(refused)}
     row["cpu_s"] = time.process_time() - begin
-    error = error_of(found.values)
+    error = error_of(result.values)
     wrong, messages = not error <= most, [f"{w.category.__name__}: {w.message}" for w in caught if w.category in ERRORS]
     verdict = VERDICTS[(3 if messages else 4) if wrong else (1 if messages else 0)]
     if most == WRONG_ERROR and NEAR[0] * most <= error <= NEAR[1] * most:
@@ -114,10 +114,10 @@ def _verdict(
     return row | {
         "verdict": verdict,
         "error": error,
-        "told": found.told,
+        "told": result.told,
         "warnings": messages,
-        "method": found.method,
-        "steps": found.cost,
+        "method": result.method,
+        "steps": result.cost,
     }
 
 
@@ -127,17 +127,17 @@ def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
     for family, seed in dict.fromkeys((r["family"], r["seed"]) for r in rows):
         mine = [r for r in rows if (r["family"], r["seed"]) == (family, seed)]
         none = sum(r["verdict"] == "none" for r in mine)
-        for asked, controlled in (("fixed steps", False), ("tolerance", True)):
+        for requested, controlled in (("fixed steps", False), ("tolerance", True)):
             part = [r for r in mine if r["verdict"] != "none" and ("tol" in r["asked"]) == controlled]
             if not part:
                 continue
             count = {v: sum(r["verdict"] == v for r in part) for v in VERDICTS}
-            told = [r for r in part if r.get("told") is not None and r["error"] > _least(r)]
-            near = sum(1.0 / FACTOR <= r["told"] / r["error"] <= FACTOR for r in told)
+            reported = [r for r in part if r.get("told") is not None and r["error"] > _least(r)]
+            near = sum(1.0 / FACTOR <= r["told"] / r["error"] <= FACTOR for r in reported)
             steps = [r["steps"] for r in part if r["verdict"] == VERDICTS[0] and r["steps"] is not None]
             lines.append(
                 {
-                    "family": f"{family}, {asked}",
+                    "family": f"{family}, {requested}",
                     "seed": seed,
                     "runs": len(part),
                     "right": count["right"] + count["false alarm"],
@@ -146,8 +146,8 @@ def summary(rows: Sequence[Row]) -> list[dict[str, Any]]:
                     "wrong, told": count["wrong, told"],
                     "silently wrong": count["silently wrong"],
                     "near the limit": count["near"],
-                    "estimates": len(told),
-                    "within ten times": near / len(told) if told else None,
+                    "estimates": len(reported),
+                    "within ten times": near / len(reported) if reported else None,
                     "steps over its own": float(np.median(steps)) if steps else None,
                     "no reference": none,
                 }

@@ -1,4 +1,4 @@
-"""What becomes of a run at a step and a penalty (or its counterpart): fine, wrong, refused or diverged."""
+"""Classifies a run at a step and a penalty (or its counterpart) as fine, wrong, refused or diverged."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -19,7 +19,8 @@ STEPS = tuple(float(f"{digit}e{power}") for power in range(-6, 0) for digit in (
 EPS = 10.0 ** -np.arange(3.0, 12.0, 2.0)  # alpha = 1/(eps h^2): what the kernel's penalty is given by
 PENALTIES = (1e3, 1e5, 1e7, 1e9)  # mass-normalised, 1/s2
 BAUMGARTE = (0.0, 10.0, 100.0, 1000.0)  # 1/s
-MOST_CLASSICAL, CLASSICAL_WORK = 1000, 1.3e4  # steps in Python, and those times coordinates
+MOST_CLASSICAL = 1000  # largest number of steps in Python
+CLASSICAL_WORK = 1.3e4  # largest number of steps times coordinates
 WRONG = 0.05  # of the extent of the motion
 ENERGY = 0.05  # of the largest energy exchanged, for conservative scenes
 OUTCOMES = ("fine", "wrong", "refused", "diverged")
@@ -64,12 +65,12 @@ def _energy_scale(scene: str) -> float:
         settings = mbs.Settings(max_halvings=16)  # the light cart needs them
         simulation, case = mbs.Simulation(system, settings=settings), CASES[scene]
         mass = _mass(system)
-        found, h = 0.0, case.end / 5000.0
+        results, h = 0.0, case.end / 5000.0
         for _ in range(200):
             qd = simulation.state.qd
-            found = max(found, 0.5 * float(qd @ mass @ qd))
+            results = max(results, 0.5 * float(qd @ mass @ qd))
             simulation.step(h, n=25)
-        _SCALES[scene] = found
+        _SCALES[scene] = results
     return _SCALES[scene]
 
 

@@ -1,4 +1,4 @@
-"""How far the default settings lie inside the fine region of the maps of `benchmarks.stability`."""
+"""Margins of the default settings inside the region of fine runs in the maps of `benchmarks.stability`."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -22,7 +22,7 @@ def margins(rows: Sequence[Row]) -> list[dict[str, Any]]:
         part = [r for r in rows if (r["scene"], r["method"]) == (scene, method)]
         defaults = sorted((r["h_s"], r["outcome"]) for r in part if r["value"] is None)
         good = _longest([h for h, _ in defaults], [o == "fine" for _, o in defaults])
-        found = {h: _decades(part, h) for h in good} if any(r["value"] is not None for r in part) else {}
+        results = {h: _decades(part, h) for h in good} if any(r["value"] is not None for r in part) else {}
         usual = min(good, key=lambda h: abs(np.log(h / (USUAL_STEP * SQUEEZED.get(scene, 1.0)))), default=None)
         lines.append(
             {
@@ -31,11 +31,11 @@ def margins(rows: Sequence[Row]) -> list[dict[str, Any]]:
                 "smallest_fine_h_s": good[0] if good else None,
                 "largest_fine_h_s": good[-1] if good else None,
                 "first_break": next((f"{o} at {h:.3g} s" for h, o in defaults if good and h > good[-1]), "-"),
-                "decades_below": min((d[0] for d in found.values()), default=None),
-                "decades_above": min((d[1] for d in found.values()), default=None),
+                "decades_below": min((d[0] for d in results.values()), default=None),
+                "decades_above": min((d[1] for d in results.values()), default=None),
                 "usual_h_s": usual,
-                "usual_below": found[usual][0] if usual in found else None,
-                "usual_above": found[usual][1] if usual in found else None,
+                "usual_below": results[usual][0] if usual in results else None,
+                "usual_above": results[usual][1] if usual in results else None,
             }
         )
     return lines

@@ -7,7 +7,8 @@ from benchmarks.shared.pages import table
 from mbs import Settings, compile, simulate
 from mbs.scenes import double_four_bar, flyball, spatial_chain
 
-END, CAR_STEP = 2.0, 0.01  # s
+END = 2.0  # s
+CAR_STEP = 0.01  # s
 SCENES = (
     ("double four-bar", double_four_bar, 0.01),
     ("chain of ten links", spatial_chain, 0.005),

@@ -108,7 +108,7 @@ def plan_of(case: str, fmu: Path, runs: int, stop_time: float, folder: Path, met
 
 
 def stop_time_for(case: str, fmu: Path, seconds: float, folder: Path) -> float:
-    """How long a run is to simulate, to take so many seconds in a plain loop."""
+    """Simulated time of a run that takes a given number of seconds in a plain loop."""
     trial = 1.0
     return round(max(0.1, trial * seconds / loop(case, fmu, 5, trial, folder)["run_s"]), 2)
 
@@ -157,18 +157,18 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
     with (
         _cluster(workers) as address,
         connected(address) as client,
-        ResultStore[StudyRow](folder, StudyRow, "measures a study") as kept,
+        ResultStore[StudyRow](folder, StudyRow, "measures a study") as store,
     ):
-        kept.into(OutcomeTable(folder, plan.record))
+        store.into(OutcomeTable(folder, plan.record))
         runner = on_cluster(client, plan, trial, plan.runs)
         before, processor, started = me.memory_info().rss, sum(me.cpu_times()[:2]), time.perf_counter()
         made = experiment_of(plan.work, plan.fmu).results(
             missing(plan, np.zeros(plan.runs, np.bool_)), runner, whole=plan.runs
         )
         for _, run, result in made:
-            kept.add(str(run.index), "", (run, outcome_of(plan.work, result)))
+            store.add(str(run.index), "", (run, outcome_of(plan.work, result)))
             memory.append(me.memory_info().rss)
-        kept.write()
+        store.write()
         elapsed, processor = time.perf_counter() - started, sum(me.cpu_times()[:2]) - processor
         of_worker = max(p.memory_info().rss for p in me.children(recursive=True))
     frame = read_study(folder)
@@ -255,14 +255,14 @@ def rows_written(case: str, fmu: Path, rows: int, folder: Path) -> Row:
     size = sum(f.stat().st_size for f in part_files(folder))
     begin = time.perf_counter()
     assert sound_runs(folder, plan.record)[0].all()
-    found = time.perf_counter() - begin
+    result = time.perf_counter() - begin
     begin, before = time.perf_counter(), psutil.Process().memory_info().rss
     frame = read_study(folder)
     read = time.perf_counter() - begin
     assert len(frame) == rows
     memory = psutil.Process().memory_info().rss - before
     row = {"table": "rows", "case": case, "runs": rows, "main_ms": 1e3 * spent / rows, "bytes": size / rows}
-    return row | {"found_s": found, "read_s": read, "read_mb": 1e-6 * memory}
+    return row | {"found_s": result, "read_s": read, "read_mb": 1e-6 * memory}
 
 
 def empty_tasks(tasks: int, workers: int) -> Row:

@@ -1,4 +1,4 @@
-"""Tables of `docs/scale.md`: what was measured of studies."""
+"""Tables of `docs/scale.md` from measurements of studies."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -8,7 +8,7 @@ from benchmarks.shared.pages import Row, table
 
 def study_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Tables by name, of those that were measured."""
-    made: dict[str, str] = {}
+    results: dict[str, str] = {}
     runs = [r for r in rows if r["table"] == "runs"]
     car, spring = ([r for r in runs if r["case"] == case] for case in ("car", "spring"))
     if car:
@@ -16,36 +16,36 @@ def study_blocks(rows: Sequence[Row]) -> dict[str, str]:
         columns |= {"overhead, ms/run": ".2f", "overhead": ".2%", "bytes/run": ".0f", "parts": "d", "failed": "d"}
         loop = next((r for r in rows if r["table"] == "loop"), None)
         alone = f"\n\nThe same runs in a plain loop without Dask take {loop['run_s']:.4f} s each." if loop else ""
-        made["study overhead"] = table(car, columns) + alone
+        results["study overhead"] = table(car, columns) + alone
     if spring:
         columns = {"runs": ",d", "main before, MB": ".0f", "main at most, MB": ".0f", "main, ms/run": ".3f"}
         columns |= {"worker, MB": ".0f", "bytes/run": ".0f", "parts": "d", "start again, s": ".1f"}
         again = {r["runs"]: r["start_s"] for r in rows if r["table"] == "start again"}
-        made["study memory"] = table([r | {"start again, s": again.get(r["runs"])} for r in spring], columns)
+        results["study memory"] = table([r | {"start again, s": again.get(r["runs"])} for r in spring], columns)
     single = _single(rows)
     if single:
-        made["study single"] = table(
+        results["study single"] = table(
             single, {"what": "", "number": ",d", "ms each": ".4f", "in all, s": ".2f", "MB": ".0f"}
         )
-    return made
+    return results
 
 
 def _single(rows: Sequence[Row]) -> list[dict[str, Any]]:
-    found = []
+    results = []
     for r in rows:
         if r["table"] == "plan":
             line = {"what": f"plan, {r['method'].replace('_', ' ')}", "number": r["runs"], "ms each": r["main_ms"]}
-            found.append(line | {"in all, s": r["start_s"], "MB": r["main_mb"]})
+            results.append(line | {"in all, s": r["start_s"], "MB": r["main_mb"]})
         elif r["table"] == "rows":
             number, written = r["runs"], 1e-3 * r["main_ms"] * r["runs"]
-            found.append({"what": "rows written", "number": number, "ms each": r["main_ms"], "in all, s": written})
+            results.append({"what": "rows written", "number": number, "ms each": r["main_ms"], "in all, s": written})
             seconds = r["found_s"]
-            found.append(
+            results.append(
                 {"what": "rows found", "number": number, "ms each": 1e3 * seconds / number, "in all, s": seconds}
             )
             line = {"what": "rows opened by pandas", "number": number, "ms each": 1e3 * r["read_s"] / number}
-            found.append(line | {"in all, s": r["read_s"], "MB": r["read_mb"]})
+            results.append(line | {"in all, s": r["read_s"], "MB": r["read_mb"]})
         elif r["table"] == "empty tasks":
             line = {"what": "empty tasks, client and scheduler", "number": r["runs"], "ms each": r["main_ms"]}
-            found.append(line | {"in all, s": r["elapsed_s"]})
-    return found
+            results.append(line | {"in all, s": r["elapsed_s"]})
+    return results

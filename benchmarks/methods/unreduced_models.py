@@ -19,7 +19,8 @@ from mbs.scenes import double_four_bar, prototype_car
 from mbs.vehicle import built_car
 
 ROD_MASS = 0.5  # kg
-H, DURATION = 0.01, 3.0  # s
+H = 0.01  # s
+DURATION = 3.0  # s
 
 
 class WholeJoint(Joint):
@@ -27,12 +28,12 @@ class WholeJoint(Joint):
 
     @property
     def force_equations(self) -> list[int]:
-        """All of them."""
+        """Indices of all equations."""
         return list(range(len(self.equations)))
 
 
 class NaiveModel(Model):
-    """The vocabulary without savings."""
+    """A model without elimination of coordinates."""
 
     def _join(self, joint: Joint) -> Joint:
         whole = WholeJoint(joint.name, joint.type, joint.equations, joint.rows_weight)

@@ -19,15 +19,18 @@ from mbs.settings.input_signals import InputSignals
 from mbs.settings.methods import METHOD_TABLE
 from mbs.simulation.controlled_run import ControlledRun, StalledError, Task
 
-REPEATS, FEW_REPEATS = 7, 2
-LONG, VERY_LONG = 0.5, 5.0  # s of wall time beyond which a few repeats, or the first run, must do
+REPEATS = 7
+FEW_REPEATS = 2
+LONG = 0.5  # wall time in s beyond which a run is repeated less often
+VERY_LONG = 5.0  # wall time in s beyond which it is not repeated
 SCIPY = {"method": "index-1 minimum norm, Baumgarte", "solver": "DOP853"}
 SCIPY_TOLERANCES = (1e-3, 1e-5, 1e-7, 1e-9)
 CLASSICAL_STEPS = 4000  # a slow method in Python is not run longer
 LEVELS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # of position error, m
 QUICK_DIVISIONS = 2
 CONTROLLED = ("ali3p", "energy_momentum", "runge_kutta_8", "semi_recursive", "semi_recursive_4", "radau_5")
-CONTROLLED_TOLERANCES, ORDER_TWO_ENDS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8), 1e-5
+CONTROLLED_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8)
+ORDER_TWO_ENDS = 1e-5
 Action = Callable[[], tuple[float, dict[str, Any]]]
 
 
@@ -150,9 +153,9 @@ def measure(scene: str, quick: bool, engines: dict[str, Any], repeats: int) -> l
     """All rows of a scene; times are medians over repeats through all of them, so that a disturbance is shared."""
     todo = plan(scene, quick, engines)
     for row, action in watched(todo):
-        wall, found = action()
-        row |= found
-        row["wall_s"] = wall if found["ended"] == "finished" else None
+        wall, result = action()
+        row |= result
+        row["wall_s"] = wall if result["ended"] == "finished" else None
     walls: list[list[float]] = [[] for _ in todo]
     for turn in watched(range(repeats)):
         for k, (row, action) in enumerate(todo):
@@ -171,9 +174,9 @@ def time_at_error(rows: Sequence[Row], method: str, level: float) -> float | Non
     Every finished run with a smaller step must be as good: a lucky step does not count. A run that is better than
     asked for counts at its own time: no curve is extended.
     """
-    found = [r for r in rows if r["method"] == method and None not in (r["wall_s"], r["position_error_m"])]
-    found.sort(key=lambda r: r["h_s"] if r["h_s"] is not None else r["rtol"], reverse=True)
-    points = [(r["wall_s"], r["position_error_m"]) for r in found]
+    results = [r for r in rows if r["method"] == method and None not in (r["wall_s"], r["position_error_m"])]
+    results.sort(key=lambda r: r["h_s"] if r["h_s"] is not None else r["rtol"], reverse=True)
+    points = [(r["wall_s"], r["position_error_m"]) for r in results]
     first = next((k + 1 for k in reversed(range(len(points))) if points[k][1] > level), 0)
     if first == len(points):
         return None
@@ -194,8 +197,8 @@ def compare(rows: Sequence[Row], scene: str) -> list[dict[str, Any]]:
         for ours, families in ((True, ("kernel",)), (False, tuple(peers.NAMES))):
             for method in dict.fromkeys(r["method"] for r in part if r["family"] in families):
                 wall = time_at_error(part, method, level)
-                found = best[ours]
-                if wall is not None and (found is None or wall < found[0]):
+                result = best[ours]
+                if wall is not None and (result is None or wall < result[0]):
                     best[ours] = (wall, method)
         we, they = best[True], best[False]
         ratio = we[0] / they[0] if we and they else None

@@ -1,4 +1,4 @@
-"""The paper's test on the kerb: peaks of the bending moments, what is left of them at the end, cost."""
+"""The paper's test on the kerb: peaks of the bending moments, residual moments at the end, cost."""
 
 from typing import Any
 
@@ -17,9 +17,9 @@ RELEASE = 13.0  # s: tyres let go
 
 def changes(t: Trajectory, h: float) -> dict[str, float]:
     """Largest changes from rest, N m."""
-    found = fidelity_runs.peaks(t, h)
-    shown = {f"peak_{g}": found[f"bending_moment.{g}"] for g in GAUGES}
-    return shown | {f"filtered_{g}": found[f"{fidelity_runs.FILTERED}bending_moment.{g}"] for g in GAUGES}
+    result = fidelity_runs.peaks(t, h)
+    shown = {f"peak_{g}": result[f"bending_moment.{g}"] for g in GAUGES}
+    return shown | {f"filtered_{g}": result[f"{fidelity_runs.FILTERED}bending_moment.{g}"] for g in GAUGES}
 
 
 def left_at_the_end(model: Fidelity, h: float) -> tuple[float, float]:

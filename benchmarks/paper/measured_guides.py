@@ -28,8 +28,12 @@ from mbs.scenes import kerb_test, prototype_car
 
 Array = NDArray[np.float64]
 GRAVITY = 9.81  # m/s2
-RATE, FINE, CUT = 0.01, 0.002, 40.0  # s between samples, s of a step of the measured run, Hz of the filter before
-NOISE, OFFSET, DRIFT = 3.0, 0.2, 0.02  # m/s2, m/s2, m/s3: standard deviations
+RATE = 0.01  # s between samples
+FINE = 0.002  # step of the measured run, s
+CUT = 40.0  # frequency of the filter before, Hz
+NOISE = 3.0  # standard deviation, m/s2
+OFFSET = 0.2  # standard deviation, m/s2
+DRIFT = 0.02  # standard deviation, m/s3
 REST = (kerb_test.ACCELERATE[0], kerb_test.BRAKE[1])  # s: it stands before the first and after the second
 _WINDOW = 1.0  # s, of rest that tells one value of the drift
 PLACES = prototype_car.car().chassis.accelerometers
@@ -125,7 +129,7 @@ def _cross(r: Array) -> Array:
 
 
 def _drift(t: Array, v: Array) -> PchipInterpolator:
-    """What a rate, which begins at 0, has where the car stands, and between."""
+    """The drift of a rate that begins at 0: its values while the car stands, interpolated between."""
     begins = [*np.arange(t[0], REST[0], _WINDOW), *np.arange(REST[1], t[-1], _WINDOW)]
     windows = [(t >= b - 1e-9) & (t <= min(b + _WINDOW, t[-1]) + 1e-9) for b in begins]
     knots = [t[0], *(float(t[w].mean()) for w in windows), t[-1]]
@@ -163,9 +167,12 @@ COLUMNS = {
     "moments, %": ".1f",
     "peaks, %": ".1f",
 }
-_SMOOTH, _MEASURED, _SIGNAL = "#0b62c4", "#d55e00", "#b0b0b0"
+_SMOOTH = "#0b62c4"
+_MEASURED = "#d55e00"
+_SIGNAL = "#b0b0b0"
 PAPER = {"guide": "the paper's, measured", "iterations": 2.0, "most": 3}
-_LATEST, _EDGE = 0.5, 0.1  # s, of a shift that is looked for, and what is cut off at the end
+_LATEST = 0.5  # largest shift that is tried, s
+_EDGE = 0.1  # cut off at the ends, s
 
 
 def moments(run: Trajectory) -> Array:
@@ -213,7 +220,7 @@ def row(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int]) ->
     every = round(RATE / FINE)
     x, z, pitch = (true[f"chassis.{k}"][::every] - true[f"chassis.{k}"][0] for k in ("x", "z", "pitch"))
     wanted = moments(plain)
-    made = []
+    results = []
     for seed in seeds:
         signals = measured(true, seed=seed, **given)
         found = motion(signals.filtered(frequency) if frequency else signals, float(x[-1]))
@@ -221,7 +228,7 @@ def row(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int]) ->
         got = moments(run)
         later, off = shifted(wanted, got)
         peaks = np.abs(got).max(axis=0) / np.abs(wanted).max(axis=0) - 1.0
-        made.append(
+        results.append(
             {
                 "way, m": _rms(found.way - x),
                 "speed, m/s": _rms(found.speed - np.gradient(x, found.time)),
@@ -233,8 +240,8 @@ def row(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int]) ->
                 "peaks, %": 100.0 * float(np.abs(peaks).max()),
             }
         )
-    means: dict[str, Any] = {k: float(np.mean([m[k] for m in made])) for k in made[0]}
-    return {"guide": name, **means, "most": int(max(m["most"] for m in made))}
+    means: dict[str, Any] = {k: float(np.mean([m[k] for m in results])) for k in results[0]}
+    return {"guide": name, **means, "most": int(max(m["most"] for m in results))}
 
 
 def _rms(error: Array) -> float:

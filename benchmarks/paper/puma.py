@@ -15,7 +15,8 @@ PAPER = {0.01: (0.53e-3, 6.25), 0.05: (3.4e-3, 1.92), 0.1: (None, None)}  # s: (
 STEPS = (0.1, 0.05, 0.02, 0.01, 0.005)
 METHODS = ("ali3p", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
 REPEATS = 5
-LARGE, SMALL = 0.05, 0.0005  # s
+LARGE = 0.05  # s
+SMALL = 0.0005  # s
 SPLIT = {
     "all stages": (LARGE, LARGE, LARGE),
     "stage 1, free": (LARGE, SMALL, SMALL),
@@ -42,7 +43,7 @@ def measure(system: mbs.System, method: str, h: float, repeats: int) -> dict[str
     }
     settings = mbs.Settings(method=method)
     try:
-        found = puma.replay(system, h, settings, estimate_error=False)
+        result = puma.replay(system, h, settings, estimate_error=False)
     except mbs.SimulationError as error:
         return row | {"ended": f"refused at {error.time:.3g} s: {error}"}
 
@@ -52,10 +53,10 @@ def measure(system: mbs.System, method: str, h: float, repeats: int) -> dict[str
         return time.process_time() - begin
 
     return row | {
-        "error_mm": 1e3 * found.error,
-        "path_error_mm": 1e3 * found.path_error(),
-        "jump_close_J": found.jumps_J[0],
-        "jump_open_J": found.jumps_J[1],
+        "error_mm": 1e3 * result.error,
+        "path_error_mm": 1e3 * result.path_error(),
+        "jump_close_J": result.jumps_J[0],
+        "jump_open_J": result.jumps_J[1],
         "cpu_s": best_time(act, repeats, 0),
     }
 
@@ -64,10 +65,10 @@ def split(system: mbs.System, method: str) -> list[dict[str, Any]]:
     """Error with large steps in one stage and small ones elsewhere, and where the hand was when the pin closed."""
     rows = []
     for title, steps in SPLIT.items():
-        found = puma.replay(system, steps, mbs.Settings(method=method), estimate_error=False)
-        held = found.hand[found.times <= puma.STAGES_S[0]]
+        result = puma.replay(system, steps, mbs.Settings(method=method), estimate_error=False)
+        held = result.hand[result.times <= puma.STAGES_S[0]]
         offset = float(np.linalg.norm(held[-1] - puma.held_at()))
-        rows.append({"large steps in": title, "when pinned mm": 1e3 * offset, "error mm": 1e3 * found.error})
+        rows.append({"large steps in": title, "when pinned mm": 1e3 * offset, "error mm": 1e3 * result.error})
     return rows
 
 

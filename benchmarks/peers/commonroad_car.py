@@ -22,7 +22,10 @@ from vehiclemodels.init_mb import init_mb
 from vehiclemodels.parameters_vehicle2 import parameters_vehicle2
 
 Array = NDArray[np.float64]
-SPEED, YAW_RATE, SIDE_SPEED = 3, 5, 10  # numbers of states
+# numbers of states
+SPEED = 3
+YAW_RATE = 5
+SIDE_SPEED = 10
 HELPERS = ("steering_constraints", "acceleration_constraints", "vehicle_dynamics_ks_cog")
 
 
@@ -103,10 +106,10 @@ def _compile(function: Any) -> Any:
 
 def _tuple(name: str, content: Any) -> Any:
     """Numbers of a class and of those in it that are known."""
-    found = {}
+    results = {}
     for key in content if not dataclasses.is_dataclass(content) else [f.name for f in dataclasses.fields(content)]:
         value = getattr(content, key)
         if value is None:
             continue
-        found[key] = float(value) if isinstance(value, (int, float)) else _tuple(key, value)
-    return namedtuple(name, list(found))(**found)
+        results[key] = float(value) if isinstance(value, (int, float)) else _tuple(key, value)
+    return namedtuple(name, list(results))(**results)

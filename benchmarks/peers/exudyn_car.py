@@ -24,7 +24,9 @@ Array = NDArray[np.float64]
 GRAVITY = 9.81  # m/s2
 STEERING = 2e4, 200.0  # N m/rad, N m s/rad: what holds a front wheel at its angle
 TOLERANCES = 1e-4, 1e-6  # of Newton's method; with the default ones a path of 60 m is 0.02 mm away
-YAW, ROLL = 3, 5  # numbers of coordinates: x, y, z, yaw, pitch, roll of the body come first
+# numbers of coordinates: x, y, z, yaw, pitch, roll of the body come first
+YAW = 3
+ROLL = 5
 AXLES = ("front", "rear")
 
 
@@ -132,8 +134,8 @@ class ExudynCar:
         begin = time.process_time()
         self.mbs.SolveDynamic(s, solverType=exu.DynamicSolverType.GeneralizedAlpha, showHints=False)
         spent = time.process_time() - begin
-        found, rates = (np.asarray(self.mbs.GetSensorStoredData(k))[1:, 1:] for k in self._sensors)
-        return found, rates, spent
+        results, rates = (np.asarray(self.mbs.GetSensorStoredData(k))[1:, 1:] for k in self._sensors)
+        return results, rates, spent
 
 
 def drive(

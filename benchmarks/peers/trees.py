@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from mbs.scenes import bricard, spatial_chain
 
 Vector = NDArray[np.float64]
-Y, Z = np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
+Y = np.array([0.0, 1.0, 0.0])
+Z = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Animations of the scenes for the documentation: what is run, and how it is filmed."""
+"""Animations of the scenes for the documentation: the run of each and its camera."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -95,10 +95,10 @@ def _lane_change(car: str) -> Callable[[], Recording]:
     """The replay of a drive through the lanes of ISO 3888-1, with their cones."""
 
     def record() -> Recording:
-        found = _manoeuvre("double_lane_change_replay", car)()
-        assert found.scene is not None
-        scene = with_course(found.scene, course_of("iso_3888_1", load(car).vehicle.width))
-        return Recording(scene, found.t, found.columns, found.units, found.name)
+        result = _manoeuvre("double_lane_change_replay", car)()
+        assert result.scene is not None
+        scene = with_course(result.scene, course_of("iso_3888_1", load(car).vehicle.width))
+        return Recording(scene, result.t, result.columns, result.units, result.name)
 
     return record
 

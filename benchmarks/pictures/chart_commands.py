@@ -1,4 +1,4 @@
-"""Charts of the pages, each drawn again by what draws it there."""
+"""Draws the charts of the pages again, each by the command that its page names."""
 
 import contextlib
 import re
@@ -27,14 +27,14 @@ from mbs.worlds.command import main as draw_world
 
 def charts(_: bool) -> list[RemadeTable]:
     """All charts of `DRAWN`, as they are drawn now."""
-    made = []
+    results = []
     with tempfile.TemporaryDirectory() as folder:
         for name, draw in DRAWN.items():
             file = Path(folder, name)
             with redirect_stdout(StringIO()):
                 draw(file)
-            made.append(RemadeTable(f"docs/images/{name}", description_of(file), picture=file.read_bytes()))
-    return made
+            results.append(RemadeTable(f"docs/images/{name}", description_of(file), picture=file.read_bytes()))
+    return results
 
 
 def _prototype() -> Path:

@@ -72,6 +72,6 @@ def drive(name: str) -> Recording:
         drawing = json.loads(Path(folder, f"{d.world}.json").read_text(encoding="utf-8"))
         assert run.drawing is not None
         # Those of the file have no scenery, and are many; what was left out of the run is found by its road.
-        found = run.recording({**run.drawing.scene, "roads": []})
-    scene = {**(found.scene or {}), "roads": drawing["roads"], "scenery": drawing["scenery"]}
-    return Recording(scene, found.t, found.columns, found.units, found.name)
+        result = run.recording({**run.drawing.scene, "roads": []})
+    scene = {**(result.scene or {}), "roads": drawing["roads"], "scenery": drawing["scenery"]}
+    return Recording(scene, result.t, result.columns, result.units, result.name)

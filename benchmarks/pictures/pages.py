@@ -1,4 +1,4 @@
-"""Pages as people see them, at one instant: the same pictures with the script of another checkout, pixel by pixel."""
+"""Pictures of pages at one instant, compared pixel by pixel with those by the script of another checkout."""
 
 import io
 import json
@@ -25,7 +25,9 @@ from viewer.bundle import bundle
 from viewer.html_document import html_document, script
 from viewer.page_data import page_data
 
-DESKTOP, PHONE, LYING = (1280, 720), (390, 780), (780, 390)
+DESKTOP = (1280, 720)
+PHONE = (390, 780)
+LYING = (780, 390)
 ALIKE = 2
 """Steps of 256 of a colour that two pictures may differ by."""
 LIVE = "live"
@@ -42,7 +44,7 @@ _STANDS = "window.player?.frames?.newest && !player.frames.newest.running && pla
 
 @dataclass(frozen=True)
 class Shown:
-    """A page and when it is looked at."""
+    """A page and the instant of its picture."""
 
     runs: tuple[str, ...]
     """Films whose runs it shows; or `LIVE`, the FMU of the first command in the tab; or `SIMULATOR`."""
@@ -58,7 +60,8 @@ class Shown:
     """One that does not follow the speed of this machine."""
 
 
-CAR, OTHER = "double_lane_change", "hatchback_lane_change"
+CAR = "double_lane_change"
+OTHER = "hatchback_lane_change"
 PAGES = {
     **{
         name: Shown(
@@ -139,13 +142,13 @@ def _served(name: str, folder: Path) -> Iterator[tuple[str, str]]:
 
 def _data(shown: Shown) -> dict[str, Any]:
     if shown.runs == (LIVE,):
-        with TemporaryDirectory() as made:
+        with TemporaryDirectory() as directory:
             with redirect_stdout(io.StringIO()):
-                view(["--live", "--paused", "--no-open", "--out", made, str(_car())])
-            (file,) = Path(made).glob("*.html")
-            found = _DATA.search(file.read_text(encoding="utf-8"))
-            assert found is not None
-            return dict(json.loads(found[1]))
+                view(["--live", "--paused", "--no-open", "--out", directory, str(_car())])
+            (file,) = Path(directory).glob("*.html")
+            result = _DATA.search(file.read_text(encoding="utf-8"))
+            assert result is not None
+            return dict(json.loads(result[1]))
     runs = [_recorded(name).thinned() for name in shown.runs]
     return page_data(runs, {key: value for key, value in shown.options.items() if value is not None})
 

@@ -22,7 +22,7 @@ RATES = f"({{ ...player.flow, missed: {NEWEST}.missed, worst: {NEWEST}.worst, ti
 
 @dataclass(frozen=True)
 class Shot:
-    """A picture."""
+    """A picture of the simulator, and when it is taken."""
 
     place: str
     """Where the car starts, of the proving ground."""
@@ -48,15 +48,15 @@ def simulator(fmu: Path, options: Sequence[str]) -> Iterator[str]:
     """Start the simulator; gives its address."""
     command = [sys.executable, "-m", "ali3", "simulator", str(fmu), "--no-open", "--no-devices", *options]
     host = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    said = ""
+    reported = ""
     try:
         for line in host.stdout or ():
-            said += line
-            if found := re.search(r"http://\S+", line):
+            reported += line
+            if match := re.search(r"http://\S+", line):
                 break
         else:
-            raise RuntimeError(f"The simulator did not start: {said}")
-        yield found[0]
+            raise RuntimeError(f"The simulator did not start: {reported}")
+        yield match[0]
     finally:
         host.terminate()
         host.communicate()
@@ -96,8 +96,8 @@ def take(fmu: Path, shot: Shot, file: Path) -> dict[str, float]:
         drive(page, shot)
         picture, rates = page.screenshot(), page.evaluate(RATES)
         chromium.close()
-    with atomic_file(file) as made:
-        Image.open(io.BytesIO(picture)).convert("RGB").save(made, "webp", quality=80, method=6)
+    with atomic_file(file) as temporary:
+        Image.open(io.BytesIO(picture)).convert("RGB").save(temporary, "webp", quality=80, method=6)
     return dict(rates)
 
 

@@ -1,1 +1,1 @@
-"""What is right: exact motions, published numbers, stored runs of independent programs, and their scenes."""
+"""References: exact motions, published numbers, stored runs of independent programs, and their scenes."""

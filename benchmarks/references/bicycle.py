@@ -12,7 +12,9 @@ from scipy.optimize import brentq
 import mbs
 from mbs.scenes import bicycle
 
-WEAVE, CAPSIZE = 4.29238253634111, 6.02426201538837  # m/s: stable by itself between them
+# m/s: stable by itself between them
+WEAVE = 4.29238253634111
+CAPSIZE = 6.02426201538837
 AT_FIVE = (-14.07838969, -0.77534188 + 4.46486771j, -0.77534188 - 4.46486771j, -0.32286643)  # 1/s, at 5 m/s
 NOTHING = 1e-4  # 1/s: place, heading and speed have eigenvalues of zero, up to the square root of round-off
 REAL = 1e-9  # 1/s

@@ -10,7 +10,8 @@ from scipy.integrate import solve_ivp
 from benchmarks.references.newton_euler import INSTANTS, NoReferenceError, cross, quaternion_matrix
 
 Array = NDArray[np.float64]
-LOOSE, TIGHT = 1e-8, 1e-10
+LOOSE = 1e-8
+TIGHT = 1e-10
 AGREE = 1e-4  # of the size: by which both runs may differ
 
 
@@ -84,5 +85,5 @@ def _run(box: Box, tolerance: float, parts: int) -> dict[str, Array]:
     if not run.success:
         raise NoReferenceError(run.message)
     tip = np.array([y[:3] + quaternion_matrix(y[3:7] / np.linalg.norm(y[3:7])) @ corners[0] for y in run.y.T])
-    found = {f"centre.{c}": run.y[k] for k, c in enumerate("xyz")}
-    return found | {f"corner.{c}": tip[:, k] for k, c in enumerate("xyz")}
+    results = {f"centre.{c}": run.y[k] for k, c in enumerate("xyz")}
+    return results | {f"corner.{c}": tip[:, k] for k, c in enumerate("xyz")}

@@ -1,4 +1,4 @@
-"""Where the references with geometrically exact beams come from: a program of its own that needs only Exudyn.
+"""Computes the references with geometrically exact beams: a separate program that needs only Exudyn.
 
 ``pip install exudyn numpy; python exudyn_beams.py {four_bar,spin_up,pendulum} ELEMENTS STEP FILE``. Beams on SE(3)
 (`ObjectBeamGeometricallyExact`), generalised-alpha. The stored files were made with Exudyn 1.13.6:
@@ -47,7 +47,7 @@ def section(stiffness, mass, inertia, damping=0.0):
 
 
 class Scene:
-    """A system in the making."""
+    """A system of Exudyn that is being assembled."""
 
     def __init__(self):
         self.container = exu.SystemContainer()

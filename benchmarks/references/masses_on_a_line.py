@@ -11,7 +11,8 @@ from scipy.interpolate import PchipInterpolator, PPoly
 from benchmarks.references.newton_euler import INSTANTS, NoReferenceError
 
 Array = NDArray[np.float64]
-LOOSE, TIGHT = 1e-8, 1e-10
+LOOSE = 1e-8
+TIGHT = 1e-10
 REST = 1e-100  # squares of smaller rates underflow in SciPy's estimate of an error
 AGREE = 1e-4  # of the largest range: by which both runs may differ
 
@@ -59,7 +60,7 @@ class Cam:
     table: Array | None = None  # rows of angle, rad, and lift, m; the curve is then that of the angle
 
     def motion(self) -> Callable[[float], tuple[float, float]]:
-        """Place and speed over time."""
+        """Position and speed over time."""
         curve, speed = self.curve, self.curve.derivative()
         if self.table is None:
             return lambda t: (float(curve(t)), float(speed(t)))
@@ -123,9 +124,9 @@ def _run(machine: Machine, tolerance: float, parts: int) -> Array:
             force[f.mass] -= held
             if f.on is not None:
                 force[f.on] += held
-        found = np.concatenate([v[free], force[free] / mass[free], slips])
-        found[np.abs(found) < REST] = 0.0
-        return found
+        values = np.concatenate([v[free], force[free] / mass[free], slips])
+        values[np.abs(values) < REST] = 0.0
+        return values
 
     t = np.linspace(0.0, machine.span, INSTANTS + 1)
     start, speeds = np.array(machine.start)[free], np.array(machine.speeds)[free]

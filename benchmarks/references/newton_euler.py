@@ -14,7 +14,10 @@ from scipy.interpolate import PPoly
 Array = NDArray[np.float64]
 GROUND = -1
 INSTANTS = 50  # intervals of the record
-COARSE, FINE, FINEST = 1e-8, 1e-10, 1e-12  # relative tolerances of the runs
+# relative tolerances of the runs
+COARSE = 1e-8
+FINE = 1e-10
+FINEST = 1e-12
 AGREE = 1e-5  # of the size: by which two runs of a reference may differ
 MOST_CALLS = 100000  # of the equations of motion, in a run
 
@@ -311,14 +314,14 @@ def motion(drawing: Drawing, rates: bool = False) -> Array:
 
     Raises `NoReferenceError`: they differ by more than 1e-5 of the size of the drawing, or one of them does not end.
     """
-    (coarse, _), (found, seen) = (_run(drawing, tolerance) for tolerance in (COARSE, FINE))
-    apart = float(np.abs(coarse - found).max()) / drawing.size
+    (coarse, _), (results, seen) = (_run(drawing, tolerance) for tolerance in (COARSE, FINE))
+    apart = float(np.abs(coarse - results).max()) / drawing.size
     if not apart <= AGREE:
-        coarse, (found, seen) = found, _run(drawing, FINEST)
-        apart = float(np.abs(coarse - found).max()) / drawing.size
+        coarse, (results, seen) = results, _run(drawing, FINEST)
+        apart = float(np.abs(coarse - results).max()) / drawing.size
     if not apart <= AGREE:
         raise NoReferenceError(f"two runs of the reference differ by {apart:.1e} of the size")
-    return seen if rates else found
+    return seen if rates else results
 
 
 def _run(drawing: Drawing, tolerance: float) -> tuple[Array, Array]:
@@ -332,16 +335,16 @@ def _run(drawing: Drawing, tolerance: float) -> tuple[Array, Array]:
         for begin, end in itertools.pairwise(drawing.events):
             dynamics.between = (begin, end)
             x = dynamics.struck(begin, x) if len(x) else dynamics.start()
-            asked = t[(t > begin if begin > 0.0 else t >= begin) & (t <= end)]
+            requested = t[(t > begin if begin > 0.0 else t >= begin) & (t <= end)]
             run = solve_ivp(
-                dynamics.rates, (begin, end), x, t_eval=np.append(asked[asked < end], end), method="DOP853",
+                dynamics.rates, (begin, end), x, t_eval=np.append(requested[requested < end], end), method="DOP853",
                 rtol=tolerance, atol=0.1 * tolerance, max_step=limit,
             )  # fmt: skip
             if not run.success:
                 raise NoReferenceError(run.message)
             x = run.y[:, -1]
-            tips += [dynamics.tips(state) for state in run.y.T[: len(asked)]]
-            seen += [dynamics.rates_and_drive(*row) for row in zip(asked, run.y.T[: len(asked)], strict=True)]
+            tips += [dynamics.tips(state) for state in run.y.T[: len(requested)]]
+            seen += [dynamics.rates_and_drive(*row) for row in zip(requested, run.y.T[: len(requested)], strict=True)]
     except np.linalg.LinAlgError as singular:
         raise NoReferenceError("the rows are singular") from singular
     return np.array(tips), np.array(seen)

@@ -102,14 +102,14 @@ class RollingBicycle:
     def matrix(self, speed: float) -> Array:
         """A (4, 4) of x = (lean, steer, their rates), x' = A x, about straight running."""
         outputs = np.array([self.lean_row(), self.steer])
-        found = np.zeros((4, 4))
-        found[:2, 2:] = np.eye(2)
+        values = np.zeros((4, 4))
+        values[:2, 2:] = np.eye(2)
         for k in range(4):
             shift = np.zeros(4)
             shift[k] = SHIFT
             ahead, behind = (outputs @ self.accelerations(*self.state(speed, *(s * shift))) for s in (1.0, -1.0))
-            found[2:, k] = (ahead - behind) / (2.0 * SHIFT)
-        return found
+            values[2:, k] = (ahead - behind) / (2.0 * SHIFT)
+        return values
 
     def growth(self, speed: float, oscillating: bool) -> float:
         """Largest real part, 1/s, of the eigenvalues that oscillate (weave), or that do not (capsize)."""

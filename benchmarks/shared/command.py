@@ -23,7 +23,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Part:
-    """What a command measures or writes, with its options."""
+    """A part of a command: what it measures or writes, and its options."""
 
     about: str
     """One line."""
@@ -82,8 +82,8 @@ def _add_options(parser: ArgumentParser, part: Part) -> None:
             "--only", nargs="+", choices=part.names, default=[*part.names], metavar="NAME",
             help=f"of {', '.join(part.names)}",
         )  # fmt: skip
-    for key, (default, words) in part.options.items():
-        flag, help_text = f"--{key.replace('_', '-')}", words.replace("%", "%%")
+    for key, (default, message) in part.options.items():
+        flag, help_text = f"--{key.replace('_', '-')}", message.replace("%", "%%")
         if default is False:
             parser.add_argument(flag, action="store_true", help=help_text)
         elif default is Path:
@@ -111,12 +111,14 @@ def _work(name: str, part: Part, options: Namespace) -> int:
         files = [json.loads(file.read_text(encoding="utf-8")) for file in given]
         rows, meta = [row for file in files for row in file["rows"]], files[0]["meta"]
     else:
-        found = part.measure(options)
-        if found is None:
+        result = part.measure(options)
+        if result is None:
             return 0
-        rows = [*found]
-        asked = {key: value for key, value in vars(options).items() if key in part.options or key in ("part", "only")}
-        given = {key: str(value) if isinstance(value, Path) else value for key, value in asked.items()}
+        rows = [*result]
+        requested = {
+            key: value for key, value in vars(options).items() if key in part.options or key in ("part", "only")
+        }
+        given = {key: str(value) if isinstance(value, Path) else value for key, value in requested.items()}
         meta = describe(name, **{"repeats": 1} | given)
     if options.json is not None:
         write_json(options.json, meta, rows)
@@ -133,7 +135,7 @@ def _work(name: str, part: Part, options: Namespace) -> int:
 
 
 def _told(part: Part, rows: Sequence[Row]) -> str:
-    """What is printed of the rows."""
+    """The text that is printed for the rows."""
     if part.words is not None:
         return part.words(rows)
     if part.blocks is not None:

@@ -1,4 +1,4 @@
-"""Figures and charts of pages compared with what is made again: counts and errors, panels and words, never times."""
+"""Compares figures and charts of pages with new ones: counts and errors, panels and texts, never times."""
 
 import re
 from collections.abc import Sequence
@@ -38,16 +38,16 @@ def read(page: str) -> str:
 
 def rows_of(text: str) -> list[dict[str, str]]:
     """Rows of the first Markdown table in a text, cells by heading."""
-    found = _TABLE.search(text)
-    lines = found[0].splitlines() if found else []
+    result = _TABLE.search(text)
+    lines = result[0].splitlines() if result else []
     cells = [[c.strip() for c in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines]
     return [dict(zip(cells[0], row, strict=True)) for row in cells[2:]] if cells else []
 
 
 def between(text: str, table: str) -> str:
-    """What stands between the marks of a table; empty without them."""
-    found = re.search(rf"<!-- begin {re.escape(table)} -->\n(.*?)<!-- end {re.escape(table)} -->", text, re.DOTALL)
-    return found[1] if found else ""
+    """The text between the marks of a table; empty without them."""
+    match = re.search(rf"<!-- begin {re.escape(table)} -->\n(.*?)<!-- end {re.escape(table)} -->", text, re.DOTALL)
+    return match[1] if match else ""
 
 
 def written(again: RemadeTable, text: str) -> str:
@@ -91,25 +91,25 @@ def differences(again: RemadeTable, text: str) -> list[str]:
         gone = [f"{again.page} shows what is not drawn now: {line}" for line in shown if line not in drawn]
         return gone + [f"{again.page} does not show what is drawn now: {line}" for line in drawn if line not in shown]
     if not again.table:
-        there = " ".join(again.text.split()) in " ".join(text.split())
-        return [] if there else [f"{again.page} does not say: {again.text}"]
+        present = " ".join(again.text.split()) in " ".join(text.split())
+        return [] if present else [f"{again.page} does not say: {again.text}"]
     place = f"{again.page}, table '{again.table}'"
     shown = {tuple(row.get(key) for key in again.keys): row for row in rows_of(between(text, again.table))}
-    made = rows_of(again.text)
-    said = [] if made else [f"{place}: there are no rows when it is made again."]
-    for row in made:
+    rows = rows_of(again.text)
+    reported = [] if rows else [f"{place}: there are no rows when it is made again."]
+    for row in rows:
         key = tuple(row[k] for k in again.keys)
         page = shown.get(key)
         name = ", ".join(key)
         if page is None:
-            said.append(f"{place} has no row {name}.")
+            reported.append(f"{place} has no row {name}.")
             continue
-        said += [
+        reported += [
             f"{place}, row {name}: {column} is {page.get(column)} on the page and {cell} when it is made again."
             for column, cell in row.items()
             if column not in again.left_out and not same(page.get(column), cell)
         ]
-    return said
+    return reported
 
 
 def all_differences(made: Sequence[RemadeTable]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Where, when and with what something was measured."""
+"""Describes the machine, the date and the versions of a measurement."""
 
 import os
 import platform

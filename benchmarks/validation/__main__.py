@@ -61,7 +61,8 @@ PARTS_LEFT_OUT = (
 LACKING = {k: f for k, f in MODEL_COLUMNS.items() if k in ("model", "windows", "lateral", "departed")}
 PUBLISHED = {"test": "", "published": "", "read within": "g", "car": ".2f", "verdict": ""}
 FOLDS = {"number": "", "fitted seconds": ".4g", "others": ".4g"}
-STEP, COARSE = 0.005, 0.01  # s, inner one of the car; of many runs
+STEP = 0.005  # inner step of the car, s
+COARSE = 0.01  # step of many runs, s
 LEFT_OUT = "linear bicycle", "saturating bicycle, tanh", "x/sqrt(1 + x2), two grips, yaw inertia"
 BANKED = "multibody car, bank by place"
 CHART_MODEL = 3  # of MODELS: the saturating bicycle with four numbers
@@ -150,24 +151,24 @@ def _by_acceleration(drive: Drive, predicted: tuple[Array, Array]) -> dict[str, 
     """Deviation of the lateral acceleration, and in how many bins the means are within `AIMS`."""
     if np.isnan(predicted[0]).any():
         return {"acceleration": None, "understeer": "–", "sideslip": "–"}
-    found = curves(drive, BODY.wheelbase, *predicted)
-    counts = {quantity: within(found, quantity, aim) for quantity, aim in AIMS.items()}
-    told = {quantity.split()[0]: f"{good} of {of}" for quantity, (good, of) in counts.items()}
-    return {"acceleration": acceleration_error(drive, *predicted), **told}
+    result = curves(drive, BODY.wheelbase, *predicted)
+    counts = {quantity: within(result, quantity, aim) for quantity, aim in AIMS.items()}
+    reported = {quantity.split()[0]: f"{good} of {of}" for quantity, (good, of) in counts.items()}
+    return {"acceleration": acceleration_error(drive, *predicted), **reported}
 
 
 def _curves(models: dict[str, tuple[Array, Array]], drive: Drive) -> list[dict[str, Any]]:
     """Understeer angle and sideslip by lateral acceleration: what was measured, and how far each model is off."""
-    found = {name: curves(drive, BODY.wheelbase, *predicted) for name, predicted in models.items()}
+    results = {name: curves(drive, BODY.wheelbase, *predicted) for name, predicted in models.items()}
     rows = []
-    for k, c in enumerate(next(iter(found.values()))):
+    for k, c in enumerate(next(iter(results.values()))):
         row: dict[str, Any] = {
             "quantity": c.quantity,
             "ay, g": c.acceleration,
             "seconds": c.seconds,
             "measured": c.measured,
         }
-        rows.append(row | {"spread": c.spread} | {name: own[k].difference for name, own in found.items()})
+        rows.append(row | {"spread": c.spread} | {name: own[k].difference for name, own in results.items()})
     return [row for row in rows if row["seconds"] >= ENOUGH]
 
 
@@ -177,12 +178,12 @@ def _folds(one: Fitted, other: Fitted) -> list[dict[str, Any]]:
         {"number": f"{u.name}, {u.unit}", "fitted seconds": a, "others": b}
         for (u, a), (_, b) in zip(_named(one), _named(other), strict=True)
     ]
-    told = {
+    reported = {
         "number": "yaw rate in windows of the other part, rad/s",
         "fitted seconds": one.windows,
         "others": other.windows,
     }
-    return [*rows, told]
+    return [*rows, reported]
 
 
 def _of_car(name: str, j: Judged, numbers: int, drive: Drive) -> dict[str, Any]:

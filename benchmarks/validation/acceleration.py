@@ -1,4 +1,4 @@
-"""Named cars from rest with full throttle, as others published it, against cars of the package that are made like them.
+"""Published full-throttle accelerations from rest of named cars, against cars of the package with their data.
 
 - **VW e-up of 2013**: 12.4 s to 100 km/h as the maker tells it, with 210 N m and 60 kW (auto-motor-und-sport.de),
   1140 kg (derstandard.at). Here the hatchback, whose motor is that one, with as much less mass of its body.
@@ -17,7 +17,9 @@ from benchmarks.validation.drive import Array
 from benchmarks.validation.published_figures import KMH, Published, full_throttle
 
 MPH = 1.609344  # km/h
-_BODY, _WITH_DRIVER = 1040.0, 1250.0  # kg, of the hatchback
+# kg, of the hatchback
+_BODY = 1040.0
+_WITH_DRIVER = 1250.0
 
 
 def _as_heavy_as(mass: float) -> dict[str, float]:
@@ -62,7 +64,7 @@ DRIVES = (
 
 
 def reached(time: Array, speed: Array, wanted: float) -> float:
-    """When a speed is first reached, s.
+    """The time at which a speed is first reached, s.
 
     `time`, `speed`: in s and m/s, shape (n,); `wanted`: in km/h.
     """
@@ -73,11 +75,11 @@ def reached(time: Array, speed: Array, wanted: float) -> float:
 
 
 def compared() -> list[tuple[Published, float]]:
-    """What was published, and what the cars here do."""
-    found = []
+    """Published times, and those of the cars of the package."""
+    results = []
     for drive in DRIVES:
         time, speed = full_throttle(drive.car, drive.settings)
-        found += [(figure, reached(time, speed, to)) for to, figure in drive.times.items()]
+        results += [(figure, reached(time, speed, to)) for to, figure in drive.times.items()]
         if drive.top_speed is not None:
-            found.append((drive.top_speed, KMH / MPH * float(speed.max())))
-    return found
+            results.append((drive.top_speed, KMH / MPH * float(speed.max())))
+    return results

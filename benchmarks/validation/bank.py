@@ -19,9 +19,11 @@ PORT = "point_reference.Fy"
 """Of an FMU with the ports ``forces=vehicle``, at which the bank is a force."""
 CUT_OFF = 1.0  # Hz, of what is taken as the road
 PIECE = 10.0  # m of the track, over which the map is a mean
-_SHORTEST, _LONGEST = 1000.0, 6000.0  # m, of a lap
+_SHORTEST = 1000.0  # m, shortest lap
+_LONGEST = 6000.0  # m, longest lap
 _SLOWEST = 5.0  # m/s, of a curvature
-_LIKE, _NEARLY = 0.9, 0.02  # correlation of curvatures of the same place, and below the best
+_LIKE = 0.9  # correlation of the curvatures of one point in two laps
+_NEARLY = 0.02  # difference to the best correlation
 
 
 @dataclass(frozen=True)

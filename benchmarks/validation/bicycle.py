@@ -9,13 +9,14 @@ from numpy.typing import NDArray
 from benchmarks.validation.drive import Drive
 
 Array = NDArray[np.float64]
-G, AIR = 9.81, 1.2  # m/s2, kg/m3
+G = 9.81  # m/s2
+AIR = 1.2  # kg/m3
 HEIGHT = 0.42  # m, of the centre of mass: as assumed in the file of the car
 
 
 @dataclass(frozen=True)
 class Body:
-    """What is known of the car."""
+    """Known data of the car."""
 
     mass: float
     yaw_inertia: float
@@ -80,25 +81,25 @@ def _saturating(curve: Callable[[Array], Array]) -> Callable[..., tuple[Array, A
     """Forces that reach grip times load along a curve of slope one; stiffness and grip go with the load."""
 
     def forces(body: Body, af: Array, ar: Array, ax: Array, p: Mapping[str, Array]) -> tuple[Array, Array]:
-        found, still = [], _loads(body, np.float64(0.0), {})
+        results, still = [], _loads(body, np.float64(0.0), {})
         for axle, slip, load, at_rest in zip(("front", "rear"), (af, ar), _loads(body, ax, p), still, strict=True):
             grip = p.get(f"{axle} grip", p.get("grip"))
-            found.append(-grip * load * curve(p[f"{axle} stiffness"] / at_rest * slip / grip))
-        return found[0], found[1]
+            results.append(-grip * load * curve(p[f"{axle} stiffness"] / at_rest * slip / grip))
+        return results[0], results[1]
 
     return forces
 
 
 def _degressive(body: Body, af: Array, ar: Array, ax: Array, p: Mapping[str, Array]) -> tuple[Array, Array]:
     """Forces along `root` where stiffness and grip go with less than the load, at the height of the car file."""
-    found = []
+    results = []
     still, moved = _loads(body, np.float64(0.0), {}), _loads(body, ax, {"height": np.float64(HEIGHT)})
     for axle, slip, at_rest, load in zip(("front", "rear"), (af, ar), still, moved, strict=True):
         share = load / at_rest
         most = p[f"{axle} grip"] * (1.0 - p["grip lost by load"] * (share - 1.0)) * load
         stiffness = p[f"{axle} stiffness"] * share ** p["exponent of stiffness"]
-        found.append(-most * root(stiffness * slip / most))
-    return found[0], found[1]
+        results.append(-most * root(stiffness * slip / most))
+    return results[0], results[1]
 
 
 def root(x: Array) -> Array:

@@ -7,7 +7,9 @@ import numpy as np
 from benchmarks.shared.command import pyplot, save_chart
 from benchmarks.validation.drive import JUDGED, Array, Drive
 
-_MEASURED, _CAR, _BICYCLE = "#8a8a8a", "#0b62c4", "#d55e00"
+_MEASURED = "#8a8a8a"
+_CAR = "#0b62c4"
+_BICYCLE = "#d55e00"
 
 
 def draw(drive: Drive, time: Array, car: Array, bicycle: Array, name: str, file: Path) -> None:

@@ -54,10 +54,10 @@ def compared(name: str, manoeuvre: str) -> Compared:
     )
     names = {"vx": "chassis.vx", "yaw_rate": "chassis.wz", "roll": "chassis.roll", "pitch": "chassis.pitch"}
     names |= {"x": "chassis.x", "y": "chassis.y"} | {f"Fz_{wheel}": f"wheel_{wheel}.Fz" for wheel in WHEELS}
-    found = {ours: np.interp(reference["time"], run.t, run[theirs]) for ours, theirs in names.items()}
+    results = {ours: np.interp(reference["time"], run.t, run[theirs]) for ours, theirs in names.items()}
     for way in ("x", "y"):
-        reference[way], found[way] = reference[way] - reference[way][0], found[way] - found[way][0]
-    return Compared(reference, found)
+        reference[way], results[way] = reference[way] - reference[way][0], results[way] - results[way][0]
+    return Compared(reference, results)
 
 
 def _consistent(car: Car) -> dict[str, Any]:

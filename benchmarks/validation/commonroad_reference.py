@@ -14,8 +14,11 @@ from typing import Any
 
 FOLDER = Path(__file__).parents[2] / "tests" / "data" / "commonroad"
 CARS = {"commonroad_escort": 1, "commonroad_320i": 2, "commonroad_vanagon": 3}
-STEP, STORED = 0.0005, 40
-STEER, STEER_SPEED, BEGIN = 0.02, 0.2, 3.0  # rad, rad/s, s: that model first sinks by 2 cm to where it rests
+STEP = 0.0005
+STORED = 40
+STEER = 0.02  # rad
+STEER_SPEED = 0.2  # rad/s
+BEGIN = 3.0  # s: the model first sinks by 2 cm to its rest
 BRAKING = 4.0  # m/s2
 MANOEUVRES = {"step_steer": 20.0, "consistent_step_steer": 20.0, "braking": 25.0}
 """Speed at the start, m/s; for the second the parameters are changed by `consistent`."""
@@ -48,11 +51,11 @@ def loads(x: list[float], p: Any) -> list[float]:
 
     The axes of that model point forward, to the right and down: its turn to the right is told as one to the left.
     """
-    found = []
+    results = []
     for roll, z, track in ((x[13], x[16], p.T_f), (x[18], x[21], p.T_r)):
         mean = z + p.R_w * (math.cos(roll) - 1.0)
-        found += [p.K_zt * (mean + 0.5 * track * math.sin(roll)), p.K_zt * (mean - 0.5 * track * math.sin(roll))]
-    return found
+        results += [p.K_zt * (mean + 0.5 * track * math.sin(roll)), p.K_zt * (mean - 0.5 * track * math.sin(roll))]
+    return results
 
 
 def run(number: int, manoeuvre: str) -> list[list[float]]:

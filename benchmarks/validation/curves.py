@@ -10,7 +10,8 @@ from benchmarks.validation.fitting import begins
 
 G = 9.81
 WIDTH = 0.1  # g, of a bin: 0.05 g to either side of its middle
-SLOW, FAST = 1.0, 2.0  # Hz: of the acceleration by which is binned, and of that which is compared
+SLOW = 1.0  # filter of the acceleration for the bins, Hz
+FAST = 2.0  # filter of the compared acceleration, Hz
 ENOUGH = 2.0  # s in a bin whose means are judged
 STEADY = 0.5  # s at the beginning of a window, in which the start is forgotten
 
@@ -87,11 +88,11 @@ def curves(drive: Drive, wheelbase: float, vy: Array, rate: Array) -> list[Curve
         "understeer angle": (understeer(drive.yaw_rate[rows]), understeer(rate)),
         "sideslip": (sideslip(drive.vy[rows]), sideslip(vy)),
     }
-    found = []
+    results = []
     for quantity, (measured, simulated) in pairs.items():
         for k in np.unique(number):
             own = number == k
-            found.append(
+            results.append(
                 Curve(
                     quantity,
                     float(k * WIDTH),
@@ -101,7 +102,7 @@ def curves(drive: Drive, wheelbase: float, vy: Array, rate: Array) -> list[Curve
                     float((simulated - measured)[own].mean()),
                 )
             )
-    return found
+    return results
 
 
 def within(found: list[Curve], quantity: str, aim: float) -> tuple[int, int]:

@@ -16,7 +16,8 @@ from hosts.compare.spikes import spikes
 Array = NDArray[np.float64]
 Spans = tuple[tuple[float, float], ...]
 
-LENGTH, EVERY = 10.0, 5.0  # s: of a window, and from one to the next
+LENGTH = 10.0  # length of a window, s
+EVERY = 5.0  # from one window to the next, s
 FITTED: Spans = ((0.0, 80.0), (160.0, 240.0))  # s that models are fitted on
 JUDGED: Spans = ((80.0, 160.0), (240.0, 275.0))  # s that tell what they predict
 CUT_OFF = 2.0  # Hz, of the accelerations that move load between the axles

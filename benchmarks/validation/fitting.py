@@ -11,14 +11,15 @@ from benchmarks.validation.bicycle import Body, Model, simulate
 from benchmarks.validation.drive import EVERY, FITTED, JUDGED, LENGTH, Drive, Spans
 
 Array = NDArray[np.float64]
-STARTS, SEED = 2, 1
+STARTS = 2
+SEED = 1
 SCALES = 0.02, 0.3  # rad/s and m/s: deviations of yaw rate and lateral velocity that count the same
 STEP = 1e-4  # of the differences, of the range of a number
 
 
 @dataclass(frozen=True)
 class Fitted:
-    """A model with its numbers."""
+    """A model with its fitted numbers."""
 
     model: Model
     numbers: Array
@@ -76,7 +77,7 @@ class Windows:
         return drive_of(model, body, drive, self._begins, self._steps, numbers)
 
     def deviations(self, numbers: Array) -> tuple[Array, Array]:
-        """`driven` less what was measured."""
+        """Deviation of `driven` from the measurement."""
         vy, rate = self.driven(numbers)
         return vy - self._given[2].vy[self.samples], rate - self._given[2].yaw_rate[self.samples]
 

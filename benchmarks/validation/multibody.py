@@ -17,7 +17,8 @@ from hosts.compare.segments import GAP
 from hosts.compare.task import Task, prepare
 from hosts.fmu.fmu_file import fmu_file
 
-YAW, LATERAL = "chassis.wz", "chassis.vy"
+YAW = "chassis.wz"
+LATERAL = "chassis.vy"
 INTERVAL = 0.01  # s, of the samples in `Judged.predicted`
 _COLUMNS = f"{LATERAL}.simulated [m/s]", f"{YAW}.simulated [rad/s]"
 
@@ -62,15 +63,15 @@ def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief:
         across, turning = (in_windows(*_signal(file, name), len(others["windows"])) for name in _COLUMNS)
         predicted = across, turning
         departed = [f"{w['begin']:g} s ({w['departed']})" for w in others["windows"] if w["departed"]]
-        told = _rms(others, YAW), _rms(others, LATERAL), departed
+        reported = _rms(others, YAW), _rms(others, LATERAL), departed
         if brief:
-            return Judged(math.nan, math.nan, *told, [], np.zeros(0), np.zeros(0), predicted)
+            return Judged(math.nan, math.nan, *reported, [], np.zeros(0), np.zeros(0), predicted)
         first = _rms(run("fitted", *windows, "--seconds", text_of(FITTED))[0], YAW)
         whole, signals = run("whole")
         time, path = _signal(signals, f"{YAW}.simulated [rad/s]")
         measured = _signal(signals, f"{YAW}.measured [rad/s]")[1]
     error = _rms_inside(time, path - measured, JUDGED)
-    return Judged(first, error, *told, whole["notes"] + whole["problems"], time, path, predicted)
+    return Judged(first, error, *reported, whole["notes"] + whole["problems"], time, path, predicted)
 
 
 def task_of(car: str, log: Path, aliases: Path, settings: dict[str, float], seconds: Spans) -> Task:
@@ -110,5 +111,5 @@ def _rms_inside(time: Array, error: Array, spans: Spans) -> float:
 def _signal(file: Path, name: str) -> tuple[Array, Array]:
     with file.open(encoding="utf-8", newline="") as stream:
         rows = [(r["time [s]"], r[name]) for r in csv.DictReader(stream) if r[name]]
-    found = np.array(rows, dtype=np.float64)
-    return found[:, 0], found[:, 1]
+    values = np.array(rows, dtype=np.float64)
+    return values[:, 0], values[:, 1]

@@ -41,7 +41,7 @@ _DIFFERENCE = 5e-3  # of a range, to one side
 
 @dataclass(frozen=True)
 class Family:
-    """Kinds of seconds."""
+    """A family of kinds of seconds, such as ranges of speed."""
 
     names: list[str]
     number: Kinds
@@ -81,16 +81,16 @@ def without_kinds(jacobian: Array, residual: Array, rows: Kinds, found: Mapping[
     `jacobian`, `residual`: of yaw rate and then lateral velocity in `SCALES`, shapes (2 m, p) and (2 m,); `rows`: of
     the drive, in the order of either, shape (m,).
     """
-    told: dict[str, Any] = {}
+    reported: dict[str, Any] = {}
     worst = []
     for name, family in found.items():
         number = family.number[rows]
         parts = Parts(np.tile(number, 2), np.arange(len(family.names) + 1.0), 1.0)
         turning = left_out(jacobian, residual, parts)[: len(rows)] * SCALES[0]
         sizes = [float(np.sqrt(np.mean(turning[number == k] ** 2))) for k in range(len(family.names))]
-        told |= {f"{name}, mean": float(np.mean(sizes)), f"{name}, worst": max(sizes)}
+        reported |= {f"{name}, mean": float(np.mean(sizes)), f"{name}, worst": max(sizes)}
         worst.append((max(sizes), family.names[int(np.argmax(sizes))]))
-    return told | {"worst kind": max(worst)[1]}
+    return reported | {"worst kind": max(worst)[1]}
 
 
 def of_simple(model: Model, body: Body, drive: Drive, found: Mapping[str, Family]) -> dict[str, Any]:
@@ -137,5 +137,5 @@ def _all(drive: Drive) -> Spans:
 
 def rows_of(models: Sequence[Model], body: Body, drive: Drive, car: Sequence[Any]) -> list[dict[str, Any]]:
     """Rows of `COLUMNS`. `car`: the first five arguments of `of_car`."""
-    found = families(drive)
-    return [*(of_simple(m, body, drive, found) for m in watched(models)), of_car(*car, drive, found)]
+    result = families(drive)
+    return [*(of_simple(m, body, drive, result) for m in watched(models)), of_car(*car, drive, result)]

@@ -12,7 +12,9 @@ from hosts.driving.manoeuvre import Manoeuvre
 from hosts.fmu.fmu import Fmu
 from hosts.fmu.fmu_file import fmu_file
 
-LENGTH, STEP, KMH = 90.0, 0.01, 3.6  # s, s, km/h per m/s
+LENGTH = 90.0  # s
+STEP = 0.01  # s
+KMH = 3.6  # km/h per m/s
 _HUNDRED = 100.0 / KMH
 
 

@@ -1,4 +1,4 @@
-"""Tests of others beside the drive: every figure that was published, with what the cars here do."""
+"""Published figures of other tests beside the same figures of the cars of the package."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -23,14 +23,14 @@ _ASKED = (
 
 def by_commonroad(cars: Sequence[str] = CARS) -> list[tuple[Published, float]]:
     """Last values of CommonRoad's model, of its stored runs, and of the cars here."""
-    found = []
+    results = []
     for car in cars:
         for manoeuvre, quantity, unit, text in _ASKED:
             both = commonroad.compared(car, manoeuvre)
             published = float(both.reference[quantity][-1])
             figure = Published(f"{car}, {text}", unit, {_SOURCE: published}, _STORED * abs(published))
-            found.append((figure, float(both.found[quantity][-1])))
-    return found
+            results.append((figure, float(both.found[quantity][-1])))
+    return results
 
 
 PARTS: dict[str, Callable[[], list[tuple[Published, float]]]] = {

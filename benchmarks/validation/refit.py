@@ -24,7 +24,8 @@ COLUMNS = {
     "without it": "+.1f",
     "near a bound": "",
 }
-STEP, EVERY = 0.01, 10.0  # s: inner step; from one window to the next
+STEP = 0.01  # inner step, s
+EVERY = 10.0  # from one window to the next, s
 
 
 def sought_in(file: Path) -> dict[str, str]:

@@ -29,9 +29,14 @@ LAST_DIGITS = (
 SOURCE = "n-jokic/Vehicle_MPC_control"
 NOMINAL = 4000.0  # N
 LOADS = (2000.0, 6000.0)  # N: TMeasy is fitted at 4 and 8 kN
-ANGLES, SLIPS = (2.0, 8.0), (-5.0, -15.0)  # deg, %
-SPEED, RADIUS, STIFFNESS = 20.0, 0.30, 200e3  # m/s, m, N/m; the formula has no speed
-_SLED, _SETTLED, _STEP = 1e9, 1.0, 0.002  # kg: forces do not slow it; s
+ANGLES = (2.0, 8.0)  # deg
+SLIPS = (-5.0, -15.0)  # %
+SPEED = 20.0  # m/s; the formula has no speed
+RADIUS = 0.30  # m
+STIFFNESS = 200e3  # N/m
+_SLED = 1e9  # kg, so that forces do not slow it
+_SETTLED = 1.0  # s
+_STEP = 0.002  # s
 
 
 def published(coefficients: Sequence[float], lateral: bool, load: float, slip: float) -> float:
@@ -50,9 +55,9 @@ def published(coefficients: Sequence[float], lateral: bool, load: float, slip: f
 def read_within(lateral: bool, load: float, slip: float) -> float:
     """Largest change of the force by half of the last digit of each coefficient, N."""
     of, digits = (LATERAL, LAST_DIGITS[0]) if lateral else (LONGITUDINAL, LAST_DIGITS[1])
-    there = published(of, lateral, load, slip)
+    present = published(of, lateral, load, slip)
     changed = ([*of[:k], of[k] + 0.5 * digits[k], *of[k + 1 :]] for k in range(len(of)))
-    return sum(abs(published(each, lateral, load, slip) - there) for each in changed)
+    return sum(abs(published(each, lateral, load, slip) - present) for each in changed)
 
 
 def magic() -> MagicTyre:
@@ -122,13 +127,15 @@ def on_the_rig(tyre: MagicTyre | Tyre, load: float, angle: float = 0.0, slip: fl
 def compared() -> list[tuple[Published, float]]:
     """What the formula gives and what the rig measures, of both formulas of the engine."""
     own = magic()
-    found = []
+    results = []
     for name, tyre in (("Magic Formula", own), ("TMeasy, fitted at 4 and 8 kN", tmeasy_of_magic(own)[0])):
         for load in LOADS:
             for lateral, at in [*((True, angle) for angle in ANGLES), *((False, slip) for slip in SLIPS)]:
-                told = published(LATERAL if lateral else LONGITUDINAL, lateral, load, at)
+                reported = published(LATERAL if lateral else LONGITUDINAL, lateral, load, at)
                 forces = on_the_rig(tyre, load, angle=at) if lateral else on_the_rig(tyre, load, slip=at)
-                what = f"side force at {at:g} deg" if lateral else f"force along at {at:g} % slip"
-                test = f"tyre MXV8 on the rig, {name}: {what}, {1e-3 * load:g} kN"
-                found.append((Published(test, "N", {SOURCE: told}, read_within(lateral, load, at)), forces[lateral]))
-    return found
+                label = f"side force at {at:g} deg" if lateral else f"force along at {at:g} % slip"
+                test = f"tyre MXV8 on the rig, {name}: {label}, {1e-3 * load:g} kN"
+                results.append(
+                    (Published(test, "N", {SOURCE: reported}, read_within(lateral, load, at)), forces[lateral])
+                )
+    return results

@@ -39,7 +39,7 @@ class CarFacts:
 
 @dataclass(frozen=True)
 class TestedCar:
-    """A car."""
+    """A car under test: its FMU and settings."""
 
     __test__ = False  # no test of pytest's
 
@@ -108,5 +108,5 @@ class TestedCar:
 
     @property
     def path(self) -> Path:
-        """Of the FMU."""
+        """Path of the FMU."""
         return self.fmu.path

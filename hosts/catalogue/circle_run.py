@@ -20,7 +20,9 @@ from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.pilots.speed_holder import SpeedHolder
 from hosts.driving.result import Result
 
-CONSTANT_RADIUS, CONSTANT_ANGLE, CONSTANT_SPEED = 1.0, 2.0, 3.0
+CONSTANT_RADIUS = 1.0
+CONSTANT_ANGLE = 2.0
+CONSTANT_SPEED = 3.0
 _FIRST = 0.5  # m/s2 of lateral acceleration to begin with
 _USUAL = 10.0  # m/s2, by which the progress is told
 _FASTEST = 20.0  # m/s2 at which a run ends at the latest
@@ -73,7 +75,7 @@ class _Watch:
         return self.first + (0.0 if self.method == CONSTANT_SPEED else self.risen(time))
 
     def risen(self, time: float) -> float:
-        """By how much what rises has risen."""
+        """Increase of the quantity that is raised during the run."""
         return self.rate * max(time - self.begin, 0.0) if math.isfinite(self.begin) else 0.0
 
     def ends(self, time: float, observation: Mapping[str, float]) -> bool:

@@ -1,4 +1,4 @@
-"""A stop from a circle."""
+"""A braking stop from a steady circle: its signals and measures."""
 
 import math
 from collections.abc import Mapping, Sequence

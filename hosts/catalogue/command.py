@@ -105,17 +105,17 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
     tests = [standard_test(name) for name in dict.fromkeys(names)]
     given = _test_settings(options.test_setting, [test.name for test in tests])
     settings = {test.name: settings_of_test(test, given.get(test.name, {})) for test in tests}
-    asked = GivenLimits() if options.limits is None else GivenLimits(options.limits, read_limits(options.limits))
-    limits = asked.of_tests(list(settings))
-    if others := ", ".join(name for name in asked.entries if name not in limits.entries):
+    requested = GivenLimits() if options.limits is None else GivenLimits(options.limits, read_limits(options.limits))
+    limits = requested.of_tests(list(settings))
+    if others := ", ".join(name for name in requested.entries if name not in limits.entries):
         print(f"{options.limits}: limits of tests that --tests leaves out are not evaluated: {others}", flush=True)
     for file in ("measures.csv", "measures.json", "report.html"):
         check_writable(options.out / file)
     fmus = [fmu_file(path).absolute() for path in options.fmus]
     cars = cars_of(fmus, options.aliases, options.variant, options.set, options.step)
 
-    with ResultStore[TestRecord](options.out, TestRecord, "does tests", options.again) as kept:
-        return _do(options, command, tests, cars, settings, limits, kept)
+    with ResultStore[TestRecord](options.out, TestRecord, "does tests", options.again) as store:
+        return _do(options, command, tests, cars, settings, limits, store)
 
 
 def _do(
@@ -148,8 +148,8 @@ def _do(
                 before = find(kept, task)
                 outcomes[test.name][car.label] = _PENDING if before is None else before
                 tasks += [task] if before is None else []
-    there = sum(not isinstance(outcome, str) for by_car in outcomes.values() for outcome in by_car.values())
-    report_resumed(there, len(tests) * len(cars), "tests")
+    present = sum(not isinstance(outcome, str) for by_car in outcomes.values() for outcome in by_car.values())
+    report_resumed(present, len(tests) * len(cars), "tests")
     # What is there survives whatever comes, and measures of an earlier command do not pass for those of this one.
     files = write_measures(options.out, tests, cars, limits.judged(outcomes)[0], settings)
     try:
@@ -165,8 +165,8 @@ def _do(
         print(f"\nwritten: {', '.join(map(str, files))}{runs}", flush=True)
         pending = sum(outcome == _PENDING for by_car in outcomes.values() for outcome in by_car.values())
         if pending:
-            left = "1 test is" if pending == 1 else f"{pending} tests are"
-            print(f"{left} not done yet; the same command resumes here.", flush=True)
+            remaining = "1 test is" if pending == 1 else f"{pending} tests are"
+            print(f"{remaining} not done yet; the same command resumes here.", flush=True)
     return _verdict(judged, faults)
 
 
@@ -206,26 +206,26 @@ def _done(
     )
     with closing(experiment.results(tasks, experiment.pool(jobs))) as results:
         for _, task, outcome in results:
-            words = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome
-            outcomes[task.test][task.car.label] = words
-            if not isinstance(words, str):
-                write_runs(task, words)
-                keep(kept, task, words)
+            message = f"The process of the test {outcome.how}." if isinstance(outcome, Lost) else outcome
+            outcomes[task.test][task.car.label] = message
+            if not isinstance(message, str):
+                write_runs(task, message)
+                keep(kept, task, message)
             yield
 
 
 def _verdict(outcomes: Mapping[str, Mapping[str, Outcome]], faults: Sequence[str]) -> int:
     """Print what is not good, faults of limits too; the exit code."""
-    found = [outcome for by_car in outcomes.values() for outcome in by_car.values()]
-    undone = sum(isinstance(outcome, str) for outcome in found)
-    broken = [m for o in found if not isinstance(o, str) for m in o.measures if m.is_kept is False]
+    results = [outcome for by_car in outcomes.values() for outcome in by_car.values()]
+    undone = sum(isinstance(outcome, str) for outcome in results)
+    broken = [m for o in results if not isinstance(o, str) for m in o.measures if m.is_kept is False]
     if undone:
-        print(f"{undone} of {len(found)} tests could not be done, for the reasons above.")
+        print(f"{undone} of {len(results)} tests could not be done, for the reasons above.")
     if broken:
-        words = "1 measure does not keep its limit; it is"
+        message = "1 measure does not keep its limit; it is"
         if len(broken) > 1:
-            words = f"{len(broken)} measures do not keep their limits; they are"
-        print(f"{words} marked (!).")
+            message = f"{len(broken)} measures do not keep their limits; they are"
+        print(f"{message} marked (!).")
     for fault in faults:
         print(fault)
     return 1 if undone or broken or faults else 0

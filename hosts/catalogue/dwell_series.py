@@ -22,7 +22,7 @@ _MOST = math.radians(300.0)
 
 @dataclass(frozen=True)
 class DwellRun:
-    """One run."""
+    """A run of the series: its amplitude, signals and measures."""
 
     amplitude: float
     """Asked for, rad."""
@@ -102,9 +102,9 @@ def series(
         name = f"{math.degrees(amplitude):.0f} deg {'left' if side > 0.0 else 'right'}"
         run = processed(steer(car, name, speed, *table(side * amplitude), Pedals.COAST))
         progress((k + 1) / len(wanted))
-        known = len(run.time) >= 20
+        count = len(run.time) >= 20
         slip = None if np.isnan(run.sideslip).any() else run.sideslip
-        measures = sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration, slip) if known else NOTHING
+        measures = sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration, slip) if count else NOTHING
         done.append(DwellRun(amplitude, run, measures))
         if done[-1].is_lost:
             break

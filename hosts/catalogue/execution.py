@@ -1,4 +1,4 @@
-"""Does a test with a car, after all is checked that can be checked before."""
+"""Runs a standard test with a car, after checking settings and variables."""
 
 from collections.abc import Callable, Mapping, Set
 from dataclasses import replace
@@ -10,7 +10,9 @@ from hosts.catalogue.car import TestedCar
 from hosts.catalogue.record import StandardTest, TestRecord
 from hosts.common.errors import HostError
 
-_MOST_MESSAGES, _MOST_NAMES, _LONGEST = 10, 4, 300
+_MOST_MESSAGES = 10
+_MOST_NAMES = 4
+_LONGEST = 300
 
 Reason: TypeAlias = str
 """Why a test of a car could not be done: a sentence."""
@@ -40,10 +42,10 @@ def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float
     missing = lacking(test, {*car.facts.inputs, *car.facts.outputs, *car.facts.parameters, *car.facts.constants})
     if not missing:
         return test.why_not(car, settings)
-    words = " and no ".join(" or ".join(_names(need)) for need in missing)
+    message = " and no ".join(" or ".join(_names(need)) for need in missing)
     reasons = [car.fmu.why_missing(name) for need in missing for name in _names(need)]
     hint = "where it has another name, an alias file says which (--aliases)."
-    return f"The FMU {car.path.name} has no {words}; {' '.join(dict.fromkeys(filter(None, reasons))) or hint}"
+    return f"The FMU {car.path.name} has no {message}; {' '.join(dict.fromkeys(filter(None, reasons))) or hint}"
 
 
 def lacking(test: StandardTest, there: Set[str]) -> list[str]:
@@ -61,7 +63,7 @@ def perform(
     settings: Mapping[str, float] | None = None,
     progress: Callable[[float], None] = lambda done: None,
 ) -> TestRecord:
-    """Do a test.
+    """Run a standard test with a car.
 
     `settings`: those that are not by default; `progress`: called with the part that is done, 0 to 1. Raises `HostError`
     if a setting is wrong, or the car cannot do the test.

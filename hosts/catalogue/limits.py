@@ -1,4 +1,4 @@
-"""Limits of a user beside those of standards."""
+"""Limits of measures that the user gives, beside those of standards."""
 
 from __future__ import annotations
 

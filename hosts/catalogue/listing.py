@@ -1,4 +1,4 @@
-"""What tests there are, for a person."""
+"""Lists the standard tests for a terminal (``ali3 catalogue --list``)."""
 
 import math
 
@@ -36,5 +36,5 @@ def _setting(setting: Setting) -> str:
     unit = f" {typeset(setting.unit)}".rstrip()
     limits = [f"from {setting.lowest:g}"] if math.isfinite(setting.lowest) else []
     limits += [f"to {setting.highest:g}"] if math.isfinite(setting.highest) else []
-    words = f" ({' '.join(limits)})" if limits else ""
-    return f"{setting.name}={setting.value:g}{unit}{words}: {setting.text}"
+    message = f" ({' '.join(limits)})" if limits else ""
+    return f"{setting.name}={setting.value:g}{unit}{message}: {setting.text}"

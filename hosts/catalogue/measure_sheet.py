@@ -1,4 +1,4 @@
-"""What a test yields, put together while it drives: measures, notes and plots that its file describes."""
+"""The result of a test while it runs: measures, notes and plots that its file describes."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -82,7 +82,7 @@ class _PlotLine(_Typed):
 
 
 class Part(_Typed):
-    """What comes of one kind of run."""
+    """Measures, notes and plots of one kind of run."""
 
     measures: dict[str, _MeasureLine] = {}
     notes: tuple[_NoteLine, ...] = ()
@@ -112,7 +112,7 @@ class TestTables(_Typed):
 
 
 class Sheet:
-    """What a test has yielded so far.
+    """The results of a test so far.
 
     `car`, `settings`, `progress`: see `StandardTest.perform`. `runs`, `notes`: of the record.
     """
@@ -128,7 +128,7 @@ class Sheet:
         self._tables = tables
 
     def words_of(self, setting: str) -> str:
-        """What a setting is, up to its first semicolon."""
+        """The description of a setting up to its first semicolon."""
         return next(s.text for s in self._tables.settings if s.name == setting).partition(";")[0]
 
     def with_step_up_to(self, longest: float, why: str) -> TestedCar:
@@ -159,19 +159,19 @@ class Sheet:
                 inner = scope.inner(more)
                 self.measures.append(_measure(inner.words(name), line, inner))
         for n in table.notes:
-            found = [scope.inner(more) for more in _mappings(scope, n.each)]
-            self.notes += [each.words(n.text) for each in found if _true(each, each.words(n.when))]
+            results = [scope.inner(more) for more in _mappings(scope, n.each)]
+            self.notes += [each.words(n.text) for each in results if _true(each, each.words(n.when))]
         self._plots += [plot for line in table.plots if (plot := _plot(line, scope)).lines]
 
     def value(self, expression: str, **names: Any) -> Any:
-        """What an expression of the file is; see `add`."""
+        """The value of an expression of the file; see `add`."""
         return self._scope(names).evaluate(expression)
 
     def _scope(self, names: Mapping[str, Any]) -> Scope:
         return self._tables.scope(self.car, self.settings).inner({"why_none": "", "should_be": True, **names})
 
     def record(self) -> TestRecord:
-        """All of it."""
+        """The record of all results."""
         return TestRecord(self.measures, self._plots, self.runs, self.notes)
 
 
@@ -206,9 +206,9 @@ def _measure(name: str, line: _MeasureLine, scope: Scope) -> Measure:
     limit = None if line.limit is None else _limit(line.limit, scope)
     if math.isfinite(value):
         return Measure(name, value, unit, text, limit, scope.words(line.note))
-    there = exists and (bool(lost) or bool(scope.evaluate(line.exists)))
+    present = exists and (bool(lost) or bool(scope.evaluate(line.exists)))
     note = lost or why or scope.words(line.missing or line.note) or NOT_SHOWN
-    return Measure(name, math.nan, unit, text, limit, note, there)
+    return Measure(name, math.nan, unit, text, limit, note, present)
 
 
 def _limit(line: _LimitLine, scope: Scope) -> Limit | None:
@@ -233,5 +233,5 @@ def _plot(line: _PlotLine, scope: Scope) -> Plot:
 def _mappings(scope: Scope, each: str | Mapping[str, Sequence[Any]]) -> Sequence[Mapping[str, Any]]:
     if not isinstance(each, str):
         return [dict(zip(each, values, strict=True)) for values in zip(*each.values(), strict=True)]
-    found: Sequence[Mapping[str, Any]] = scope.evaluate(each)
-    return found
+    result: Sequence[Mapping[str, Any]] = scope.evaluate(each)
+    return result

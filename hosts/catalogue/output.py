@@ -109,16 +109,16 @@ def print_measures(
     """Print a table for each test: measures in rows, cars in columns."""
     labels = [car.label for car in cars]
     for test in tests:
-        found = outcomes.get(test.name, {})
+        result = outcomes.get(test.name, {})
         print(f"\n{test.title} ({test.name}; {', '.join(s.name for s in test.standards) or 'no standard'})")
-        records = {label: o for label, o in found.items() if isinstance(o, TestRecord)}
+        records = {label: o for label, o in result.items() if isinstance(o, TestRecord)}
         rows = [["measure", "unit", *labels]] if records else []
         for name in dict.fromkeys(m.name for o in records.values() for m in o.measures):
             by_car = {label: m.displayed() for label, o in records.items() for m in o.measures if m.name == name}
             unit = next(iter(by_car.values())).unit
             rows.append([name, typeset(unit), *(_cell(by_car.get(label)) for label in labels)])
         _print_rows(rows)
-        for label, outcome in found.items():
+        for label, outcome in result.items():
             for sentence in (outcome,) if isinstance(outcome, str) else _sentences(outcome):
                 print(f"  {label}: {sentence}" if len(labels) > 1 else f"  {sentence}")
 

@@ -79,8 +79,8 @@ class Passage:
     def at(self, quantity: str, x: float) -> float:
         """Value of an output when the car's front is at a place of the course; NaN if it is not there."""
         front = self.place[0] + 0.5 * self.size[0]
-        there = np.flatnonzero(front >= x)
-        return float(self.result[quantity][self.after][there[0]]) if len(there) else math.nan
+        indices = np.flatnonzero(front >= x)
+        return float(self.result[quantity][self.after][indices[0]]) if len(indices) else math.nan
 
     @cached_property
     def lanes(self) -> NDArray[np.float64]:
@@ -95,8 +95,8 @@ class Passage:
     def outlines(self) -> NDArray[np.float64]:
         """The car every three metres, shape (2, n)."""
         x, y, yaw = self.place
-        way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
-        picked = np.unique(np.searchsorted(way, np.arange(0.0, way[-1], 3.0)))
+        distance = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+        picked = np.unique(np.searchsorted(distance, np.arange(0.0, distance[-1], 3.0)))
         corners = outline(x[picked], y[picked], yaw[picked], *self.size)
         gap = np.full((len(picked), 1, 2), math.nan)
         return np.concatenate([corners, corners[:, :1], gap], axis=1).reshape(-1, 2).T

@@ -1,4 +1,4 @@
-"""What tests set up alike: a step that is fine enough, inputs that are held, words on a run that ended early."""
+"""Preparation that tests share: a fine enough step, held inputs, a message on a run that ended early."""
 
 from collections.abc import Mapping
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What a test is, and what it yields."""
+"""Types of a standard test and of its record of measures, notes and plots."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class Plot:
 
 @dataclass(frozen=True)
 class TestRecord:
-    """What a test of one car has yielded."""
+    """The results of a test of one car."""
 
     __test__ = False  # no test of pytest's
 
@@ -96,7 +96,7 @@ WhyNot: TypeAlias = "Callable[[TestedCar, Mapping[str, float]], str | None]"
 
 
 def always(car: TestedCar, settings: Mapping[str, float]) -> None:
-    """There is nothing against it."""
+    """No reason against a test: it fits every car."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""A measure of both sides as one."""
+"""Measures combined from left and right: mean and asymmetry."""
 
 import math
 
@@ -24,12 +24,12 @@ def mean_of_sides(
     `left`, `right`: NaN where a run does not yield it; `why`: note where both are missing; `exists`: whether there
     should be a number where both are.
     """
-    known = [x for x in (left, right) if math.isfinite(x)]
-    if not known:
+    finite = [x for x in (left, right) if math.isfinite(x)]
+    if not finite:
         return Measure(name, math.nan, unit, text, None, why or NOT_SHOWN, exists)
-    mean = sum(known) / len(known)
+    mean = sum(finite) / len(finite)
     note = ""
-    if len(known) == 1:
+    if len(finite) == 1:
         note = f"Of the turn to the {'left' if math.isfinite(left) else 'right'} alone: the other does not show it."
     elif abs(left - right) > _SAME * abs(mean):
         tail, factor = shown_in(unit, name)

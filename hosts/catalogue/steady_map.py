@@ -1,4 +1,4 @@
-"""Steering wheel angle over steady lateral acceleration, from a slow ramp of the steering at a held speed."""
+"""Steering wheel angle over steady lateral acceleration, from a slow ramp of the steering at constant speed."""
 
 import math
 from dataclasses import dataclass, replace
@@ -24,7 +24,8 @@ _LARGEST = math.radians(540.0)
 _RATE_OF_INPUT = 0.005
 _LINE = (0.3, 1.2)
 _LATEST = 1.0
-FEWEST, ENOUGH = 20, 0.5  # samples; m/s2: in a run with less nothing is seen
+FEWEST = 20  # smallest number of samples
+ENOUGH = 0.5  # smallest range, m/s2
 
 
 @dataclass(frozen=True)
@@ -112,14 +113,14 @@ def map_at_reachable_speed(car: TestedCar, speed: float, lower: float, accelerat
     `speed`, `lower`: in m/s; `acceleration`: up to which the map is wanted, m/s². Raises `HostError` if the car reaches
     neither, its FMU refuses a step, or signs or units of its signals do not fit.
     """
-    found = steady_map(car, speed, acceleration)
-    if not len(found.angle) and lower < speed:
+    result = steady_map(car, speed, acceleration)
+    if not len(result.angle) and lower < speed:
         note = f"The car does not hold {3.6 * speed:g} km/h; the test is done at {3.6 * lower:g} km/h."
-        found = replace(steady_map(car, lower, acceleration), notes=(note,))
-    if not len(found.angle):
-        raise HostError(why_not_reached(found.run.result, found.speed))
-    refuse_odd(found.run)
-    return found
+        result = replace(steady_map(car, lower, acceleration), notes=(note,))
+    if not len(result.angle):
+        raise HostError(why_not_reached(result.run.result, result.speed))
+    refuse_odd(result.run)
+    return result
 
 
 def driven_ramp(sheet: Sheet, acceleration: float) -> SteadyMap:

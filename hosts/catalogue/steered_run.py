@@ -25,7 +25,7 @@ _REACHED = 0.97
 
 
 class Pedals(Enum):
-    """What the driver's feet do once the steering begins."""
+    """Pedals after the steering begins."""
 
     HOLD_SPEED = "speed is held"
     FIXED = "pedals are held"
@@ -93,7 +93,7 @@ class SteeredPilot:
 
 @dataclass(frozen=True)
 class SteeredRun:
-    """What such a run yields; at even times, 0 where the steering begins."""
+    """Signals of a steered run at equally spaced times; 0 is the begin of the steering."""
 
     result: Result
     """As recorded, with rows at least 5 ms apart or each step."""

@@ -1,4 +1,4 @@
-"""How a car takes the angle of its steering wheel, and how the angle is read back."""
+"""The input of the steering-wheel angle of a car, and the angle computed back from its signals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""When a run of a test is over before its time: the car stands, has spun, or lies on its side."""
+"""Conditions that end a run of a test early: the car stands, has spun or has rolled over."""
 
 import math
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""One test of one car as work for a process: plain data in, a record out."""
+"""The task of one test with one car for a worker process: plain data in, a record out."""
 
 import json
 import re
@@ -24,7 +24,7 @@ _BETWEEN = 0.1  # s between two words on the progress
 
 @dataclass(frozen=True)
 class Task:
-    """A test of a car."""
+    """One test of one car, for a worker process."""
 
     test: str
     car: TestedCar

@@ -75,10 +75,10 @@ def lost(check: Check, loss: Lost, limit: float) -> Finding:
     verdict = check.crash if not loss.late else check.late if check.calls else "note"
     open_by = f" ({check.clause})" if verdict == "note" and check.clause else ""
     if loss.late:
-        words = f"{loss.how}{open_by}; --time-limit gives a check more than {limit:g} s"
+        message = f"{loss.how}{open_by}; --time-limit gives a check more than {limit:g} s"
     else:
-        words = f"the process {loss.how}{open_by}"
-    return Finding(check.name, verdict, words, last=check.name == FUNCTIONS)
+        message = f"the process {loss.how}{open_by}"
+    return Finding(check.name, verdict, message, last=check.name == FUNCTIONS)
 
 
 def left_out(finding: Finding) -> list[Check]:

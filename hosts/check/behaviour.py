@@ -13,7 +13,8 @@ from hosts.common.errors import HostError
 # Two ways of dividing time differ by the error of the method.
 _SUBSTEP_SHARE = 0.05
 _NEAR = 1e-4  # of the largest value of an output: a usual tolerance of solvers
-_CROWD, _BUDGET = 30, 5.0  # instances, and s in which they are made
+_CROWD = 30  # instances
+_BUDGET = 5.0  # time in which they are made, s
 _ALTERED = "FMI speaks of states of the same FMU alone: FMI 2.0, 2.1.8, and FMI 3.0, 2.2.7.4"
 
 
@@ -25,15 +26,15 @@ def runs(subject: Subject) -> Finding:
     for k, row in enumerate(rows):
         for name, value in zip(names, row, strict=True):
             if not math.isfinite(value):
-                words = f"{name} is {value:g} at {k * subject.step:g} s; give a number or refuse the step"
-                return Finding("runs", "bad", f"{words} {subject.clause('2.1.7', '2.2.7.2')}")
+                message = f"{name} is {value:g} at {k * subject.step:g} s; give a number or refuse the step"
+                return Finding("runs", "bad", f"{message} {subject.clause('2.1.7', '2.2.7.2')}")
     del rows[0]
     moving = sum(min(column) < max(column) for column in zip(*rows, strict=True))
-    words = f"{len(rows)} steps of {subject.step:g} s, {moving} outputs move"
+    message = f"{len(rows)} steps of {subject.step:g} s, {moving} outputs move"
     if len(rows) < subject.steps:
-        words += f"; it asks to end then, which it may {subject.clause('4.2.3', '4.2.1')}"
-        return Finding("runs", "note", words)
-    return Finding("runs", "good", words)
+        message += f"; it asks to end then, which it may {subject.clause('4.2.3', '4.2.1')}"
+        return Finding("runs", "note", message)
+    return Finding("runs", "good", message)
 
 
 def repeats(subject: Subject) -> Finding:
@@ -63,8 +64,8 @@ def repeats(subject: Subject) -> Finding:
 
 
 def _not_repeated(subject: Subject, when: str, differs: str) -> Finding:
-    words = f"a run {when} differs: {differs}; keep all that a run needs in its instance"
-    return Finding("repeats", "bad", f"{words} {subject.clause('2.1.5', '2.3.1')}")
+    message = f"a run {when} differs: {differs}; keep all that a run needs in its instance"
+    return Finding("repeats", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
 
 
 def first_difference(subject: Subject, one: list[list[float]], other: list[list[float]], begin: int = 0) -> str:
@@ -88,11 +89,11 @@ def resets(subject: Subject) -> Finding:
         instance.run(len(first) - 1)
         instance.reset()
         if not first_difference(subject, first[:-1], instance.start().run(len(first) - 1)):
-            words = "not as at the first start once it has asked to end; set all back in it"
-            return Finding("reset", "note", f"{words} {subject.clause('2.1.6', '2.3.1')}")
+            message = "not as at the first start once it has asked to end; set all back in it"
+            return Finding("reset", "note", f"{message} {subject.clause('2.1.6', '2.3.1')}")
     if differs:
-        words = f"not as at the first start: {differs}; set all back in it"
-        return Finding("reset", "bad", f"{words} {subject.clause('2.1.6', '2.3.1')}")
+        message = f"not as at the first start: {differs}; set all back in it"
+        return Finding("reset", "bad", f"{message} {subject.clause('2.1.6', '2.3.1')}")
     return Finding("reset", "good", "as at the first start")
 
 
@@ -114,8 +115,8 @@ def states(subject: Subject) -> Finding:
     if kept := _kept_state(subject):
         return Finding("states", "bad", f"{kept} {clause}")
     if differs := first_difference(subject, first, again, half):
-        words = f"a restored state goes on differently: {differs}; save all of it, with the solver's own"
-        return Finding("states", "note" if _near(first, again) else "bad", f"{words} {clause}")
+        message = f"a restored state goes on differently: {differs}; save all of it, with the solver's own"
+        return Finding("states", "note" if _near(first, again) else "bad", f"{message} {clause}")
     for ready in (False, True):
         other = Instance(subject).start() if ready else Instance(subject)
         try:
@@ -128,8 +129,8 @@ def states(subject: Subject) -> Finding:
     if differs:
         return Finding("states", "bad", f"a state goes on differently in another instance: {differs} {clause}")
     if ready:
-        words = "a state goes on in another instance only where that was initialised; save its mode too"
-        return Finding("states", "bad" if subject.three else "note", f"{words} {clause}")
+        message = "a state goes on in another instance only where that was initialised; save its mode too"
+        return Finding("states", "bad" if subject.three else "note", f"{message} {clause}")
     return Finding("states", "good", f"exact, also in another instance, {len(data)} bytes")
 
 
@@ -206,9 +207,9 @@ def refusals(subject: Subject) -> Finding:
     getter = unknown.slave.getFloat64 if unknown.three else unknown.slave.getReal
     expect("an unknown value reference", unknown, lambda: getter([4_000_000_000]))
     if taken:
-        words = f"accepted without a message: {', '.join(taken)}"
+        message = f"accepted without a message: {', '.join(taken)}"
         return Finding(
-            "refusals", "note", f"{words}; FMI does not say what an FMU does {subject.clause('4.2.4', '2.3.1')}"
+            "refusals", "note", f"{message}; FMI does not say what an FMU does {subject.clause('4.2.4', '2.3.1')}"
         )
     if silent:
         return Finding("refusals", "note", f"refused without a message: {', '.join(silent)}")
@@ -230,15 +231,15 @@ def other_steps(subject: Subject) -> Finding:
     last = instance.get(subject.outputs)
     moving = [(a, b, max(c) - min(c)) for a, b, c in zip(last, fine[-1], zip(*fine, strict=True), strict=True)]
     near = sum(abs(a - b) <= _SUBSTEP_SHARE * span + 1e-9 for a, b, span in moving)
-    words = f"{near} of {len(moving)} outputs end within {100 * _SUBSTEP_SHARE:g} % of their range"
+    message = f"{near} of {len(moving)} outputs end within {100 * _SUBSTEP_SHARE:g} % of their range"
     if not all(math.isfinite(v) for v in last):
         return Finding(
-            "steps of any size", "bad", f"an output is not a number; {words} {subject.clause('4.2.2', '4.2.1')}"
+            "steps of any size", "bad", f"an output is not a number; {message} {subject.clause('4.2.2', '4.2.1')}"
         )
     if 2 * near < len(moving):
-        words += "; step by the length that is asked for, or say that only one is allowed"
-        return Finding("steps of any size", "note", f"{words} {subject.clause('4.3.1', '4.2.1')}")
-    return Finding("steps of any size", "good", words)
+        message += "; step by the length that is asked for, or say that only one is allowed"
+        return Finding("steps of any size", "note", f"{message} {subject.clause('4.3.1', '4.2.1')}")
+    return Finding("steps of any size", "good", message)
 
 
 def many(subject: Subject) -> Finding:
@@ -253,8 +254,8 @@ def many(subject: Subject) -> Finding:
         instance.free()
     for end in ends[1:]:
         if differs := first_difference(subject, [ends[0]], [end], 2):
-            words = f"{len(crowd)} at once differ: {differs}; keep all that a run needs in its instance"
-            return Finding("many instances", "bad", f"{words} {subject.clause('2.1.5', '2.3.1')}")
+            message = f"{len(crowd)} at once differ: {differs}; keep all that a run needs in its instance"
+            return Finding("many instances", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("many instances", "good", f"{len(crowd)} at once")
 
 

@@ -186,9 +186,9 @@ def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     if len(options.fidelity) > 1:
         raise HostError("--fidelity is given twice; give one with --reference.")
     fidelity = next(iter(options.fidelity), None)
-    asked = ReferenceOptions(options.manoeuvre, options.step, fidelity, fmu_options(options))
+    requested = ReferenceOptions(options.manoeuvre, options.step, fidelity, fmu_options(options))
     jobs, out = options.jobs or available_cores(), options.out or OUT
-    return check_references(fmu, options.reference, cases, options.bound, asked, jobs, out, options.again)
+    return check_references(fmu, options.reference, cases, options.bound, requested, jobs, out, options.again)
 
 
 def _settings(fmu: Path, given: FmuOptions) -> Settings:
@@ -217,8 +217,8 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     if given := fmu_options(options):
         settings = _settings(fmu, given)
         start = settings.start
-        for name, words in settings.rows():
-            print(f" set  {name:<{_WIDTH}}  {words}", flush=True)
+        for name, message in settings.rows():
+            print(f" set  {name:<{_WIDTH}}  {message}", flush=True)
     limit = _TIME_LIMIT if options.time_limit is None else options.time_limit
     if not limit > 0.0:
         raise HostError(f"--time-limit is {limit:g} s; it must be positive.")
@@ -237,8 +237,8 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
             cases.append(Case(fmu.stem, check.name, finding.verdict, finding.words, time.perf_counter() - begin))
             without += [other.name for other in left_out(finding)]
     if process.left:
-        words = f"{process.left} that it had started were ended with it"
-        print(f"{_MARKS['note']:>4}  {'processes':<{_WIDTH}}  {words}")
+        message = f"{process.left} that it had started were ended with it"
+        print(f"{_MARKS['note']:>4}  {'processes':<{_WIDTH}}  {message}")
     if without:
         print(f"{_MARKS['note']:>4}  {'not done':<{_WIDTH}}  {len(without)} checks, which call functions of the FMU")
     bad = sum(case.verdict == "bad" for case in cases)

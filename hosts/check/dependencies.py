@@ -1,4 +1,4 @@
-"""Checks of what an FMU says that its outputs depend on, and by how much: by setting inputs a little otherwise."""
+"""Checks the declared dependencies and derivatives of the outputs of an FMU by perturbing its inputs."""
 
 from collections.abc import Iterator, Set
 from typing import Any
@@ -12,7 +12,9 @@ from hosts.check.instance import REAL, Check, Finding, Instance, Subject, count_
 
 _STATES = 4
 _PART = 1e-4  # of an input's range: the nudge of a difference
-_NEAR, _SMOOTH, _ROUND = 0.02, 0.01, 1e-9
+_NEAR = 0.02
+_SMOOTH = 0.01
+_ROUND = 1e-9
 
 
 def _real_outputs(subject: Subject) -> tuple[list[ScalarVariable], list[str]]:
@@ -50,19 +52,19 @@ def dependencies(subject: Subject) -> Finding:
                 moved.setdefault(name, set()).add(known)
                 listed = declared.get(name)
                 if listed is not None and known not in listed:
-                    words = (
+                    message = (
                         f"{name} goes from {one:g} to {other:g} as {known} is set, on which it is said not to depend"
                     )
-                    return Finding("dependencies", "bad", f"{words}; declare it in ModelStructure {clause}")
+                    return Finding("dependencies", "bad", f"{message}; declare it in ModelStructure {clause}")
     nudged = {whole[subject.places[v.name].reference] for v in subject.inputs}
     every = {v.name for v in subject.description.modelVariables if v.causality == "input"}
     listed_of = {name: declared.get(name) for name in dict.fromkeys(names)}
-    said = {name: every if listed is None else listed & every for name, listed in listed_of.items()}
-    loose = [name for name, known in said.items() if known and known <= nudged and not moved.get(name)]
+    reported = {name: every if listed is None else listed & every for name, listed in listed_of.items()}
+    loose = [name for name, known in reported.items() if known and known <= nudged and not moved.get(name)]
     if loose:
-        words = f"{len(loose)} outputs, such as {loose[0]}, are said to depend on inputs that did not change them"
-        words += ' before the next step; masters may see loops; dependencies="" where that is so'
-        return Finding("dependencies", "note", f"{words} {clause}")
+        message = f"{len(loose)} outputs, such as {loose[0]}, are said to depend on inputs that did not change them"
+        message += ' before the next step; masters may see loops; dependencies="" where that is so'
+        return Finding("dependencies", "note", f"{message} {clause}")
     return Finding("dependencies", "good", "outputs change at a communication point as they are said to")
 
 
@@ -116,17 +118,19 @@ def derivatives(subject: Subject) -> Finding:
             if len(wrong):
                 k = int(wrong[0])
                 step, point = ((found[1][k] - found[2][k]) / (2.0 * part) for found in (over_step, at_point))
-                words = f"{names[k]} has the derivative {slopes[k]:g} by {known.name}; differences are {point:g} at a "
-                words += f"communication point and {step:g} over a step; give one of them"
-                return Finding("derivatives", "bad", f"{words} {subject.clause('2.1.9', '2.2.12')}")
+                message = (
+                    f"{names[k]} has the derivative {slopes[k]:g} by {known.name}; differences are {point:g} at a "
+                )
+                message += f"communication point and {step:g} over a step; give one of them"
+                return Finding("derivatives", "bad", f"{message} {subject.clause('2.1.9', '2.2.12')}")
             compared += 1
             over_steps += bool(np.any(~near[0]))
         instance.free_state(before)
     if not compared:
         return Finding("derivatives", "note", "no step could be compared")
     if over_steps and (span is None or span.get("span") != "communicationStep"):
-        words = "they are those over the last step, which FMI has no word for; say so in an annotation"
-        return Finding("derivatives", "note", f"{words} {subject.clause('2.1.9', '2.2.12')}")
+        message = "they are those over the last step, which FMI has no word for; say so in an annotation"
+        return Finding("derivatives", "note", f"{message} {subject.clause('2.1.9', '2.2.12')}")
     return Finding(
         "derivatives", "good", f"as differences {'over a step' if over_steps else 'at a communication point'}"
     )
@@ -143,10 +147,10 @@ def _states(subject: Subject, without: Set[str]) -> Iterator[tuple[ScalarVariabl
         if known.name in without:
             continue
         instance = Instance(subject).start()
-        made = len(instance.run(max(2, subject.steps // 8)))
+        count = len(instance.run(max(2, subject.steps // 8)))
         instance.set_input(known, size_of(known)[0])
-        if instance.advance(made * subject.step, subject.step):
-            yield known, instance, (made + 1) * subject.step
+        if instance.advance(count * subject.step, subject.step):
+            yield known, instance, (count + 1) * subject.step
         instance.free()
 
 

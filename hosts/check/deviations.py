@@ -1,4 +1,4 @@
-"""How far the outputs of a run are from a table of reference results, and what they would agree with."""
+"""Deviations of the outputs of a run from reference results, and the tolerance within which they agree."""
 
 import fnmatch
 import math
@@ -19,13 +19,14 @@ BOUND = 0.01
 """Largest error of a signal over its size, unless another is given."""
 # Of a signal that hardly moves, the least size: shares of its largest value, whose digits a table cuts, and of its
 # nominal value.
-_OF_VALUE, _OF_NOMINAL = 1e-3, 1e-4
+_OF_VALUE = 1e-3
+_OF_NOMINAL = 1e-4
 _TURNED = "with the other sign"
 
 
 @dataclass(frozen=True)
 class Deviation:
-    """How far a signal is from its reference."""
+    """Deviation of a signal from its reference."""
 
     name: str
     unit: str
@@ -43,7 +44,7 @@ class Deviation:
 
     @property
     def share(self) -> float:
-        """Error over size."""
+        """Error divided by the size of the signal."""
         return self.error / self.size
 
     @property
@@ -64,8 +65,8 @@ class Deviation:
     def case(self, reference: str) -> Case:
         """The result as a case of a JUnit file."""
         error, at, size, share, bound = self.words
-        words = f"largest error {error} at {at}, {share} of its range in the table of {size}; the bound is {bound}"
-        return Case(reference, self.name, "good" if self.good else "bad", words)
+        message = f"largest error {error} at {at}, {share} of its range in the table of {size}; the bound is {bound}"
+        return Case(reference, self.name, "good" if self.good else "bad", message)
 
 
 def bounded(name: str, bounds: Sequence[tuple[str, float]]) -> float:
@@ -96,11 +97,11 @@ def deviations(
         Patterns of names with bounds; the last that fits counts.
     """
     used, rows = places(result, times)
-    found = [
+    results = [
         _deviation(name, result, values[used], rows, nominals[name], bounded(name, bounds))
         for name, values in columns.items()
     ]
-    return sorted(found, key=lambda d: (d.good, -d.share / (d.bound or 1.0)))
+    return sorted(results, key=lambda d: (d.good, -d.share / (d.bound or 1.0)))
 
 
 def places(result: Result, times: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -143,7 +144,7 @@ def remedies(
     """
     used, rows = places(result, times)
     wanted = {d.name: columns[d.name][used] for d in bad}
-    lines, left = [], list(bad)
+    lines, remaining = [], list(bad)
 
     def agrees(d: Deviation, values: NDArray[np.float64], wanted: NDArray[np.float64]) -> bool:
         return bool(np.abs(values - wanted).max() <= d.bound * d.size)
@@ -151,24 +152,24 @@ def remedies(
     for d in bad:
         named = [(1.0 / m.factor, m.words) for m in misread(d.unit)]
         other = [(1.0 / m.factor, "another unit") for m in misread("")]
-        why = [(f, f"{f:.4g} times as large: {words}?") for f, words in (*named, *other)] + [(-1.0, _TURNED)]
+        why = [(f, f"{f:.4g} times as large: {message}?") for f, message in (*named, *other)] + [(-1.0, _TURNED)]
         fits = [w for f, w in why if d.range > 0.0 and agrees(d, f * result[d.name][rows], wanted[d.name])]
         if fits:
-            left.remove(d)
+            remaining.remove(d)
             lines.append(f"{d.name}: in agreement where the table has it {fits[0]}")
     apart = int(np.median(np.diff(rows))) if len(rows) > 1 else 1
-    for late in (apart, -apart) if left else ():
+    for late in (apart, -apart) if remaining else ():
         inside = (rows >= late) & (rows - late < len(result.time))
         if inside.sum() > 2 and all(
-            agrees(d, result[d.name][rows[inside] - late], wanted[d.name][inside]) for d in left
+            agrees(d, result[d.name][rows[inside] - late], wanted[d.name][inside]) for d in remaining
         ):
             how = "later" if late > 0 else "earlier"
             by = abs(late) * float(result.time[1] - result.time[0])
             return [
                 *lines,
-                f"{some_of(d.name for d in left)}: in agreement where the table has it {by:g} s {how}, by one row",
+                f"{some_of(d.name for d in remaining)}: in agreement where the table has it {by:g} s {how}, by one row",
             ]
-    at_once = [d.name for d in left if not agrees(d, result[d.name][rows[:1]], wanted[d.name][:1])]
+    at_once = [d.name for d in remaining if not agrees(d, result[d.name][rows[:1]], wanted[d.name][:1])]
     if at_once:
         lines.append(f"off from the first row on: {some_of(at_once)}; does the FMU start as the reference did? (--set)")
     return lines

@@ -1,4 +1,4 @@
-"""Checks of an FMU that need no run: documents, binaries, units, what a tool could want."""
+"""Checks of an FMU that need no run: description, binaries, units, features that tools may use."""
 
 import ctypes
 from xml.etree import ElementTree
@@ -27,9 +27,9 @@ def description(subject: Subject) -> Finding:
 
 def binaries(subject: Subject) -> Finding:
     """Whether there is a binary for this machine."""
-    found = supported_platforms(str(subject.path))
-    words = ", ".join(found) or "none"
-    return Finding("binaries", "good" if platform in found else "bad", words)
+    result = supported_platforms(str(subject.path))
+    message = ", ".join(result) or "none"
+    return Finding("binaries", "good" if platform in result else "bad", message)
 
 
 def functions(subject: Subject) -> Finding:
@@ -42,8 +42,8 @@ def functions(subject: Subject) -> Finding:
         / f"{face}{sharedLibraryExtension}"
     )
 
-    def lacks(words: str) -> Finding:
-        return Finding(FUNCTIONS, "bad", words, last=True)
+    def lacks(message: str) -> Finding:
+        return Finding(FUNCTIONS, "bad", message, last=True)
 
     try:
         loaded = marked("dlopen", ctypes.CDLL)(str(library))
@@ -63,14 +63,14 @@ def functions(subject: Subject) -> Finding:
 
 
 def execution_tool(subject: Subject) -> Finding:
-    """Whether the FMU stands alone."""
+    """Whether the FMU needs no execution tool."""
     if subject.description.coSimulation.needsExecutionTool:
         return Finding("stands alone", "note", "needs another program on the machine that runs it")
     return Finding("stands alone", "good", "needs no other program")
 
 
 def size(subject: Subject) -> Finding:
-    """Size of the file."""
+    """The size of the file of the FMU."""
     return Finding("size", "good", f"{subject.path.stat().st_size / 1e6:.2f} MB")
 
 
@@ -110,8 +110,8 @@ def source_files(subject: Subject) -> Finding:
         named += [e.get("name", "") for e in ElementTree.parse(build).getroot().iter("SourceFile")]
     missing = [name for name in named if not (sources / name).is_file()]
     if missing:
-        words = f"{len(missing)} of {len(named)} that are named are missing: {some_of(missing)}; pack them in sources"
-        return Finding("source files", "bad", f"{words} {subject.clause('2.3', '2.5.1')}")
+        message = f"{len(missing)} of {len(named)} that are named are missing: {some_of(missing)}; pack them in sources"
+        return Finding("source files", "bad", f"{message} {subject.clause('2.3', '2.5.1')}")
     return Finding("source files", "good", f"all {len(named)} that are named are there")
 
 

@@ -1,4 +1,4 @@
-"""What checks of an FMU share: the FMU unpacked, instances by name, findings."""
+"""Shared by the checks of an FMU: the unpacked FMU, its instances, findings."""
 
 from __future__ import annotations
 
@@ -104,8 +104,8 @@ class Subject:
     @property
     def outputs(self) -> list[ScalarVariable]:
         """Outputs that are real or whole numbers, the real ones first."""
-        found = [v for v in self.description.modelVariables if v.causality == "output"]
-        return [v for v in found if v.type in REAL] + [v for v in found if v.type in WHOLE]
+        results = [v for v in self.description.modelVariables if v.causality == "output"]
+        return [v for v in results if v.type in REAL] + [v for v in results if v.type in WHOLE]
 
     @property
     def inputs(self) -> list[ScalarVariable]:
@@ -121,11 +121,12 @@ REAL = ("Real", "Float64")
 WHOLE = ("Integer", "Int32")
 """Types of variables whose values are looked at."""
 NOT_ALLOWED = "FMI does not allow its calls, and says not what follows: FMI 2.0, 4.2.4, and FMI 3.0, 2.3"
-_DISCARD, _TERMINATED = 2, 3
+_DISCARD = 2
+_TERMINATED = 3
 
 
 def count_of(variable: ScalarVariable) -> int:
-    """How many values it has."""
+    """Number of values of a variable."""
     return math.prod(variable.shape or ())
 
 
@@ -178,8 +179,8 @@ class Instance(instance.Instance):
         except (ModuleNotFoundError, MemoryError):
             raise
         except Exception as error:
-            said = f"it is not instantiated {subject.clause('2.1.5', '2.3.1')}: {one_line(str(error))}"
-            raise NotInstantiatedError(said) from None
+            message = f"it is not instantiated {subject.clause('2.1.5', '2.3.1')}: {one_line(str(error))}"
+            raise NotInstantiatedError(message) from None
         subject.alive = self if subject.single else None
 
     def _hear(self, status: int, category: str, text: str) -> None:

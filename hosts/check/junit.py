@@ -47,20 +47,20 @@ def write_junit(file: Path, suite: str, cases: Sequence[Case]) -> None:
     numbers = {name: str(count) for name, count in counts.items()}
     seconds = f"{sum(case.seconds for case in cases):.3f}"
     top = ElementTree.Element("testsuites", {"name": "ali3 check"})
-    its = ElementTree.SubElement(top, "testsuite", {"name": _text(suite), **numbers, "time": seconds})
+    suite_element = ElementTree.SubElement(top, "testsuite", {"name": _text(suite), **numbers, "time": seconds})
     for case in cases:
         named = {"classname": _text(case.group), "name": _text(case.name), "time": f"{case.seconds:.3f}"}
-        element = ElementTree.SubElement(its, "testcase", named)
+        element = ElementTree.SubElement(suite_element, "testcase", named)
         if case.verdict in ("good", "note"):
             ElementTree.SubElement(element, "system-out").text = _text(case.words)
         else:
             kind = "failure" if case.verdict == "bad" else case.verdict
             ElementTree.SubElement(element, kind, {"message": _text(case.words)}).text = _text(case.words)
     ElementTree.indent(top)
-    with atomic_file(file) as made:
-        ElementTree.ElementTree(top).write(made, encoding="utf-8", xml_declaration=True)
+    with atomic_file(file) as temporary:
+        ElementTree.ElementTree(top).write(temporary, encoding="utf-8", xml_declaration=True)
 
 
-def _text(words: str) -> str:
+def _text(message: str) -> str:
     """Without characters that XML does not have, and with an end."""
-    return _NOT_IN_XML.sub("?", words[:_MOST])
+    return _NOT_IN_XML.sub("?", message[:_MOST])

@@ -45,9 +45,9 @@ def parameters(fmu: Path, given: FmuOptions, out: Path | None, diff: Path | None
     else:
         _print_rows(settings.rows())
     if out is not None:
-        found = parameter_set_of(variables, description.modelName, settings.start)
-        write_parameter_set(found, out, as_built=not settings.changes)
-        print(f"written: {out}, {len(found.entries)} parameters")
+        result = parameter_set_of(variables, description.modelName, settings.start)
+        write_parameter_set(result, out, as_built=not settings.changes)
+        print(f"written: {out}, {len(result.entries)} parameters")
     return 0
 
 

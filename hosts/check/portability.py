@@ -16,8 +16,14 @@ _LICENCES = ("license.txt", "license.html", "license.spdx")
 _FAR = 1e16
 _INNER_STEPS = 1e9
 _NO_LIMIT = "FMI sets no time for a step: FMI 2.0, 4.2.2, and FMI 3.0, 4.2.1"
-_OK, _WARNING, _ERROR, _SHORT_STEP = 0, 1, 3, 0.5
-_DISCARD, _TRIES, _COARSE, _STRONG = 2, 40, 10, 100.0
+_OK = 0
+_WARNING = 1
+_ERROR = 3
+_SHORT_STEP = 0.5
+_DISCARD = 2
+_TRIES = 40
+_COARSE = 10
+_STRONG = 100.0
 
 
 def one_spelling(subject: Subject) -> Finding:
@@ -26,8 +32,8 @@ def one_spelling(subject: Subject) -> Finding:
     twice = [name for name, count in Counter(map(_plain, spelt)).items() if count > 1]
     if twice:
         both = " and ".join(f"'{name}'" for name in spelt if _plain(name) == twice[0])
-        words = f"one unit under two names: {both}; FMI asks for different names only"
-        return Finding("unit names", "note", f"{words} {subject.clause('2.2.2', '2.4.3')}")
+        message = f"one unit under two names: {both}; FMI asks for different names only"
+        return Finding("unit names", "note", f"{message} {subject.clause('2.2.2', '2.4.3')}")
     return Finding("unit names", "good", f"{len(spelt)}, each under one name")
 
 
@@ -37,12 +43,12 @@ def _plain(unit: str) -> str:
 
 def whole_numbers(subject: Subject) -> Finding:
     """Counts and levels that are real numbers."""
-    found = [
+    results = [
         v.name for v in subject.description.modelVariables if v.type in REAL and v.name.rpartition(".")[2] in _COUNTS
     ]
-    if found:
-        words = f"{len(found)} counts or levels are real numbers, such as {found[0]}; FMI leaves the type open"
-        return Finding("whole numbers", "note", f"{words} {subject.clause('2.2.7', '2.4.7')}")
+    if results:
+        message = f"{len(results)} counts or levels are real numbers, such as {results[0]}; FMI leaves the type open"
+        return Finding("whole numbers", "note", f"{message} {subject.clause('2.2.7', '2.4.7')}")
     return Finding("whole numbers", "good", "counts and levels are integers")
 
 
@@ -50,31 +56,31 @@ def about_the_file(subject: Subject) -> Finding:
     """Rights, date, descriptions, typical sizes, dependencies of the initial state."""
     root = subject.root
     missing = [name for name in ("author", "copyright", "license") if not root.get(name)]
-    words = [f"no {', '.join(missing)}"] if missing else []
+    message = [f"no {', '.join(missing)}"] if missing else []
     if not any((subject.folder / "documentation" / "licenses" / name).exists() for name in _LICENCES):
-        words.append("no documentation/licenses/license.txt")
+        message.append("no documentation/licenses/license.txt")
     if root.get("generationDateAndTime", "").startswith(("2000-01-01", "1970-01-01", "1980-01-01")):
-        words.append(f"made on {root.get('generationDateAndTime')}")
+        message.append(f"made on {root.get('generationDateAndTime')}")
     variables = subject.description.modelVariables
     shared = [text for text, count in Counter(v.description for v in variables).items() if text and count > 1]
     if shared:
-        words.append(f"{len(shared)} descriptions stand at several variables, such as '{shared[0]}'")
+        message.append(f"{len(shared)} descriptions stand at several variables, such as '{shared[0]}'")
     if not any(v.nominal is not None for v in variables):
-        words.append("no typical sizes (nominal)")
+        message.append("no typical sizes (nominal)")
     unknowns = subject.description.initialUnknowns
     initial = [u.dependencies for u in unknowns if u.dependencies]
     if len(initial) > 8 and all(len(d) == len(initial[0]) > 1 for d in initial):
-        words.append("every initial output is said to depend on everything")
-    if words:
+        message.append("every initial output is said to depend on everything")
+    if message:
         clause = subject.clause("2.2.1, 2.2.7, 2.3", "2.4.1, 2.4.7, 2.5.1")
-        return Finding("about the file", "note", f"{'; '.join(words)}; all of it is optional {clause}")
+        return Finding("about the file", "note", f"{'; '.join(message)}; all of it is optional {clause}")
     left_out = sum(u.dependencies is None for u in unknowns)
-    told = (
+    reported = (
         f"{left_out} of {len(unknowns)} initial outputs depend on all that is set"
         if left_out
         else "sparse dependencies"
     )
-    return Finding("about the file", "good", f"rights, date, distinct descriptions, typical sizes; {told}")
+    return Finding("about the file", "good", f"rights, date, distinct descriptions, typical sizes; {reported}")
 
 
 def build_files(subject: Subject) -> Finding:
@@ -89,8 +95,8 @@ def build_files(subject: Subject) -> Finding:
     )
     if named:
         return Finding("build description", "good", "names the mathematical library")
-    words = "the sources use the mathematical library, which is not named; FMI does not say that it must be"
-    return Finding("build description", "note", f"{words} {subject.clause('2.3', '2.4.10')}")
+    message = "the sources use the mathematical library, which is not named; FMI does not say that it must be"
+    return Finding("build description", "note", f"{message} {subject.clause('2.3', '2.4.10')}")
 
 
 def time_anywhere(subject: Subject) -> Finding:
@@ -109,10 +115,10 @@ def time_anywhere(subject: Subject) -> Finding:
         return Finding("time", "bad", f"cannot be read with other variables, or twice: {error}")
     if abs(values[0] - 2.0 * subject.step) < 1e-9 and values[0] == values[-1]:
         return Finding("time", "good", "beside other variables and twice")
-    words = (
+    message = (
         f"reads {values[0]:.9g} s and {values[-1]:.9g} s after a step to {2.0 * subject.step:.9g} s (FMI 3.0, 4.2.1)"
     )
-    return Finding("time", "bad", words)
+    return Finding("time", "bad", message)
 
 
 def quiet_steps(subject: Subject) -> Finding:
@@ -122,11 +128,11 @@ def quiet_steps(subject: Subject) -> Finding:
     instance = Instance(subject).start()
     status = _step_status(instance, 0.0, _SHORT_STEP * subject.step)
     if status == _WARNING and not instance.messages:
-        words = "a step is answered with a warning and without a message; say what it warns of"
-        return Finding("quiet steps", "bad", f"{words} {subject.clause('2.1.3', '2.2.4')}")
+        message = "a step is answered with a warning and without a message; say what it warns of"
+        return Finding("quiet steps", "bad", f"{message} {subject.clause('2.1.3', '2.2.4')}")
     if status != _OK:
-        words = f"half the default step is answered with status {status}, which FMI leaves to the FMU"
-        return Finding("quiet steps", "note", f"{words} {subject.clause('2.1.3', '2.2.4')}")
+        message = f"half the default step is answered with status {status}, which FMI leaves to the FMU"
+        return Finding("quiet steps", "note", f"{message} {subject.clause('2.1.3', '2.2.4')}")
     return Finding("quiet steps", "good", "half the default step is no warning")
 
 
@@ -154,8 +160,8 @@ def careless_calls(subject: Subject) -> Finding:
         except Exception:
             continue
     if taken:
-        words = f"accepted without a message: {', '.join(taken)}; FMI does not say what an FMU does"
-        return Finding("careless calls", "note", f"{words} {subject.clause('2.1.5, 4.2.4', '2.3.1')}")
+        message = f"accepted without a message: {', '.join(taken)}; FMI does not say what an FMU does"
+        return Finding("careless calls", "note", f"{message} {subject.clause('2.1.5, 4.2.4', '2.3.1')}")
     return Finding("careless calls", "good", "empty names, unknown categories and early reads are refused")
 
 
@@ -165,8 +171,8 @@ def stop_time(subject: Subject) -> Finding:
     ended.run(1)
     status = _step_status(ended, subject.step, 2.0 * subject.step)
     if status < _ERROR:
-        words = f"a step beyond it is answered with status {status}, where an error is asked for"
-        return Finding("stop time", "note", f"{words} {subject.clause('2.1.6', '2.3.3')}; stop at it in the host")
+        message = f"a step beyond it is answered with status {status}, where an error is asked for"
+        return Finding("stop time", "note", f"{message} {subject.clause('2.1.6', '2.3.3')}; stop at it in the host")
     return Finding("stop time", "good", "a step beyond it is refused")
 
 
@@ -179,8 +185,8 @@ def any_path(subject: Subject) -> Finding:
     try:
         Instance(subject, resources=f"{folder}{os.sep}" if subject.three else folder.as_uri())
     except NotInstantiatedError:
-        words = f"it is not instantiated with resources in a folder named '{folder.name}'; decode their location"
-        return Finding("resource paths", "bad", f"{words} {subject.clause('2.1.5', '2.3.1')}")
+        message = f"it is not instantiated with resources in a folder named '{folder.name}'; decode their location"
+        return Finding("resource paths", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("resource paths", "good", "blanks and letters that are no ASCII are taken")
 
 
@@ -195,17 +201,17 @@ def capital_scheme(subject: Subject) -> Finding:
     except MemoryError:
         raise
     except Exception:
-        words = "a location that begins with FILE:// is refused; schemes should be taken in capitals (RFC 3986, 3.1)"
-        return Finding("resources", "note", words)
+        message = "a location that begins with FILE:// is refused; schemes should be taken in capitals (RFC 3986, 3.1)"
+        return Finding("resources", "note", message)
     return Finding("resources", "good", "the scheme of their location may be in capitals")
 
 
 def arrays(subject: Subject) -> Finding:
     """FMI 3.0: variables with dimensions, which some hosts read as zeros without a message."""
-    found = [v.name for v in subject.description.modelVariables if getattr(v, "dimensions", None)]
-    if found:
-        words = f"{len(found)} variables are arrays, such as {found[0]}; some hosts read them as zeros silently"
-        return Finding("arrays", "note", words)
+    results = [v.name for v in subject.description.modelVariables if getattr(v, "dimensions", None)]
+    if results:
+        message = f"{len(results)} variables are arrays, such as {results[0]}; some hosts read them as zeros silently"
+        return Finding("arrays", "note", message)
     return Finding("arrays", "good", "every variable is a scalar")
 
 
@@ -223,8 +229,8 @@ def refused_steps(subject: Subject) -> Finding:
             continue
         statuses += [_step_status(instance, time, step) for _ in range(2)]
         if statuses[-1] < _ERROR:
-            words = f"a refused step at {time:g} s can be asked for without end, which FMI leaves to the host"
-            return Finding("refused steps", "note", f"{words} {subject.clause('2.1.3', '4.2.1')}")
+            message = f"a refused step at {time:g} s can be asked for without end, which FMI leaves to the host"
+            return Finding("refused steps", "note", f"{message} {subject.clause('2.1.3', '4.2.1')}")
         return Finding("refused steps", "good", f"a step refused at {time:g} s is an error the third time")
     return Finding("refused steps", "good", "none was refused with strong inputs")
 
@@ -238,8 +244,8 @@ def far_clock(subject: Subject) -> Finding:
         return Finding("far from zero", "good", f"a start at {_FAR:g} s is refused")
     status = _step_status(instance, _FAR, subject.step)
     if status < _ERROR:
-        words = f"a step of {subject.step:g} s at {_FAR:g} s is taken, its clock stands; FMI does not speak of it"
-        return Finding("far from zero", "note", f"{words} {subject.clause('4.2.2', '4.2.1')}")
+        message = f"a step of {subject.step:g} s at {_FAR:g} s is taken, its clock stands; FMI does not speak of it"
+        return Finding("far from zero", "note", f"{message} {subject.clause('4.2.2', '4.2.1')}")
     return Finding("far from zero", "good", f"a step of {subject.step:g} s at {_FAR:g} s is refused")
 
 

@@ -1,4 +1,4 @@
-"""Check of the settings of the process that runs an FMU: they are as they were after each kind of call."""
+"""Checks that the calls of an FMU leave the settings of the host's process unchanged."""
 
 import ctypes
 import locale
@@ -44,12 +44,12 @@ def _environment() -> dict[str, str]:
     """As C sees it."""
     if not LINUX:
         return {}
-    found, entries, k = {}, ctypes.POINTER(ctypes.c_char_p).in_dll(ctypes.CDLL(None), "environ"), 0
+    results, entries, k = {}, ctypes.POINTER(ctypes.c_char_p).in_dll(ctypes.CDLL(None), "environ"), 0
     while entries[k]:
         name, _, value = entries[k].partition(b"=")
-        found[name.decode(errors="replace")] = value.decode(errors="replace")
+        results[name.decode(errors="replace")] = value.decode(errors="replace")
         k += 1
-    return found
+    return results
 
 
 def _timers() -> object:
@@ -125,13 +125,13 @@ def _settings(subject: Subject) -> Finding:
         call()
         for name, (read, remedy) in _SETTINGS.items():
             if (now := read()) != before[name]:
-                words = f"{name} changed from {_short(before[name], now)} by {what}; {remedy}"
-                return Finding("process settings", "bad", f"{words} {subject.clause(*_GLOBAL)}")
+                message = f"{name} changed from {_short(before[name], now)} by {what}; {remedy}"
+                return Finding("process settings", "bad", f"{message} {subject.clause(*_GLOBAL)}")
     return Finding("process settings", "good", f"left alone: {', '.join(_SETTINGS)}")
 
 
 def _short(before: object, now: object) -> str:
-    """What of two values differs."""
+    """The differing parts of two values."""
     if isinstance(before, dict) and isinstance(now, dict):
         name = next(n for n in {**before, **now} if before.get(n) != now.get(n))
         return f"{name} {before.get(name, 'unset')} to {now.get(name, 'unset')}"

@@ -1,4 +1,4 @@
-"""Checks of what an FMU does to the process that runs it: memory, threads, files, settings, messages, time."""
+"""Checks the side effects of an FMU on the process that runs it: memory, threads, files, settings, messages, time."""
 
 import ctypes
 import gc
@@ -19,9 +19,12 @@ _WARM_UP_STEPS = 30
 _MEASURED_STEPS = 120
 _BUDGET = 1.0  # s of measured steps
 _PATIENCE = 10.0  # s for instances
-_LEAK, _PER_INSTANCE = 8_000, 30_000  # bytes a step, an instance
+_LEAK = 8_000  # bytes a step
+_PER_INSTANCE = 30_000  # bytes an instance
 _INSTANCES = 20
-_REST, _LONGEST_REST, _IDLE = 0.3, 3.0, 0.03  # s between calls, and of the processor in them
+_REST = 0.3  # s between calls
+_LONGEST_REST = 3.0  # s between calls, at most
+_IDLE = 0.03  # s of processor time between calls
 _SLOW = 10.0  # times its step that a step may take
 LINUX = sys.platform == "linux"
 _FORMAT = re.compile(r"%(?!%)[-+ #0-9.*hlLqjzt]*([a-zA-Z])")
@@ -72,8 +75,8 @@ def costs_of_steps(subject: Subject) -> Finding:
         if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
             break
     rows = rows[1:] if len(rows) > 4 else rows
-    if words := _growth(rows, "a step"):
-        return Finding("costs of steps", "bad", f"{words} {subject.clause('2.1.5', '2.3.1')}")
+    if message := _growth(rows, "a step"):
+        return Finding("costs of steps", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("costs of steps", "good", f"{', '.join(_COSTS)} stay over {made} steps")
 
 
@@ -102,8 +105,8 @@ def costs_of_states(subject: Subject) -> Finding:
         state = instance.state()
         instance.restore(state)
         instance.free_state(state)
-    if words := _growth(rows[1:], "a state that is freed"):
-        return Finding("costs of states", "bad", f"{words} {subject.clause('2.1.8', '2.2.7.4')}")
+    if message := _growth(rows[1:], "a state that is freed"):
+        return Finding("costs of states", "bad", f"{message} {subject.clause('2.1.8', '2.2.7.4')}")
     return Finding("costs of states", "good", "states that are freed leave nothing")
 
 
@@ -128,9 +131,9 @@ def costs_of_instances(subject: Subject) -> Finding:
     for column, (name, (_, most, unit, _r)) in zip(zip(*marks, strict=True), _COSTS.items(), strict=True):
         rate = (column[-1] - column[0]) / (_INSTANCES - 5)
         if rate > max(most, _PER_INSTANCE if name == "memory" else 0.0) and column[-1] > column[-2] > column[-3]:
-            words = f"{name} grow by {rate:g} {unit} an instance that is freed; release them there"
+            message = f"{name} grow by {rate:g} {unit} an instance that is freed; release them there"
             verdict: Literal["note", "bad"] = "note" if name == "memory" else "bad"
-            return Finding("costs of instances", verdict, f"{words} {subject.clause('2.1.5', '2.3.1')}")
+            return Finding("costs of instances", verdict, f"{message} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("costs of instances", "good", "instances that are freed leave nothing")
 
 
@@ -149,49 +152,49 @@ def time_of_steps(subject: Subject) -> Finding:
         used, rest = time.process_time() - begin, rest + _REST
     clause = subject.clause("4.2.2", "4.2.1")
     if used > _IDLE:
-        words = (
+        message = (
             f"{used:.3f} s of processor time are used in {rest:.1f} s between calls; stop threads while no call is made"
         )
-        return Finding("time of steps", "note", f"{words} {clause}")
+        return Finding("time of steps", "note", f"{message} {clause}")
     middle = sorted(times)[len(times) // 2] if times else 0.0
     if middle > max(_SLOW * subject.step, 0.05) or middle > 0.09:
-        words = f"a step of {subject.step:g} s takes {middle:.3g} s, {middle / subject.step:.3g} times as long; "
-        return Finding("time of steps", "note", f"{words}FMI sets no time for a step {clause}")
+        message = f"a step of {subject.step:g} s takes {middle:.3g} s, {middle / subject.step:.3g} times as long; "
+        return Finding("time of steps", "note", f"{message}FMI sets no time for a step {clause}")
     return Finding("time of steps", "good", "in time")
 
 
 @contextmanager
 def _captured() -> Iterator[list[bytes]]:
-    """What is written to the two standard streams, in a list at the end."""
-    found: list[bytes] = []
+    """A context that collects text written to the two standard streams in a list."""
+    results: list[bytes] = []
     kept = [os.dup(k) for k in (1, 2)]
     with tempfile.TemporaryFile() as stream:
         try:
             for k in (1, 2):
                 os.dup2(stream.fileno(), k)
-            yield found
+            yield results
         finally:
             ctypes.CDLL(None).fflush(None)
             for k, old in zip((1, 2), kept, strict=True):
                 os.dup2(old, k)
                 os.close(old)
             stream.seek(0)
-            found.append(stream.read())
+            results.append(stream.read())
 
 
 def files_around(subject: Subject) -> dict[str, tuple[int, int]]:
     """Sizes and times of change of files, by path, where those of an FMU could lie and nobody else writes."""
     temporary = Path(tempfile.gettempdir())
     own = {temporary} if temporary.name.startswith(("ali3", "tmp")) else set()
-    found = {}
+    results = {}
     for path in (path for folder in {subject.folder, Path.cwd()} | own for path in folder.rglob("*")):
         try:
             stat = path.lstat()
         except OSError:
             continue
         if not path.is_dir():
-            found[str(path)] = stat.st_size, stat.st_mtime_ns
-    return found
+            results[str(path)] = stat.st_size, stat.st_mtime_ns
+    return results
 
 
 def outside(subject: Subject) -> Finding:
@@ -206,14 +209,14 @@ def outside(subject: Subject) -> Finding:
     changed = [name for name in after if after[name] != before.get(name)]
     gone = [name for name in before if name not in after]
     text = printed[0].decode("utf-8", "replace").strip()
-    words = []
+    message = []
     if changed or gone:
         one = (changed or gone)[0]
-        words.append(f"{len(changed) + len(gone)} files were written, such as {Path(one).name}; keep state in memory")
+        message.append(f"{len(changed) + len(gone)} files were written, such as {Path(one).name}; keep state in memory")
     if text:
-        words.append(f"prints {text.splitlines()[0][:60]!r}; give messages to the host's logger")
-    if words:
-        return Finding("files and prints", "note", f"{'; '.join(words)} {subject.clause('2.1.5', '2.3.1')}")
+        message.append(f"prints {text.splitlines()[0][:60]!r}; give messages to the host's logger")
+    if message:
+        return Finding("files and prints", "note", f"{'; '.join(message)} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("files and prints", "good", "none")
 
 
@@ -229,19 +232,23 @@ def messages(subject: Subject) -> Finding:
     for text in instance.raw:
         letters = set(_FORMAT.findall(text))
         if "n" in letters or (subject.three and letters & set("sn")):
-            words = f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is no format"
+            message = (
+                f"a message has {'%n' if 'n' in letters else '%s'}: {text[:50]!r}; double each % that is no format"
+            )
             verdict: Literal["note", "bad"] = "note" if subject.three else "bad"
-            return Finding("messages", verdict, f"{words} {subject.clause('2.1.5', '2.3.1')}")
-    quiet, message_count, words = Instance(subject).start(), len(instance.messages), ""
+            return Finding("messages", verdict, f"{message} {subject.clause('2.1.5', '2.3.1')}")
+    quiet, message_count, message = Instance(subject).start(), len(instance.messages), ""
     quiet.run(5)
     if message_count > 20 * max(1, len(rows)):
-        words = f"{message_count} in {len(rows)} steps; say what repeats once"
+        message = f"{message_count} in {len(rows)} steps; say what repeats once"
     elif instance.without_text:
-        words = f"{instance.without_text} have no category or text; give both"
+        message = f"{instance.without_text} have no category or text; give both"
     elif quiet.chatter:
-        words = f"logging is off, and {quiet.chatter} are of no problem, as {quiet.messages[0][:40]!r}; leave them out"
-    if words:
-        return Finding("messages", "note", f"{words} {subject.clause('2.1.5', '2.3.1')}")
+        message = (
+            f"logging is off, and {quiet.chatter} are of no problem, as {quiet.messages[0][:40]!r}; leave them out"
+        )
+    if message:
+        return Finding("messages", "note", f"{message} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("messages", "good", f"{message_count} in {len(rows)} steps")
 
 

@@ -141,7 +141,7 @@ def check_references(
 
     with ExitStack() as held:
         fmu = held.enter_context(Fmu(path))
-        kept = (
+        store = (
             held.enter_context(ResultStore[_Compared](out, _Compared, "checks an FMU", again))
             if place.is_dir()
             else None
@@ -152,15 +152,15 @@ def check_references(
                 references.append(_reference(fmu, file, options))
             except UserError as error:
                 fails(file, error)
-        compared = held.enter_context(closing(_done(fmu, references, kept, bounds, options.manoeuvre is None, jobs)))
+        compared = held.enter_context(closing(_done(fmu, references, store, bounds, options.manoeuvre is None, jobs)))
         for reference, found in zip(references, in_order(compared), strict=True):
             if isinstance(found, HostError):
                 fails(reference.file, found)
             else:
                 print("\n".join(found.lines), flush=True)
                 cases += found.cases
-        if kept is not None:
-            kept.clear()
+        if store is not None:
+            store.clear()
     names = [case.name for case in cases if case.name != "run" and case.verdict in ("good", "bad")]
     for pattern, _ in bounds:
         if not errors and not fnmatch.filter(names, pattern):
@@ -182,13 +182,13 @@ def _done(
     keys = [_key(fmu, reference, bounds) for reference in references]
     names = [reference.file.name for reference in references]
     before = [None if kept is None else kept.find(*name_and_key) for name_and_key in zip(names, keys, strict=True)]
-    there = [(number, found) for number, found in enumerate(before) if found is not None]
-    report_resumed(len(there), len(keys), "tables")
-    yield from there
-    left = [number for number, found in enumerate(before) if found is None]
-    with closing(runs_with_bar(fmu, [references[number].drive for number in left], jobs)) as results:
+    present = [(number, found) for number, found in enumerate(before) if found is not None]
+    report_resumed(len(present), len(keys), "tables")
+    yield from present
+    remaining = [number for number, found in enumerate(before) if found is None]
+    with closing(runs_with_bar(fmu, [references[number].drive for number in remaining], jobs)) as results:
         for place, result in results:
-            number = left[place]
+            number = remaining[place]
             if isinstance(result, HostError):
                 yield number, result
                 continue
@@ -215,7 +215,7 @@ def in_order(results: Iterable[tuple[int, T]]) -> Iterator[T]:
 
 
 def _reference(fmu: Fmu, file: Path, options: ReferenceOptions) -> _Reference:
-    driven, times, columns, left = _read(fmu, file, options.manoeuvre)
+    driven, times, columns, remaining = _read(fmu, file, options.manoeuvre)
     driven = with_names_of(driven, fmu.variables)
     check_columns(fmu, driven)
     driver = driver_of(fmu, driven)
@@ -223,7 +223,7 @@ def _reference(fmu: Fmu, file: Path, options: ReferenceOptions) -> _Reference:
     driven = replace(driven, stop_time=float(times[-1]))
     step = _step(fmu, driven, times) if options.step is None else options.step
     _check_times(times, step, file)
-    return _Reference(file, Drive(driven, step, driver), times, columns, left, settings)
+    return _Reference(file, Drive(driven, step, driver), times, columns, remaining, settings)
 
 
 def _compared(

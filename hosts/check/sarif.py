@@ -38,6 +38,6 @@ def write_sarif(file: Path, fmu: Path, cases: Sequence[Case]) -> None:
         found = {"ruleId": case.name, "ruleIndex": names.index(case.name), "kind": kind, "level": level}
         results.append(found | {"message": {"text": case.words}, "locations": [place]})
     run = {"tool": {"driver": driver}, "results": results}
-    with atomic_file(file) as made:
+    with atomic_file(file) as temporary:
         text = json.dumps({"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}, indent=1, ensure_ascii=False)
-        made.write_text(text + "\n", encoding="utf-8")
+        temporary.write_text(text + "\n", encoding="utf-8")

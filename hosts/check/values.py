@@ -1,4 +1,4 @@
-"""Checks of single values: start values, what was set, ranges, what is read twice, and the end."""
+"""Checks of single values: start values, values read after they were set, ranges, repeated reads, termination."""
 
 import math
 from typing import Literal
@@ -36,13 +36,15 @@ def start_values(subject: Subject) -> Finding:
     known = [v for v in _scalars(subject, "input", "parameter") if v.start not in (None, "")]
     instance, rounded = _initialising(subject), ""
     for v in known:
-        stated, found = (float if v.type in REAL else int)(v.start), instance.get([v])[0]
-        if found != stated:
-            words = f"{v.name} reads {found:.17g} before it is set, and its start is {stated:.17g}; give it that value"
-            words += f" {subject.clause('2.2.7', '2.4.7')}"
-            if not math.isclose(found, stated, rel_tol=_ROUND):
-                return Finding("start values", "bad", words)
-            rounded = rounded or words
+        stated, results = (float if v.type in REAL else int)(v.start), instance.get([v])[0]
+        if results != stated:
+            message = (
+                f"{v.name} reads {results:.17g} before it is set, and its start is {stated:.17g}; give it that value"
+            )
+            message += f" {subject.clause('2.2.7', '2.4.7')}"
+            if not math.isclose(results, stated, rel_tol=_ROUND):
+                return Finding("start values", "bad", message)
+            rounded = rounded or message
     if rounded:
         return Finding("start values", "note", rounded)
     return Finding("start values", "good", f"{len(known)} read as they are described")
@@ -60,11 +62,11 @@ def set_values(subject: Subject) -> Finding:
         except FMICallException:  # it may refuse a value
             instance = _initialising(subject)
             continue
-        found, count = instance.get([v])[0], count + 1
-        if found != value:
-            words = f"{v.name} was set to {value:.9g} without a message and reads {found:.9g}; take it or refuse it"
+        results, count = instance.get([v])[0], count + 1
+        if results != value:
+            message = f"{v.name} was set to {value:.9g} without a message and reads {results:.9g}; take it or refuse it"
             verdict: Literal["note", "bad"] = "note" if instance.messages else "bad"
-            return Finding("set values", verdict, f"{words} {subject.clause('2.1.7', '2.2.7.2')}")
+            return Finding("set values", verdict, f"{message} {subject.clause('2.1.7', '2.2.7.2')}")
     return _kept_inputs(subject) or Finding("set values", "good", f"{count} are read back")
 
 
@@ -78,8 +80,8 @@ def _kept_inputs(subject: Subject) -> Finding | None:
         if not instance.advance(k * subject.step, subject.step):
             break
         if not math.isclose(after := instance.get([v])[0], value, rel_tol=_ROUND):
-            words = f"{v.name} was set to {value:.9g} and reads {after:.9g} after a step; it stays until it is set"
-            return Finding("set values", "bad", f"{words} {subject.clause('4.2.1', '2.2.7.2')}")
+            message = f"{v.name} was set to {value:.9g} and reads {after:.9g} after a step; it stays until it is set"
+            return Finding("set values", "bad", f"{message} {subject.clause('4.2.1', '2.2.7.2')}")
     return None
 
 
@@ -94,8 +96,8 @@ def ranges(subject: Subject) -> Finding:
             value = instance.get([v])[0]
             low, high = float(v.min or -math.inf), float(v.max or math.inf)
             if not low <= value <= high and not math.isnan(value):
-                words = f"{v.name} is {value:g} at {(k + 1) * subject.step:g} s, beyond {low:g} to {high:g}; widen it"
-                return Finding("ranges", "bad", f"{words} {subject.clause('2.2.7', '2.4.7')}")
+                message = f"{v.name} is {value:g} at {(k + 1) * subject.step:g} s, beyond {low:g} to {high:g}; widen it"
+                return Finding("ranges", "bad", f"{message} {subject.clause('2.2.7', '2.4.7')}")
     return Finding("ranges", "good", f"{len(bounded)} outputs with a range keep to it")
 
 
@@ -106,14 +108,16 @@ def reads_twice(subject: Subject) -> Finding:
     once, twice = instance.get(subject.outputs), instance.get(subject.outputs)
     if any(a != b and a == a for a, b in zip(once, twice, strict=True)):
         k = next(k for k, (a, b) in enumerate(zip(once, twice, strict=True)) if a != b)
-        words = f"an output reads {once[k]:g} and then {twice[k]:g} with no call in between; a read must change nothing"
-        return Finding("reads twice", "bad", f"{words} {subject.clause('2.1.7', '2.2.7.2')}")
+        message = (
+            f"an output reads {once[k]:g} and then {twice[k]:g} with no call in between; a read must change nothing"
+        )
+        return Finding("reads twice", "bad", f"{message} {subject.clause('2.1.7', '2.2.7.2')}")
     single = [v for v in _scalars(subject, "input", "output") if v.type in REAL]
     forward, back = instance.get(single), instance.get(single[::-1])[::-1]
     for v, a, b in zip(single, forward, back, strict=True):
         if a != b and a == a:
-            words = f"{v.name} reads {a:.9g}, and {b:.9g} where the references are asked for the other way round"
-            return Finding("reads twice", "bad", f"{words}; give each its value {subject.clause('2.1.7', '2.2.7.2')}")
+            message = f"{v.name} reads {a:.9g}, and {b:.9g} where the references are asked for the other way round"
+            return Finding("reads twice", "bad", f"{message}; give each its value {subject.clause('2.1.7', '2.2.7.2')}")
     return Finding("reads twice", "good", "the same")
 
 
@@ -122,16 +126,16 @@ def ends(subject: Subject) -> Finding:
     instance = Instance(subject).start()
     instance.run(2)
     name, version = _VERSION["3.0" if subject.three else "2.0"]
-    found = getattr(instance.slave, name)()
-    if found != version and not (subject.three and bytes(found).startswith(b"3.")):
-        words = f"{name} answers {bytes(found).decode(errors='replace')}, not {version.decode()}"
-        return Finding("end", "bad", f"{words} {subject.clause('2.1.4', '2.2.5')}")
+    result = getattr(instance.slave, name)()
+    if result != version and not (subject.three and bytes(result).startswith(b"3.")):
+        message = f"{name} answers {bytes(result).decode(errors='replace')}, not {version.decode()}"
+        return Finding("end", "bad", f"{message} {subject.clause('2.1.4', '2.2.5')}")
     if not instance.ended:
         try:
             instance.slave.terminate()
         except FMICallException as error:
-            words = f"{error.function} answers with status {error.status} after good steps; it must be 0"
-            return Finding("end", "bad", f"{words} {subject.clause('4.2.1, 2.1.6', '2.3.4')}")
+            message = f"{error.function} answers with status {error.status} after good steps; it must be 0"
+            return Finding("end", "bad", f"{message} {subject.clause('4.2.1, 2.1.6', '2.3.4')}")
     return Finding("end", "good", "terminates; the version is right")
 
 
@@ -141,14 +145,16 @@ def start_time(subject: Subject) -> Finding:
     try:
         instance.start(start_time=_BEGIN)
     except FMICallException as error:
-        words = f"{error.function} answers with status {error.status} to a start at {_BEGIN:g} s, as it may"
-        return Finding("start time", "note", f"{words} {clause}")
+        message = f"{error.function} answers with status {error.status} to a start at {_BEGIN:g} s, as it may"
+        return Finding("start time", "note", f"{message} {clause}")
     try:
-        made = len(instance.run(3, origin=_BEGIN))
+        count = len(instance.run(3, origin=_BEGIN))
     except FMICallException as error:
-        words = f"{error.function} answers with status {error.status} in a run that begins at {_BEGIN:g} s; begin there"
-        return Finding("start time", "bad", f"{words} {clause}")
-    return Finding("start time", "good", f"{made} steps from {_BEGIN:g} s")
+        message = (
+            f"{error.function} answers with status {error.status} in a run that begins at {_BEGIN:g} s; begin there"
+        )
+        return Finding("start time", "bad", f"{message} {clause}")
+    return Finding("start time", "good", f"{count} steps from {_BEGIN:g} s")
 
 
 def answers_of_steps(subject: Subject) -> Finding:
@@ -167,8 +173,8 @@ def answers_of_steps(subject: Subject) -> Finding:
         if event:
             return Finding("answers of steps", "bad", f"a step asks for event mode, which was not allowed {clause}")
         if abs(last - reached) > 1e-6 * subject.step + 1e-12 * reached:
-            words = f"a step to {reached:g} s says that it reached {last:g} s; lastSuccessfulTime is its end"
-            return Finding("answers of steps", "bad", f"{words} {clause}")
+            message = f"a step to {reached:g} s says that it reached {last:g} s; lastSuccessfulTime is its end"
+            return Finding("answers of steps", "bad", f"{message} {clause}")
     return Finding("answers of steps", "good", "each says that its end was reached")
 
 

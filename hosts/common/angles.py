@@ -1,4 +1,4 @@
-"""What the difference of two angles is: angles that are whole turns apart are the same."""
+"""Difference of two angles modulo a full turn."""
 
 import math
 
@@ -15,10 +15,10 @@ def continuous(angle: ArrayLike) -> NDArray[np.float64]:
 
     `angle`: rad, shape (n,); what is not finite stays, and the samples around it are taken as neighbours.
     """
-    made = np.array(angle, dtype=np.float64)
-    finite = np.isfinite(made)
-    made[finite] = np.unwrap(made[finite], discont=_JUMP)
-    return made
+    values = np.array(angle, dtype=np.float64)
+    finite = np.isfinite(values)
+    values[finite] = np.unwrap(values[finite], discont=_JUMP)
+    return values
 
 
 def angle_difference(first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:

@@ -27,7 +27,7 @@ def texts(values: object, what: str) -> tuple[str, ...]:
     """Texts in their order, else a `HostError` with `what`, a plural, as its subject."""
     if not isinstance(values, Iterable) or isinstance(values, (str, bytes, Mapping)):
         raise HostError(f"{what} are {brief(values)}; they must be a list or tuple of texts.")
-    found = tuple(values)
-    if odd := [value for value in found if not isinstance(value, str)]:
+    result = tuple(values)
+    if odd := [value for value in result if not isinstance(value, str)]:
         raise HostError(f"{what} have {brief(odd[0])} among them; they must be a list or tuple of texts.")
-    return found
+    return result

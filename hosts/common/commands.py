@@ -1,4 +1,4 @@
-"""Other commands of ali3, which hosts run in a process of their own: they know what hosts do not."""
+"""Runs other commands of ali3 in a process of their own, so that hosts import neither the engine nor the builder."""
 
 import subprocess
 from collections.abc import Callable

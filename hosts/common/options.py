@@ -12,7 +12,7 @@ ROAD = "road.file"
 
 @dataclass(frozen=True)
 class FmuOptions:
-    """What the user sets."""
+    """Settings of an FMU from the command line."""
 
     sets: list[Path]
     """SSV files; a later one replaces values of those before it."""

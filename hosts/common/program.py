@@ -1,4 +1,4 @@
-"""Which program makes the runs: the same everywhere, so that the bits are the same."""
+"""Digest of the program that makes runs, and versions of its packages."""
 
 import hashlib
 import platform
@@ -25,10 +25,10 @@ def program_digest() -> str:
 
 def versions() -> dict[str, str]:
     """Versions of Python and of the packages that make the runs."""
-    found = {"python": platform.python_version(), "platform": platform.platform()}
+    results = {"python": platform.python_version(), "platform": platform.platform()}
     for package in _PACKAGES:
         try:
-            found[package] = version(package)
+            results[package] = version(package)
         except PackageNotFoundError:  # a clone that is not installed
-            found[package] = "not installed"
-    return found
+            results[package] = "not installed"
+    return results

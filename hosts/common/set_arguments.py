@@ -1,4 +1,4 @@
-"""Values as words of a command line, for commands that repeat what was done."""
+"""Formats values as command-line arguments, for commands that repeat a run."""
 
 from collections.abc import Mapping
 

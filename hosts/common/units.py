@@ -34,14 +34,14 @@ def unit_definition(text: str, where: str) -> UnitDefinition:
     `text`: such as ``km/h``, ``°/s`` or ``[m/s^2]``; `where`: how messages call where it stands. Raises `HostError`: it
     is not known; with near ones.
     """
-    found = known_unit(text)
-    if found is None:
+    result = known_unit(text)
+    if result is None:
         raise HostError(
             f"{where}: the unit '{text}' is not known{did_you_mean(plain_unit(text), UNITS, closeness=0.4)} In a log "
             "another can be given by a factor: "
             "value in the log = factor * value in the FMU's unit + offset."
         )
-    return found
+    return result
 
 
 def unit_of(name: str) -> str | None:

@@ -31,7 +31,7 @@ class World:
         return {p["name"]: {ours: float(p[key]) for key, ours in _START.items()} for p in self.content["places"]}
 
     def for_hello(self) -> dict[str, Any]:
-        """What a page gets first; the drawing follows on request."""
+        """The first message to a page; the drawing follows on request."""
         return {key: self.content[key] for key in ("name", "places", "bounds")}
 
 

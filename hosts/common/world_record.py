@@ -7,7 +7,8 @@ from ali3.json_reading import read_json
 from ali3.reading import LARGEST_IN_PARTS, is_file, open_file
 from hosts.common.errors import HostError
 
-FORMAT, VERSION = "ALi3 world", 1
+FORMAT = "ALi3 world"
+VERSION = 1
 _REMEDY = "make it again with: ali3 road --world NAME-or-FILE --out FOLDER."
 
 
@@ -18,8 +19,8 @@ def read_world_record(file: Path) -> dict[str, Any]:
     read, or is not a world of this version.
     """
     content: dict[str, Any] = read_json(file, HostError)
-    found = (content.get("format"), content.get("version")) if isinstance(content, dict) else (None, None)
-    if found != (FORMAT, VERSION):
+    results = (content.get("format"), content.get("version")) if isinstance(content, dict) else (None, None)
+    if results != (FORMAT, VERSION):
         raise HostError(f"{file} is not a world of version {VERSION}, which this version of ali3 reads; {_REMEDY}")
     return content
 

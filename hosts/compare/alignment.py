@@ -32,7 +32,7 @@ _ALIKE = 2.0  # of what is left and no noise: how much more of the model's diffe
 
 @dataclass(frozen=True)
 class Alignment:
-    """How late a measured signal is."""
+    """Delay and drift of a measured signal."""
 
     delay: float
     delay_error: float
@@ -67,16 +67,16 @@ def align(pairs: Sequence[tuple[Signal, Curve]], longest: float, drift: bool = T
     if peak < _LEAST_CORRELATION:
         return Alignment(*4 * (math.nan,), peak, f"the best correlation is {peak:.2f}: no delay can be determined")
     if level:
-        words = f"signals correlate by {peak:.3f}, and nearly as well with any delay that so short a log can have"
-        return Alignment(*4 * (math.nan,), peak, words)
+        message = f"signals correlate by {peak:.3f}, and nearly as well with any delay that so short a log can have"
+        return Alignment(*4 * (math.nan,), peak, message)
     fine = _fine(pairs, coarse, drift)
     if drift and not fine.has_drift:  # which has taken a part of the delay
         alone = _fine(pairs, coarse, False)
         fine = replace(fine, delay=alone.delay, delay_error=alone.delay_error, correlation=alone.correlation)
     note = f"a delay of {other:.3g} s fits nearly as well" if other is not None else ""
     if abs(fine.delay) > longest:
-        words = f"no delay up to {longest:g} s, which was looked for (--longest-delay), fits best"
-        return Alignment(*4 * (math.nan,), fine.correlation, words)
+        message = f"no delay up to {longest:g} s, which was looked for (--longest-delay), fits best"
+        return Alignment(*4 * (math.nan,), fine.correlation, message)
     return replace(fine, note=note)
 
 
@@ -92,12 +92,12 @@ def _coarse(pairs: Sequence[tuple[Signal, Curve]], longest: float) -> tuple[floa
     for measured, curve in pairs:
         grid = np.arange(measured.time[0], measured.time[-1], interval)
         y, x = np.interp(grid, measured.time, measured.values), curve(grid)
-        lags, found = _correlations(y, x, min(int(longest / interval), len(grid) // 2))
-        if len(total) not in (0, len(found)):
-            few = min(len(total), len(found)) // 2
-            total, found = (a[len(a) // 2 - few : len(a) // 2 + few + 1] for a in (total, found))
+        lags, result = _correlations(y, x, min(int(longest / interval), len(grid) // 2))
+        if len(total) not in (0, len(result)):
+            few = min(len(total), len(result)) // 2
+            total, result = (a[len(a) // 2 - few : len(a) // 2 + few + 1] for a in (total, result))
             lags = lags[len(lags) // 2 - few : len(lags) // 2 + few + 1]
-        total = found if not len(total) else total + found
+        total = result if not len(total) else total + result
     total = total / len(pairs)
     # Among equals the smallest delay: of a periodic signal a period more fits as well.
     best = int(np.argmax(total - 1e-6 * np.abs(lags)))
@@ -123,8 +123,8 @@ def _correlations(
     y1, x1 = sums(y, ones) / count, sums(ones, x) / count
     variance = (sums(y * y, ones) / count - y1**2) * (sums(ones, x * x) / count - x1**2)
     least = 1e-6 * float(np.var(y) * np.var(x))  # of an overlap in which nothing happens
-    found = np.where(variance > least, (sums(y, x) / count - y1 * x1) / np.sqrt(np.maximum(variance, least)), 0.0)
-    return lags[chosen].astype(float), found
+    result = np.where(variance > least, (sums(y, x) / count - y1 * x1) / np.sqrt(np.maximum(variance, least)), 0.0)
+    return lags[chosen].astype(float), result
 
 
 def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> Alignment:
@@ -147,41 +147,41 @@ def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> A
     start = [delay, 0.0][: 1 + drift]
     limit = _LARGEST_DRIFT
     bounds = ([-np.inf, -limit][: 1 + drift], [np.inf, limit][: 1 + drift])
-    found = least_squares(residual, start, x_scale=size, bounds=bounds, jac=_central(residual, size))
+    solution = least_squares(residual, start, x_scale=size, bounds=bounds, jac=_central(residual, size))
     rows, first = [], 0
     for s, _ in pairs:
         rows.append(slice(first, first + len(s.time)))
         first += len(s.time)
-    jacobian = np.asarray(found.jac)
-    errors = 1.96 * np.sqrt(np.diag(covariance(jacobian, found.fun, rows, [s.time for s, _ in pairs])[0]))
+    jacobian = np.asarray(solution.jac)
+    errors = 1.96 * np.sqrt(np.diag(covariance(jacobian, solution.fun, rows, [s.time for s, _ in pairs])[0]))
     for parts in _parts([s for s, _ in pairs]):
-        errors = np.maximum(errors, jackknife(jacobian, found.fun, parts))
+        errors = np.maximum(errors, jackknife(jacobian, solution.fun, parts))
     # What is left and no noise may be a difference of the model, and another part of it as large look like a delay.
     white = [
         len(s.time) * (measured_noise(s.values) / d) ** 2 for s, d in zip((s for s, _ in pairs), spreads, strict=True)
     ]
-    sums = [float(found.fun[r] @ found.fun[r]) - _SCATTER * w for r, w in zip(rows, white, strict=True)]
+    sums = [float(solution.fun[r] @ solution.fun[r]) - _SCATTER * w for r, w in zip(rows, white, strict=True)]
     alone = np.sqrt(np.diag(np.linalg.pinv(jacobian.T @ jacobian)))
     errors = np.maximum(errors, _ALIKE * math.sqrt(sum(max(x, 0.0) for x in sums)) * alone)
-    left = float(np.mean(found.fun**2))
-    correlation = math.sqrt(max(0.0, 1.0 - left))
+    remaining = float(np.mean(solution.fun**2))
+    correlation = math.sqrt(max(0.0, 1.0 - remaining))
     if not drift:
-        return Alignment(float(found.x[0]), float(errors[0]), 0.0, 0.0, correlation)
+        return Alignment(float(solution.x[0]), float(errors[0]), 0.0, 0.0, correlation)
     # To first order: the delay takes the best part of the drift's place when the drift is left out.
     late, fast = jacobian.T
-    taken = float(found.x[1] ** 2 * (fast @ fast - (late @ fast) ** 2 / (late @ late)))
-    explained = taken / (taken + float(found.fun @ found.fun)) if taken > 0.0 else 0.0
-    drifts = float(found.x[1]), float(errors[1])
-    return Alignment(float(found.x[0]), float(errors[0]), *drifts, correlation, explained=explained)
+    taken = float(solution.x[1] ** 2 * (fast @ fast - (late @ fast) ** 2 / (late @ late)))
+    explained = taken / (taken + float(solution.fun @ solution.fun)) if taken > 0.0 else 0.0
+    drifts = float(solution.x[1]), float(errors[1])
+    return Alignment(float(solution.x[0]), float(errors[0]), *drifts, correlation, explained=explained)
 
 
 def _parts(signals: Sequence[Signal]) -> list[Parts]:
     """What is left out in turn: tenths of the log, and each signal where there are enough of them."""
-    found = [parts_of({str(k): s for k, s in enumerate(signals)}, ())]
+    results = [parts_of({str(k): s for k, s in enumerate(signals)}, ())]
     if len(signals) >= FEWEST:
         number = np.repeat(np.arange(len(signals)), [len(s.time) for s in signals])
-        found.append(Parts(number, np.arange(len(signals), dtype=float), 1.0))
-    return found
+        results.append(Parts(number, np.arange(len(signals), dtype=float), 1.0))
+    return results
 
 
 def _overlap(signal: Signal, curve: Curve, delay: float) -> Signal:

@@ -25,7 +25,7 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 compare") -> 
 
 
 def parser_of(prog: str = "ali3 compare") -> Parser:
-    """Of the options of the command."""
+    """The parser of the options of the command."""
     parser = Parser(prog=prog, description=__doc__)
     add_fmu(parser)
     parser.add_argument("log", type=Path, metavar="LOG", help="CSV as data loggers write it, or Parquet")

@@ -26,7 +26,7 @@ class ComparedSignal:
 
 @dataclass(frozen=True)
 class Comparison:
-    """All signals."""
+    """The comparison of all signals."""
 
     signals: dict[str, ComparedSignal]
     common: Alignment
@@ -55,7 +55,7 @@ def _compared(measured: Signal, curve: Curve, longest_delay: float) -> ComparedS
 
 def measures(comparison: Comparison) -> list[Measure]:
     """All numbers by name, such as ``chassis.wz.rms``."""
-    made = []
+    results = []
     for name, s in comparison.signals.items():
         unit, d, r, a = s.measured.unit, s.deviations, s.rating, s.alignment
         rows: Sequence[tuple[str, float, str, str, str]] = (
@@ -71,8 +71,8 @@ def measures(comparison: Comparison) -> list[Measure]:
             ("rating.slope", r.slope, "1", "score of the slope", ""),
             ("delay", a.delay, "s", "of the log after the simulation", a.note),
         )
-        made += [Measure(f"{name}.{what}", value, u, text, None, note) for what, value, u, text, note in rows]
+        results += [Measure(f"{name}.{what}", value, u, text, None, note) for what, value, u, text, note in rows]
     c = comparison.common
-    made.append(Measure("delay", c.delay, "s", "of the log after the simulation, of all signals", None, c.note))
-    made.append(Measure("drift", c.drift, "1", "by how much the clock of the outputs runs fast", None, c.note))
-    return made
+    results.append(Measure("delay", c.delay, "s", "of the log after the simulation, of all signals", None, c.note))
+    results.append(Measure("drift", c.drift, "1", "by how much the clock of the outputs runs fast", None, c.note))
+    return results

@@ -111,10 +111,10 @@ def covariance(
         r, part = residual[rows], u[rows][:, kept]
         c = autocovariance(r) * (n / max(n - p, 1))
         middle += part.T @ matmul_toeplitz(c, part)
-    found = inverse @ middle @ inverse.T / np.outer(scale, scale)
+    result = inverse @ middle @ inverse.T / np.outer(scale, scale)
     moved = inverse @ u[:, kept].T * residual
     alike = np.sqrt([likeness(times, [part[rows] for rows in blocks]) for part in moved])
-    found *= np.outer(alike, alike)
-    found[lost, :], found[:, lost] = 0.0, 0.0
-    found[lost, lost] = math.inf
-    return found, lost
+    result *= np.outer(alike, alike)
+    result[lost, :], result[:, lost] = 0.0, 0.0
+    result[lost, lost] = math.inf
+    return result, lost

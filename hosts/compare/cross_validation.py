@@ -1,4 +1,4 @@
-"""What a fit is worth on seconds it was not fitted on: each part of the log is left out in turn, to first order.
+"""Cross-validation of a fit, to first order: each part of the log is left out in turn.
 
 With the Jacobian at the solution the parameters without a part follow from linear equations, so that nothing is driven
 again. What is left out of the parameters' equations with a window are also the windows that overlap it.
@@ -95,11 +95,11 @@ def left_out(jacobian: Array, residual: Array, parts: Parts) -> Array:
 
     `jacobian`: shape (n, p); `residual`: shape (n,).
     """
-    found = residual.copy()
+    result = residual.copy()
     for k, change in enumerate(_changes(jacobian, residual, parts, [[k] for k in range(len(parts.begins))])):
         rows = parts.number == k
-        found[rows] += jacobian[rows] @ change
-    return found
+        result[rows] += jacobian[rows] @ change
+    return result
 
 
 def folds(jacobian: Array, residual: Array, parts: Parts) -> Array:
@@ -120,13 +120,13 @@ def _changes(jacobian: Array, residual: Array, parts: Parts, groups: Sequence[Se
     scaled = jacobian / size
     matrices = np.array([scaled[parts.number == k].T @ scaled[parts.number == k] for k in range(len(parts.begins))])
     scores = _sums(scaled * residual[:, None], parts)
-    found = []
+    results = []
     for group in groups:
         apart = np.abs(parts.begins[:, None] - parts.begins[list(group)]).min(axis=1)
         others = apart >= parts.length * (1.0 - 1e-9)
         change = np.linalg.pinv(matrices[others].sum(axis=0), rcond=1e-12) @ scores[others].sum(axis=0)
-        found.append(-change / size)
-    return np.array(found)
+        results.append(-change / size)
+    return np.array(results)
 
 
 def without_each(jacobian: Array, residual: Array, parts: Parts, steps: Sequence[float]) -> list[float]:
@@ -134,15 +134,15 @@ def without_each(jacobian: Array, residual: Array, parts: Parts, steps: Sequence
 
     `steps`: from the found value of each parameter to that it has without being fitted.
     """
-    found = []
+    results = []
     for k, step in enumerate(steps):
         others = np.delete(jacobian, k, axis=1)
         errors = left_out(others, residual + jacobian[:, k] * step, parts)
-        found.append(rms(errors))
-    return found
+        results.append(rms(errors))
+    return results
 
 
 def _sums(rows: Array, parts: Parts) -> Array:
-    made = np.zeros((len(parts.begins), rows.shape[1]))
-    np.add.at(made, parts.number, rows)
-    return made
+    values = np.zeros((len(parts.begins), rows.shape[1]))
+    np.add.at(values, parts.number, rows)
+    return values

@@ -1,4 +1,4 @@
-"""How a data logger has written a CSV file: delimiter, decimal sign, lines of names and units."""
+"""Detects the dialect of a CSV file of a data logger: delimiter, decimal sign, lines of names and units."""
 
 import io
 import re
@@ -27,7 +27,7 @@ _NAME_AND_UNIT = re.compile(r"(?P<name>.*?)\s*[\[(](?P<unit>[^\[\]()]*)[\])]")
 
 @dataclass(frozen=True)
 class FoundDialect:
-    """How a file is written, and what its columns are."""
+    """The dialect of a file, and its columns."""
 
     delimiter: str
     decimal: str
@@ -48,12 +48,12 @@ def find_dialect(path: Path, stated: Dialect) -> FoundDialect:
     lines, encoding = _first_lines(path, stated.encoding)
     if not any(line.strip() for line in lines):
         raise HostError(f"The log {path} is empty; it needs a line of names and rows of values.")
-    found = [(d, *_rows(lines, d)) for d in ((stated.delimiter,) if stated.delimiter else _DELIMITERS)]
+    results = [(d, *_rows(lines, d)) for d in ((stated.delimiter,) if stated.delimiter else _DELIMITERS)]
     # A comma may also divide numbers and seconds: what leaves the most values, then the most columns, is right.
-    delimiter, first, width, _ = max(found, key=lambda item: (item[3], item[2]))
+    delimiter, first, width, _ = max(results, key=lambda item: (item[3], item[2]))
     if width < 2:
         _refuse_units(path, lines, stated)
-        tried = "' or '".join(repr(d)[1:-1] for d, *_ in found)
+        tried = "' or '".join(repr(d)[1:-1] for d, *_ in results)
         raise HostError(
             f"The log {path} is not a table of numbers with a time and signals, divided by '{tried}'; its first line "
             f'is {lines[0].strip()[:60]!r}. [file] delimiter = "..." of the alias file names another.'
@@ -91,16 +91,16 @@ def _refuse_units(path: Path, lines: Sequence[str], stated: Dialect) -> None:
     """Raises `HostError` where a line would be one of numbers without the units in its cells."""
     for line, delimiter in ((k, d) for k in range(len(lines)) for d in (stated.delimiter, *_DELIMITERS) if d):
         cells = [cell.strip() for cell in lines[line].split(delimiter)]
-        found = [words for cell in cells if (words := unit_behind(cell))]
-        if len(cells) > 1 and found and 2 * (len(found) + sum(map(_is_value, cells))) > len(cells):
-            raise HostError(f"The log {path}, line {line + 1}: {found[0]}")
+        results = [message for cell in cells if (message := unit_behind(cell))]
+        if len(cells) > 1 and results and 2 * (len(results) + sum(map(_is_value, cells))) > len(cells):
+            raise HostError(f"The log {path}, line {line + 1}: {results[0]}")
 
 
 def _first_lines(path: Path, encoding: str | None) -> tuple[list[str], str]:
     with io.BufferedReader(Unpacked(path, LARGEST, HostError, f"The log {path}", zeros=True)) as stream:
         content = stream.read(400_000)
-    if words := other_encoding(content):
-        raise HostError(f"The log {path} is {words}.")
+    if message := other_encoding(content):
+        raise HostError(f"The log {path} is {message}.")
     if b"\0" in content:
         raise HostError(f"The log {path} is not text; logs are read as CSV or Parquet (MDF files can be converted).")
     for name in (encoding,) if encoding else ("utf-8-sig", "latin-1"):

@@ -40,10 +40,10 @@ class Curve:
         simulated = self(signal.time)
         if not self._angle:
             return np.asarray(simulated - signal.values)
-        found, number = np.empty(len(simulated)), self._run_of(signal.time)
+        results, number = np.empty(len(simulated)), self._run_of(signal.time)
         for k in np.unique(number):
-            found[number == k] = angle_difference(simulated[number == k], signal.values[number == k])
-        return found
+            results[number == k] = angle_difference(simulated[number == k], signal.values[number == k])
+        return results
 
     def in_its_turns(self, signal: Signal) -> Signal:
         """A measured signal, of an angle that which is whole turns away and nearest to the simulated one."""
@@ -57,10 +57,10 @@ class Curve:
     def _of(self, t: NDArray[np.float64], order: int) -> NDArray[np.float64]:
         if len(self._parts) == 1:
             return self._parts[0](t, order)
-        found, number = np.empty(len(t)), self._run_of(t)
+        results, number = np.empty(len(t)), self._run_of(t)
         for k in np.unique(number).tolist():
-            found[number == k] = self._parts[k](t[number == k], order)
-        return found
+            results[number == k] = self._parts[k](t[number == k], order)
+        return results
 
 
 class _Part:
@@ -76,8 +76,8 @@ class _Part:
         if self._spline is None:
             return np.zeros(len(t)) if order else np.interp(t, *self._few)
         inside = (t >= self.begin) & (t <= self.end)
-        found = self._spline(np.clip(t, self.begin, self.end), order)
-        return np.asarray(np.where(inside, found, 0.0) if order else found)
+        result = self._spline(np.clip(t, self.begin, self.end), order)
+        return np.asarray(np.where(inside, result, 0.0) if order else result)
 
 
 class SensedCurve(Curve):

@@ -1,4 +1,4 @@
-"""How far a simulated signal is from a measured one."""
+"""Deviations between a simulated and a measured signal."""
 
 import math
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ _ROUNDING = 1e-9  # of the unit of a signal: less than any sensor tells
 
 @dataclass(frozen=True)
 class Deviations:
-    """Simulated minus measured."""
+    """Deviations of a signal: simulated minus measured."""
 
     rms: float
     """Root of the mean square."""

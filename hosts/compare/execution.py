@@ -1,4 +1,4 @@
-"""Does a comparison: the FMU is driven by the log, compared with it, fitted if asked, and results are written."""
+"""Runs a comparison: the FMU is driven by the log, compared with it, fitted if asked, and results are written."""
 
 import argparse
 import math
@@ -44,29 +44,29 @@ def perform(options: argparse.Namespace) -> int:
             print(window_text(windows(before, task.segments)))
         for line in [*common_text(before), *problems]:
             print(line, flush=True)
-        found, after = None, None
+        results, after = None, None
         for message in replay.said:
             print(f"FMU: {message}")
         if wanted is not None:
             _refuse_odd(problems, options)
             try:
-                found, after = fitting.fitted(options, task, replay, before, wanted)
+                results, after = fitting.fitted(options, task, replay, before, wanted)
             except KeyboardInterrupt:
                 problems = [*problems, f"The fit was stopped after {replay.runs} runs; nothing is fitted."]
                 _write(options, task, Outcome(before, None, None, task.notes, problems), paths)
                 raise
     notes = task.notes + [f"In {n} of {replay.runs} runs the FMU reported: {what}" for what, n in replay.said.items()]
-    if wanted is not None and found is not None and after is not None:
+    if wanted is not None and results is not None and after is not None:
         print("with the fitted parameters" + (" and sensors:" if wanted.nuisances else ":"))
         print(table(after))
         if task.windowed:
             print(window_text(windows(after, task.segments)))
-        print(fit_table(found))
-        problems, more = problems + fit_problems(found), fit_notes(found)
+        print(fit_table(results))
+        problems, more = problems + fit_problems(results), fit_notes(results)
         notes += more
-        for line in [*fit_problems(found), *(f"note: {note}" for note in more)]:
+        for line in [*fit_problems(results), *(f"note: {note}" for note in more)]:
             print(line)
-    _write(options, task, Outcome(before, after, found, notes, problems), paths)
+    _write(options, task, Outcome(before, after, results, notes, problems), paths)
     return 1 if problems else 0
 
 

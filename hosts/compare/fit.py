@@ -96,7 +96,7 @@ def fit(
         )
 
     tried: list[OptimizeResult] = []
-    told: list[Start] = []
+    reported: list[Start] = []
     refused: list[str] = []
     for k, begin in enumerate(_begins(p, unknowns, starts)):
         try:
@@ -106,7 +106,7 @@ def fit(
                 raise
             refused.append(str(error))
             continue
-        told.append(Start(begin.tolist(), tried[-1].x.tolist(), rms(tried[-1].fun)))
+        reported.append(Start(begin.tolist(), tried[-1].x.tolist(), rms(tried[-1].fun)))
     solution = min(tried, key=lambda t: float(t.cost))
     for _ in range(_ROUNDS - 1):
         if _weighted_anew(residuals, solution.fun):
@@ -116,7 +116,7 @@ def fit(
     p = _polished(residuals, solution.x, bounds)
     _weighted_anew(residuals, residuals(p))
     r, jacobian, begun = residuals(p), residuals.jacobian(p), residuals(start)  # as the weights are now
-    made = _judged(residuals, unknowns, p, r, jacobian, begun, noise, own, runs, converged, told, parts)
+    made = _judged(residuals, unknowns, p, r, jacobian, begun, noise, own, runs, converged, reported, parts)
     return replace(made, refused=refused)
 
 
@@ -130,7 +130,7 @@ def _weighted_anew(residuals: Residuals, r: NDArray[np.float64]) -> bool:
 def _polished(residuals: Residuals, p: NDArray[np.float64], bounds: Bounds) -> NDArray[np.float64]:
     """A step of Gauss and Newton with central differences, which those of one side may have missed."""
     jacobian, r = residuals.jacobian(p), residuals(p)
-    size = np.where((found := np.linalg.norm(jacobian, axis=0)) > 0.0, found, 1.0)
+    size = np.where((result := np.linalg.norm(jacobian, axis=0)) > 0.0, result, 1.0)
     q = np.clip(p - np.linalg.lstsq(jacobian / size, r, 1e-7)[0] / size, *bounds)
     better = residuals(q)
     smaller = float(better @ better) < float(r @ r) * (1.0 - _CHANGE)
@@ -140,14 +140,14 @@ def _polished(residuals: Residuals, p: NDArray[np.float64], bounds: Bounds) -> N
 def _begins(p: NDArray[np.float64], unknowns: Sequence[Unknown], count: int) -> list[NDArray[np.float64]]:
     """The given values, and points of Sobol's sequence in the ranges of the FMU's parameters."""
     own = [k for k, u in enumerate(unknowns) if u.kind == "parameter"]
-    found = [p]
+    results = [p]
     if not own:
-        return found
+        return results
     for point in qmc.Sobol(len(own), rng=_SEED).random_base2(max(count - 1, 1).bit_length())[: count - 1]:
         q = p.copy()
         q[own] = [u.low + (0.1 + 0.8 * x) * (u.high - u.low) for u, x in zip(unknowns, point, strict=False)]
-        found.append(q)
-    return found
+        results.append(q)
+    return results
 
 
 def _check_effects(unknowns: Sequence[Unknown], sensitivities: NDArray[np.float64], own: float) -> None:
@@ -171,7 +171,7 @@ def _judged(
     own: float,
     runs: int,
     converged: bool,
-    told: list[Start],
+    reported: list[Start],
     parts: Parts | None,
 ) -> Fit:
     blocks = residuals.blocks
@@ -198,7 +198,7 @@ def _judged(
     finite = np.where(np.isfinite(errors) & (errors > 0.0), errors, 1.0)
     correlation = np.where(np.isfinite(spread), spread, 0.0) / np.outer(finite, finite)
     np.fill_diagonal(correlation, 1.0)
-    found = [
+    results = [
         FittedUnknown(u, float(v), math.inf if gone else float(h), _bound(u, float(v)), w, f)
         for u, v, h, gone, w, f in zip(unknowns, p, half, lost, without, by_fold, strict=True)
     ]
@@ -211,8 +211,8 @@ def _judged(
     criterion = sum(2.0 * number * math.log(left) for left, number in pairs)
     criterion += len(p) * math.log(max(effective, 1.0))
     return Fit(
-        found, correlation, math.sqrt(c0 / count), math.sqrt(c1 / count), float(stats.f.sf(f, len(p), freedom)), noise,
-        misfit, own, count, effective, runs, converged, told, outside, criterion,
+        results, correlation, math.sqrt(c0 / count), math.sqrt(c1 / count), float(stats.f.sf(f, len(p), freedom)),
+        noise, misfit, own, count, effective, runs, converged, reported, outside, criterion,
         {n: s.unit for n, s in residuals.outputs.items()},
     )  # fmt: skip
 
@@ -232,9 +232,9 @@ def overlapping(
     `end`, `skip`: of the simulation; seconds that are left out at the beginning; `delays`: first guesses that are used,
     s.
     """
-    made = {}
+    results = {}
     for name, signal in outputs.items():
         delay = delays.get(name, 0.0)
         margin = 3.0 * signal.interval if delay else 0.0
-        made[name] = replace(signal.between(max(skip, delay + margin), min(end, end + delay - margin)))
-    return made
+        results[name] = replace(signal.between(max(skip, delay + margin), min(end, end + delay - margin)))
+    return results

@@ -1,4 +1,4 @@
-"""A fit in lines for the terminal, and what is not good about it in sentences."""
+"""The result of a fit as lines for the terminal, with sentences on its weaknesses."""
 
 import math
 from collections.abc import Sequence
@@ -45,12 +45,12 @@ def _value(found: FittedUnknown) -> tuple[str, str]:
 
 
 def fit_table(fit: Fit) -> str:
-    """The fit for the terminal."""
+    """The table of a fit for the terminal."""
     return "\n".join([*in_columns([FIT_COLUMNS, *fit_rows(fit)]), *result_text(fit)])
 
 
 def result_text(fit: Fit) -> list[str]:
-    """How good the fit is, and what led to it, a line each."""
+    """Quality and history of a fit, one line each."""
     residuals = (
         f"residuals over noise: {fit.before:.4g} before, {fit.after:.4g} after; {fit.runs} runs; "
         f"{fit.samples} samples count as {fit.effective:.0f} uncorrelated ones; criterion of Bayes {fit.criterion:.1f}"
@@ -60,13 +60,17 @@ def result_text(fit: Fit) -> list[str]:
 
 def _omitted_text(fit: Fit) -> list[str]:
     """What is left of seconds that were left out of the fit, in a sentence; none where the log is too short for it."""
-    told = [
+    reported = [
         f"{name} {shown_number(left, fit.units[name], name)} "
         f"({shown_number(fit.misfit[name], fit.units[name], name)} in the fit)"
         for name, left in fit.left_out.items()
         if math.isfinite(left)
     ]
-    return [f"left of parts of the log that are left out in turn, to first order: {', '.join(told)}"] if told else []
+    return (
+        [f"left of parts of the log that are left out in turn, to first order: {', '.join(reported)}"]
+        if reported
+        else []
+    )
 
 
 def _start_text(fit: Fit) -> list[str]:
@@ -82,7 +86,7 @@ def _start_text(fit: Fit) -> list[str]:
 
 
 def fit_problems(fit: Fit) -> list[str]:
-    """What makes a fit no good, each in a sentence."""
+    """Sentences on problems that make a fit unreliable."""
     problems = []
     if not fit.converged:
         problems.append("The fit has not converged; begin nearer (--set) or with fewer parameters.")
@@ -118,7 +122,7 @@ def _of(found: FittedUnknown) -> list[str]:
 
 
 def fit_notes(fit: Fit) -> list[str]:
-    """What is worth knowing of a fit, each in a sentence."""
+    """Notes on a fit, each a sentence."""
     notes = []
     for i, j in _pairs(fit):
         a, b = fit.found[i].unknown.name, fit.found[j].unknown.name
@@ -131,7 +135,7 @@ def fit_notes(fit: Fit) -> list[str]:
             f"The fit of {', '.join(idle)} has no effect: parts of the log that were left out are reproduced as well "
             "with its start value."
         )
-    notes += [f"Another start (--starts) is left out. {words}" for words in fit.refused]
+    notes += [f"Another start (--starts) is left out. {message}" for message in fit.refused]
     residuals = [start.residual for start in fit.starts]
     if max(residuals) > _ALIKE * min(residuals):
         notes.append(

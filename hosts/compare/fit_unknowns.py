@@ -1,4 +1,4 @@
-"""What a fit seeks: parameters of the FMU, and delays, drift, bias and gain of sensors and clocks."""
+"""The unknowns of a fit: parameters of the FMU, and delays, drift, bias and gain of sensors and clocks."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ NUISANCES = ("delay", "delays", "drift", "bias", "gain")
 
 @dataclass(frozen=True)
 class Unknown:
-    """A number that is sought."""
+    """An unknown of a fit."""
 
     name: str
     unit: str
@@ -42,17 +42,17 @@ def nuisances(
         raise HostError("--nuisance: 'delay' is one delay for all signals, 'delays' one for each; give one of them.")
     interval = min(s.interval for s in outputs.values())
     length = max(float(s.time[-1]) for s in outputs.values())
-    found = []
+    results = []
     names = ("",) if "delay" in wanted else tuple(outputs) if "delays" in wanted else ()
     for n in names:
         guess, reach = delays.get(n, 0.0), longest + abs(delays.get(n, 0.0))
-        found.append(Unknown(f"{n}.delay".lstrip("."), "s", guess, -reach, reach, interval, n, "delay"))
+        results.append(Unknown(f"{n}.delay".lstrip("."), "s", guess, -reach, reach, interval, n, "delay"))
     if "drift" in wanted:
-        found.append(Unknown("drift", "1", 0.0, -0.05, 0.05, interval / length, "", "drift"))
+        results.append(Unknown("drift", "1", 0.0, -0.05, 0.05, interval / length, "", "drift"))
     for n, s in outputs.items():
         spread = max(float(np.std(s.values)), 1e-12)
         if "bias" in wanted:
-            found.append(Unknown(f"{n}.bias", s.unit, 0.0, -np.inf, np.inf, 0.1 * spread, n, "bias"))
+            results.append(Unknown(f"{n}.bias", s.unit, 0.0, -np.inf, np.inf, 0.1 * spread, n, "bias"))
         if "gain" in wanted:
-            found.append(Unknown(f"{n}.gain", "1", 1.0, 0.1, 10.0, 0.1, n, "gain"))
-    return found
+            results.append(Unknown(f"{n}.gain", "1", 1.0, 0.1, 10.0, 0.1, n, "gain"))
+    return results

@@ -22,10 +22,10 @@ def fitted_parameters(
     `texts`: ``NAME`` or ``NAME=LOW:HIGH``; `given`: values that the user sets: there the search begins. Raises
     `HostError`: a name, kind or range is wrong.
     """
-    found: list[Unknown] = []
+    results: list[Unknown] = []
     for text in texts:
         name, equals, limits = (part.strip() for part in text.partition("="))
-        if name in [u.name for u in found]:
+        if name in [u.name for u in results]:
             raise HostError(f"--fit: '{name}' is given twice.")
         variable = variables.get(name)
         if variable is None:
@@ -40,8 +40,8 @@ def fitted_parameters(
                 f"--fit: '{name}' begins at {variable.with_unit(start)}, which is not between {low:g} and {high:g}; "
                 f"--set {name}=VALUE begins elsewhere."
             )
-        found.append(Unknown(name, variable.unit, start, low, high, 0.25 * (high - low)))
-    return found
+        results.append(Unknown(name, variable.unit, start, low, high, 0.25 * (high - low)))
+    return results
 
 
 def fit_step(step: float | None, variables: Mapping[str, Variable]) -> dict[str, Value]:
@@ -64,16 +64,18 @@ def _range(variable: Variable, text: str) -> tuple[float, float]:
     try:
         if not colon:
             raise ValueError(f"{text!r} is not of the form LOW:HIGH")
-        found = parse_number(low), parse_number(high)
+        results = parse_number(low), parse_number(high)
     except ValueError as error:
         raise HostError(f"--fit: '{variable.name}': {error}.") from None
-    if not found[0] < found[1]:
-        raise HostError(f"--fit: '{variable.name}' from {found[0]:g} to {found[1]:g}; the first must be the smaller.")
-    if found[0] < variable.low or found[1] > variable.high:
+    if not results[0] < results[1]:
         raise HostError(
-            f"--fit: '{variable.name}' from {found[0]:g} to {found[1]:g}; the range of the FMU is {variable.range}."
+            f"--fit: '{variable.name}' from {results[0]:g} to {results[1]:g}; the first must be the smaller."
         )
-    return found
+    if results[0] < variable.low or results[1] > variable.high:
+        raise HostError(
+            f"--fit: '{variable.name}' from {results[0]:g} to {results[1]:g}; the range of the FMU is {variable.range}."
+        )
+    return results
 
 
 def _usual_range(variable: Variable, start: float) -> tuple[float, float]:

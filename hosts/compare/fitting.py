@@ -24,7 +24,7 @@ from hosts.fmu.fmu import StartRefusedError
 
 @dataclass(frozen=True)
 class FitRequest:
-    """What is to be fitted, checked before anything is driven."""
+    """The request of a fit, checked before a simulation starts."""
 
     parameters: list[Unknown]
     nuisances: list[str]
@@ -49,7 +49,7 @@ def wanted(options: argparse.Namespace, task: Task) -> FitRequest:
 def fitted(
     options: argparse.Namespace, task: Task, replay: Replay, before: Comparison, wanted: FitRequest
 ) -> tuple[Fit, Comparison]:
-    """What fits best, and the comparison with it."""
+    """The best fit, and the comparison with it."""
     if not replay.check_reset():
         print("note: the FMU does not repeat itself to the last bit.")
     outputs = {n: task.outputs[n] for n in before.signals}

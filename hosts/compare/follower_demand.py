@@ -1,4 +1,4 @@
-"""What must be demanded so that a follower does what was measured."""
+"""The demand that makes a critically damped follower move as measured."""
 
 import math
 

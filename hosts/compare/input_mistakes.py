@@ -1,4 +1,4 @@
-"""Mistakes in what drives the simulation, which show in all that it moves: each is tried in a run and told by itself.
+"""Detects inputs with the wrong sign and speeds in the wrong unit: each is tried in a run.
 
 An input with the other sign turns signals; a speed in another unit lets the car start slower or faster than it was.
 """
@@ -17,7 +17,8 @@ from hosts.compare.segments import Segment
 from hosts.compare.task import Task
 from hosts.measures.relations import SPEEDS
 
-_SPEED, _ACROSS = "initial.speed", "initial.lateral_speed"
+_SPEED = "initial.speed"
+_ACROSS = "initial.lateral_speed"
 
 
 def turned_signals(compared: Comparison) -> dict[str, ComparedSignal]:
@@ -35,14 +36,16 @@ def turned_input(task: Task, compared: Comparison, odd: dict[str, ComparedSignal
         with Replay(task.fmu, [_turned(s, name) for s in task.segments], task.step) as replay:
             result = replay.run()
         curves = {n: Curve(result, n) for n in compared.signals}
-        left = [n for n, s in compared.signals.items() if turned(s.measured, curves[n], s.alignment.delay) is not None]
-        if result.failed_steps or left:
+        remaining = [
+            n for n, s in compared.signals.items() if turned(s.measured, curves[n], s.alignment.delay) is not None
+        ]
+        if result.failed_steps or remaining:
             continue
-        what = f"input '{signal.source}' ({name})"
+        label = f"input '{signal.source}' ({name})"
         if len(odd) == 1:
-            return f"Or the {what} has the opposite sign: with the other sign the signal has that of the simulation."
+            return f"Or the {label} has the opposite sign: with the other sign the signal has that of the simulation."
         return (
-            f"The {what} has the opposite sign: only with the other sign {_listed(list(odd))} have the signs of the "
+            f"The {label} has the opposite sign: only with the other sign {_listed(list(odd))} have the signs of the "
             "simulation. factor = -1.0 in the alias file changes it."
         )
     return ""

@@ -69,9 +69,9 @@ def log_for(
         clock = column.time or time_column(raw, aliases)
         if clock not in clocks:
             clocks[clock], origin = log_times(raw, aliases, clock, origin, notes)
-        told = [] if used and ours in outputs and ours not in used else notes
-        read = _of_each_time(_signal(fmu, raw, ours, column, *clocks[clock], told), ours in inputs)
-        signals[ours] = _without_spikes(fmu, read if ours in inputs else _as_measured(fmu, read, told), told)
+        reported = [] if used and ours in outputs and ours not in used else notes
+        read = _of_each_time(_signal(fmu, raw, ours, column, *clocks[clock], reported), ours in inputs)
+        signals[ours] = _without_spikes(fmu, read if ours in inputs else _as_measured(fmu, read, reported), reported)
     if jumps := {n: s.jumps for n, s in signals.items() if len(s.jumps)}:
         which = counted(jumps, np.concatenate([*jumps.values()]))
         notes.append(f"Jumps of inputs, between two rows of one time or by the record of a run: {which}.")
@@ -84,8 +84,8 @@ def log_for(
     driven = {n: s for n, s in signals.items() if n in inputs}
     if parameters := [n for n in driven if n in tunable]:
         notes.append(f"Tunable parameters that the log drives, each kept up to its next row: {', '.join(parameters)}.")
-    if left := [n for n in chosen if n in raw.table.columns]:
-        notes.append(f"In the log, and set or sought instead: {', '.join(left)}.")
+    if remaining := [n for n in chosen if n in raw.table.columns]:
+        notes.append(f"In the log, and set or sought instead: {', '.join(remaining)}.")
     held = frozenset(n for n in driven if n in parameters or n in (record.held or ()))
     begun = record.start if record.outputs_from and record.state[0] is None and origin == 0.0 else None
     return Log(driven, {n: s for n, s in signals.items() if n in outputs}, notes, held, begun)
@@ -98,7 +98,7 @@ def _columns(
     inputs: Collection[str],
     outputs: Collection[str],
 ) -> Mapping[str, Column]:
-    there = [str(c) for c in raw.table.columns]
+    present = [str(c) for c in raw.table.columns]
     for ours, column in aliases.columns.items():
         where = f"{aliases.file}: '{ours}'"
         if ours not in inputs and ours not in outputs:
@@ -113,19 +113,19 @@ def _columns(
             hint = f": {why.rstrip('.')}" if why else near_hint(ours, [*inputs, *outputs])
             raise HostError(f"{where} is not an input or output of {fmu.path.name}{hint}.")
         for name in (column.name, column.time):
-            if name is not None and name not in there:
-                raise HostError(f"{where}: the log {raw.path.name} has no column '{name}'{near_hint(name, there)}.")
+            if name is not None and name not in present:
+                raise HostError(f"{where}: the log {raw.path.name} has no column '{name}'{near_hint(name, present)}.")
     named = {c.name for c in aliases.columns.values()}
-    plain = {n: Column(name=n) for n in there if (n in inputs or n in outputs) and n not in named}
-    found = {**plain, **aliases.columns}
-    if not found:
-        clock = [n for n in there if n.lower() not in TIMES]
+    plain = {n: Column(name=n) for n in present if (n in inputs or n in outputs) and n not in named}
+    results = {**plain, **aliases.columns}
+    if not results:
+        clock = [n for n in present if n.lower() not in TIMES]
         raise HostError(
             f"The log {raw.path} has no column with the name of an input or output of {fmu.path.name}; its columns "
             f"are {some_of(clock)}. An alias file (--log-aliases) gives them names: under [signals] "
             f'"{next(iter(outputs), "speed")}" = {{ name = "{next(iter(clock), "column")}", unit = "..." }}.'
         )
-    return found
+    return results
 
 
 def _signal(
@@ -156,8 +156,8 @@ def _signal(
         if own is None or own.exponents != theirs.exponents:
             raise HostError(f"{where} is in '{written}'; '{ours}' of {fmu.path.name} is in '{unit}'.")
         values = (theirs.factor * values + theirs.offset - own.offset) / own.factor
-    there = np.isfinite(values)
-    t, values = time[there], values[there]
+    finite = np.isfinite(values)
+    t, values = time[finite], values[finite]
     if unit == "rad" and variable.causality == "output":  # an input jumps where it is told to
         values = continuous(values)
     return Signal(ours, column.name, unit, t, values)
@@ -193,8 +193,8 @@ def _without_spikes(fmu: NamedFmu, signal: Signal, notes: list[str]) -> Signal:
     wrong = spikes(signal.time, signal.values) & ~np.isin(signal.time, signal.jumps)
     if fmu.variables[signal.name].type != "Real" or not wrong.any():
         return signal
-    what = f"'{signal.source}' ({signal.name})"
-    notes.append(spike_text(what, signal.unit, signal.time[wrong], signal.values[wrong]))
+    label = f"'{signal.source}' ({signal.name})"
+    notes.append(spike_text(label, signal.unit, signal.time[wrong], signal.values[wrong]))
     return replace(signal, time=signal.time[~wrong], values=signal.values[~wrong])
 
 

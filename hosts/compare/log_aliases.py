@@ -83,7 +83,7 @@ class Dialect(_Table):
 
 
 class LogAliases(_Table):
-    """What an alias file says; without one the columns have our names."""
+    """The content of the alias file of a log; without one the columns have our names."""
 
     dialect: Dialect = Field(default=Dialect(), alias="file", title="a table")
     clock: Clock = Field(default=Clock(), alias="time", title="a table")
@@ -105,11 +105,11 @@ def read_log_aliases(file: Path) -> LogAliases:
     """
     content = read_toml(file, HostError, f"The alias file {file}")
     try:
-        found = LogAliases.model_validate(content)
+        result = LogAliases.model_validate(content)
     except ValidationError as error:
         raise HostError(f"{file}: {Sentences(LogAliases, content).of(error)[0]}") from None
-    found._file = str(file)
-    return found
+    result._file = str(file)
+    return result
 
 
 def refuse_log_aliases(file: Path) -> None:

@@ -29,7 +29,7 @@ _PARQUET = (".parquet", ".pq")
 
 @dataclass(frozen=True)
 class RawLog:
-    """A table as it is written."""
+    """The table of a log as it is in the file, before units and names."""
 
     path: Path
     table: pd.DataFrame
@@ -75,8 +75,8 @@ class RawLog:
         beyond = np.flatnonzero(np.abs(values) > LARGEST_NUMBER)
         if len(beyond):
             row = int(beyond[0])
-            words = f"{values[row]:g} is too large; numbers up to {LARGEST_NUMBER:g} are read."
-            raise self.error(row, name, words)
+            message = f"{values[row]:g} is too large; numbers up to {LARGEST_NUMBER:g} are read."
+            raise self.error(row, name, message)
         return values
 
     def error(self, row: int, name: str, words: str) -> HostError:
@@ -111,30 +111,30 @@ def read_log(path: Path, dialect: Dialect) -> RawLog:
         )
     if path.suffix.lower() in _PARQUET:
         return _read_parquet(path)
-    found = find_dialect(path, dialect)
+    result = find_dialect(path, dialect)
     try:
         table = pd.read_csv(
-            Unpacked(path, LARGEST, HostError, f"The log {path}", found.delimiter.encode()),
-            sep=found.delimiter,
-            decimal=found.decimal,
-            encoding=found.encoding,
-            skiprows=found.first_row,
+            Unpacked(path, LARGEST, HostError, f"The log {path}", result.delimiter.encode()),
+            sep=result.delimiter,
+            decimal=result.decimal,
+            encoding=result.encoding,
+            skiprows=result.first_row,
             header=None,
             na_values=["-", "--", "nan", "NaN", "n/a", ""],
             skip_blank_lines=True,
             skipinitialspace=True,
-            names=[name or f"unnamed {k}" for k, name in enumerate(found.names)],
+            names=[name or f"unnamed {k}" for k, name in enumerate(result.names)],
             index_col=False,
             low_memory=False,
         )
     except UnicodeDecodeError as error:
-        raise HostError(f"The log {path} is not written in {found.encoding}: {error}.") from None
+        raise HostError(f"The log {path} is not written in {result.encoding}: {error}.") from None
     except (pd.errors.ParserError, pd.errors.EmptyDataError, ValueError) as error:
         if cells := re.search(r"Expected (\d+) fields in line (\d+), saw (\d+)", str(error)):
             width, line, seen = cells.groups()
             raise HostError(f"The log {path}, line {line}: {seen} cells; the heading has {width}.") from None
         raise HostError(f"The log {path} is not a table: {one_line(str(error).strip()).rstrip('.')}.") from None
-    return RawLog(path, table, found.units, found.first_row)
+    return RawLog(path, table, result.units, result.first_row)
 
 
 def _read_parquet(path: Path) -> RawLog:

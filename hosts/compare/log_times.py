@@ -25,19 +25,21 @@ _SLOWEST = 0.5  # s between samples of a test drive, unless the user has named t
 
 def time_column(raw: RawLog, aliases: LogAliases) -> str:
     """The name of the column of times. Raises `HostError`: there is none."""
-    there = [str(c) for c in raw.table.columns]
+    present = [str(c) for c in raw.table.columns]
     name = aliases.clock.name
     if name is not None:
-        if name not in there:
-            raise HostError(f"{aliases.file}: the log {raw.path.name} has no column '{name}'{near_hint(name, there)}.")
+        if name not in present:
+            raise HostError(
+                f"{aliases.file}: the log {raw.path.name} has no column '{name}'{near_hint(name, present)}."
+            )
         return name
-    found = next((n for wanted in TIMES for n in there if n.lower() == wanted), None)
-    if found is None:
+    result = next((n for wanted in TIMES for n in present if n.lower() == wanted), None)
+    if result is None:
         raise HostError(
             f"The log {raw.path} has no column of times (one of the names {', '.join(TIMES)}); its columns are "
-            f'{some_of(there)}. The alias file names it: [time] name = "...".'
+            f'{some_of(present)}. The alias file names it: [time] name = "...".'
         )
-    return found
+    return result
 
 
 def log_times(

@@ -1,4 +1,4 @@
-"""Noise of measured signals, and of what an FMU computes."""
+"""Noise of measured and of simulated signals."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,10 +6,12 @@ from numpy.typing import NDArray
 from hosts.compare.deviations import rms
 from hosts.compare.residuals import Residuals
 
-_POINTS, _ORDER = 5, 4
+_POINTS = 5
+_ORDER = 4
 _NARROW = 1e-7  # of a range: the residuals are straight over it but for noise
 _PROBE = 0.01
-_FINEST, _WIDEST = 1e-5, 0.02
+_FINEST = 1e-5
+_WIDEST = 0.02
 
 
 def measured_noise(values: NDArray[np.float64]) -> float:

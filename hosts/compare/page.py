@@ -1,4 +1,4 @@
-"""Pictures of a comparison: signals over each other, what remains, and the inputs."""
+"""Pictures of a comparison: signals over each other, residuals and inputs."""
 
 import math
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""What is wrong with a log can mostly be seen before anything long is done with it."""
+"""Checks the plausibility of a log before it is simulated."""
 
 import math
 from collections.abc import Mapping
@@ -65,10 +65,10 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     """
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
     found = deviations(signal.time, y, x)
-    what = f"'{signal.source}' ({signal.name})"
+    label = f"'{signal.source}' ({signal.name})"
     if (still := turned(signal, curve, delay)) is not None:
         return (
-            f"{what} has the opposite sign of the simulation (correlation {still:.2f}): factor = -1.0 in the alias "
+            f"{label} has the opposite sign of the simulation (correlation {still:.2f}): factor = -1.0 in the alias "
             "file turns it."
         )
     if not abs(found.correlation) >= ALIKE:
@@ -77,9 +77,9 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     ratio = float(np.std(y) / np.std(x))
     named = [(m, f'it looks like {m.words}: unit = "{m.unit}" in the alias file.') for m in misread(signal.unit)]
     other = [(m, "is it in another unit, or is a factor missing?") for m in misread("")]
-    for m, words in (*named, *other):
+    for m, message in (*named, *other):
         if m.usual and 1.0 / _CLOSE < ratio * m.factor < _CLOSE:
-            return f"{what} is {ratio:.4g} times as large as in the simulation: {words}"
+            return f"{label} is {ratio:.4g} times as large as in the simulation: {message}"
     return ""
 
 

@@ -16,10 +16,15 @@ from hosts.compare.deviations import is_constant
 from hosts.compare.time_warping import warped
 
 POINTS = 1000
-_INNER, _OUTER, _CORRIDOR_POWER = 0.05, 0.5, 2.0  # of the largest measured value
+# of the largest measured value
+_INNER = 0.05
+_OUTER = 0.5
+_CORRIDOR_POWER = 2.0
 _LONGEST_SHIFT = 0.2  # of the length
-_LARGEST_MAGNITUDE_ERROR, _WINDOW = 0.5, 0.1
-_LARGEST_SLOPE_ERROR, _SMOOTHED = 2.0, 9
+_LARGEST_MAGNITUDE_ERROR = 0.5
+_WINDOW = 0.1
+_LARGEST_SLOPE_ERROR = 2.0
+_SMOOTHED = 9
 _WEIGHTS = (0.4, 0.2, 0.2, 0.2)
 _GRADES = ((0.94, "excellent"), (0.80, "good"), (0.58, "fair"), (0.0, "poor"))
 
@@ -74,15 +79,15 @@ def _best_shift(y: NDArray[np.float64], x: NDArray[np.float64]) -> int:
     """Samples by which the simulation is late where both correlate best; the smallest of equals."""
     if is_constant(x):
         return 0
-    best, found = float(np.corrcoef(y, x)[0, 1]), 0
+    best, results = float(np.corrcoef(y, x)[0, 1]), 0
     n = len(y)
     for k in range(1, int(_LONGEST_SHIFT * n) + 1):
         for shift, (a, b) in ((k, (y[: n - k], x[k:])), (-k, (y[k:], x[: n - k]))):
             spread = np.std(a) * np.std(b)
             value = float(np.mean((a - a.mean()) * (b - b.mean())) / spread) if spread > 0.0 else -1.0
             if value > best + 1e-12:
-                best, found = value, shift
-    return found
+                best, results = value, shift
+    return results
 
 
 def _magnitude(y: NDArray[np.float64], x: NDArray[np.float64]) -> float:

@@ -1,4 +1,4 @@
-"""Signals that a logger writes more often than they are measured: each value stands in many rows."""
+"""Detects signals that are logged more often than measured, so that each value is repeated in several rows."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -1,4 +1,4 @@
-"""What a comparison yields, and its files."""
+"""The result of a comparison, and its files."""
 
 import argparse
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,4 @@
-"""The steering that gives the measured angles of the front wheels on the road, were the linkage rigid."""
+"""The steering that gives the measured angles of the front wheels on the road, assuming a rigid linkage."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -15,17 +15,18 @@ from hosts.measures.signal import Signal
 ANGLES = ("wheel_FL.steer", "wheel_FR.steer")
 _POINTS = 21  # of the curve between both locks
 _FRICTION = "road.friction"  # none: standing tyres would hold the wheels back
-_STEP, _SETTLING = 0.01, 50  # s, steps until a column has come to rest
+_STEP = 0.01  # s
+_SETTLING = 50  # steps until a column has come to rest
 
 
 def mean_angle(signals: Mapping[str, Signal]) -> Signal | None:
     """Mean of the measured angles of both front wheels, or the one that there is."""
-    there = [signals[n] for n in ANGLES if n in signals]
-    if not there:
+    present = [signals[n] for n in ANGLES if n in signals]
+    if not present:
         return None
-    first = there[0]
-    values = np.mean([np.interp(first.time, s.time, s.values) for s in there], axis=0)
-    return replace(first, source=" and ".join(s.source for s in there), values=values)
+    first = present[0]
+    values = np.mean([np.interp(first.time, s.time, s.values) for s in present], axis=0)
+    return replace(first, source=" and ".join(s.source for s in present), values=values)
 
 
 def steering_for(fmu: FmuSource, start: Mapping[str, Value], angle: Signal) -> Signal:
@@ -40,17 +41,17 @@ def steering_for(fmu: FmuSource, start: Mapping[str, Value], angle: Signal) -> S
     FMU whose column or frame gives turns its wheels by less than `angle` then, as the car does.
     """
     steering = np.linspace(-1.0, 1.0, _POINTS)
-    found = fmu.done_apart(_turned, (dict(start), steering), NDArray[np.float64], start)
-    rises = np.diff(found)
+    result = fmu.done_apart(_turned, (dict(start), steering), NDArray[np.float64], start)
+    rises = np.diff(result)
     if not (rises > 0.0).all():
         raise HostError(f"{fmu.path.name} does not turn its front wheels by 'steering'; the angles cannot be replayed.")
     largest = float(np.max(np.abs(angle.values)))
-    if largest > min(-found[0], found[-1]):
+    if largest > min(-result[0], result[-1]):
         raise HostError(
             f"The log turns the front wheels by up to {math.degrees(largest):.3g} deg; {fmu.path.name} by "
-            f"{math.degrees(-found[0]):.3g} to the right and {math.degrees(found[-1]):.3g} to the left at full lock."
+            f"{math.degrees(-result[0]):.3g} to the right and {math.degrees(result[-1]):.3g} to the left at full lock."
         )
-    return replace(angle, name="steering", unit="1", values=np.interp(angle.values, found, steering))
+    return replace(angle, name="steering", unit="1", values=np.interp(angle.values, result, steering))
 
 
 def _turned(
@@ -58,7 +59,7 @@ def _turned(
 ) -> NDArray[np.float64]:
     """Mean angles of the front wheels at values of the steering."""
     source, (start, steering) = task
-    found, values = np.empty(len(steering)), np.empty(len(ANGLES))
+    results, values = np.empty(len(steering)), np.empty(len(ANGLES))
     with source.opened() as fmu:
         for k, x in enumerate(steering.tolist()):
             if k:
@@ -68,5 +69,5 @@ def _turned(
             for step in range(_SETTLING):
                 fmu.step(step * _STEP, _STEP)
             fmu.reader(ANGLES)(values)
-            found[k] = values.mean()
-    return found
+            results[k] = values.mean()
+    return results

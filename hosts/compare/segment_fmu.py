@@ -23,7 +23,8 @@ _FINE = 0.01  # s: communication step up to which they hold; with longer ones a 
 SLIDING = 0.05
 """Slip of an axle from which on the driver eases the throttle: no driver holds a speed against wheels that slide."""
 
-_SMOOTHED, _PARABOLA = 0.2, 2  # s; degree
+_SMOOTHED = 0.2  # s
+_PARABOLA = 2  # degree
 _UNEVEN = 0.5  # of the time between samples
 
 

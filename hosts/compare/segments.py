@@ -45,13 +45,13 @@ def spans(text: str | None) -> Spans | None:
     if text is None:
         return None
     try:
-        found = tuple((float(a), float(b)) for a, b in (part.split(":") for part in text.split(",")))
+        result = tuple((float(a), float(b)) for a, b in (part.split(":") for part in text.split(",")))
     except ValueError:
         raise HostError(f"--seconds is {text!r}; it must be of the form A:B,C:D, such as 0:80,160:240.") from None
-    times = [t for span in found for t in span]
-    if not all(map(math.isfinite, times)) or any(b <= a for a, b in found) or sorted(times) != times:
+    times = [t for span in result for t in span]
+    if not all(map(math.isfinite, times)) or any(b <= a for a, b in result) or sorted(times) != times:
         raise HostError(f"--seconds is {text!r}; its times must be finite and in their order.")
-    return found
+    return result
 
 
 def begins(wanted: Spans, length: float, every: float) -> list[float]:
@@ -69,12 +69,12 @@ def in_spans(signal: Signal, wanted: Spans | None) -> Signal:
 
 def one_after_the_other(signals: Mapping[str, Signal], segments: Sequence[Segment]) -> dict[str, Signal]:
     """Signals of a log at the places of its segments."""
-    made = {}
+    results = {}
     for name, signal in signals.items():
         parts = [signal.between(s.begin, s.begin + s.end) for s in segments]
         times = [p.time - s.begin + s.place for p, s in zip(parts, segments, strict=True)]
-        made[name] = replace(signal, time=np.concatenate(times), values=np.concatenate([p.values for p in parts]))
-    return made
+        results[name] = replace(signal, time=np.concatenate(times), values=np.concatenate([p.values for p in parts]))
+    return results
 
 
 def joined(results: Sequence[Result], segments: Sequence[Segment]) -> Result:

@@ -1,4 +1,4 @@
-"""How a car starts that a log shows in motion."""
+"""Start values of a car from the first samples of a log in motion."""
 
 import math
 from collections.abc import Callable, Collection, Mapping
@@ -12,8 +12,11 @@ from hosts.measures.signal import Signal
 
 _AVERAGED = 0.1  # s at the beginning of a log
 _WHERE = " (where the reference point is to be)"
-_MOVES, _TURNS = 0.5, 0.02  # m/s, rad/s
-_SETTLING, _SETTLED = "initial.settling", 2.0  # s: roll of a car on soft springs and dampers has settled to 1 %
+_MOVES = 0.5  # m/s
+_TURNS = 0.02  # rad/s
+# s: roll of a car on soft springs and dampers has settled to 1 %
+_SETTLING = "initial.settling"
+_SETTLED = 2.0
 
 
 def measured_start(
@@ -41,8 +44,8 @@ def measured_start(
     """
     if begun is not None:
         same = {n: v for n, v in begun.items() if n.startswith("initial.") and n in fmu.variables and n not in given}
-        words = ", ".join(f"{n} = {v}" for n, v in same.items()) or "as drawn"
-        return same, [f"The log is a result of ali3 run, and the start is that of its record: {words}."]
+        message = ", ".join(f"{n} = {v}" for n, v in same.items()) or "as drawn"
+        return same, [f"The log is a result of ali3 run, and the start is that of its record: {message}."]
     start: dict[str, Value] = {}
     notes, held = [], []
     speed = next((at_start(signals[n]) for n in ("speed", "chassis.vx") if n in signals), None)
@@ -61,8 +64,8 @@ def measured_start(
         else:
             start[name] = value
     if start:
-        words = ", ".join(f"{n} = {v:.4g}" for n, v in start.items())
-        notes.append(f"The start is as measured: {words}{_WHERE if 'initial.x' in start else ''}.")
+        message = ", ".join(f"{n} = {v:.4g}" for n, v in start.items())
+        notes.append(f"The start is as measured: {message}{_WHERE if 'initial.x' in start else ''}.")
     whole = {**start, **given}
     moves = abs(float(whole.get("initial.speed", 0.0))) > _MOVES and "initial.yaw_rate" in whole
     if moves and _SETTLING in fmu.variables and _SETTLING not in given:
@@ -105,9 +108,9 @@ def _reference_point(task: tuple[FmuSource, dict[str, Value]], tell: Callable[[f
         if any(n not in fmu.variables for n in names):
             return 0.0, 0.0
         fmu.initialise({n: v for n, v in start.items() if not n.startswith("initial.")})
-        found = np.empty(len(names))
-        fmu.reader(names)(found)
-    x, y = np.nan_to_num(found, posinf=0.0, neginf=0.0).tolist()
+        values = np.empty(len(names))
+        fmu.reader(names)(values)
+    x, y = np.nan_to_num(values, posinf=0.0, neginf=0.0).tolist()
     return x, y
 
 

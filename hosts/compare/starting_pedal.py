@@ -1,4 +1,4 @@
-"""The pedal with which a driver starts who holds a measured speed."""
+"""Initial pedal position of a driver who follows a measured speed."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace

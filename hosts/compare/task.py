@@ -1,4 +1,4 @@
-"""What is compared: log, FMU and start, checked as far as can be before anything is driven."""
+"""The task of a comparison: log, FMU and start values, checked before a simulation starts."""
 
 import argparse
 import math
@@ -37,14 +37,16 @@ from hosts.fmu.variables import Variable, default_step
 from hosts.measures.log_plausibility import log_plausibility
 from hosts.measures.signal import Signal
 
-_STEERING, _ANGLE, _ANGLE_MAX = "steering", "steering_wheel_angle", "vehicle.steering_wheel_angle_max"
+_STEERING = "steering"
+_ANGLE = "steering_wheel_angle"
+_ANGLE_MAX = "vehicle.steering_wheel_angle_max"
 _DEMAND = "steering_wheel_angle_demand"
 _FREQUENCY = "vehicle.steering_frequency"
 
 
 @dataclass(frozen=True)
 class Task:
-    """A comparison that can be done."""
+    """A checked comparison, ready to run."""
 
     fmu: FmuSource
     inputs: dict[str, Signal]
@@ -70,7 +72,7 @@ class Task:
 
     @property
     def end(self) -> float:
-        """End of what is compared, s."""
+        """End of the compared time, s."""
         return self.segments[-1].place + self.segments[-1].end
 
 
@@ -117,8 +119,8 @@ def prepare(options: argparse.Namespace) -> Task:
         missed: list[str] = []
         for begin, length in parts:
             begun = None if begin or options.begin else log.begun
-            start, words = measured_start(fmu, cut(everything, begin, begin + length), given, begun)
-            notes += words if not segments else []
+            start, message = measured_start(fmu, cut(everything, begin, begin + length), given, begun)
+            notes += message if not segments else []
             manoeuvre = inputs_of(
                 options.log.stem,
                 cut(inputs, begin, begin + length),
@@ -188,11 +190,11 @@ def _parts(options: argparse.Namespace, wanted: Spans | None, end: float) -> lis
     if options.skip:
         raise HostError("--skip cannot be combined with --windows: each begins in its measured state.")
     last = begin + end + 1e-9
-    found = [t for t in begins(wanted or ((begin, last),), options.windows, every) if t >= begin]
-    found = [t - begin for t in found if t + options.windows <= last]
-    if not found:
+    results = [t for t in begins(wanted or ((begin, last),), options.windows, every) if t >= begin]
+    results = [t - begin for t in results if t + options.windows <= last]
+    if not results:
         raise HostError(f"No window of {options.windows:g} s lies in --seconds {options.seconds} and in the log.")
-    return [(t, options.windows) for t in found]
+    return [(t, options.windows) for t in results]
 
 
 def _can_turn(values: NDArray[np.float64], variable: Variable) -> bool:

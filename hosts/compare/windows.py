@@ -48,7 +48,7 @@ class Bin:
 
 def windows(comparison: Comparison, segments: Sequence[Segment]) -> list[Window]:
     """Deviations of each window."""
-    found = []
+    results = []
     ranges = {n: float(np.ptp(s.measured.values)) for n, s in comparison.signals.items()}
     for segment in segments:
         sizes, departed = {}, ""
@@ -58,8 +58,8 @@ def windows(comparison: Comparison, segments: Sequence[Segment]) -> list[Window]
             sizes[name] = rms(error)
             if not np.max(np.abs(error)) <= ranges[name]:
                 departed = departed or name
-        found.append(Window(segment.begin, segment.begin + segment.end, sizes, departed))
-    return found
+        results.append(Window(segment.begin, segment.begin + segment.end, sizes, departed))
+    return results
 
 
 def window_text(found: Sequence[Window]) -> str:
@@ -76,19 +76,19 @@ def window_text(found: Sequence[Window]) -> str:
 def scales_of(signals: Mapping[str, Signal]) -> dict[str, Signal]:
     """Measured speed, and size of the lateral acceleration: as measured, else yaw rate times speed."""
     speed = next((signals[n] for n in ("speed", "chassis.vx") if n in signals), None)
-    found = {} if speed is None else {"speed": speed}
+    results = {} if speed is None else {"speed": speed}
     rate, ay = signals.get("chassis.wz"), signals.get("chassis.ay")
     if rate is not None and speed is not None:
         values = np.abs(rate.values * np.interp(rate.time, speed.time, speed.values))
-        found["lateral acceleration"] = Signal("", "", "m/s2", rate.time, values)
+        results["lateral acceleration"] = Signal("", "", "m/s2", rate.time, values)
     elif ay is not None:
-        found["lateral acceleration"] = Signal("", "", "m/s2", ay.time, np.abs(ay.values))
-    return found
+        results["lateral acceleration"] = Signal("", "", "m/s2", ay.time, np.abs(ay.values))
+    return results
 
 
 def bins(comparison: Comparison, scales: Mapping[str, Signal]) -> list[Bin]:
     """Deviations by speed and by lateral acceleration. `scales`: of `scales_of`, at the places of what is compared."""
-    found = []
+    results = []
     for name, s in comparison.signals.items():
         error = s.simulated(s.measured.time) - s.measured.values
         for quantity, scale in scales.items():
@@ -98,8 +98,8 @@ def bins(comparison: Comparison, scales: Mapping[str, Signal]) -> list[Bin]:
                 e = error[number == k]
                 if len(e) >= _LEAST:
                     low = float(k * width)
-                    found.append(Bin(name, quantity, unit, low, low + width, len(e), rms(e), float(np.mean(e))))
-    return found
+                    results.append(Bin(name, quantity, unit, low, low + width, len(e), rms(e), float(np.mean(e))))
+    return results
 
 
 def held_text(result: Result, segments: Sequence[Segment]) -> list[str]:
@@ -115,8 +115,8 @@ def held_text(result: Result, segments: Sequence[Segment]) -> list[str]:
     pedals = np.max([result[n] for n in PEDALS if n in result], axis=0)
     full = np.interp(time, result.time, pedals) > _FULL
     if full.any() and not full.all():
-        left = f"{rms(error[~full]):.2g} m/s rms elsewhere"
-        text += f", a pedal at its end for {100.0 * np.mean(full):.0f} % of the time and {left}"
+        remaining = f"{rms(error[~full]):.2g} m/s rms elsewhere"
+        text += f", a pedal at its end for {100.0 * np.mean(full):.0f} % of the time and {remaining}"
     if (slid := _sliding(result)).any():
         eased = np.mean(np.interp(time, result.time, slid))
         text += f", eased the throttle over a sliding axle for {100.0 * eased:.2g} % of the time"

@@ -1,4 +1,4 @@
-"""What a manoeuvre has on the ground, as a scene draws it: on the heights of its roads."""
+"""Adds the ground marks and cones of a manoeuvre to a scene, at the heights of its roads."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -18,7 +18,9 @@ from viewer.looks import LOOKS
 Array = NDArray[np.float64]
 
 _WIDTH = 0.15  # m, of lines
-_FEWEST, _MOST = 72, 3600  # sections of a circle; between them one a metre
+# sections of a circle, at least and at most; between these limits one a metre
+_FEWEST = 72
+_MOST = 3600
 
 
 def with_course(scene: Mapping[str, Any], course: Course) -> dict[str, Any]:
@@ -76,35 +78,35 @@ def things_of(marks: Sequence[Mark]) -> list[Mark]:
 
 def _heights(roads: Sequence[Mapping[str, Any]], x: Array, y: Array) -> Array:
     """Heights of the roads at n places, m; NaN where that takes more than a formula."""
-    found = np.zeros(len(x))
+    values = np.zeros(len(x))
     for road in roads:
         if road["kind"] == "flat":
-            found = np.full(len(x), float(road.get("height", 0.0)))
+            values = np.full(len(x), float(road.get("height", 0.0)))
         elif road["kind"] == "plane":
             (px, py, pz), (nx, ny, nz) = road["point"], road["normal"]
-            found = pz - (nx * (x - px) + ny * (y - py)) / nz
+            values = pz - (nx * (x - px) + ny * (y - py)) / nz
         elif road["kind"] == "profile":
             (ox, oy, oz), (dx, dy, _) = road.get("origin", (0.0, 0.0, 0.0)), road.get("direction", (1.0, 0.0, 0.0))
             along = ((x - ox) * dx + (y - oy) * dy) / math.hypot(dx, dy)
-            found = oz + np.interp(along, road["stations"], road["heights"])
+            values = oz + np.interp(along, road["stations"], road["heights"])
         elif road["kind"] == "grid" and road.get("axes") is None:
-            found = _heights_of_grid(road, x, y, LOOKS["border"])
+            values = _heights_of_grid(road, x, y, LOOKS["border"])
         elif road["kind"] == "terrain":
-            found = np.full(len(x), math.nan)
+            values = np.full(len(x), math.nan)
             for patch in road["patches"]:
-                found = np.where(np.isnan(found), _heights_of_grid(patch, x, y, 0.0), found)
+                values = np.where(np.isnan(values), _heights_of_grid(patch, x, y, 0.0), values)
         else:
             return np.full(len(x), math.nan)
-    return found
+    return values
 
 
 def _heights_of_grid(road: Mapping[str, Any], x: Array, y: Array, border: float) -> Array:
     """Linear between four points of the grid, m; beyond it that of its edge, from `border`, m, on NaN."""
     nx, ny = road["shape"]
     i, j = ((value - start) / step for value, start, step in zip((x, y), road["origin"], road["spacing"], strict=True))
-    here = np.clip(i, 0, nx - 1), np.clip(j, 0, ny - 1)
-    beyond = np.maximum(*(np.abs(k - at) * step for k, at, step in zip((i, j), here, road["spacing"], strict=True)))
-    i, j = here
+    cells = np.clip(i, 0, nx - 1), np.clip(j, 0, ny - 1)
+    beyond = np.maximum(*(np.abs(k - at) * step for k, at, step in zip((i, j), cells, road["spacing"], strict=True)))
+    i, j = cells
     heights = decoded(road["heights"], "f").reshape(nx, ny)
     a, b = np.minimum(i.astype(int), nx - 2), np.minimum(j.astype(int), ny - 2)
     u, v = i - a, j - b

@@ -1,4 +1,4 @@
-"""What a manoeuvre has on the ground, without heights: lanes, circles, the line where braking begins."""
+"""Ground marks of a manoeuvre in the plane: lanes, circles, the line where braking begins."""
 
 import math
 from collections.abc import Sequence
@@ -12,7 +12,8 @@ from hosts.driving.result import Result
 Mark: TypeAlias = dict[str, Any]
 """Kind and places, x and y, m: lanes, a line or a circle."""
 _ACROSS = 4.0  # m, of a line across the way
-_STEADY, _SETTLED = 10.0, 2.0  # s that a steering angle is held which makes a circle, and after which it is driven
+_STEADY = 10.0  # s that a steering angle must be held to make a circle
+_SETTLED = 2.0  # s until the circle is driven
 _MOVES = 1.0  # m/s
 
 

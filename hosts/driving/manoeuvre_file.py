@@ -41,16 +41,16 @@ def read_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     if path.suffix not in SUFFIXES:
         path = next(p for p in (FOLDER / f"{manoeuvre}{suffix}" for suffix in SUFFIXES) if is_file(p))
     if path.suffix == ".toml":
-        made = _read_toml(path)
+        table = _read_toml(path)
     else:
         if not is_file(path):
             raise HostError(no_file(path))
-        made = read_table(path)
+        table = read_table(path)
     if stop_time is not None:
-        return replace(made, stop_time=stop_time)
-    if not made.stop_time > 0.0:
+        return replace(table, stop_time=stop_time)
+    if not table.stop_time > 0.0:
         raise HostError(f"{path} does not say how long it lasts; give a later time in the table or a stop_time.")
-    return made
+    return table
 
 
 def check_manoeuvre(manoeuvre: str) -> None:
@@ -115,12 +115,12 @@ def _read_toml(path: Path) -> Manoeuvre:
     inputs = {name: np.array(column, dtype=np.float64) for name, column in given.inputs.items()}
     time = inputs.pop("time", np.zeros(0))
     stop_time = given.stop_time or (float(time[-1]) if len(time) else math.nan)
-    words = {name: value if isinstance(value, str) else text_of(value) for name, value in given.driver.items()}
+    message = {name: value if isinstance(value, str) else text_of(value) for name, value in given.driver.items()}
     state: tuple[bytes | None, float] = None, 0.0
     if given.state is not None:
         state = read_state(path.parent, given.state.file, str(path)), given.state.time
     held = frozenset(given.held)
-    return Manoeuvre(path.stem, time, inputs, stop_time, given.start, words, *state, held, given.find_throttle)
+    return Manoeuvre(path.stem, time, inputs, stop_time, given.start, message, *state, held, given.find_throttle)
 
 
 def _whole(table: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:

@@ -1,4 +1,4 @@
-"""What a user sets in an FMU that drives a manoeuvre."""
+"""Parameters and start values that a user sets for a manoeuvre."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -42,8 +42,8 @@ def set_in(
     settings.add_wishes(fmu_options, fidelity)
     settings.overwritten(theirs(manoeuvre.inputs), f"it is a column of the manoeuvre {manoeuvre.name}")
     if manoeuvre.find_throttle:
-        found = f"the manoeuvre {manoeuvre.name} takes the one that holds the speed"
-        settings.overwritten(theirs({THROTTLE: 0.0}), found)
+        result = f"the manoeuvre {manoeuvre.name} takes the one that holds the speed"
+        settings.overwritten(theirs({THROTTLE: 0.0}), result)
     if manoeuvre.driver:
         acts = theirs(dict.fromkeys(ACTS, 0.0))
         settings.overwritten(acts, f"the driver of the manoeuvre {manoeuvre.name} acts on it")

@@ -1,4 +1,4 @@
-"""What steps miss of a table of inputs: corners and jumps inside a communication step, and an end inside one."""
+"""Corners, jumps and ends of an input table inside a communication step, which the step does not resolve."""
 
 import math
 from collections.abc import Collection, Iterable
@@ -37,19 +37,19 @@ def missed_inputs(
         rows = np.flatnonzero((manoeuvre.time > 0.0) & (manoeuvre.time < manoeuvre.stop_time))
         rows = rows[rows > 0]
         rows = rows[np.abs(manoeuvre.time[rows] - h * np.round(manoeuvre.time[rows] / h)) > ON_TIME]
-        found = {}
+        results = {}
         for name, span in ((name, span) for name, span in ranges.items() if span > 0.0):
             off = _off(manoeuvre, name, rows, h, name in straight, name in held)
             if (off > _LARGEST * span).any():
-                found[name] = rows[off > _LARGEST * span], off[off > _LARGEST * span]
-        return found
+                results[name] = rows[off > _LARGEST * span], off[off > _LARGEST * span]
+        return results
 
     missed = departures(step)
     if not missed:
         return None
     times = np.concatenate([manoeuvre.time[rows] for rows, _ in missed.values()])
     jumped = np.concatenate([_jumps(manoeuvre, name, rows, name in held) for name, (rows, _) in missed.items()])
-    kinds = [kind for kind, found in (("corners", not jumped.all()), ("jumps", jumped.any())) if found]
+    kinds = [kind for kind, results in (("corners", not jumped.all()), ("jumps", jumped.any())) if results]
     worst = max(missed, key=lambda name: float(missed[name][1].max()) / ranges[name])
     rows, off = missed[worst]
     k = int(off.argmax())

@@ -1,4 +1,4 @@
-"""The outputs of an FMU for a pilot: between rows only those that it uses are read, or all where some are derived."""
+"""The outputs of an FMU for a pilot: between recorded rows only used ones are read, or all if some are derived."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 

@@ -87,7 +87,7 @@ def planned(course: Course, begin: float, length: float, width: float) -> Planne
     fixed = np.array([course.gates[0].centre, 0.0, 0.0, course.gates[-1].centre, 0.0, 0.0])
     cost = np.concatenate([np.zeros(number), [1.0, BEND_LENGTH], np.full(len(x), SMOOTHNESS * SAMPLES)])
     solve: Any = linprog
-    found = solve(
+    result = solve(
         cost,
         vstack(rows),
         np.concatenate(bounds),
@@ -95,9 +95,9 @@ def planned(course: Course, begin: float, length: float, width: float) -> Planne
         fixed,
         [(None, None)] * number + [(0.0, None)] * (2 + len(x)),
     )
-    if not found.success:
-        raise HostError(f"{course.name}: no line was found through it for a car of {length:.3g} m: {found.message}")
-    line = BSpline(knots, found.x[:number], degree)
+    if not result.success:
+        raise HostError(f"{course.name}: no line was found through it for a car of {length:.3g} m: {result.message}")
+    line = BSpline(knots, result.x[:number], degree)
     first, second = line.derivative(1), line.derivative(2)
 
     def at(place: float) -> tuple[float, float, float]:

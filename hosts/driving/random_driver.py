@@ -22,7 +22,7 @@ _LOCK = 9.0  # rad, beyond which no car of ours turns its steering wheel
 
 @dataclass(frozen=True)
 class Target:
-    """What is driven at deliberately, such as a ramp."""
+    """An object that is driven at deliberately, such as a ramp."""
 
     x: float
     y: float

@@ -1,4 +1,4 @@
-"""The result of a run: recorded signals, and what the run could not do as it was asked."""
+"""The result of a run: recorded signals, and notes on what could not be simulated as requested."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -14,7 +14,7 @@ from hosts.common.numbers import Value
 
 @dataclass(frozen=True)
 class Result:
-    """What a run recorded."""
+    """The recorded signals of a run."""
 
     names: list[str]
     """Inputs and outputs."""

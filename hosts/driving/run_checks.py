@@ -1,4 +1,4 @@
-"""What is refused before a run: a wrong step, or a column that the FMU cannot take."""
+"""Checks before a run: the step, and columns that the FMU has no input for."""
 
 import math
 
@@ -43,7 +43,7 @@ def communication_step(fmu: SimulatedFmu, manoeuvre: Manoeuvre, step: float | No
 
 
 def steps_of(interval: float, step: float, what: str) -> int:
-    """How many communication steps an interval has.
+    """Number of communication steps in an interval.
 
     `interval`, `step`: in s; `what`: how messages call the interval. Raises `HostError`: it is not a whole multiple of
     the step.

@@ -36,15 +36,15 @@ def rows_before_jumps(
 
     Raises `HostError`: the table beside the record is not the one that was written with it.
     """
-    found = []
+    results = []
     for k, (t, *before) in sorted(record.jumps.items(), reverse=True):
         if not 0 <= k < len(times) or times[k] != t or len(before) != inputs:
             raise HostError(
                 f"{path} is not the table that {path.with_suffix('.json').name} beside it was written with: an input "
                 f"jumps in row {k} at {t:g} s. Give the table another name, or its columns of inputs alone."
             )
-        found.append((k, before))
-    return found
+        results.append((k, before))
+    return results
 
 
 def record_of(path: Path) -> RunRecord:

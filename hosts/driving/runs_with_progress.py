@@ -1,4 +1,4 @@
-"""Runs that a person waits for and looks at, as an experiment."""
+"""Runs as an experiment with a progress bar."""
 
 import time as clock
 from collections.abc import Callable, Generator, Sequence
@@ -117,8 +117,8 @@ def _with_rows(
     return rows if result is None else replace(result, values=rows[: len(result.time)])
 
 
-def _error(words: str, status: int) -> HostError:
-    error = HostError(words)
+def _error(message: str, status: int) -> HostError:
+    error = HostError(message)
     error.status = status
     return error
 
@@ -128,7 +128,7 @@ def _names(fmu: SimulatedFmu, drive: Drive) -> list[str]:
 
 
 def _rest(fmu: SimulatedFmu, drive: Drive, lost: Lost, wall: float) -> Result | FailedFmuError:
-    """What is there of a run whose process has ended."""
+    """The recorded part of a run whose process has ended."""
     rows, interval, names = lost.kept, drive.step * drive.every, _names(fmu, drive)
     if not len(rows):
         return FailedFmuError(f"The process of the FMU {lost.how}; no row was recorded.")

@@ -1,4 +1,4 @@
-"""What the co-simulation loop needs of an FMU: by its own names, or through aliases."""
+"""The interface of an FMU for the co-simulation loop, by its own names or through aliases."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path

@@ -20,6 +20,6 @@ def read_state(folder: Path, name: str, where: str) -> bytes:
 def write_state(state: bytes, file: Path) -> Path:
     """Write a saved state beside a file; its place."""
     beside = file.with_suffix(".state")
-    with atomic_file(beside) as made:
-        made.write_bytes(state)
+    with atomic_file(beside) as temporary:
+        temporary.write_bytes(state)
     return beside

@@ -54,7 +54,7 @@ class _Finder:
 
     @property
     def throttle(self) -> float:
-        """Mean over the last second."""
+        """Mean throttle over the last second."""
         return sum(x for _, _, x in self._last) / len(self._last)
 
 
@@ -75,15 +75,15 @@ def with_throttle(drive: Callable[..., Result], fmu: SimulatedFmu, manoeuvre: Ma
     def ends(time: float, observation: Mapping[str, float]) -> bool:
         return not finder.speed > 0.0 or finder.is_steady(time, observation)
 
-    found = drive(fmu, straight, step, finder, until=ends, every=max(1, round(_WINDOW / step)), last=True)
-    what, speed = f"The manoeuvre '{manoeuvre.name}' holds the speed of its start", float(found["speed"][-1])
-    if found.refusal:
-        raise HostError(f"{what}; straight on {found.refusal}.")
+    run = drive(fmu, straight, step, finder, until=ends, every=max(1, round(_WINDOW / step)), last=True)
+    what, speed = f"The manoeuvre '{manoeuvre.name}' holds the speed of its start", float(run["speed"][-1])
+    if run.refusal:
+        raise HostError(f"{what}; straight on {run.refusal}.")
     if not finder.speed > 0.0:
         raise HostError(f"{what}, which is {finder.speed:.3g} m/s; give one above 0, as --set {INITIAL_SPEED}=22.22.")
     if finder.off() > _ENOUGH:
         raise HostError(
-            f"{what}; straight on the car does not hold {finder.speed:.4g} m/s: after {found.simulated:.3g} s it is at "
+            f"{what}; straight on the car does not hold {finder.speed:.4g} m/s: after {run.simulated:.3g} s it is at "
             f"{speed:.4g} m/s with a throttle of {finder.throttle:.3g}; start at another speed, as --set "
             f"{INITIAL_SPEED}={max(0.9 * min(speed, finder.speed), 1.0):.3g}."
         )
@@ -104,12 +104,12 @@ def with_change_of_speed(result: Result) -> Result:
     speed, throttle = result["speed"], float(result[THROTTLE][0])
     change = speed / speed[0] - 1.0
     k = int(np.abs(change).argmax())
-    words = (
+    message = (
         f"{throttle:.4g}, which holds {speed[0]:.4g} m/s straight on; the speed changes by {100.0 * change[k]:+.2g} %, "
         f"to {speed[k]:.4g} m/s at {result.time[k]:.4g} s"
     )
     if abs(change[k]) <= KEPT:
-        return replace(result, notes=[*result.notes, ("throttle", words)])
+        return replace(result, notes=[*result.notes, ("throttle", message)])
     until = float(result.time[int((np.abs(change) > KEPT).argmax()) - 1])
     remedy = f"more than {100.0 * KEPT:g} %; up to --stop-time {until:.9g} it is less"
-    return replace(result, missed=[*result.missed, ("throttle", f"{words}: {remedy}")])
+    return replace(result, missed=[*result.missed, ("throttle", f"{message}: {remedy}")])

@@ -1,1 +1,1 @@
-"""What runs of FMUs have in common: their processes, what of them survives a kill, and the page of a report."""
+"""Shared by commands with many runs of FMUs: worker processes, the journal of results, the page of a report."""

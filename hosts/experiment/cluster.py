@@ -1,4 +1,4 @@
-"""Workers of Dask on a cluster that is there: its scheduler, and whether the traffic is encrypted."""
+"""Connects to the workers of a running Dask cluster: its scheduler, and whether the traffic is encrypted."""
 
 import logging
 import sys

@@ -1,4 +1,4 @@
-"""What happens on a worker of Dask: the FMU is unpacked once, runs are made in chunks."""
+"""Runs on a worker of Dask: the FMU is unpacked once, and runs are made in chunks."""
 
 import hashlib
 import tempfile
@@ -26,7 +26,7 @@ class WrongWorkerError(HostError):
 
 @dataclass(frozen=True)
 class UnpackedFmu:
-    """What each worker is given of an experiment."""
+    """The data of an experiment for each worker."""
 
     key: str
     fmu: str
@@ -39,13 +39,13 @@ class UnpackedFmu:
 
     @property
     def name(self) -> str:
-        """Of the plugin."""
+        """Name of the plugin."""
         return f"ali3-{self.key}"
 
 
 @dataclass
 class _Room:
-    """What a worker keeps of an experiment."""
+    """The state of an experiment on a worker: the unpacked FMU and its processes."""
 
     brought: UnpackedFmu
     folder: tempfile.TemporaryDirectory[str]
@@ -62,8 +62,8 @@ class _Room:
         if not hasattr(self.of_thread, "pool"):
             self.of_thread.pool = self.brought.experiment(self.fmu).pool()
             self.made.append(self.of_thread.pool)
-        found: Pool[Any, Any] = self.of_thread.pool
-        return found
+        result: Pool[Any, Any] = self.of_thread.pool
+        return result
 
 
 _rooms: dict[str, _Room] = {}

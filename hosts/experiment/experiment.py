@@ -36,12 +36,12 @@ class Runner(Protocol[T_contra, R_co]):
         """See `Pool.results`."""
 
     def close(self) -> None:
-        """End what is in hand."""
+        """End all running tasks."""
 
 
 @dataclass(frozen=True)
 class Experiment(Generic[T, R]):
-    """What is done with each task of a command."""
+    """The function that performs each task of a command, and its display."""
 
     name: str
     """On the bar, before the first word of a run."""

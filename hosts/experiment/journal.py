@@ -1,4 +1,4 @@
-"""Results of runs in a file from the moment they are there, so that a kill loses only the runs in hand."""
+"""A journal file of results, written as each run ends, so that a kill loses only the runs in progress."""
 
 from contextlib import suppress
 from io import BytesIO
@@ -38,18 +38,18 @@ class Journal(Closable, Generic[R]):
         if not self._file.is_file():
             return {}
         stream = BytesIO(read_bytes(self._file, _MOST))
-        found: dict[str, R] = {}
+        results: dict[str, R] = {}
         end = count = 0
         with suppress(EOFError, FrameError):
             while True:
                 key, result = read_frame(stream, self._types)[1]
-                found[key] = result
+                results[key] = result
                 end, count = stream.tell(), count + 1
-        if end < len(stream.getbuffer()) or len(found) < count:
-            with atomic_file(self._file) as made, made.open("wb") as whole:
-                for item in found.items():
+        if end < len(stream.getbuffer()) or len(results) < count:
+            with atomic_file(self._file) as temporary, temporary.open("wb") as whole:
+                for item in results.items():
                     write_frame(whole, 0, item)
-        return found
+        return results
 
     def add(self, key: str, result: R) -> None:
         """Write a result. Raises `FileError`: it cannot be written."""

@@ -1,4 +1,4 @@
-"""The store of an experiment: each result in a journal from the moment it is there, many of them later in a table."""
+"""The store of an experiment: each result is written to a journal at once and later, with others, to a table."""
 
 import math
 import time as clock
@@ -19,20 +19,20 @@ R_contra = TypeVar("R_contra", contravariant=True)
 
 
 class Table(Protocol[R_contra]):
-    """Where results stay that are many, as rows of a study in Parquet."""
+    """The table that numerous results are moved to, such as the rows of a study in Parquet."""
 
     @property
     def is_full(self) -> bool:
-        """Whether what was taken is to be written now."""
+        """Whether the collected results should be written now."""
 
     def lacks(self, name: str) -> bool:
-        """Whether it has no result of this name, and can have one."""
+        """Whether the table could have a result of this name but has none."""
 
     def take(self, name: str, result: R_contra) -> None:
         """Take a result for the next `write`."""
 
     def write(self) -> None:
-        """Write what was taken, so that it stays. Raises `FileError`."""
+        """Write the collected results to the disk. Raises `FileError`."""
 
 
 class ResultStore(Closable, Generic[R]):
@@ -47,14 +47,14 @@ class ResultStore(Closable, Generic[R]):
         with ExitStack() as held:
             held.enter_context(locked(folder, busy))
             self._journal: Journal[tuple[str, R]] = held.enter_context(Journal(folder / JOURNAL, tuple[str, kind]))
-            there = self._journal.read()
-            self._found = {} if again else there
+            present = self._journal.read()
+            self._found = {} if again else present
             self._held = held.pop_all()
         self._table: Table[R] | None = None
         self._began = self._waits = math.inf  # s, of the first result, and of the first that is in the journal alone
 
     def find(self, name: str, key: str) -> R | None:
-        """The result of a name, if what it depends on has the same key (`run_key`) as then."""
+        """The stored result of a name if its key (`run_key`) is unchanged, else None."""
         was, result = self._found.get(name, ("", None))
         return result if was == key else None
 
@@ -70,7 +70,7 @@ class ResultStore(Closable, Generic[R]):
             self.write()
 
     def into(self, table: Table[R]) -> None:
-        """Write results to a table from now on, first those that a command which was killed has left in the journal."""
+        """Write results to a table from now on, first those that a killed command has left in the journal."""
         self._table = table
         for name, (_, result) in self._found.items():
             if table.lacks(name):
@@ -78,22 +78,22 @@ class ResultStore(Closable, Generic[R]):
         self.write()
 
     def write(self) -> None:
-        """Write the table, and forget the journal. Raises `FileError`: it cannot be written; the journal stays."""
+        """Write the table, and clear the journal. Raises `FileError`: it cannot be written; the journal stays."""
         if self._table is not None:
             self._table.write()
         self.clear()
 
     def clear(self) -> None:
-        """Forget the journal: the experiment is at its end, or a table has its results."""
+        """Clear the journal: the experiment has ended, or a table has its results."""
         self._journal.clear()
         self._waits = math.inf
 
     def close(self) -> None:
-        """Close the journal, and free the folder."""
+        """Close the journal and unlock the folder."""
         self._held.close()
 
 
 def report_resumed(there: int, of: int, what: str) -> None:
-    """Say how many results need not be made again; `what`: they are, such as ``tests``."""
+    """Print how many results exist already; `what`: their name, such as ``tests``."""
     if there:
         print(f"{there} of {of} {what} are there; --again repeats them.", flush=True)

@@ -1,4 +1,4 @@
-"""FMUs that are built when they are needed and kept: by the command of the builder, in a process of its own."""
+"""Builds FMUs when they are needed, by ``ali3 build`` in a process of its own, and caches them."""
 
 import hashlib
 import os
@@ -54,15 +54,15 @@ def _kept_fmu(what: str, name: str, options: tuple[str, ...], tell: Callable[[st
     room = cache_folder("cars")
     place = room / name
     with locked(room):
-        found = sorted(place.glob("*.fmu"))
-        if found:
+        result = sorted(place.glob("*.fmu"))
+        if result:
             os.utime(place)
-            return found[0]
+            return result[0]
     tell(f"{what[0].upper()}{what[1:]} is built for this machine, which takes half a minute ...")
     try:
-        with atomic_folder(place) as made:
-            build_fmu(what, options, made)
-            if not list(made.glob("*.fmu")):
+        with atomic_folder(place) as temporary:
+            build_fmu(what, options, temporary)
+            if not list(temporary.glob("*.fmu")):
                 raise HostError(f"The FMU of {what} cannot be built: the build left no FMU.")
     except KeyboardInterrupt:
         tell(f"The build of {what} was stopped and nothing was run; the same command begins again.")

@@ -1,4 +1,4 @@
-"""Whether a word of the command line names a car."""
+"""Decides whether a command-line argument names a car."""
 
 from pathlib import Path
 

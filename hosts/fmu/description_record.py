@@ -1,4 +1,4 @@
-"""What `modelDescription.xml` says, as pages read it."""
+"""The content of `modelDescription.xml` as JSON for pages."""
 
 from typing import Any
 
@@ -11,13 +11,13 @@ from hosts.fmu.variables import Variable, Variables
 def description_record(description: ModelDescription, variables: Variables) -> dict[str, Any]:
     """What `modelDescription.xml` says, as the page reads it."""
     experiment = description.defaultExperiment
-    found = {name: getattr(experiment, name, None) for name in ("startTime", "stopTime", "stepSize")}
+    results = {name: getattr(experiment, name, None) for name in ("startTime", "stopTime", "stepSize")}
     references = {v.name: int(v.valueReference) for v in description.modelVariables}
     return {
         "modelName": description.modelName,
         "guid": description.guid,
         "description": description.description or "",
-        **{key: float(value) for key, value in found.items() if value is not None},
+        **{key: float(value) for key, value in results.items() if value is not None},
         "variables": [_variable(variables[name], references[name]) for name in variables.names],
     }
 

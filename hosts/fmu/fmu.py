@@ -112,7 +112,7 @@ class Fmu(Closable, NamedScalars):
             self._remove()
 
     def places(self, names: Iterable[str]) -> list[Place]:
-        """Where the values of scalars stand."""
+        """Positions of the values of scalars."""
         return [self._places[n] for n in names]
 
     def initialise(self, start: Mapping[str, Value], start_time: float = 0.0) -> None:
@@ -269,7 +269,7 @@ class Fmu(Closable, NamedScalars):
 
     @contextmanager
     def _told(self, what: str, kind: type[HostError] = HostError) -> Iterator[None]:
-        """What the FMU refuses is an error with what it said."""
+        """A context that turns a refusal of the FMU into an error with its messages."""
         try:
             yield
         except FMICallException as error:

@@ -1,4 +1,4 @@
-"""Which FMU a command takes: a file, or that of a car, which is built for this machine when it is needed and kept."""
+"""Finds the FMU of a command: a given file, or that of a car, which is built when needed and cached."""
 
 import time
 from collections.abc import Callable
@@ -16,7 +16,7 @@ CAR = "prototype"
 
 @dataclass(frozen=True)
 class FoundFmu:
-    """An FMU and where it comes from."""
+    """An FMU and its source."""
 
     path: Path
     built: float = 0.0

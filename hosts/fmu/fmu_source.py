@@ -41,11 +41,11 @@ class FmuSource:
 
     @classmethod
     def of(cls, fmu: _Opened) -> FmuSource:
-        """That of an FMU that is open."""
+        """The source of an open FMU."""
         return cls(fmu.path.absolute(), fmu.aliases if isinstance(fmu, NamedFmu) else Aliases())
 
     def at(self, path: Path) -> FmuSource:
-        """The same of a copy."""
+        """The source of a copy of the FMU."""
         return replace(self, path=path)
 
     @property
@@ -55,7 +55,7 @@ class FmuSource:
 
     @property
     def constants(self) -> Mapping[str, float]:
-        """Of the alias file, by our names."""
+        """Constants of the alias file, by our names."""
         return self.names.constants
 
     @property
@@ -65,7 +65,7 @@ class FmuSource:
 
     @property
     def count(self) -> int:
-        """How many variables have a name of ours."""
+        """Number of variables with a name of ours."""
         return len(self.names.aliases) + len(self.names.derived)
 
     def called(self, theirs: Sequence[str]) -> tuple[str, ...]:
@@ -129,7 +129,7 @@ class LoadedFmu:
         self._fmu: Fmu | None = None
 
     def close(self) -> None:
-        """Unload it."""
+        """Unload the FMU."""
         if self._fmu is not None:
             fmu, self._fmu = self._fmu, None
             fmu.close()

@@ -1,4 +1,4 @@
-"""What an FMU draws: the scene in its resources, with roads read from their files."""
+"""The drawing of an FMU: the scene in its resources, with roads read from their files."""
 
 from collections.abc import Mapping
 from pathlib import Path

@@ -44,7 +44,7 @@ def _hint(variable: Variable, values: NDArray[np.float64]) -> str:
     if largest <= CLIPPED * limit:
         return "; it may be clipped by a factor or an offset."
     mistakes = misread(variable.unit or "1")
-    found = [
+    results = [
         typeset(m.unit)
         for m in mistakes
         if m.taken == mistakes[0].taken  # the unit of the input: values in that are no mistake
@@ -52,4 +52,4 @@ def _hint(variable: Variable, values: NDArray[np.float64]) -> str:
         and m.factor * float(values.max()) <= high
         and m.factor * largest >= LEAST * limit
     ]
-    return f"; it looks like {' or '.join(found)}." if found else "; is its unit right?"
+    return f"; it looks like {' or '.join(results)}." if results else "; is its unit right?"

@@ -97,8 +97,10 @@ class Instance:
             if resources is not None:
                 three = self.slave.fmi3InstantiateCoSimulation
                 self.slave.fmi3InstantiateCoSimulation = lambda *a: three(*a[:2], resources.encode(), *a[3:])
-            asked = inputs_within_steps(description)
-            within = {"intermediateUpdate": self._update, "requiredIntermediateVariables": asked} if asked else {}
+            requested = inputs_within_steps(description)
+            within = (
+                {"intermediateUpdate": self._update, "requiredIntermediateVariables": requested} if requested else {}
+            )
             self._instantiate(logMessage=log, **within)
             return
         self.slave = _marked(marked("dlopen", FMU2Slave)(**arguments))
@@ -146,16 +148,16 @@ class Instance:
     def set(self, values: Mapping[Place, Value]) -> None:
         """Set variables of any type."""
         for kind in dict.fromkeys(place.type for place in values):
-            found: dict[int, list[Any]] = {}
+            results: dict[int, list[Any]] = {}
             for place, value in values.items():
                 if place.type == kind:
-                    if place.reference not in found:
-                        found[place.reference] = self._arrays.row(place)
-                    found[place.reference][place.item] = value
+                    if place.reference not in results:
+                        results[place.reference] = self._arrays.row(place)
+                    results[place.reference][place.item] = value
             getattr(self.slave, f"set{self._suffix(kind)}")(
-                list(found), [self._type(kind)(value) for row in found.values() for value in row]
+                list(results), [self._type(kind)(value) for row in results.values() for value in row]
             )
-            self._arrays.keep(found)  # nothing of what was refused
+            self._arrays.keep(results)  # nothing of what was refused
 
     def _suffix(self, kind: str) -> str:
         """The end of the names of the functions of a type."""

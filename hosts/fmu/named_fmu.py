@@ -111,8 +111,8 @@ class NamedFmu(NamedScalars):
 
     def _reader_of_derived(self, names: Sequence[str]) -> Callable[[NDArray[np.float64]], None]:
         read_outputs = self.reader(self._outputs)
-        there = (*self._inputs, *self._outputs, *self._derivation.names)
-        order = [there.index(n) for n in names]
+        present = (*self._inputs, *self._outputs, *self._derivation.names)
+        order = [present.index(n) for n in names]
         inputs = len(self._inputs)
         row = np.empty(inputs + len(self._outputs))
 
@@ -155,9 +155,9 @@ class NamedFmu(NamedScalars):
         self, names: Sequence[str], time: NDArray[np.float64], values: NDArray[np.float64]
     ) -> Mapping[str, NDArray[np.float64]]:
         """Derived columns of a whole run, in which rates know the next row. `values`: shape (n, len(names))."""
-        there = [k for k, name in enumerate(names) if name not in self.derived]
-        derivation = Derivation(self.aliases.derived, [names[k] for k in there])
-        return dict(zip(derivation.names, derivation.record(time, values[:, there]).T, strict=True))
+        present = [k for k, name in enumerate(names) if name not in self.derived]
+        derivation = Derivation(self.aliases.derived, [names[k] for k in present])
+        return dict(zip(derivation.names, derivation.record(time, values[:, present]).T, strict=True))
 
     def why_missing(self, name: str) -> str:
         """Why there is no variable of one of our names, in a sentence; empty where nothing is known."""

@@ -1,4 +1,4 @@
-"""Work with an FMU in a process of its own, which its library may take down."""
+"""Runs work with an FMU in a process of its own, so that a crash of its library is only an error."""
 
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import closing

@@ -1,4 +1,4 @@
-"""What a parameter set sets in an FMU: its values, converted into the units of the FMU."""
+"""Settings of an FMU from a parameter set, converted into the units of the FMU."""
 
 from pathlib import Path
 

@@ -20,7 +20,7 @@ TEXTS = ("String", "Binary")
 
 @dataclass(frozen=True)
 class Place:
-    """Where the value of a scalar stands in an FMU."""
+    """Position of the value of a scalar in an FMU."""
 
     reference: int
     type: str

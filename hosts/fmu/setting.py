@@ -1,4 +1,4 @@
-"""A value that a user sets in an FMU, and where it comes from."""
+"""A value that a user sets in an FMU, and its source."""
 
 from dataclasses import dataclass
 from typing import Any

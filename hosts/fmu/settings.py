@@ -1,4 +1,4 @@
-"""What a user sets in an FMU before it starts: by a manoeuvre, parameter sets and the command line, in this order."""
+"""Settings of an FMU before it starts: by a manoeuvre, parameter sets and the command line, in this order."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -49,27 +49,29 @@ class Settings:
         for name, text in values:
             if given.setdefault(name, text) != text:
                 raise HostError(f"{source}: '{name}' is given as {given[name]} and as {text}; give it once.")
-        found = []
+        results = []
         for name, text in given.items():
             variable = self._variables.settable(name, source)
-            found.append(Setting(variable, variable.read(text, source, with_unit=True), source))
-        self._put(found)
-        for v, value in ((s.variable, s.value) for s in found if not s.changes):
+            results.append(Setting(variable, variable.read(text, source, with_unit=True), source))
+        self._put(results)
+        for v, value in ((s.variable, s.value) for s in results if not s.changes):
             self._notes.append((v.name, f"{v.with_unit(value)} as in the FMU ({source})"))
 
     def add_set(self, file: Path) -> None:
         """Values of an SSV file in the units of the FMU; those that are its own replace nothing: a set may list all."""
-        found, source = settings_of_file(file, self._variables), file.name
-        self._put([setting for setting in found if setting.changes])
-        own = {setting.variable.name for setting in found if not setting.changes}
+        results, source = settings_of_file(file, self._variables), file.name
+        self._put([setting for setting in results if setting.changes])
+        own = {setting.variable.name for setting in results if not setting.changes}
         for kept in (setting for setting in self.changes if setting.variable.name in own):
             self._notes.append((kept.variable.name, f"that of {kept.source} stays: in {source} it is as in the FMU"))
-        if not found:
+        if not results:
             self._notes.append((source, "empty: it sets nothing"))
-        elif len(own) == len(found):
+        elif len(own) == len(results):
             self._notes.append((source, f"all {len(own)} values are those of the FMU: it changes nothing"))
         else:
-            self._notes.append((source, f"{len(found)} values, {len(found) - len(own)} of them other than in the FMU"))
+            self._notes.append(
+                (source, f"{len(results)} values, {len(results) - len(own)} of them other than in the FMU")
+            )
 
     def add_wishes(self, fmu_options: FmuOptions, fidelity: float | None = None) -> None:
         """What the command line sets; see `add_numbers`. `fidelity`: of the option ``--fidelity``."""
@@ -103,7 +105,7 @@ class Settings:
         return ", ".join([name, *shown, *more])
 
     def records(self) -> list[dict[str, Any]]:
-        """What was set, for JSON."""
+        """The settings as JSON."""
         return [s.record() for s in self.changes]
 
     def _put(self, settings: Sequence[Setting]) -> None:

@@ -1,4 +1,4 @@
-"""How far the outline of a car stays from the cones of a course."""
+"""Clearance between the outline of a car and the cones of a course."""
 
 import numpy as np
 from numpy.typing import NDArray

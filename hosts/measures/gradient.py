@@ -38,8 +38,8 @@ def gradient(x: NDArray[np.float64], y: NDArray[np.float64], low: float, high: f
     # Where the speed rises evenly, points are far denser at low accelerations; means of equal parts of x are not.
     edges = np.linspace(low, high, max(_FEWEST, min(30, int(chosen.sum()) // 4)) + 1)
     at, mean = (np.asarray(stats.binned_statistic(x[chosen], v[chosen], "mean", edges).statistic) for v in (x, y))
-    there = np.isfinite(at)
-    if there.sum() < _FEWEST - 2:
+    finite = np.isfinite(at)
+    if finite.sum() < _FEWEST - 2:
         return NONE
-    line = stats.linregress(at[there].tolist(), mean[there].tolist())
+    line = stats.linregress(at[finite].tolist(), mean[finite].tolist())
     return Gradient(float(line.slope), float(line.intercept), float(line.stderr))

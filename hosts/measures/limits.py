@@ -43,17 +43,17 @@ def limits_of(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], sou
     `entries`: as the file has them; a name may leave out the test before it where only one measure ends so; `columns`:
     units of all measures. Raises `HostError`: there is no such measure, or the unit is one of another quantity.
     """
-    found: dict[str, Limit] = {}
+    results: dict[str, Limit] = {}
     for name, entry in entries.items():
         where = f"{source}: limits.'{name}'"
         column = column_of(name, columns, where)
-        if column in found:
+        if column in results:
             raise HostError(f"{where} and another limit are both of '{column}'; give one of them.")
         factor = 1.0 if entry.unit is None else conversion(entry.unit, columns[column], f"{where}.unit")
         low = -math.inf if entry.min is None else factor * entry.min
         high = math.inf if entry.max is None else factor * entry.max
-        found[column] = Limit(source.name, low, high)
-    return found
+        results[column] = Limit(source.name, low, high)
+    return results
 
 
 def limits_record(entries: Mapping[str, LimitEntry], columns: Mapping[str, str], source: Path) -> dict[str, Any]:

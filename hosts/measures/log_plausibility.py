@@ -1,4 +1,4 @@
-"""What was understood of a log: whether what belongs together by physics does, and whether its samples are a drive's.
+"""Plausibility of a log: whether related signals agree by physics, and whether the samples are those of a drive.
 
 A mistake in one signal moves all relations that it is in, so that it is named only where undoing it mends them all.
 """
@@ -52,8 +52,8 @@ def _plausibility(
     if not plausibility.outside:  # nothing that a mistake would explain
         return plausibility
     undone = [
-        Mistake(words, frozenset(keys), partial(values, altered), guessed)
-        for words, keys, altered, guessed in _undone(signals, plausibility)
+        Mistake(message, frozenset(keys), partial(values, altered), guessed)
+        for message, keys, altered, guessed in _undone(signals, plausibility)
     ]
     return replace(plausibility, mistakes=undone)
 
@@ -79,10 +79,10 @@ def _undone(signals: Signals, plausibility: Plausibility) -> Iterator[tuple[str,
         if a in signals and b in signals:
             swapped = {a: replace(signals[b], name=a), b: replace(signals[a], name=b)}
             yield f"'{signals[a].source}' and '{signals[b].source}' exchanged", {a, b}, {**signals, **swapped}, False
-    times = [(words, factor, False) for factor, words in TIMES]  # a window of 1 s shows nothing of other clocks
-    for words, factor, guessed in (*times, *_factors(plausibility, ("time",), ())):
+    times = [(message, factor, False) for factor, message in TIMES]  # a window of 1 s shows nothing of other clocks
+    for message, factor, guessed in (*times, *_factors(plausibility, ("time",), ())):
         altered = {n: replace(s, time=factor * s.time) for n, s in signals.items()}
-        yield words if not guessed else f"{words} on the times", {"time"}, altered, guessed
+        yield message if not guessed else f"{message} on the times", {"time"}, altered, guessed
     single = [(n,) for n in (*SPEEDS, *RATES, *WHEELS)]
     wheels = tuple(n for n in WHEELS if n in signals)
     for group in (*single, PATH, *([wheels] if len(wheels) > 1 else [])):
@@ -91,15 +91,15 @@ def _undone(signals: Signals, plausibility: Plausibility) -> Iterator[tuple[str,
         s = signals[group[0]]
         of = "the path" if group == PATH else "all wheels" if len(group) > 1 else f"'{s.source}' ({s.name})"
         known = (*((m.factor, m.words) for m in misread(s.unit)), *RIM * (group[0] in WHEELS))
-        for words, factor, guessed in _factors(plausibility, group, known):
+        for message, factor, guessed in _factors(plausibility, group, known):
             altered = {n: replace(signals[n], values=factor * signals[n].values) for n in group}
-            yield f"{words} of {of}", set(group), {**signals, **altered}, guessed
+            yield f"{message} of {of}", set(group), {**signals, **altered}, guessed
         if len(group) == 1:
             yield from _moved(signals, s, of, plausibility)
     if "chassis.y" in signals:
         y = signals["chassis.y"]
-        words = f"the other sign of '{y.source}' (chassis.y)"
-        yield words, {"chassis.y"}, {**signals, "chassis.y": replace(y, values=-y.values)}, False
+        message = f"the other sign of '{y.source}' (chassis.y)"
+        yield message, {"chassis.y"}, {**signals, "chassis.y": replace(y, values=-y.values)}, False
 
 
 def _exponents(plausibility: Plausibility, part: str, group: Collection[str]) -> Iterator[tuple[Value, int]]:
@@ -119,22 +119,22 @@ def _factors(
 
     A signal in no relation may have any known factor.
     """
-    low, high, there = 0.0, np.inf, False
+    low, high, present = 0.0, np.inf, False
     for v, power in _exponents(plausibility, "", group):
         bounds = v.quantity.near or v.quantity.range(plausibility.kind)
         if bounds is None or not v.value > 0.0:
             continue
         ends = sorted((bound / v.value) ** (1.0 / power) for bound in bounds)
-        low, high, there = max(low, ends[0]), min(high, ends[1]), True
+        low, high, present = max(low, ends[0]), min(high, ends[1]), True
     turned = any(v.value < 0.0 for v, _ in _exponents(plausibility, "_alike", group))
     sign = -1.0 if turned else 1.0
     if turned and low <= 1.0 <= high:
         yield "the other sign", -1.0, False
-    elif not there:
-        yield from ((words, factor, False) for factor, words in known)
+    elif not present:
+        yield from ((message, factor, False) for factor, message in known)
     elif low <= high and not low <= 1.0 <= high:
         middle = float(np.sqrt(low * high))
-        inside = [(words, sign * factor, False) for factor, words in known if low <= factor <= high]
+        inside = [(message, sign * factor, False) for factor, message in known if low <= factor <= high]
         yield from sorted(inside, key=lambda one: abs(np.log(abs(one[1]) / middle)))[:1]
         if not inside:
             yield f"a factor of {sign * middle:.3g} ({low:.3g} to {high:.3g})", sign * middle, True
@@ -147,9 +147,9 @@ def _moved(
     late = [-power * v.value for v, power in _exponents(plausibility, "_late", (s.name,))]
     if late and min(map(abs, late)) > LATE and np.ptp(late) <= 2.0 * LATE:
         delay = float(np.mean(late))
-        words = f"a delay of {delay:.2f} s (within {FINE:g} s) of {of}"
-        yield words, {s.name}, {**signals, s.name: replace(s, time=s.time - delay)}, False
+        message = f"a delay of {delay:.2f} s (within {FINE:g} s) of {of}"
+        yield message, {s.name}, {**signals, s.name: replace(s, time=s.time - delay)}, False
     off = [v.value for v, power in _exponents(plausibility, "_off", (s.name,)) if power < 0]
     if off:
-        words = f"an offset of {-off[-1]:.3g} {typeset(s.unit)} in {of}"
-        yield words, {s.name}, {**signals, s.name: replace(s, values=s.values + off[-1])}, False
+        message = f"an offset of {-off[-1]:.3g} {typeset(s.unit)} in {of}"
+        yield message, {s.name}, {**signals, s.name: replace(s, values=s.values + off[-1])}, False

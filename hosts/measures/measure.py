@@ -11,7 +11,7 @@ from hosts.common.numbers import is_round_off
 
 @dataclass(frozen=True)
 class Limit:
-    """What a measure must keep."""
+    """Limits of a measure."""
 
     source: str
     """Who demands it: standard and clause."""
@@ -35,7 +35,7 @@ class Limit:
 
 @dataclass(frozen=True)
 class Measure:
-    """A number."""
+    """A measure: number, unit, meaning and limit."""
 
     name: str
     """Within its test, such as ``yaw_rate.response_time``; letters, digits, dots and underscores."""

@@ -1,4 +1,4 @@
-"""One period of sinusoidal steering: how late, how much and with which hysteresis a quantity follows."""
+"""One period of sinusoidal steering: delay, gain and hysteresis of the response."""
 
 import math
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from hosts.measures.peak import top
 
 @dataclass(frozen=True)
 class OnePeriod:
-    """What is measured of one quantity."""
+    """Measures of one quantity."""
 
     correlation_lag: float
     """Shift at which it correlates best with the steering, s; positive: later."""

@@ -1,4 +1,4 @@
-"""What belongs together by physics in a log: the same quantity by two ways.
+"""Relations between signals of a log: the same quantity computed in two ways.
 
 A relation is the ratio of two ways to the same quantity, as speed times yaw rate over lateral acceleration, their
 correlation, the delay of one behind the other and the difference of their means.
@@ -17,14 +17,17 @@ from hosts.measures.signal import Signal
 
 Array: TypeAlias = NDArray[np.float64]
 Signals: TypeAlias = Mapping[str, Signal]
-WINDOW, MOST = 1.0, 4000  # s over which rates are compared; windows of a log that are
+WINDOW = 1.0  # s over which rates are compared
+MOST = 4000  # windows of a log that are compared
 LEAST = {"turn": 0.6, "accelerate": 0.3, "move": 2.0, "yaw": 0.03}
 """m/s2, m/s2, m/s, rad/s: of less nothing is said."""
 STILL = {"chassis.ax": LEAST["accelerate"], "chassis.ay": LEAST["turn"], "chassis.wz": LEAST["yaw"]} | {
     "chassis.x": 0.5, "chassis.y": 0.5}  # fmt: skip
 """m/s2, rad/s, m: spreads that are less are those of a car that stands."""
 SPINS = 2.0  # rad/s: a wheel that is faster rolls
-COARSE, FINE, CLEAR = 0.1, 0.02, 0.03  # s between delays that are tried; gain of a correlation by one
+COARSE = 0.1  # s between delays that are tried first
+FINE = 0.02  # s between delays that are tried then
+CLEAR = 0.03  # least gain of a correlation by a delay
 LATEST = 1.0  # s: delay that is looked for
 QUANTITIES = quantities_of("log")
 SPEEDS = ("speed", "chassis.vx")
@@ -45,30 +48,30 @@ RELATIONS: dict[str, dict[str, int]] = {  # exponents of signals and times in th
 
 def log_values(signals: Signals) -> list[Value]:
     """Relations between signals, and how large each is."""
-    found: list[Value] = []
+    results: list[Value] = []
     v = speed_of(signals)
     if v is not None:
-        found += [*_turning(signals, v), *_steering(signals)]
-        found += _rates(signals, "accelerate", signals[v], "chassis.ax", LEAST["accelerate"])
-        found += _way(signals, v)
+        results += [*_turning(signals, v), *_steering(signals)]
+        results += _rates(signals, "accelerate", signals[v], "chassis.ax", LEAST["accelerate"])
+        results += _way(signals, v)
         if (direction := _direction(signals)) is not None:
-            found += _rates(signals, "course", direction, "chassis.wz", LEAST["yaw"])
+            results += _rates(signals, "course", direction, "chassis.wz", LEAST["yaw"])
         for name in WHEELS:
             if name in signals:
                 spin = on_times(signals[name], signals[v].time)
                 moving = (np.abs(signals[v].values) > LEAST["move"]) & (spin != 0.0)  # one that is locked says nothing
                 if moving.sum() > 10:
                     radius = float(np.median(signals[v].values[moving] / spin[moving]))
-                    found.append(Value(QUANTITIES["wheel"], abs(radius), keys_of(signals, v, name), name))
+                    results.append(Value(QUANTITIES["wheel"], abs(radius), keys_of(signals, v, name), name))
     if "chassis.yaw" in signals:
         yaw = signals["chassis.yaw"]
-        found += _rates(signals, "heading", replace(yaw, values=np.unwrap(yaw.values)), "chassis.wz", LEAST["yaw"])
+        results += _rates(signals, "heading", replace(yaw, values=np.unwrap(yaw.values)), "chassis.wz", LEAST["yaw"])
     for key, name in (("speed", v or "speed"), ("ay", "chassis.ay"), ("ax", "chassis.ax"), ("yaw", "chassis.wz")):
         if name in signals and not (key == "speed" and _stood(signals)):
             share = 1.0 if key == "speed" else 0.99
             largest = float(np.quantile(np.abs(signals[name].values), share))
-            found.append(Value(QUANTITIES[key], largest, keys_of(signals, name)))
-    return found
+            results.append(Value(QUANTITIES[key], largest, keys_of(signals, name)))
+    return results
 
 
 def _stood(signals: Signals) -> bool:
@@ -160,11 +163,11 @@ def _compared(
 ) -> Iterator[Value]:
     """Ratio, correlation, offset and delay of two ways to one quantity. `late`: the other with a delay taken off, s."""
     other = late(0.0)
-    spread, there = float(np.std(one)), float(np.std(other))
-    if max(spread, there) < least or min(spread, there) <= 0.0 or len(one) < 6:
+    spread, present = float(np.std(one)), float(np.std(other))
+    if max(spread, present) < least or min(spread, present) <= 0.0 or len(one) < 6:
         return
     values = {
-        "": spread / there,
+        "": spread / present,
         "_alike": _alike(one, other),
         "_off": float(np.mean(one) - np.mean(other)),
         "_late": _delay(one, late),
@@ -194,10 +197,10 @@ def _way(signals: Signals, v: str) -> Iterator[Value]:
     x = signals["chassis.x"]
     y, speed = on_times(signals["chassis.y"], x.time), np.abs(on_times(signals[v], x.time))
     moving = 0.5 * (speed[1:] + speed[:-1]) > LEAST["move"]
-    travelled, way = (
+    travelled, distance = (
         np.hypot(np.diff(x.values), np.diff(y))[moving].sum(),
         (0.5 * np.diff(x.time) * (speed[1:] + speed[:-1]))[moving].sum(),
     )
-    if moving.sum() > 10 and way > 0.0:
+    if moving.sum() > 10 and distance > 0.0:
         keys = keys_of(signals, "chassis.x", "chassis.y", v) | {"time": "the times of the log"}
-        yield Value(QUANTITIES["way"], float(travelled / way), keys)
+        yield Value(QUANTITIES["way"], float(travelled / distance), keys)

@@ -1,4 +1,4 @@
-"""Whether the samples of a log are those of a drive: stretches that stand, values that mean none, drives joined."""
+"""Checks the samples of a log: constant stretches, values that stand for missing ones, joined drives."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -43,15 +43,15 @@ def of_all(signals: Sequence[Signal]) -> Iterator[Value]:
 
 def _clipped(values: Array) -> int:
     """How many samples are at the ends of a range with one size to both sides, which a sensor reaches and stays at."""
-    found = 0
+    result = 0
     for side in (values, -values):
         levels, counts = np.unique(side, return_counts=True)
         if len(levels) < 2 or abs(levels[-1] + levels[0]) > ENDS * levels[-1]:
             return 0
         if counts[-1] < max(FEWEST_EQUAL, PEAK * counts[-2]):
             return 0
-        found += int(counts[-1])
-    return found
+        result += int(counts[-1])
+    return result
 
 
 def _stands(signal: Signal, signals: Signals, v: str) -> float:
@@ -74,8 +74,8 @@ def _changes(signal: Signal, signals: Signals, v: str, begin: float, end: float,
 
     speed, ax, ay, wz, long = of(v), of("chassis.ax"), of("chassis.ay"), of("chassis.wz"), end - begin
     if signal.name in SPEEDS:
-        way = math.hypot(*(float(np.ptp(of(n))) for n in PATH)) if all(len(of(n)) for n in PATH) else value * long
-        slower = way > long * (abs(value) + MOVED["speed"])  # a straight line is the shortest way
+        distance = math.hypot(*(float(np.ptp(of(n))) for n in PATH)) if all(len(of(n)) for n in PATH) else value * long
+        slower = distance > long * (abs(value) + MOVED["speed"])  # a straight line is the shortest way
         return bool(slower) or (len(ax) > 0 and abs(float(ax.mean())) * long > MOVED["speed"])
     if signal.name in WHEELS:
         return len(speed) > 0 and float(np.ptp(speed)) > MOVED["speed"]

@@ -41,9 +41,9 @@ class Scope:
                 self._found[name] = self.evaluate(formula)
             except HostError as error:  # whoever reads it gets the same answer
                 self._found[name] = error
-        if isinstance(found := self._found[name], HostError):
-            raise found
-        return found
+        if isinstance(result := self._found[name], HostError):
+            raise result
+        return result
 
     def inner(self, names: Mapping[str, Any]) -> Scope:
         """A scope with more names, in which formulas are evaluated again."""

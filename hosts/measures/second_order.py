@@ -53,7 +53,7 @@ def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int
         return [NOTHING] * len(responses)
 
     def numerators(p: NDArray[np.float64]) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
-        found, off = [], []
+        results, off = [], []
         for r, n in zip(responses, zeros, strict=True):
             s = 2j * math.pi * r.frequency
             basis = np.stack([s**k for k in range(n + 1)], 1) / _denominator(s, math.exp(p[0]), p[1])[:, None]
@@ -64,9 +64,9 @@ def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int
             both, wanted = np.concatenate([a.real, a.imag]), np.concatenate([b.real, b.imag])
             scale = np.linalg.norm(both, axis=0)
             x = np.linalg.lstsq(both / scale, wanted, rcond=None)[0] / scale
-            found.append(x)
+            results.append(x)
             off.append(both @ x - wanted)
-        return found, np.concatenate(off)
+        return results, np.concatenate(off)
 
     def misfit(p: NDArray[np.float64]) -> NDArray[np.float64]:
         return numerators(p)[1]

@@ -1,4 +1,4 @@
-"""A measured signal."""
+"""A measured signal: values over time with a name and a unit."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class Signal:
     """A measured signal with its own samples."""
 
     name: str
-    """Ours."""
+    """Name of the variable, in our names."""
     source: str
     """Column of the log."""
     unit: str
@@ -31,7 +31,7 @@ class Signal:
 
     @property
     def jumps(self) -> NDArray[np.float64]:
-        """Times that stand twice, s."""
+        """Times that occur twice, s."""
         return np.asarray(self.time[1:][np.diff(self.time) == 0.0])
 
     def between(self, begin: float, end: float) -> Signal:

@@ -6,7 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 G = 9.80665
-_WANTED, _LOWEST, _HIGHEST = 0.3 * G, 0.1 * G, 0.375 * G
+_WANTED = 0.3 * G
+_LOWEST = 0.1 * G
+_HIGHEST = 0.375 * G
 
 
 def angle_by_regression(steering: NDArray[np.float64], acceleration: NDArray[np.float64]) -> float:

@@ -10,9 +10,14 @@ from scipy.integrate import trapezoid
 from scipy.signal import bilinear_zpk, sosfilt, tf2zpk, zpk2sos
 
 # Corners in Hz and quality factors of Wk: band limits, acceleration-velocity transition, upward step.
-_HIGH_PASS, _LOW_PASS = 0.4, 100.0
-_TRANSITION, _TRANSITION_Q = 12.5, 0.63
-_STEP_LOW, _STEP_LOW_Q, _STEP_HIGH, _STEP_HIGH_Q = 2.37, 0.91, 3.35, 0.91
+_HIGH_PASS = 0.4
+_LOW_PASS = 100.0
+_TRANSITION = 12.5
+_TRANSITION_Q = 0.63
+_STEP_LOW = 2.37
+_STEP_LOW_Q = 0.91
+_STEP_HIGH = 3.35
+_STEP_HIGH_Q = 0.91
 LONGEST_STEP = 0.005
 """Between samples, s: with it the weighting is right within 3 % up to 20 Hz, with 2 ms up to 45 Hz."""
 

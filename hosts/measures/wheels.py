@@ -25,7 +25,7 @@ def lifted_wheels(loads: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 def duration(time: NDArray[np.float64], state: NDArray[np.bool_]) -> float:
-    """How long something is so, s.
+    """Duration for which a condition holds, s.
 
     `time`: in s, shape (n,); `state`: at the end of each step, shape (n,); a step counts whole if it ends so.
     """

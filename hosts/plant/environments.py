@@ -48,9 +48,9 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
 
     def _start(self, seed: int | None, options: dict[str, Any] | None, **ranges: tuple[float, float]) -> None:
         """A start whose numbers are drawn by the generator of the environment."""
-        asked = mapping({} if options is None else options, "The options of a start")
+        requested = mapping({} if options is None else options, "The options of a start")
         super().reset(seed=seed)
-        self.car.reset(int(self.np_random.integers(2**31)), **ranges | dict(asked))
+        self.car.reset(int(self.np_random.integers(2**31)), **ranges | dict(requested))
         self._steps = 0
         self.car.read(self._reads, self._now)
 
@@ -162,12 +162,12 @@ class LaneKeeping(LaneEnvironment):
         self._steering = steering
         throttle = min(max(0.3 * (0.5 * (self._speed[0] + self._speed[1]) - float(self._now[3])), 0.0), 1.0)
         refused = self._advance(np.array([steering, throttle]))
-        seen = self._observed()
-        share = float(seen[0]) / (0.5 * self.lane.width)
+        observation = self._observed()
+        share = float(observation[0]) / (0.5 * self.lane.width)
         reward = 1.0 - share**2 - 0.01 * (steering - before) ** 2
         out = abs(share) > 1.0
         ended = self._steps >= self._most or self.lane.way >= self.lane.length - 1.0
-        return seen, reward, bool(out or refused), bool(ended), {"refused": refused} if refused else {}
+        return observation, reward, bool(out or refused), bool(ended), {"refused": refused} if refused else {}
 
 
 class AntiLockBraking(CarEnvironment):

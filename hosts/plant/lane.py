@@ -1,4 +1,4 @@
-"""A lane on the ground, and what a car knows of it: offset, heading error, curvature ahead."""
+"""A lane on the ground, and the position of a car relative to it: offset, heading error, curvature ahead."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from hosts.driving.course import Course
 
 SPACING = 0.5  # m between points of the centre line that the nearest one is looked for among
 REACH = 50.0  # m along the lane, before and behind the last place, within which the nearest point is looked for
-ROUNDS, NEAR = 3, 1e-7  # of Newton's method from there; m, a round that moves less is the last
+ROUNDS = 3  # largest number of iterations of Newton's method from there
+NEAR = 1e-7  # m: the last iteration moves less
 FARTHEST = 1e9  # m, and ways along a lane: what is measured there is still good to a micrometre
 
 
@@ -134,8 +135,8 @@ class Lane:
         s = _numbers(ways, "The ways along a lane")
         s = s % self.length if self.closed else np.clip(s, 0.0, self.length)
         ahead_x, ahead_y, bend_x, bend_y = np.moveaxis(self._line(s), -1, 0)[2:]
-        found: NDArray[np.float64] = (ahead_x * bend_y - ahead_y * bend_x) / np.hypot(ahead_x, ahead_y) ** 3
-        return found
+        results: NDArray[np.float64] = (ahead_x * bend_y - ahead_y * bend_x) / np.hypot(ahead_x, ahead_y) ** 3
+        return results
 
 
 def _numbers(given: ArrayLike, what: str) -> NDArray[np.float64]:

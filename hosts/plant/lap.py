@@ -23,8 +23,8 @@ STRAIGHT, RADIUS, BEGIN, WIDTH = 640.0, 60.0, -20.0, 12.0
 def ring() -> Lane:
     """The centre line of the ring, closed, from the place `start` of the world on."""
     half = STRAIGHT + math.pi * RADIUS
-    way = (np.linspace(0.0, 2.0 * half, 831) - BEGIN) % (2.0 * half)
-    part, back = way % half, way >= half
+    distance = (np.linspace(0.0, 2.0 * half, 831) - BEGIN) % (2.0 * half)
+    part, back = distance % half, distance >= half
     angle = np.maximum(part - STRAIGHT, 0.0) / RADIUS
     x = np.minimum(part, STRAIGHT) + RADIUS * np.sin(angle)
     y = RADIUS * (1.0 - np.cos(angle))
@@ -80,24 +80,24 @@ class ProvingGroundLap(LaneEnvironment):
         ranges = {"initial.speed": self._speed, "initial.y": (-0.3, 0.3), "initial.yaw": (-0.01, 0.01)}
         self._start(seed, options, **ranges)
         self.driven = 0.0
-        seen = self._observed()
+        observation = self._observed()
         self._way = self.lane.way
-        return seen, {}
+        return observation, {}
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """A step; see `gymnasium.Env.step`."""
         self._steering, pedal = self._held(action).tolist()
         refused = self._advance(np.array([self._steering, max(pedal, 0.0), max(-pedal, 0.0)]))
-        seen = self._observed()
+        observation = self._observed()
         made = math.remainder(self.lane.way - self._way, self.lane.length)
         before, self._way, self.driven = self.driven, self.lane.way, self.driven + made
         info: dict[str, Any] = {"refused": refused} if refused else {}
         lap = self.driven >= self.lane.length
         if lap:  # the line is crossed within the step
             info["lap_time"] = self.car.time - (self.driven - self.lane.length) / max(made, 1e-9) * self.car.step_length
-        out = abs(float(seen[0])) > 0.5 * self.lane.width
+        out = abs(float(observation[0])) > 0.5 * self.lane.width
         reward = (self.driven - before) / self.PACE - self.car.step_length - self.OUT * (out or bool(refused))
-        return seen, reward, bool(lap or out or refused), self._steps >= self._most, info
+        return observation, reward, bool(lap or out or refused), self._steps >= self._most, info
 
 
 class _Straightened(Course):
@@ -132,9 +132,9 @@ class LapDriver:
         constants = environment.car.fmu.constants()
         if missing := [name for name in CONSTANTS.values() if name not in constants]:
             raise HostError(f"The driver needs constants that the car does not provide: {', '.join(missing)}.")
-        known = {name: constants[constant] for name, constant in CONSTANTS.items()}
+        known_names = {name: constants[constant] for name, constant in CONSTANTS.items()}
         self.environment, wanted = environment, positive(speed, "The speed of the driver", "m/s")
-        self.driver = CourseFollower(_Straightened(environment.lane), DriverSettings(speed=wanted, **known))
+        self.driver = CourseFollower(_Straightened(environment.lane), DriverSettings(speed=wanted, **known_names))
 
     def act(self, seen: Floats) -> Floats:
         """The action for an observation."""

@@ -5,14 +5,19 @@ from pathlib import Path
 from ali3.reading import is_file
 from hosts.common.errors import HostError
 
-FORMAT, VERSION = "ALi3 recording", 2
+FORMAT = "ALi3 recording"
+VERSION = 2
 
-DESCRIPTION, EVENTS, STATE, STATES = "recording.json", "events.jsonl", "start.state", "states"
+DESCRIPTION = "recording.json"
+EVENTS = "events.jsonl"
+STATE = "start.state"
+STATES = "states"
 
 RESTARTS = ("reset", "upright")
 """Kinds of events with which the FMU starts again."""
 
-REWIND, REFUSED = "rewind", "refused"
+REWIND = "rewind"
+REFUSED = "refused"
 
 
 def is_recording(path: Path) -> bool:

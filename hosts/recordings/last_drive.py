@@ -1,4 +1,4 @@
-"""The last drive of a recording: what led to its end, without what was rewound."""
+"""The last drive of a recording, without the parts that were rewound."""
 
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Makes a manoeuvre, which `ali3 run` repeats, of a recording: its last drive without what was rewound."""
+"""Exports the last drive of a recording as a manoeuvre for `ali3 run`."""
 
 from collections.abc import Callable
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What an FMU is run through where a manoeuvre may be given, and where none is."""
+"""The option ``--manoeuvre``, and the run of an FMU without one."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 
 def manoeuvre_of(fmu: SimulatedFmu, given: str | None, stop_time: float | None) -> Manoeuvre:
-    """What an FMU is run through.
+    """The manoeuvre that an FMU is run through.
 
     `given`: see `hosts.recordings.load_manoeuvre.load_manoeuvre`; without it inputs keep their start values;
     `stop_time`: in s; by default that of the manoeuvre, else that of the FMU's default experiment, else 10 s.

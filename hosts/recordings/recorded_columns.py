@@ -1,4 +1,4 @@
-"""How often columns of a drive are recorded; what lies between their values is found by driving it again."""
+"""Recording intervals of the columns of a drive; values between are computed by repeating the drive."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -41,7 +41,7 @@ def _back_to(event: dict[str, Any]) -> RowKey:
 
 @dataclass(frozen=True)
 class RecordedDrive:
-    """A recording."""
+    """A recording of a drive, as read from its folder."""
 
     folder: Path
     meta: dict[str, Any]
@@ -104,11 +104,11 @@ class RecordedDrive:
             for k in np.flatnonzero(ways < 0):
                 raise HostError(f"{file}: step {counts[k + 1]} stands after {counts[k]}: its parts are out of order.")
             within = np.flatnonzero((ways > 0) & (np.diff(epochs) == 0))
-            found = np.diff(times)[within] / ways[within]
-            for k in np.flatnonzero(~(np.abs(found - self.step) <= _NEAR * np.abs(found))):
+            result = np.diff(times)[within] / ways[within]
+            for k in np.flatnonzero(~(np.abs(result - self.step) <= _NEAR * np.abs(result))):
                 raise HostError(
                     f"{self.folder / DESCRIPTION} says a step of {self.step:g} s; after step {counts[within[k]]} it is "
-                    f"{found[k]:g} s in the rows of {file.name}. It must be that of its table."
+                    f"{result[k]:g} s in the rows of {file.name}. It must be that of its table."
                 )
             last = float(times[-1]), int(counts[-1]), int(epochs[-1])
             missing = np.argwhere(np.isnan(rows.values[:, : len(self.inputs)]))
@@ -148,10 +148,10 @@ class RecordedDrive:
 
     def beginning(self, epoch: int) -> tuple[dict[str, Value] | None, RowKey | None]:
         """Start values of an epoch, or the row it goes back to; `HostError` where its event is not there."""
-        found = self.restart(epoch), self.back_to(epoch)
-        if found == (None, None):
+        results = self.restart(epoch), self.back_to(epoch)
+        if results == (None, None):
             raise HostError(f"{self.folder}: epoch {epoch} begins with neither a start nor a state that was recorded.")
-        return found
+        return results
 
     def restart(self, epoch: int) -> dict[str, Value] | None:
         """Start values of the FMU if it starts again with this epoch, else None."""
@@ -217,8 +217,8 @@ def _events(file: Path) -> list[dict[str, Any]]:
     lines = read_bytes(file, LARGEST_JSON, HostError).split(b"\n")[:-1]
     events = [json_of(line, HostError, f"{file}, line {k},", finite=False) for k, line in enumerate(lines, start=1)]
     for k, event in enumerate(events, start=1):
-        found = event if isinstance(event, dict) else {}
-        words = isinstance(found.get("kind"), str) and isinstance(found.get("text"), str)
-        if not words or not isinstance(found.get("time"), (int, float)):
+        result = event if isinstance(event, dict) else {}
+        message = isinstance(result.get("kind"), str) and isinstance(result.get("text"), str)
+        if not message or not isinstance(result.get("time"), (int, float)):
             raise HostError(f"{file}, line {k} is not an event: it needs a kind, a time and a text.")
     return events

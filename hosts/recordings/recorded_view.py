@@ -62,8 +62,8 @@ def recorded_view(folder: Path, name: str, geometry: Path | None = None) -> tupl
     recording = Recording(scene, time, columns, drive.meta["units"], name, rows.epoch)
     kinds = [event["kind"] for event in drive.events]
     done = {"reset": "reset", "rewind": "rewound", "upright": "set upright"}
-    counts = {words: kinds.count(kind) for kind, words in done.items() if kind in kinds}
-    jumps = [f"{words} {'once' if count == 1 else f'{count} times'}" for words, count in counts.items()]
+    counts = {message: kinds.count(kind) for kind, message in done.items() if kind in kinds}
+    jumps = [f"{message} {'once' if count == 1 else f'{count} times'}" for message, count in counts.items()]
     if jumps:
         recording.notes.append(f"The time is that of the driver; the car was {', '.join(jumps)}.")
     return recording, notes
@@ -73,14 +73,14 @@ def _filled(
     time: NDArray[np.float64], epoch: NDArray[np.int64], values: NDArray[np.float64], held: bool
 ) -> NDArray[np.float64]:
     """A column that goes straight between its recorded values, or is held, within each epoch."""
-    known = np.isfinite(values)
-    if known.all() or not known.any():
+    finite = np.isfinite(values)
+    if finite.all() or not finite.any():
         return values
     made = values.copy()
     for part in np.split(np.arange(len(time)), np.flatnonzero(np.diff(epoch)) + 1):
-        there = part[known[part]]
-        if len(there) and held:
-            made[part] = values[there[np.maximum(np.searchsorted(there, part, side="right") - 1, 0)]]
-        elif len(there):
-            made[part] = np.interp(time[part], time[there], values[there])
+        present = part[finite[part]]
+        if len(present) and held:
+            made[part] = values[present[np.maximum(np.searchsorted(present, part, side="right") - 1, 0)]]
+        elif len(present):
+            made[part] = np.interp(time[part], time[present], values[present])
     return made

@@ -1,4 +1,4 @@
-"""Records what goes into a car's FMU and what comes out, so that it can be repeated bit for bit.
+"""Records the inputs and outputs of a car's FMU, so that a drive can be repeated bit for bit.
 
 A recording is a folder: `recording.json` says what was driven, `inputs_outputs.parquet` (or `.csv`) has a row for every
 step, `events.jsonl` a line for every event, `start.state` the state of the FMU where the recording begins with one, and
@@ -44,7 +44,7 @@ def recording_meta(
     seed: int | None = None,
     world: str | None = None,
 ) -> dict[str, Any]:
-    """What a recording says of the drive.
+    """The metadata of a recording.
 
     Parameters
     ----------
@@ -141,8 +141,8 @@ class Recorder(Closable):
         check_new(folder)
         make_folder(folder)
         if table is None and find_spec("pyarrow") is None:
-            words = missing_package("pyarrow")
-            self.told.append(f"The recording is written as CSV, which takes three times the room: {words}")
+            message = missing_package("pyarrow")
+            self.told.append(f"The recording is written as CSV, which takes three times the room: {message}")
             table = "csv"
         self.folder = folder
         self._every = [1 if every is None else every[name] for name in names]
@@ -200,8 +200,8 @@ class Recorder(Closable):
         what the first row begins with in place of a start.
         """
         file = self.folder / STATE if count is None else self.folder / STATES / f"{epoch}-{count}.state"
-        with atomic_file(file) as made:
-            made.write_bytes(content)
+        with atomic_file(file) as temporary:
+            temporary.write_bytes(content)
 
     def flush(self) -> None:
         """Write what is held to the disk."""

@@ -1,4 +1,4 @@
-"""Repeats a recording through the FMU and compares every bit that comes out."""
+"""Repeats a recording through the FMU and compares every bit of its outputs."""
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -22,7 +22,7 @@ from hosts.recordings.tables import Rows
 
 @dataclass(frozen=True)
 class Difference:
-    """A value that came out otherwise."""
+    """A value that differs in the replay."""
 
     count: int
     """Steps up to its row."""
@@ -42,7 +42,7 @@ class Difference:
 
 @dataclass
 class Replayed:
-    """What a replay found."""
+    """The result of a replay."""
 
     rows: int = 0
     """That were compared."""
@@ -191,12 +191,12 @@ def replay(
 
 def _replayed(task: tuple[RecordedDrive, Path], progress: Callable[[int], None]) -> Replayed:
     drive, fmu = task
-    made = Replayed()
+    replayed = Replayed()
     outputs = drive.names[len(drive.inputs) :]
-    seen: set[str] = set()
+    visited: set[str] = set()
     count, time = 0, 0.0
     with Repeater(drive, fmu) as repeater:
-        made.notes = repeater.notes
+        replayed.notes = repeater.notes
         epoch = None
         for rows in drive.unbroken():
             steps = repeater.follow(rows)
@@ -207,21 +207,21 @@ def _replayed(task: tuple[RecordedDrive, Path], progress: Callable[[int], None])
                 try:
                     repeated = np.array(next(steps))
                 except StepRefusedError as error:
-                    made.notes.append(f"The FMU refused the step at {time:g} s: {error}")
-                    made.first.append(Difference(count, time, "step", 1.0, 0.0))
-                    made.different += 1
-                    return made
+                    replayed.notes.append(f"The FMU refused the step at {time:g} s: {error}")
+                    replayed.first.append(Difference(count, time, "step", 1.0, 0.0))
+                    replayed.different += 1
+                    return replayed
                 count, time = int(rows.steps[k]), float(rows.time[k])
-                made.rows += 1
+                replayed.rows += 1
                 other = _other_bits(np.where(known[k], recorded[k], repeated), repeated)
-                made.different += bool(len(other))
+                replayed.different += bool(len(other))
                 for j in other:
-                    if outputs[j] not in seen:
-                        seen.add(outputs[j])
-                        made.first.append(Difference(count, time, outputs[j], recorded[k, j], repeated[j]))
-            progress(made.rows)
-        _last_refusal(drive, repeater, made, count, time)
-    return made
+                    if outputs[j] not in visited:
+                        visited.add(outputs[j])
+                        replayed.first.append(Difference(count, time, outputs[j], recorded[k, j], repeated[j]))
+            progress(replayed.rows)
+        _last_refusal(drive, repeater, replayed, count, time)
+    return replayed
 
 
 def _last_refusal(drive: RecordedDrive, repeater: Repeater, made: Replayed, count: int, time: float) -> None:

@@ -88,10 +88,10 @@ def blocks_of(folder: Path, names: Sequence[str]) -> Iterator[Rows]:
 def _after(blocks: Iterator[Rows], count: int) -> Iterator[Rows]:
     """All but so many first rows."""
     for rows in blocks:
-        left = max(0, count - len(rows))
+        remaining = max(0, count - len(rows))
         if count < len(rows):
             yield rows.chosen(slice(count, None))
-        count = left
+        count = remaining
 
 
 def _check_names(file: Path, found: Sequence[str], names: Sequence[str]) -> None:
@@ -114,8 +114,8 @@ def parquet_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:
                 time, count, epoch, *values = (column.to_numpy(zero_copy_only=False) for column in batch.columns)
                 yield Rows(time, count, epoch, np.column_stack(values) if values else np.zeros((len(time), 0)))
     except (pa.ArrowException, OSError, UnicodeDecodeError) as error:
-        words = reason(error) if isinstance(error, OSError) else str(error)
-        raise HostError(f"{file} cannot be read as Parquet: {one_line(words).rstrip('.')}.") from None
+        message = reason(error) if isinstance(error, OSError) else str(error)
+        raise HostError(f"{file} cannot be read as Parquet: {one_line(message).rstrip('.')}.") from None
 
 
 def _csv_blocks(file: Path, names: Sequence[str]) -> Iterator[Rows]:

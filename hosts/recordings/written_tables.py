@@ -47,8 +47,8 @@ class ParquetTable:
 
     def write(self, rows: Rows) -> None:
         self._count += 1
-        with atomic_file(self._parts / f"{self._count:06d}{self.suffix}") as made:
-            self._write([rows], made, write_statistics=False, store_schema=False)  # of a part the larger half
+        with atomic_file(self._parts / f"{self._count:06d}{self.suffix}") as temporary:
+            self._write([rows], temporary, write_statistics=False, store_schema=False)  # of a part the larger half
 
     def close(self, progress: Callable[[float], object]) -> None:
         def blocks() -> Iterator[Rows]:
@@ -63,8 +63,8 @@ class ParquetTable:
             if held:
                 yield joined(held, 0)
 
-        with atomic_file(self._folder / f"{TABLE}{self.suffix}") as made:
-            self._write(blocks(), made)
+        with atomic_file(self._folder / f"{TABLE}{self.suffix}") as temporary:
+            self._write(blocks(), temporary)
         shutil.rmtree(self._parts, ignore_errors=True)
 
     def _write(self, blocks: Iterator[Rows] | Sequence[Rows], file: Path, **more: bool) -> None:

@@ -1,4 +1,4 @@
-"""What pages of plots are put together from."""
+"""Panels of which pages of plots are composed."""
 
 from collections.abc import Sequence
 from textwrap import wrap
@@ -19,8 +19,8 @@ def table_of(axes: Axes, rows: Sequence[tuple[str, str]]) -> None:
     lines = [(what if k == 0 else "", part) for what, value in rows for k, part in enumerate(wrap(value, _CHARACTERS))]
     n = max(len(lines), 10)
     for k, line in enumerate(lines):
-        for x, words, colour in zip((0.0, 0.42), line, ("#555555", BLACK), strict=True):
-            text = axes.text(x, 1.0 - (k + 0.5) / n, words, transform=axes.transAxes, va="center", fontsize=8)
+        for x, message, colour in zip((0.0, 0.42), line, ("#555555", BLACK), strict=True):
+            text = axes.text(x, 1.0 - (k + 0.5) / n, message, transform=axes.transAxes, va="center", fontsize=8)
             text.set(color=colour, in_layout=False)  # or the layout leaves its width free beside all panels
 
 

@@ -29,7 +29,7 @@ def result_paths(out: Path, stem: str) -> tuple[Path, Path, Path]:
 
 def write_csv(result: Result, file: Path) -> None:
     """Time, inputs and outputs as a table in FMPy's format. `file`: its folder is made if it is not there."""
-    with atomic_file(file) as made, made.open("w", newline="", encoding="utf-8") as stream:
+    with atomic_file(file) as temporary, temporary.open("w", newline="", encoding="utf-8") as stream:
         csv.writer(stream, quoting=csv.QUOTE_NONNUMERIC).writerow(["time", *result.names])
         for t, row in zip(result.time.tolist(), result.values.tolist(), strict=True):
             stream.write(",".join(map(repr, (t, *row))) + "\r\n")  # as the writer does, in two thirds of its time
@@ -45,7 +45,7 @@ def write_record(
     driver: Driver | None = None,
     names: Mapping[str, tuple[str, float, float]] | None = None,
 ) -> None:
-    """What was run, and what was set in the FMU, as JSON.
+    """Write the record of a run and of the settings of its FMU as JSON.
 
     Parameters
     ----------

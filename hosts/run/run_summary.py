@@ -1,4 +1,4 @@
-"""The numbers of a run that a person asks for first."""
+"""The key figures of a run."""
 
 from collections.abc import Sequence
 
@@ -30,7 +30,8 @@ _OTHER_WORKS = {
 _COSTLY = ("stress.", "bending_moment.")
 _ERROR = "solver.energy_error"
 # An error of the steps beside the largest of such a work, in kJ, that is told: a held input gives the most of it.
-_OPEN, _LEAST_OPEN = 0.01, 1e-4
+_OPEN = 0.01
+_LEAST_OPEN = 1e-4
 
 
 def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ()) -> list[tuple[str, str]]:
@@ -83,9 +84,9 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
     if "solver.halvings" in result:
         rows.append(("steps repeated in halves", f"{result['solver.halvings'][-1]:.0f}"))
     if "solver.capped_steps" in result and result["solver.capped_steps"][-1] > 0:
-        left = 1e3 * result["solver.capped_residual"].max() if "solver.capped_residual" in result else float("nan")
+        remaining = 1e3 * result["solver.capped_residual"].max() if "solver.capped_residual" in result else float("nan")
         count = f"{result['solver.capped_steps'][-1]:.0f}"
-        rows.append(("steps ended at the limit of iterations", f"{count}, off by at most {left:.2g} mm"))
+        rows.append(("steps ended at the limit of iterations", f"{count}, off by at most {remaining:.2g} mm"))
     if any(name.startswith(_COSTLY) and result[name].any() for name in result.names):
         fewer = "" if interval > 1.5 * step else "; --interval reads fewer"
         rows.append(("stresses and moments", f"read every {1e3 * interval:g} ms{fewer}"))

@@ -1,4 +1,4 @@
-"""Who may talk to the server: whoever has the token, and of pages those that came from it."""
+"""Access control of the server: clients with the token, and pages that it has served."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _LOCAL_NAMES = ("localhost",)
 
 @dataclass(frozen=True)
 class AccessControl:
-    """What a request must bring."""
+    """The token and origins that a request is checked against."""
 
     address: str
     """That the server listens on."""
@@ -63,8 +63,8 @@ class AccessControl:
 
 
 def _is_local(name: str) -> bool:
-    found = _address(name)
-    return name in _LOCAL_NAMES if found is None else found.is_loopback
+    result = _address(name)
+    return name in _LOCAL_NAMES if result is None else result.is_loopback
 
 
 def _address(name: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:

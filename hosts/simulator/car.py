@@ -1,4 +1,4 @@
-"""The car in a process of its own: it takes inputs and commands, and gives its state; neither side waits."""
+"""The car as the main process sees it: sends inputs and commands to its process and reads its state without waiting."""
 
 import math
 import threading
@@ -26,7 +26,9 @@ __all__ = ["Car", "CarSettings", "CarState", "Event", "StepTimes"]
 
 SLOWEST = 0.05
 """Least speed of slow motion, simulated over wall seconds."""
-_ROW_SECONDS, _LEAST_ROWS, _MOST_ROW_BYTES = 8.0, 2000, 1 << 24
+_ROW_SECONDS = 8.0
+_LEAST_ROWS = 2000
+_MOST_ROW_BYTES = 1 << 24
 
 
 class Car(Closable):

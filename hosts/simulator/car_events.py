@@ -1,4 +1,4 @@
-"""What a car is started with, and what it reports."""
+"""Settings, states and events that pass between the car's process and the main process."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hosts.simulator.shared_values import MOMENT
 
 @dataclass(frozen=True)
 class CarSettings:
-    """What a car is started with."""
+    """Settings of the start of a car."""
 
     fmu: Path
     """Of FMI 2.0, co-simulation."""

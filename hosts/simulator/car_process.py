@@ -23,7 +23,8 @@ from hosts.simulator.shared_values import LOST_MESSAGES, LOST_ROWS, RECORDING, S
 from hosts.simulator.step_times import TimesRecord
 
 COMMANDS = ("run", "pause", "step", "speed", "reset", "rewind", "upright", "restart")
-_IDLE, _IDLE_UNPACED = 0.004, 0.0005
+_IDLE = 0.004
+_IDLE_UNPACED = 0.0005
 _WORST = 0.5
 _STATE_EVERY = 20.0  # s of simulated time between states of a recording
 
@@ -81,8 +82,8 @@ class Loop:
         """Until it is to stop."""
         if self._order.priority and self._order.paced:
             self._tell(Notice("priority", ask_for_priority()))
-        for told in self._notices.of_step(self._car):
-            self._tell(told)
+        for notices in self._notices.of_step(self._car):
+            self._tell(notices)
         gc.collect()
         gc.freeze()
         gc.disable()
@@ -125,11 +126,11 @@ class Loop:
         if self._to_do and not self._running:
             self._to_do -= 1
         self._row()
-        words = self._pace.done()
-        if words:
-            self._tell(Notice("behind", words))
-        for told in self._notices.of_step(car):
-            self._tell(told)
+        message = self._pace.done()
+        if message:
+            self._tell(Notice("behind", message))
+        for notices in self._notices.of_step(car):
+            self._tell(notices)
         self._publish()
 
     def _refuse(self, error: StepRefusedError) -> None:
@@ -177,17 +178,17 @@ class Loop:
     def _jump(self, name: str, value: float, request: float) -> None:
         car = self._car
         if name == "reset":
-            told = car.reset(request)
+            observation = car.reset(request)
         elif name == "upright":
-            told = car.upright(request)
+            observation = car.upright(request)
         elif name == "restart":
-            told = car.restart(received(), request)  # too large for the shared memory
+            observation = car.restart(received(), request)  # too large for the shared memory
         else:
-            told = car.rewind(value)
+            observation = car.rewind(value)
         if self._refused:
             self._running, self._runs_on, self._refused = self._runs_on, False, False
         self._to_do = 0
-        self._tell(told)
+        self._tell(observation)
 
     def _row(self) -> None:
         """Hand a row to the recording; where there is no room the loop does not wait."""

@@ -13,8 +13,10 @@ from typing import Protocol
 
 # Beyond this a sleep wakes too late; what is left is waited for in a loop, s.
 _SPIN = 0.0005
-_CLOCK_MONOTONIC, _TIMER_ABSTIME = 1, 1
-_PR_SET_TIMERSLACK, _SLACK = 29, 1
+_CLOCK_MONOTONIC = 1
+_TIMER_ABSTIME = 1
+_PR_SET_TIMERSLACK = 29
+_SLACK = 1
 _WAITS = "/proc/thread-self/schedstat"  # ran, waited, turns; of the thread that opens it
 
 

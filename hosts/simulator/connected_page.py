@@ -1,4 +1,4 @@
-"""A page that is connected: frames in flight, texts that wait, and how much it may say."""
+"""A connected page: frames in flight, queued texts, and the limit of its message rate."""
 
 import time
 from collections import deque

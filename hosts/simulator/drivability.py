@@ -1,4 +1,4 @@
-"""Whether an FMU is a car that can be driven, in words where it is not."""
+"""Checks whether an FMU is a car that can be driven; if not, says why."""
 
 from collections.abc import Collection, Sequence
 from pathlib import Path

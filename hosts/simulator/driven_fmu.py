@@ -14,7 +14,8 @@ from hosts.fmu.fmu import Fmu, StepRefusedError
 from hosts.simulator.inputs import Inputs
 from hosts.simulator.saved_states import Mark, SavedStates
 
-_POSE, _INITIAL = ("chassis.x", "chassis.y", "chassis.yaw"), ("initial.x", "initial.y", "initial.yaw")
+_POSE = ("chassis.x", "chassis.y", "chassis.yaw")
+_INITIAL = ("initial.x", "initial.y", "initial.yaw")
 _SPEED = "initial.speed"
 _MOVING = ("initial.lateral_speed", "initial.yaw_rate", "initial.settling")
 _AT_REST = (*_INITIAL, _SPEED)
@@ -22,7 +23,7 @@ _AT_REST = (*_INITIAL, _SPEED)
 
 @dataclass(frozen=True)
 class Notice:
-    """What happened, for the events."""
+    """A notice about a step, for the list of events."""
 
     kind: str
     text: str
@@ -165,9 +166,9 @@ class DrivenFmu:
         if self._poses:
             own = self._fmu.start_values(_INITIAL)
             x, y, yaw = (float(start.get(n, v)) for n, v in zip(_INITIAL, own, strict=True))
-            there = [float(self.values[self.names.index(n)]) for n in _POSE]
-            dx, dy, cos, sin = there[0] - x, there[1] - y, math.cos(yaw), math.sin(yaw)
-            self._offset = (dx * cos + dy * sin, dy * cos - dx * sin, there[2] - yaw)
+            present = [float(self.values[self.names.index(n)]) for n in _POSE]
+            dx, dy, cos, sin = present[0] - x, present[1] - y, math.cos(yaw), math.sin(yaw)
+            self._offset = (dx * cos + dy * sin, dy * cos - dx * sin, present[2] - yaw)
 
     def _new_start(self, start: Mapping[str, Value], begin: float, request: float) -> None:
         """A new start of the FMU; if it is refused, the FMU is where it was."""

@@ -22,7 +22,7 @@ _STILL = 10.0  # s: a car that computes no step for so long is given up
 
 
 class HeadlessDriver(Protocol):
-    """Who moves the inputs."""
+    """The source of the inputs when no page drives."""
 
     def act(self, time: float, observation: Mapping[str, float]) -> Mapping[str, float]:
         """Values of inputs at a time, s."""
@@ -59,8 +59,8 @@ class OfManoeuvre:
             self._driver = make_driver(manoeuvre.driver, car.constants)
 
     def act(self, time: float, observation: Mapping[str, float]) -> Mapping[str, float]:
-        found = self._manoeuvre.at(time)
-        return found if self._driver is None else {**found, **self._driver.act(time, observation)}
+        result = self._manoeuvre.at(time)
+        return result if self._driver is None else {**result, **self._driver.act(time, observation)}
 
 
 def manoeuvre_of(given: str | None, tell: Callable[[str], None]) -> Manoeuvre | None:

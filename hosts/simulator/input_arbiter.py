@@ -1,4 +1,4 @@
-"""Who has the word at each input: pages and devices want values, and one of them moves the input."""
+"""Arbitrates between the sources of each input: pages and devices request values, and one of them moves the input."""
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
@@ -23,7 +23,7 @@ Others, such as the selector, stay."""
 
 @dataclass
 class _Input:
-    """What the sources want of one input."""
+    """Requests of the sources for one input."""
 
     owner: str = ""
     sent: float | None = None

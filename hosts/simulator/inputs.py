@@ -1,4 +1,4 @@
-"""Inputs that move towards what is wanted by at most so much per second of simulated time."""
+"""Rate-limited inputs: each moves towards its requested value by at most a given rate in simulated time."""
 
 from collections.abc import Sequence
 
@@ -21,7 +21,7 @@ class Inputs:
         self._oldest_request = 0.0
 
     def want(self, wants: NDArray[np.float64]) -> None:
-        """Take over what is wanted.
+        """Set the requested values of inputs.
 
         `wants`: for each input its value, largest change per second (infinite: at once) and the number of the request,
         shape (3 n,); requests from before the last `restart` do not count.

@@ -1,4 +1,4 @@
-"""What makes a step late: that it ran too long, other programs in its place, or a processor that stood still.
+"""Causes of late steps: a long step, other programs on the processor, or a stalled processor.
 
 A virtual machine's host takes processors away from it ("steal"); no priority within the machine prevents that. Linux
 tells what a thread ran, with interrupts and what a host takes untold, and how long it was ready while others ran.
@@ -18,7 +18,7 @@ class LateCauses:
         self.restart()
 
     def restart(self) -> None:
-        """What the thread did until now belongs to no step."""
+        """Start counting again: earlier work of the thread belongs to no step."""
         self._before, self._cause = self._clock.spent(), ""
 
     def of_step(self, elapsed: float, period: float, late: bool) -> str:

@@ -1,4 +1,4 @@
-"""What is said of the steps: messages of the FMU and work that a limit cut short, at most once in a while."""
+"""Notices about steps: messages of the FMU and steps that reached a limit of iterations, limited in rate."""
 
 from collections.abc import Sequence
 
@@ -15,7 +15,8 @@ _EVERY = 1.0
 _WORTH = 1e-4
 """Of a residual that is left nothing is said up to here, m."""
 _LIMIT = "solver.step_iterations"
-_COUNT, _RESIDUAL = "solver.capped_steps", "solver.capped_residual"
+_COUNT = "solver.capped_steps"
+_RESIDUAL = "solver.capped_residual"
 
 
 class Notices:

@@ -33,7 +33,7 @@ _EVERYWHERE = ("0.0.0.0", "::")
 
 @dataclass(frozen=True)
 class Opened:
-    """Where pages come from."""
+    """A listening socket for pages, and what starts with it."""
 
     listening: socket.socket
     access: AccessControl
@@ -44,7 +44,7 @@ class Opened:
 
     @property
     def address(self) -> str:
-        """What a browser opens."""
+        """The address that a browser opens."""
         host, port = self.listening.getsockname()[:2]
         if host in _EVERYWHERE:
             host = socket.gethostname()

@@ -32,7 +32,7 @@ _EMPTY_SCENE = {"format": "ALi3 scene", "version": 1, "extent": 5.0, "frames": {
 
 @dataclass(frozen=True)
 class DriveRequest:
-    """What the command line says of the car and its world."""
+    """Options of the command line on the car and its world."""
 
     fmu: Path | None
     world: str | None
@@ -51,7 +51,7 @@ class DriveRequest:
 
 @dataclass(frozen=True)
 class Prepared:
-    """A car that can be started."""
+    """A checked car, ready to start."""
 
     fmu: FoundFmu
     description: ModelDescription
@@ -115,9 +115,9 @@ def prepare(asked: DriveRequest, tell: Callable[[str], None]) -> Prepared:
     settings = _settings(asked, source, variables, world)
     inputs = source.called(_names(variables, "input"))
     outputs = source.outputs(_names(variables, "output"))
-    words = not_drivable(fmu.path, inputs, outputs, scene is not None)
-    if words:
-        tell(words)
+    message = not_drivable(fmu.path, inputs, outputs, scene is not None)
+    if message:
+        tell(message)
     for item in [] if scene is None else scene["missing"]:
         tell(f"{item['name']} is not drawn: {item['why'].rstrip('.')}.")
     return Prepared(

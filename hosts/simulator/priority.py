@@ -5,9 +5,13 @@ import os
 import sys
 
 # Above the threads of the kernel's own work at 50 it would delay interrupts.
-_FIFO_PRIORITY, _NICE = 40, -15
-_MCL_CURRENT, _MCL_FUTURE, _MCL_ONFAULT = 1, 2, 4
-_HIGH_PRIORITY_CLASS, _THREAD_PRIORITY_TIME_CRITICAL = 0x80, 15
+_FIFO_PRIORITY = 40
+_NICE = -15
+_MCL_CURRENT = 1
+_MCL_FUTURE = 2
+_MCL_ONFAULT = 4
+_HIGH_PRIORITY_CLASS = 0x80
+_THREAD_PRIORITY_TIME_CRITICAL = 15
 
 
 def ask_for_priority() -> str:

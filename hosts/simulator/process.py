@@ -50,11 +50,11 @@ class Process:
 
     @property
     def folder(self) -> Path | None:
-        """Of the process; it goes with it."""
+        """Temporary folder of the process, removed with it."""
         return self._process.folder
 
     def send(self, start: Mapping[str, Value]) -> None:
-        """New start values."""
+        """Send new start values to the process."""
         self._process.send(dict(start))
 
     def close(self) -> None:
@@ -77,8 +77,8 @@ class Process:
             error = HostError(str(fault))
         else:
             how = end.how if isinstance(end, Lost) else "has ended"
-            words = f"The car's process {how}; start the simulator again."
-            error = FailedFmuError(words if self._started else f"{order.fmu} could not be started. {words}")
+            message = f"The car's process {how}; start the simulator again."
+            error = FailedFmuError(message if self._started else f"{order.fmu} could not be started. {message}")
         if not self._asked:
             self.ended = error
         self._said.put(error)

@@ -1,4 +1,4 @@
-"""What the car's process says and records, brought to the main process."""
+"""Passes messages and records of the car's process to the main process."""
 
 import json
 import threading
@@ -20,7 +20,7 @@ _REMEDY = "What was written so far can be opened; make room, or record into anot
 
 
 class Records(Protocol):
-    """What is needed of `hosts.recordings.recording.Recorder`."""
+    """The interface of `hosts.recordings.recording.Recorder` that is used here."""
 
     told: list[str]
 
@@ -46,7 +46,7 @@ class ProcessMessages:
             self._thread.start()
 
     def events(self) -> list[Event]:
-        """Those since the last call."""
+        """Events since the last call."""
         with self._lock:
             if not self._end.is_set():
                 self._collect()

@@ -1,4 +1,4 @@
-"""What server and page say to each other: frames of numbers one way, checked messages the other."""
+"""The protocol between server and page: binary frames of numbers to the page, checked messages from it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,9 @@ VERSION = 1
 MAGIC = 0x31463341
 """The bytes ``A3F1``, little endian."""
 HEADER = struct.Struct("<4I10d")
-RUNNING, REFUSED, BEHIND = 1, 2, 4
+RUNNING = 1
+REFUSED = 2
+BEHIND = 4
 LARGEST_MESSAGE = 4096
 """Bytes of a message of a page."""
 SOURCES = ("keys", "gamepad", "touch")
@@ -59,7 +61,7 @@ def frame(moment: CarState, step: float) -> bytes:
 
 @dataclass(frozen=True)
 class Want:
-    """What a page wants of inputs."""
+    """A page requests values of inputs."""
 
     source: str
     values: dict[str, tuple[float, float]]
@@ -75,7 +77,7 @@ class Order:
 
 @dataclass(frozen=True)
 class Seen:
-    """The page has a frame."""
+    """The page acknowledges a frame."""
 
     count: float
 
@@ -101,7 +103,7 @@ class WatchDevices:
 
 @dataclass(frozen=True)
 class ForDevices:
-    """What devices are to do; they check it."""
+    """A request to devices, which check its content."""
 
     content: dict[str, Any]
 
@@ -114,16 +116,16 @@ def read_message(data: str | bytes, inputs: Collection[str]) -> Message:
     if not isinstance(data, str):
         raise HostError("A message is text; this one is binary.")
     try:
-        found = json_of(data.encode("utf-8", "surrogatepass"), HostError, "A message")
+        result = json_of(data.encode("utf-8", "surrogatepass"), HostError, "A message")
     except HostError:
         raise HostError("A message is a JSON object; this one cannot be read.") from None
-    if not isinstance(found, dict):
+    if not isinstance(result, dict):
         raise HostError("A message is a JSON object; this one is none.")
-    kind = found.get("type")
+    kind = result.get("type")
     reader = _READERS.get(kind) if isinstance(kind, str) else None
     if reader is None:
         raise HostError(f"A message has the type {_short(kind)}; known are {', '.join(_READERS)}.")
-    return reader(found, inputs)
+    return reader(result, inputs)
 
 
 def _want(found: dict[str, Any], inputs: Collection[str]) -> Want:
@@ -132,7 +134,7 @@ def _want(found: dict[str, Any], inputs: Collection[str]) -> Want:
         raise HostError(f"The source of a request is {_short(source)}; it must be {', '.join(SOURCES)}.")
     if not isinstance(values, dict) or len(values) > _MOST_INPUTS:
         raise HostError(f"The values of a request must be an object of at most {_MOST_INPUTS} inputs.")
-    made = {}
+    results = {}
     for name, pair in values.items():
         if name not in inputs:
             raise HostError(f"The car has no input {_short(name)}; it has {', '.join(inputs) or 'none'}.")
@@ -142,8 +144,8 @@ def _want(found: dict[str, Any], inputs: Collection[str]) -> Want:
         rate = math.inf if pair[1] is None else _number(pair[1], f"The rate for {name}")
         if not rate > 0.0:
             raise HostError(f"The rate for {name} is {rate:g}; it must be positive.")
-        made[name] = (value, rate)
-    return Want(str(source), made)
+        results[name] = (value, rate)
+    return Want(str(source), results)
 
 
 def _order(found: dict[str, Any], inputs: Collection[str]) -> Order:

@@ -1,4 +1,4 @@
-"""Pacing by absolute deadlines: when the next step begins, what is late, and what is done about it."""
+"""Pacing by absolute deadlines: when the next step begins, how late it is, and how lateness is made up."""
 
 from collections import deque
 
@@ -8,7 +8,10 @@ from hosts.simulator.step_times import TimesRecord
 
 MOST_LATE = 0.25
 """A car that is later than this, s, is not hurried on: its schedule is moved to now, and the lost time is reported."""
-_LATE, _AGAIN, _SAID_EVERY, _WINDOW = 0.05, 1.0, 5.0, 1.0
+_LATE = 0.05
+_AGAIN = 1.0
+_SAID_EVERY = 5.0
+_WINDOW = 1.0
 _CHUNK = 0.02
 _PAUSE = 0.001
 

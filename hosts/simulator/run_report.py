@@ -1,4 +1,4 @@
-"""What is said while the simulator runs, and the report at its end."""
+"""Messages while the simulator runs, and the report at its end."""
 
 from __future__ import annotations
 
@@ -64,8 +64,8 @@ class RunReport:
             "settings": prepared.settings.records(),
             "built": prepared.fmu.built,
         }
-        for name, words in prepared.settings.rows():
-            self.tell(f"{name}: {words}")
+        for name, message in prepared.settings.rows():
+            self.tell(f"{name}: {message}")
         self.tell(f"Inputs are held over each step of {1e3 * step:g} ms: they act {500.0 * step:g} ms late on average.")
 
     def ready(self) -> None:

@@ -1,4 +1,4 @@
-"""Saved states of the FMU and the inputs since, so that any step of the last seconds can be gone back to."""
+"""Saved states of the FMU and the inputs since, so that a drive can be rewound to any step of the last seconds."""
 
 from collections import deque
 from dataclasses import dataclass
@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from hosts.fmu.instance import State
 
-SECONDS, EVERY = 30.0, 0.5
+SECONDS = 30.0
+EVERY = 0.5
 # New starts save a state each; more than these shorten what can be rewound in place of filling the memory.
 _MOST_STATES = 200
 # Of the inputs; steps so short, or inputs so many, that they would take more shorten it too.
@@ -17,7 +18,7 @@ _MOST_BYTES = 1 << 26
 
 
 class SavesStates(Protocol):
-    """What is needed of `hosts.fmu.fmu.Fmu`."""
+    """The interface of `hosts.fmu.fmu.Fmu` that is used here."""
 
     def state(self) -> State: ...
     def restore(self, state: State) -> None: ...
@@ -26,7 +27,7 @@ class SavesStates(Protocol):
 
 @dataclass(frozen=True)
 class Mark:
-    """A step of the past."""
+    """A step of the past, by its row and its number of steps since the start."""
 
     count: int
     epoch: int

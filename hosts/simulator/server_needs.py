@@ -1,4 +1,4 @@
-"""What the server needs of devices, and what it hands out."""
+"""The interface of devices for the server, and the files that it serves."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from hosts.common.numbers import Value
 
 
 class ShownDevices(Protocol):
-    """What the server needs of devices; see `hosts.simulator.devices.Devices`."""
+    """The interface of devices for the server; see `hosts.simulator.devices.Devices`."""
 
     def state(self) -> list[dict[str, Any]]: ...
 
@@ -17,7 +17,7 @@ class ShownDevices(Protocol):
 
 @dataclass(frozen=True)
 class Content:
-    """What the server hands out."""
+    """The files and messages that the server sends."""
 
     page: str
     """HTML."""

@@ -23,7 +23,10 @@ STATE_HEAD = Struct("<qq")
 """Count and epoch of the row after which a state was saved."""
 STOP, RECORDING, LOST_ROWS, LOST_MESSAGES = range(4)
 """Places among the flags: asks the car's process to end; somebody takes the rows; what found no room."""
-_FLAGS, _COMMANDS, _MESSAGE_BYTES, _STATE_BYTES = 8, 256, 1 << 18, 1 << 20
+_FLAGS = 8
+_COMMANDS = 256
+_MESSAGE_BYTES = 1 << 18
+_STATE_BYTES = 1 << 20
 _TRIES = 4
 _ORDER = threading.Lock()
 
@@ -129,7 +132,7 @@ class ByteRing:
         self._counters, self._data = counters, data
 
     def put(self, message: bytes) -> bool:
-        """Whether there was room."""
+        """Append a message; returns whether there was room."""
         written, size = int(self._counters[0]), len(self._data)
         record = np.frombuffer(len(message).to_bytes(self._HEAD, "little") + message, np.uint8)
         if written - int(self._counters[1]) + len(record) > size:
@@ -143,7 +146,7 @@ class ByteRing:
         return True
 
     def take(self) -> list[bytes]:
-        """All messages that wait."""
+        """Remove and return all waiting messages."""
         written = int(self._counters[0])
         read = max(int(self._counters[1]), written - len(self._data))
         _fence()
@@ -160,7 +163,7 @@ class ByteRing:
 
 @dataclass(frozen=True)
 class Sizes:
-    """What the layout follows from."""
+    """Sizes that determine the layout of the memory."""
 
     inputs: int
     columns: int

@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from hosts.simulator.late_causes import CAUSES
 
-_FIRST, _DECADES, _PER_DECADE = 1e-6, 7, 40
+_FIRST = 1e-6
+_DECADES = 7
+_PER_DECADE = 40
 BINS = _DECADES * _PER_DECADE + 2
 """Bins of a histogram: below 1 us, 40 in each decade up to 10 s, above."""
 _SCALARS = (
@@ -22,7 +24,8 @@ _SCALARS = (
 _PLACES = {name: k for k, name in enumerate(_SCALARS)}
 TIMES_SIZE = len(_SCALARS) + 2 * BINS
 """Doubles of a record."""
-_COST, _LATENESS = len(_SCALARS), len(_SCALARS) + BINS
+_COST = len(_SCALARS)
+_LATENESS = len(_SCALARS) + BINS
 _QUANTILES = (("median", 0.5), ("p99", 0.99), ("p999", 0.999))
 
 
@@ -177,7 +180,7 @@ class StepTimes:
         return vars(self) | {"factor": self.factor} | spreads
 
     def text(self) -> str:
-        """For a person."""
+        """The times as text."""
         if not self.steps:
             return f"No step was computed; paused for {self.paused:.1f} s."
         ratio = self.simulated / self.wall if self.wall > 0.0 else math.inf

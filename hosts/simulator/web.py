@@ -1,4 +1,4 @@
-"""The side of the server that any program can reach: addresses, requests, and the number of connections."""
+"""HTTP side of the server: addresses, requests, and the limit of connections."""
 
 import asyncio
 import errno
@@ -83,7 +83,7 @@ def listening_socket(address: str, port: int | None) -> socket.socket:
     first = DEFAULT_PORT if port is None else port
     for tried in range(first, min(first + _PORTS_TRIED, 65536)):
         try:
-            found = _bound(address, tried)
+            result = _bound(address, tried)
         except OSError as error:
             if error.errno == errno.EACCES and port is not None:
                 raise HostError(
@@ -93,8 +93,8 @@ def listening_socket(address: str, port: int | None) -> socket.socket:
                 raise HostError(f"The server cannot listen on {address}: {reason(error)}.") from None
             continue
         if port is None or tried == port:
-            return found
-        found.close()
+            return result
+        result.close()
         raise HostError(
             f"The port {port} of {address} is taken by another program; the port {tried} is free: --port {tried}."
         )
@@ -130,25 +130,25 @@ class Web:
             path = ""
         if not path.startswith("/"):
             return connection.respond(http.HTTPStatus.BAD_REQUEST, "The request names no address.\n")
-        found = {name: headers.get_all(name) for name in ("Host", "Origin")}
-        doubled = next((name for name, values in found.items() if len(values) > 1), None)
+        results = {name: headers.get_all(name) for name in ("Host", "Origin")}
+        doubled = next((name for name, values in results.items() if len(values) > 1), None)
         refusal = f"The request says {doubled} several times." if doubled else ""
-        refusal = refusal or self._guard.refusal(request.path, {name: v[0] for name, v in found.items() if v})
+        refusal = refusal or self._guard.refusal(request.path, {name: v[0] for name, v in results.items() if v})
         if refusal:
             return connection.respond(http.HTTPStatus.FORBIDDEN, f"{refusal}\n")
         self._strangers.pop(connection, None)
         if path == DRIVE:
             if pages < MOST_PAGES:
                 return None
-            words = f"{pages} pages are connected, which is as many as this server takes; close one.\n"
-            return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, words)
+            message = f"{pages} pages are connected, which is as many as this server takes; close one.\n"
+            return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, message)
         if path not in self._kinds:
             return connection.respond(http.HTTPStatus.NOT_FOUND, f"There is /, the page, /world and {DRIVE}.\n")
         if len(self._answered) >= MOST_ANSWERS:
-            words = (
+            message = (
                 f"{MOST_ANSWERS} answers are being sent, which is as many as this server sends at once; try again.\n"
             )
-            return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, words)
+            return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, message)
         gzipped = "gzip" in ",".join(headers.get_all("Accept-Encoding"))
         if (path, gzipped) not in self._bodies:
             self._bodies[path, gzipped] = gzip.decompress(self._bodies[path, True])
@@ -180,11 +180,11 @@ class Web:
 
             def data_received(self, data: bytes) -> None:
                 if self.request is None:  # the library takes any method for GET, or none but GET
-                    said = self._method
-                    self._method = (said + data)[:_LONGEST_METHOD]
+                    reported = self._method
+                    self._method = (reported + data)[:_LONGEST_METHOD]
                     method, space, _ = self._method.partition(b" ")
                     if space and method not in (b"GET", b"HEAD"):
-                        if b" " not in said:
+                        if b" " not in reported:
                             self.transport.write(_NOT_ALLOWED)
                             self.transport.write_eof()
                         return

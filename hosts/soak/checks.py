@@ -1,4 +1,4 @@
-"""What a soak test looks at in every step of a drive."""
+"""Checks of a soak test after every step of a drive."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -12,7 +12,9 @@ LARGEST_BALANCE = 0.05
 _SETTLED = 100  # steps of a run before its energy is looked at
 _WORKS = tuple(f"energy.{name}" for name in ("drive", "brakes", "tyres", "dampers", "drag", "ground"))
 _OVERTURNED = 0.3  # of the height of a unit vector that points up in the car
-_LOWEST, _HIGHEST = -5.0, 100.0  # m: a car that is lower has fallen through its road
+# m: a car that is lower has fallen through its road
+_LOWEST = -5.0
+_HIGHEST = 100.0
 
 
 class BadStepError(Exception):

@@ -26,7 +26,7 @@ _TOLD = 5.0  # s simulated between lines of progress
 
 @dataclass(frozen=True)
 class Task:
-    """What is driven."""
+    """The settings of a drive."""
 
     fmu: str
     seed: int
@@ -61,7 +61,7 @@ class Failure:
 
 @dataclass
 class Outcome:
-    """What a drive gave."""
+    """The result of a drive."""
 
     seed: int
     fidelity: int | None

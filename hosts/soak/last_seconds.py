@@ -1,4 +1,4 @@
-"""The last seconds of a drive, kept so that a failure can be repeated from a saved state."""
+"""The last seconds of a drive, stored so that a failure can be repeated from a saved state."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -20,7 +20,7 @@ class _Row(NamedTuple):
 
 
 class _Part(NamedTuple):
-    """A saved state and what followed."""
+    """A saved state and the steps after it."""
 
     state: bytes
     rows: list[_Row]

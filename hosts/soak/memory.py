@@ -16,7 +16,7 @@ class Memory:
         self._samples: list[float] = []
 
     def sample(self) -> None:
-        """Take one."""
+        """Take a sample of the memory."""
         self._samples.append(1e-6 * self._process.memory_info().rss)
 
     def growth(self) -> tuple[float, float, float]:

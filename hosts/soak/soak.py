@@ -62,14 +62,14 @@ def soak(options: argparse.Namespace, prog: str) -> int:
         for fidelity in (fidelities[k % len(fidelities)],)
     ]
     keys = [run_key(path, task, files=_files(task)) for task in tasks]
-    with ResultStore[Outcome](out, Outcome, "drives", options.again) as kept:
-        before = [kept.find(key, key) for key in keys]
+    with ResultStore[Outcome](out, Outcome, "drives", options.again) as store:
+        before = [store.find(key, key) for key in keys]
         outcomes = [made or Outcome(task.seed, task.fidelity) for task, made in zip(tasks, before, strict=True)]
-        left = [place for place, outcome in enumerate(before) if outcome is None]
-        report_resumed(len(tasks) - len(left), len(tasks), "drives")
+        remaining = [place for place, outcome in enumerate(before) if outcome is None]
+        report_resumed(len(tasks) - len(remaining), len(tasks), "drives")
         try:
-            for place in _driven(tasks, outcomes, left, options.jobs or available_cores()):
-                kept.add(keys[place], keys[place], outcomes[place])
+            for place in _driven(tasks, outcomes, remaining, options.jobs or available_cores()):
+                store.add(keys[place], keys[place], outcomes[place])
         finally:  # after Ctrl-C too, of what is done
             print_outcomes(tasks, outcomes, f"{prog} --soak", options.world)
             if options.json is not None:
@@ -104,8 +104,8 @@ def _driven(tasks: Sequence[Task], outcomes: list[Outcome], left: Sequence[int],
     with closing(experiment.results([tasks[place] for place in left], experiment.pool(jobs), driven)) as results:
         for number, _, outcome in results:
             if isinstance(outcome, Lost):
-                lost, words = outcomes[left[number]], f"The process of the drive {outcome.how}."
-                lost.failures.append(Failure("crash", words, -1, lost.simulated, ""))
+                lost, message = outcomes[left[number]], f"The process of the drive {outcome.how}."
+                lost.failures.append(Failure("crash", message, -1, lost.simulated, ""))
             else:
                 outcomes[left[number]] = outcome
                 yield left[number]

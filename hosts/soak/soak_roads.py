@@ -92,7 +92,7 @@ def jump_ground(folder: Path, centre: Sequence[float] = (0.0, 0.0)) -> Ground:
     heights, targets = jump_heights()
     x, y = centre
     file = make_folder(folder) / f"jumps_{x:.0f}_{y:.0f}.npz"
-    with atomic_file(file) as made, made.open("wb") as stream:
+    with atomic_file(file) as temporary, temporary.open("wb") as stream:
         np.savez(
             stream,
             heights=heights,

@@ -1,4 +1,4 @@
-"""A study from its file to its last row."""
+"""Runs a study: reads its file, makes its runs and writes its table."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ _LOOK = 1000  # runs that are prepared at a time
 
 @dataclass(frozen=True)
 class StudyOutcome:
-    """What a study has come to."""
+    """The outcome of a study."""
 
     folder: Path
     good: bool
@@ -85,16 +85,16 @@ def run_study(
         plan = with_columns(plan, {n: u for n, u in before["measures"].items() if n not in plan.work.columns})
         check_same(folder, before, plan.record)
         plan = _with_limits(plan, study)
-    with nullcontext() if dry else ResultStore[Row](folder, Row, "runs a study") as kept:
+    with nullcontext() if dry else ResultStore[Row](folder, Row, "runs a study") as store:
         done = np.zeros(plan.runs, dtype=np.bool_)
-        if before is not None and kept is not None:
+        if before is not None and store is not None:
             from hosts.study.damaged_files import sound_runs
 
             done, notes = sound_runs(folder, before)
             for line in notes:
                 print(f"note: {line}", file=sys.stderr)
             if not again and done.all():
-                kept.clear()  # a kill between a table and its journal leaves both
+                store.clear()  # a kill between a table and its journal leaves both
                 keep_limits(folder, before, plan.record["limits"], content)
                 print(f"{plan.runs} of {plan.runs} runs are there: {folder}")
                 return StudyOutcome(folder, True, 0)
@@ -104,7 +104,7 @@ def run_study(
         plan = _with_limits(with_columns(plan, trial.columns), study)
         plan = replace(plan, work=replace(plan.work, reuse=trial.reuse))
         _print_plan(plan, trial, folder, scheduler, workers)
-        return None if kept is None else _run(plan, trial, folder, content, scheduler, workers, again, kept, done)
+        return None if store is None else _run(plan, trial, folder, content, scheduler, workers, again, store, done)
 
 
 def _before(folder: Path) -> dict[str, Any] | None:
@@ -259,12 +259,12 @@ def _make(
         print(f"The scheduler at {scheduler} has gone. {_kept(table.done)}", file=sys.stderr)
         return StudyOutcome(folder, False, counts.failed)
     rate = counts.made / seconds
-    words = f"{counts.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {counts.failed} failed"
+    message = f"{counts.made} runs in {duration(seconds)}, {rate:.3g} runs/s, {counts.failed} failed"
     if counts.incomplete:
-        words += f", {counts.incomplete} incomplete"
+        message += f", {counts.incomplete} incomplete"
     for line in counts.said():
         print(line)
-    print(f"{words}; written: {folder}")
+    print(f"{message}; written: {folder}")
     bare = counts.made > 0 and counts.failed + counts.incomplete == counts.made
     if bare:
         print(

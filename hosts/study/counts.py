@@ -1,4 +1,4 @@
-"""What a study counts while it runs."""
+"""Counts of the outcomes of a study while it runs."""
 
 from collections import Counter
 
@@ -9,7 +9,7 @@ _TOLD = 5
 
 
 class Counts:
-    """Counts runs that were made."""
+    """Counts the outcomes of runs."""
 
     def __init__(self) -> None:
         self.failed = self.incomplete = self.made = 0
@@ -25,14 +25,14 @@ class Counts:
                 self._said[message] += 1
 
     def said(self) -> list[str]:
-        """What was said in most of the runs."""
+        """The most frequent messages of the runs."""
         lines = [f"in {n} of {self.made} runs: {message}" for message, n in self._said.most_common(_TOLD)]
         more = len(self._said) - len(lines)
         return [*lines, f"and {more} other messages, in the column messages"] if more > 0 else lines
 
 
 def duration(seconds: float) -> str:
-    """A time for a person."""
+    """A duration as text."""
     if seconds < 100.0:
         return f"{seconds:.2g} s"
     if seconds < 6000.0:

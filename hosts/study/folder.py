@@ -71,7 +71,7 @@ class _Limit(_Part):
 
 
 class StudyRecord(_Part):
-    """What was run, by which program."""
+    """The record of a study: its plan, and the versions of the programs."""
 
     name: str = Field(title="text")
     guid: str = Field(title="text")
@@ -141,10 +141,10 @@ def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
     file = folder / str(record["fmu"])
     if not file.is_file():
         raise HostError(f"{no_file(file)} It made the runs of this study; put it back.")
-    found = hashlib.sha256(read_bytes(file, LARGEST_ARCHIVE, HostError)).hexdigest()
-    if found != record["fmu_sha256"]:
+    result = hashlib.sha256(read_bytes(file, LARGEST_ARCHIVE, HostError)).hexdigest()
+    if result != record["fmu_sha256"]:
         raise HostError(
-            f"{file} is another FMU than the one that made the rows: its SHA-256 is {found[:12]}..., that in {RECORD} "
+            f"{file} is another FMU than the one that made the rows: its SHA-256 is {result[:12]}..., that in {RECORD} "
             f"is {record['fmu_sha256'][:12]}...; it is not run. Put the FMU back that was there."
         )
     return file
@@ -152,16 +152,16 @@ def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
 
 def begin_study(folder: Path, record: Mapping[str, Any], study_file: bytes, fmu: Path) -> None:
     """Write what a study begins with; the record comes last and says that the rest is there."""
-    with atomic_file(folder / "study.toml") as made:
-        made.write_bytes(study_file)
-    with atomic_file(folder / fmu.name) as made:
-        shutil.copyfile(fmu, made)
+    with atomic_file(folder / "study.toml") as temporary:
+        temporary.write_bytes(study_file)
+    with atomic_file(folder / fmu.name) as temporary:
+        shutil.copyfile(fmu, temporary)
     make_folder(folder / RUNS)
     write_record(folder, record)
 
 
 def write_record(folder: Path, record: Mapping[str, Any]) -> None:
-    """Write what is known of the study."""
+    """Write the record of the study."""
     write_json(folder / RECORD, record)
 
 
@@ -189,9 +189,9 @@ def check_same(folder: Path, before: Mapping[str, Any], now: Mapping[str, Any]) 
         differ = [key for key in differ if key != "fmu_sha256"]
     if len(differ) > 1:
         differ = [key for key in differ if key not in ("points_sha256", "points", "runs")]
-    words = some_of((_difference(key, before.get(key), same.get(key)) for key in differ), _MOST, "; ")
+    message = some_of((_difference(key, before.get(key), same.get(key)) for key in differ), _MOST, "; ")
     raise HostError(
-        f"{folder} holds another study, whose rows stay as they are: {words}. Put it back as it was, or give another "
+        f"{folder} holds another study, whose rows stay as they are: {message}. Put it back as it was, or give another "
         "--out."
     )
 
@@ -221,7 +221,7 @@ def keep_limits(folder: Path, before: dict[str, Any], limits: Mapping[str, Any],
     if before.get("limits", {}) == limits:
         return before
     after = {**before, "limits": dict(limits)}
-    with atomic_file(folder / "study.toml") as made:
-        made.write_bytes(content)
+    with atomic_file(folder / "study.toml") as temporary:
+        temporary.write_bytes(content)
     write_record(folder, after)
     return after

@@ -1,4 +1,4 @@
-"""What is done at each point of a study: manoeuvres and tests of the catalogue, checked."""
+"""The jobs at each point of a study: manoeuvres and tests of the catalogue, checked."""
 
 import math
 from collections.abc import Mapping, Sequence

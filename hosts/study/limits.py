@@ -30,7 +30,7 @@ _NO_INTERVAL = {
 
 @dataclass(frozen=True)
 class Share:
-    """How many runs keep a limit."""
+    """Number and share of the runs within a limit."""
 
     measure: str
     """Its column; `ALL` for variants, the points of the study, that keep every limit in all their runs."""
@@ -66,7 +66,7 @@ def shares(frame: pd.DataFrame) -> list[Share]:
     is judged by the one that it has, and not at all by one that does not exist in it. Tables of earlier
     versions do not say which measures a run lacks; there each that it does not have counts as lacking.
     """
-    about, found = frame.attrs, []
+    about, results = frame.attrs, []
     points = frame["point"].to_numpy(dtype=np.int64)
     broken, known = (np.zeros(points.max(initial=-1) + 1, dtype=bool) for _ in range(2))
     lost = broken.copy()
@@ -83,12 +83,12 @@ def shares(frame: pd.DataFrame) -> list[Share]:
             absent = int((mine & ~finite & ~bare).sum())
             broken[points[outside]] = lost[points[bare]] = True
             known[points[within | outside]] = True
-            found.append(_share(column, name, ends, record["unit"], (within, outside, bare), absent, about))
-    if found:
+            results.append(_share(column, name, ends, record["unit"], (within, outside, bare), absent, about))
+    if results:
         sets = (known & ~broken, broken, lost)
         absent = len(np.unique(points)) - int(known.sum())
-        found.append(_share(ALL, "", limit_ends(None), "1", sets, absent, about))
-    return found
+        results.append(_share(ALL, "", limit_ends(None), "1", sets, absent, about))
+    return results
 
 
 def _should_be(column: str, frame: pd.DataFrame) -> NDArray[np.bool_]:
@@ -179,8 +179,8 @@ def write_shares(found: Sequence[Share], folder: Path) -> list[Path]:
     """Write ``limits.csv`` and ``limits.json`` into the folder of a study, in the units of the measures."""
     rows = [{n: or_null(x) if isinstance(x, float) else x for n, x in asdict(s).items()} for s in found]
     table, record = folder / "limits.csv", folder / "limits.json"
-    with atomic_file(table) as made:
-        pd.DataFrame(rows).to_csv(made, index=False)
+    with atomic_file(table) as temporary:
+        pd.DataFrame(rows).to_csv(temporary, index=False)
     write_json(record, rows)
     return [table, record]
 

@@ -1,4 +1,4 @@
-"""Parameters of a study: what the FMU says of them, and values from numbers of [0, 1)."""
+"""Parameters of a study: their declaration in the FMU, and their values from numbers in [0, 1)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from hosts.study.study_file import ParameterEntry
 
 @dataclass(frozen=True)
 class Parameter:
-    """One that is varied."""
+    """A varied parameter of the FMU."""
 
     name: str
     kind: str
@@ -35,7 +35,7 @@ class Parameter:
 
     @property
     def length(self) -> int:
-        """Values it has in a grid."""
+        """Number of values in a grid."""
         return len(self.values) or self.count or 0
 
     def at(self, u: NDArray[np.float64]) -> list[Value]:

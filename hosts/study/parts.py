@@ -42,10 +42,10 @@ def signal_schema(record: Mapping[str, Any]) -> Any:
 
 def attributes(record: Mapping[str, Any]) -> dict[str, Any]:
     """What a table says of itself: units of columns, parameters with their ranges, what was run by which program."""
-    told = ("units", "parameters", "sampling", "seed", "guid", "model", "fmu", "versions", "runs", "points", "file")
+    reported = ("units", "parameters", "sampling", "seed", "guid", "model", "fmu", "versions", "runs", "points", "file")
     return {
         "study": record["name"],
-        **{key: record[key] for key in told},
+        **{key: record[key] for key in reported},
         "measures": list(record["measures"]),
         "limits": record.get("limits", {}),
         "manoeuvres": [m["name"] for m in record["manoeuvres"]],
@@ -60,7 +60,7 @@ def part_files(folder: Path) -> list[Path]:
 
 
 def signals_beside(part: Path) -> Path:
-    """Those of the runs of a part."""
+    """The signals of the runs of a part."""
     return part.parent.with_name(SIGNALS) / part.name
 
 
@@ -133,6 +133,6 @@ def write_part(table: Any, file: Path) -> None:
     """Write a part, whole or not at all."""
     buffer = pa.BufferOutputStream()
     pq.write_table(table, buffer, compression="zstd", write_page_checksum=True)
-    with atomic_file(file) as made:
-        made.write_bytes(buffer.getvalue())
-        sync(made)
+    with atomic_file(file) as temporary:
+        temporary.write_bytes(buffer.getvalue())
+        sync(temporary)

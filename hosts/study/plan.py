@@ -49,9 +49,9 @@ def renamed_variable(fmu: SimulatedFmu, name: str, where: str) -> Variable | Non
     """
     if not isinstance(fmu, NamedFmu) or name not in fmu.table:
         return None
-    found = fmu.table[name]
-    if found.may_be_set:
-        return found
+    result = fmu.table[name]
+    if result.may_be_set:
+        return result
     raise HostError(f"{where}: '{name}' is not a parameter or input of the FMU; it cannot be set.")
 
 
@@ -117,7 +117,7 @@ def _points(study: StudyFile, file: Path, opened: Fmu, fmu: SimulatedFmu) -> tup
 
 @dataclass(frozen=True)
 class Plan:
-    """What is run."""
+    """The checked plan of a study."""
 
     name: str
     file: Path
@@ -137,7 +137,7 @@ class Plan:
 
     @property
     def key(self) -> str:
-        """A name for what workers keep."""
+        """The key of the study on workers."""
         return hashlib.sha256(json.dumps(self.record, sort_keys=True).encode()).hexdigest()[:16]
 
     def runs_at(self, indices: Sequence[int]) -> list[Run]:
@@ -179,7 +179,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         study.sampling.seed,
         time_limit=study.time_limit,
     )
-    known = {name: units[name] for name in (*parameters, *signals)} | columns
+    known_names = {name: units[name] for name in (*parameters, *signals)} | columns
     name = study.name or file.stem
     record = {
         "name": name,
@@ -199,7 +199,7 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
         "points": points.count,
         "runs": points.count * len(jobs),
         "points_sha256": digest(points),
-        "units": {**known, "simulated": "s", "wall_seconds": "s", "time": "s"},
+        "units": {**known_names, "simulated": "s", "wall_seconds": "s", "time": "s"},
         "versions": versions(),
         "program": work.program,
         "file": str(file.absolute()),

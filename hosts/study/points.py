@@ -31,7 +31,7 @@ _DIGESTED = 256  # drawn points at both ends that tell one plan from another
 
 @dataclass(frozen=True)
 class Points:
-    """Where points come from."""
+    """The interface of a source of points."""
 
     count: int
     block: Callable[[int, int], Mapping[str, list[Value]]]

@@ -1,4 +1,4 @@
-"""How a run of a study is repeated as a drive, or seen in the viewer."""
+"""Commands that repeat a run of a study as a drive or show it in the viewer."""
 
 from __future__ import annotations
 
@@ -71,16 +71,16 @@ def _alias_file(name: str, file: Path) -> str:
 def _test(job: Job, fmu: Path, values: Mapping[str, Value], aliases: Sequence[str], out: Path) -> Repeat:
     step = [] if math.isnan(job.step) else ["--step", repr(job.step)]
     settings = [part for n, x in job.settings.items() for part in ("--test-setting", f"{job.test}.{n}={x!r}")]
-    words = [str(fmu), "--tests", job.test, *set_arguments({**job.start, **values}), *settings, *step, *aliases]
-    return Repeat(_line("catalogue", [*words, "--out", str(out)]), "")
+    message = [str(fmu), "--tests", job.test, *set_arguments({**job.start, **values}), *settings, *step, *aliases]
+    return Repeat(_line("catalogue", [*message, "--out", str(out)]), "")
 
 
 def _drive(job: Job, fmu: Path, values: Mapping[str, Value], file: Path) -> Repeat:
     assert job.manoeuvre is not None
     write_manoeuvre(job.manoeuvre, file)
-    words = [str(fmu), "-m", str(file), "--step", repr(job.step), *set_arguments(values), "--out", str(file.parent)]
-    return Repeat(_line("run", words), _line("view", words))
+    message = [str(fmu), "-m", str(file), "--step", repr(job.step), *set_arguments(values), "--out", str(file.parent)]
+    return Repeat(_line("run", message), _line("view", message))
 
 
-def _line(command: str, words: list[str]) -> str:
-    return f"{command_name(command)} {shlex.join(words)}"
+def _line(command: str, message: list[str]) -> str:
+    return f"{command_name(command)} {shlex.join(message)}"

@@ -1,4 +1,4 @@
-"""Opens what a study has written, also while it runs."""
+"""Opens the results of a study, also while it runs."""
 
 from __future__ import annotations
 
@@ -66,17 +66,17 @@ def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -
         raise HostError(f"Signals are of one manoeuvre; those in {folder} are {', '.join(driven)}.")
     (number, step), each = driven[manoeuvre], len(record["manoeuvres"])
     signals, units = record["signals"], record["units"]
-    found: dict[str, dict[int, np.ndarray]] = {name: {} for name in signals["names"]}
+    results: dict[str, dict[int, np.ndarray]] = {name: {} for name in signals["names"]}
     parts = {file: read_part(file, record) for file in part_files(Path(folder))}
     for file, part in parts.items():
-        there = {int(k) for k in part["index"].to_numpy() if k % each == number}
+        present = {int(k) for k in part["index"].to_numpy() if k % each == number}
         table = read_signals(file, record)
         for row, index in enumerate(table["index"].to_pylist()):
-            for name in signals["names"] if index in there else ():
-                found[name][index // each] = table[name][row].values.to_numpy()
-    samples = max((len(x) for rows in found.values() for x in rows.values()), default=0)
+            for name in signals["names"] if index in present else ():
+                results[name][index // each] = table[name][row].values.to_numpy()
+    samples = max((len(x) for rows in results.values() for x in rows.values()), default=0)
     columns = {}
-    for name, rows in found.items():
+    for name, rows in results.items():
         values = np.full((record["points"], samples), np.nan)
         for point, x in rows.items():
             values[point] = x

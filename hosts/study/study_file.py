@@ -73,7 +73,7 @@ class ManoeuvreEntry(_Part):
 
 
 class SamplingEntry(_Part):
-    """Which points there are."""
+    """The sampling of the parameters."""
 
     method: Literal["grid", "latin_hypercube", "sobol", "saltelli", "table"] = Field(
         default="grid", title=f"one of {', '.join(METHODS)}"
@@ -95,14 +95,14 @@ class SamplingEntry(_Part):
 
 
 class SignalsEntry(_Part):
-    """What is kept over time."""
+    """Signals that are stored over time."""
 
     names: list[str] = Field(min_length=1, title="a list of at least one name of an input or output")
     interval: FiniteFloat = Field(gt=0.0, title="a positive number, s")
 
 
 class StudyFile(_Part):
-    """A study."""
+    """The content of a study file."""
 
     name: Name | None = Field(default=None, title=NAME_WORDS)
     fmu: str | None = Field(default=None, title="the path of an FMU")

@@ -61,8 +61,8 @@ class Bench:
                 warnings.simplefilter("ignore")  # of NumPy, about numbers that the outcome tells of
                 outcome = self._test(job, values) if job.manoeuvre is None else self._drive(job, values, seed)
         except Exception as error:
-            words = str(error) if isinstance(error, HostError) else f"{type(error).__name__}: {error}"
-            outcome = Outcome(FAILED, words)
+            message = str(error) if isinstance(error, HostError) else f"{type(error).__name__}: {error}"
+            outcome = Outcome(FAILED, message)
         if outcome.status == FAILED or not self._work.reuse:
             self.close()  # what has failed may have left more than a reset clears
         outcome.wall = clock.perf_counter() - begin
@@ -98,8 +98,8 @@ class Bench:
 
 def said(messages: Sequence[str]) -> tuple[str, ...]:
     """The first different sentences, each once and not too long."""
-    found = dict.fromkeys(" ".join(message.split()) for message in messages)
-    return tuple(m if len(m) <= _LONGEST else f"{m[: _LONGEST - 3]}..." for m in list(found)[:_MOST_MESSAGES])
+    result = dict.fromkeys(" ".join(message.split()) for message in messages)
+    return tuple(m if len(m) <= _LONGEST else f"{m[: _LONGEST - 3]}..." for m in list(result)[:_MOST_MESSAGES])
 
 
 def started(manoeuvre: Manoeuvre, values: Mapping[str, Value]) -> Manoeuvre:
@@ -143,8 +143,8 @@ def _take(outcome: Outcome, measures: Sequence[tuple[str, Measure]]) -> None:
 def experiment_of(work: Work, path: Path) -> Experiment[Run, Outcome]:
     """Runs of a study as an experiment, with a `Bench` in each process. `path`: of the FMU."""
     reads = [path, *(file for start in _starts(work) for file in files_of(start))]
-    made = Experiment("study", Bench(work, path.absolute()), Outcome, partial(_label, work), reads)
-    return made if work.time_limit is None else replace(made, limit=work.time_limit, in_all=True)
+    experiment = Experiment("study", Bench(work, path.absolute()), Outcome, partial(_label, work), reads)
+    return experiment if work.time_limit is None else replace(experiment, limit=work.time_limit, in_all=True)
 
 
 def _label(work: Work, run: Run) -> str:

@@ -1,4 +1,4 @@
-"""Finds the value of a parameter at which a measure is what is wanted: ``ali3 study --target MEASURE=VALUE``."""
+"""Finds the value of a parameter at which a measure has a wanted value: ``ali3 study --target MEASURE=VALUE``."""
 
 from __future__ import annotations
 
@@ -28,24 +28,24 @@ _VALUE = re.compile(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*([^\d,;\s].*?|)\s*")
 
 
 def target_of(text: str, by: str, limits: str | None) -> Target:
-    """What the options ask for.
+    """The target that the options request.
 
     `text`: ``MEASURE=VALUE``, the value with a unit or without; `limits`: ``LOW:HIGH``. Raises `HostError`: it is not
     of this form.
     """
     name, _, value = (part.strip() for part in text.partition("="))
-    found = _VALUE.fullmatch(value)
-    if not name or found is None:
+    result = _VALUE.fullmatch(value)
+    if not name or result is None:
         raise HostError(f"--target {text}: it must be MEASURE=VALUE, such as 'understeer_gradient=1.3 deg/g'.")
     try:
         ends = None if limits is None else tuple(parse_number(end) for end in limits.split(":"))
-        wanted = parse_number(found[1])
+        wanted = parse_number(result[1])
     except ValueError as error:
         between = "" if limits is None else f" --between {limits}"
         raise HostError(f"--target {text}{between}: {error}.") from None
     if ends is not None and not (len(ends) == 2 and ends[0] < ends[1]):
         raise HostError(f"--between {limits}: it must be LOW:HIGH, the smaller number first.")
-    return Target(name, wanted, found[2], by, None if ends is None else (ends[0], ends[1]))
+    return Target(name, wanted, result[2], by, None if ends is None else (ends[0], ends[1]))
 
 
 def find_target(file: Path, target: Target, out: Path | None) -> bool:
@@ -63,23 +63,23 @@ def find_target(file: Path, target: Target, out: Path | None) -> bool:
     make_folder(folder)
     check_no_link(folder)
     with OneProcess(search.work, fmu) as search.processes:
-        found = search.found(_start(study, target.by, fmu))
-    lines = text_lines(search, found)
+        result = search.found(_start(study, target.by, fmu))
+    lines = text_lines(search, result)
     print("\n".join(lines))
     stem = re.sub(r"[^A-Za-z0-9]+", "_", f"{search.column} by {target.by}").strip("_")
     files = [
-        drawing(search_figure(search, found), "").write(folder / f"{stem}.svg"),
-        write_record(search, found, lines, folder / f"{stem}.json"),
+        drawing(search_figure(search, result), "").write(folder / f"{stem}.svg"),
+        write_record(search, result, lines, folder / f"{stem}.json"),
     ]
     parameters = folder / f"{stem}.ssv"
     parameters.unlink(missing_ok=True)  # of an earlier search
-    if found.met and found.best is not None:
-        inputs = _parameter_set(plan, study, target.by, found.best.x, parameters)
+    if result.met and result.best is not None:
+        inputs = _parameter_set(plan, study, target.by, result.best.x, parameters)
         files += [parameters] if parameters.exists() else []
         if inputs:
             print(f"Inputs, which no parameter set holds; give them by --set: {', '.join(inputs)}.")
     print(f"written: {', '.join(map(str, files))}")
-    return found.met
+    return result.met
 
 
 def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
@@ -90,8 +90,8 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
     known = variables.settable(target.by, "--by") if is_named else None
     if known is not None and known.kind != "Real":
         what = {"Integer": "a whole number", "String": "a text", "Boolean": "true or false"}
-        words = what.get(known.kind, f"of the kind {known.kind}")
-        raise HostError(f"--by {target.by}: it is {words}; only real numbers can be sought.")
+        message = what.get(known.kind, f"of the kind {known.kind}")
+        raise HostError(f"--by {target.by}: it is {message}; only real numbers can be sought.")
     ends, unit, log = target.range, None, entry.log
     if ends is not None:
         log = log and ends[0] > 0.0

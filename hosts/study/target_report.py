@@ -1,4 +1,4 @@
-"""What a search for a target has found: sentences, a record and a figure."""
+"""The report of a search for a target: sentences, a record and a figure."""
 
 from __future__ import annotations
 
@@ -88,8 +88,8 @@ def _is_flat(runs: TargetRuns, found: SearchResult) -> bool:
 
 def _around(runs: TargetRuns, found: SearchResult) -> tuple[Run, Run]:
     """The nearest two runs on different sides of what is wanted."""
-    known = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)
-    sides = [(a, b) for a, b in pairwise(known) if (a.y - runs.wanted) * (b.y - runs.wanted) <= 0.0]
+    known_names = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)
+    sides = [(a, b) for a, b in pairwise(known_names) if (a.y - runs.wanted) * (b.y - runs.wanted) <= 0.0]
     return min(sides, key=lambda pair: pair[1].x - pair[0].x)
 
 
@@ -122,15 +122,22 @@ def write_record(runs: TargetRuns, found: SearchResult, lines: list[str], file: 
 def search_figure(runs: TargetRuns, found: SearchResult) -> Figure:
     """The measure over the parameter in all runs."""
     factor, unit = runs.shown.factor, runs.shown.unit
-    known = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)
+    known_names = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)
     with plt.rc_context(STYLE):
         figure, axes = plt.subplots(figsize=(8.0, 4.5), layout="constrained")
-        axes.plot([r.x for r in known], [factor * r.y for r in known], "o-", color=BLUE, label="runs", linewidth=1.0)
+        axes.plot(
+            [r.x for r in known_names],
+            [factor * r.y for r in known_names],
+            "o-",
+            color=BLUE,
+            label="runs",
+            linewidth=1.0,
+        )
         wanted = runs.y_text(runs.wanted)
         axes.axhline(factor * runs.wanted, color="#555555", linestyle="--", label=f"wanted: {wanted}")
         if found.best is not None:
-            words = "found" if found.met else "nearest"
-            label = f"{words}: {runs.x_text(found.best.x)}"
+            message = "found" if found.met else "nearest"
+            label = f"{message}: {runs.x_text(found.best.x)}"
             axes.plot(found.best.x, factor * found.best.y, "D", color=RED, markersize=9, label=label)
         for k, run in enumerate(r for r in found.runs if r.reason):
             label = "failed run" if k == 0 else "_"

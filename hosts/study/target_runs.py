@@ -19,7 +19,7 @@ from hosts.study.worker_data import Run as StudyRun
 
 @dataclass(frozen=True)
 class Target:
-    """What is asked for."""
+    """The measure and the value that are sought."""
 
     measure: str
     """As the user names it."""

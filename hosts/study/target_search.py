@@ -14,7 +14,8 @@ MOST = 24
 """Runs."""
 _CLOSEST = 1e-4  # part of the range that is not divided any more
 _INWARD = (0.0, 0.0625, 0.125, 0.25, 0.5, 0.75, 1.0)  # parts of the range, where the run at an end fails
-_EXTREMUM, _SEEN = 0.02, 8  # part of the range, and runs, to which an extremum is found
+_EXTREMUM = 0.02  # part of the range to which an extremum is found
+_SEEN = 8  # largest number of runs for an extremum
 _BESIDE = 0.01  # of the value, or of the range where that is less: to the run that tells the slope
 
 
@@ -31,7 +32,7 @@ class Run:
 
 @dataclass(frozen=True)
 class SearchResult:
-    """What a search has come to."""
+    """The result of a search."""
 
     runs: tuple[Run, ...]
     """In the order in which they were made."""
@@ -202,8 +203,8 @@ class _Search:
 
     def _brackets(self) -> list[tuple[float, float]]:
         """Neighbouring runs on different sides of what is wanted, with no failed one between them."""
-        known = sorted(self._runs.items())
-        pairs = itertools.pairwise(known)
+        known_names = sorted(self._runs.items())
+        pairs = itertools.pairwise(known_names)
         return [(a, b) for (a, one), (b, other) in pairs if (one.y - self._wanted) * (other.y - self._wanted) < 0.0]
 
     def _best(self) -> Run | None:
@@ -213,9 +214,9 @@ class _Search:
 
     def _result(self, near: Sequence[Run]) -> SearchResult:
         """`near`: two runs that give the slope, or fewer."""
-        known = [run for _, run in sorted(self._runs.items()) if math.isfinite(run.y)]
-        changes = [b.y - a.y for a, b in itertools.pairwise(known)]
-        largest = max((abs(run.y) for run in known), default=0.0)
+        finite = [run for _, run in sorted(self._runs.items()) if math.isfinite(run.y)]
+        changes = [b.y - a.y for a, b in itertools.pairwise(finite)]
+        largest = max((abs(run.y) for run in finite), default=0.0)
         least, best = min(self._tolerance, TOLERANCE * largest), self._best()  # what is wanted may be far off
         x, y = [run.x for run in near], [run.y for run in near]
         return SearchResult(
@@ -227,5 +228,5 @@ class _Search:
             (x[0], x[-1]) if near else (math.nan, math.nan),
             any(c > least for c in changes),
             any(c < -least for c in changes),
-            bool(known) and min(run.y for run in known) <= self._wanted <= max(run.y for run in known),
+            bool(finite) and min(run.y for run in finite) <= self._wanted <= max(run.y for run in finite),
         )

@@ -1,4 +1,4 @@
-"""A few runs before a study: whether it works, whether an instance can be used again, what it will take."""
+"""A few runs before a study: whether it works, whether instances can be reused, how long it will take."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -19,7 +19,7 @@ _COMPRESSED = 1.0  # of signals, at worst
 
 @dataclass(frozen=True)
 class Trial:
-    """What the runs before a study have told."""
+    """The result of the runs before a study."""
 
     seconds: float
     """Of a run, mean over the manoeuvres."""

@@ -1,4 +1,4 @@
-"""What workers need to know of a study: plain data that is sent to each of them once."""
+"""The data of a study for its workers, sent to each of them once."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Run:
 
 @dataclass
 class Outcome:
-    """How a run ended."""
+    """The outcome of a run: status, measures and messages."""
 
     status: str = DONE
     reason: str = ""

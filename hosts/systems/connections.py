@@ -1,4 +1,4 @@
-"""Which input of a part takes which output of another."""
+"""Connections between the parts of a system: which output drives which input."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -67,12 +67,12 @@ def starts_of(start: Mapping[str, Value], parts: Mapping[str, Fmu]) -> dict[str,
 
     Raises `HostError`: there is no such part or variable, or a value is none of its variable.
     """
-    found: dict[str, dict[str, Value]] = {part: {} for part in parts}
+    results: dict[str, dict[str, Value]] = {part: {} for part in parts}
     for text, value in mapping(start, "The start values").items():
         part, name = parted(text, parts)
         source = f"The part '{part}'"
-        found[part][name] = parts[part].table.settable(name, source).check(value, source)
-    return found
+        results[part][name] = parts[part].table.settable(name, source).check(value, source)
+    return results
 
 
 def parted(text: str, parts: Mapping[str, Fmu]) -> tuple[str, str]:

@@ -23,7 +23,8 @@ from hosts.systems.connections import Wire, fmus_of, parted, starts_of, wires_of
 Array = NDArray[np.float64]
 Order = Literal["in turn", "at once"]
 Inputs = Literal["held", "followed", "repeated"]
-ORDERS, INPUTS = ("in turn", "at once"), ("held", "followed", "repeated")
+ORDERS = ("in turn", "at once")
+INPUTS = ("held", "followed", "repeated")
 
 
 @dataclass
@@ -175,7 +176,7 @@ class CoupledFmus(Closable):
         return self._reader(names)()
 
     def run(self, duration: float, names: Sequence[str], act: Callable[[CoupledFmus], None] | None = None) -> Array:
-        """Steps over a time.
+        """Step the system for a time.
 
         `duration`: a whole number of communication steps, s; `names`: what is read at each communication point; `act`:
         called before each step, to set inputs of parts. Raises `hosts.fmu.fmu.StepRefusedError` or `HostError` as of
@@ -229,10 +230,10 @@ class CoupledFmus(Closable):
             newest = np.array(
                 [(e or known or begin)[w.source, w.output] for e, w in zip(ends_at, p.wires, strict=True)]
             )
-            told = [end is not None or (w.source in stepped and self.order == "in turn") for w in p.wires]
+            reported = [end is not None or (w.source in stepped and self.order == "in turn") for w in p.wires]
             try:
                 if p.wires:
-                    self._feed(p, first, newest, np.array(told), end is not None)
+                    self._feed(p, first, newest, np.array(reported), end is not None)
                 p.fmu.step(self.time, self.step_length)
             except (StepRefusedError, HostError) as error:
                 raise type(error)(f"The part '{p.name}' refused the step from {self.time:.6g} s: {error}") from None

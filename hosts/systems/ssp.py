@@ -19,7 +19,8 @@ from hosts.fmu.parameters_as_set import written
 from hosts.systems.connections import Wire, fmus_of, starts_of, wires_of
 
 _SSP = "http://ssp-standard.org/SSP1/SystemStructure"
-_COMMON, _STRUCTURE = f"{{{_SSP}Common}}", f"{{{_SSP}Description}}"
+_COMMON = f"{{{_SSP}Common}}"
+_STRUCTURE = f"{{{_SSP}Description}}"
 _FIRST = {"Float64": "Real", "Float32": "Real", "Int32": "Integer"}
 """Types of FMI 3.0 as SSP 1.0 has them."""
 SET = "start"

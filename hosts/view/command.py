@@ -1,4 +1,4 @@
-"""Shows what moves, in a page: ali3 view RESULT|FMU|CAR [...] [--live] [--png FILE --at T] [--mp4 FILE].
+"""Shows results and FMUs in a page: ali3 view RESULT|FMU|CAR [...] [--live] [--png FILE --at T] [--mp4 FILE].
 
 Results are those of the command run and recordings of the simulator; an FMU is run first. Several are shown over each
 other. With --live the page holds the FMUs themselves and runs them, side by side and with the same inputs.

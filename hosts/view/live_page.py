@@ -77,8 +77,8 @@ def _written(options: argparse.Namespace, given: FmuOptions) -> int:
     with reported_when_long("making the page"):
         page = Page(with_binaries, names, wanted, manoeuvre, recordings, ends)
         text = page.text(options.title if options.title is not None else ", ".join(names))
-    with atomic_file(file) as made:
-        made.write_text(text, encoding="utf-8", newline="\n")
+    with atomic_file(file) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
     for fmu in fmus:
         for item in fmu.scene.get("missing", []):
             print(f"{fmu.name}: {item['name']} is not drawn: {item['why'].rstrip('.')}.")
@@ -156,19 +156,19 @@ def _names(fmus: Sequence[FmuParts], given: Sequence[str]) -> list[str]:
 
 def _page_options(fmus: Sequence[FmuParts], options: argparse.Namespace) -> dict[str, Any]:
     """What the page starts with, checked."""
-    found: dict[str, Any] = {"run": not options.paused}
+    results: dict[str, Any] = {"run": not options.paused}
     if options.step is not None:
         if not 0.0 < options.step <= 1.0:
             raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
-        found["step"] = options.step
-    known = {name for fmu in fmus for name in fmu.variables.names}
-    shown = {n for fmu in fmus for n in known if _plottable(fmu, n)}
+        results["step"] = options.step
+    known_names = {name for fmu in fmus for name in fmu.variables.names}
+    shown = {n for fmu in fmus for n in known_names if _plottable(fmu, n)}
     for name in options.plot:
         if name not in shown:
             raise HostError(f"--plot: {name!r} is not an input or output of {' or '.join(f.name for f in fmus)}.")
     if options.plot:
-        found["plots"] = list(options.plot)
-    return found
+        results["plots"] = list(options.plot)
+    return results
 
 
 def _plottable(fmu: FmuParts, name: str) -> bool:

@@ -1,4 +1,4 @@
-"""The page that was written comes up."""
+"""Opens a written page in the browser of the user."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What a page needs of an FMU: its binary in WebAssembly, its drawing, its resources and its variables."""
+"""The parts of an FMU for a page: its binary in WebAssembly, its drawing, its resources and its variables."""
 
 import base64
 import gzip
@@ -58,8 +58,8 @@ class FmuParts:
         names = [name for name in names if name != own]
         with ThreadPoolExecutor() as pool:
             scenes = list(pool.map(lambda name: scene_of(self.path, {ROAD: name}), names))
-        found = {name: scene["roads"] for name, scene in zip(names, scenes, strict=True) if scene is not None}
-        return found if own is None else found | {own: self.scene["roads"]}
+        results = {name: scene["roads"] for name, scene in zip(names, scenes, strict=True) if scene is not None}
+        return results if own is None else results | {own: self.scene["roads"]}
 
     def record(self, title: str) -> dict[str, Any]:
         """The FMU as JSON of the page; `wasm` must be there."""
@@ -112,9 +112,9 @@ def fmu_parts(path: Path, road: Value = "") -> FmuParts:
 def build_line(path: Path) -> str:
     """The command that builds an FMU of this file's name with what a page needs."""
     snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", re.sub(r"(FMI3|FMI3Scalar|Python)$", "", path.stem)).lower()
-    what = f"{'--car' if _has_car(path) else '--scene'} {quote(snake)}"
+    label = f"{'--car' if _has_car(path) else '--scene'} {quote(snake)}"
     out = "" if path.parent == Path("dist") else f" --out {quote(str(path.parent))}"
-    return f"{command_name('build')} {what} --kind native --platforms this,{PLATFORM}{out}"
+    return f"{command_name('build')} {label} --kind native --platforms this,{PLATFORM}{out}"
 
 
 def _has_car(path: Path) -> bool:

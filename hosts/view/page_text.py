@@ -15,7 +15,7 @@ from viewer.page_data import page_data
 
 @dataclass(frozen=True)
 class Page:
-    """What a page shows."""
+    """The content of a page."""
 
     fmus: Sequence[FmuParts]
     """Each with its binary; they run in step, with the same inputs."""

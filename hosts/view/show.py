@@ -47,10 +47,12 @@ def show(options: argparse.Namespace) -> int:
         begin = -math.inf if options.begin is None else options.begin
         end = math.inf if options.end is None else options.end
         recordings = [recording.between(begin, end) for recording in recordings]
-    known = dict.fromkeys(name for recording in recordings for name in recording.columns)
-    unknown = next((name for name in options.plot if name not in known), None)
+    known_names = dict.fromkeys(name for recording in recordings for name in recording.columns)
+    unknown = next((name for name in options.plot if name not in known_names), None)
     if unknown is not None:
-        raise HostError(f"There is no signal {unknown!r} to be plotted; the result has {_some(list(known), unknown)}.")
+        raise HostError(
+            f"There is no signal {unknown!r} to be plotted; the result has {_some(list(known_names), unknown)}."
+        )
     notes: list[str] = []
     written: list[object] = list(_exports(recordings, options, notes))
     if page is not None:
@@ -74,7 +76,7 @@ def _page(options: argparse.Namespace) -> Path | None:
 
 
 def _look(options: argparse.Namespace) -> dict[str, Any]:
-    """How things are drawn."""
+    """Options of the drawing."""
     factor = {} if options.deformation is None else {"deformation": options.deformation}
     return {"arrows": options.arrows, "stress": options.stress} | factor
 

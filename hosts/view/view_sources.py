@@ -66,7 +66,7 @@ def recordings_of(
     good : bool
         Whether every FMU that was run made all steps, and its outputs are numbers.
     """
-    made: list[Recording] = []
+    results: list[Recording] = []
     notes: list[str] = []
     good = True
     for path, name in zip(paths, _names(paths), strict=True):
@@ -75,20 +75,20 @@ def recordings_of(
             raise HostError(no_file(path, hint))
         suffix = path.suffix.lower()
         if is_recording(path):
-            recording, words = recorded_view(path, name, geometry)
+            recording, message = recorded_view(path, name, geometry)
         elif suffix == ".fmu" or (suffix not in (".csv", ".json") and is_archive(path)):
-            recording, words, ran = _of_fmu(path, name, run)
+            recording, message, ran = _of_fmu(path, name, run)
             good = good and ran
         elif suffix in (".csv", ".json"):
-            recording, words = _of_result(path, name, geometry)
+            recording, message = _of_result(path, name, geometry)
         else:
             raise HostError(_no_kind(path))
-        made.append(recording)
-        notes += words
+        results.append(recording)
+        notes += message
     if run and not any(path.suffix.lower() == ".fmu" for path in paths):
         raise HostError("Manoeuvre, times and values are set for an FMU that is run; results are shown as they are.")
-    _report_other_grounds(made)
-    return made, notes, good
+    _report_other_grounds(results)
+    return results, notes, good
 
 
 def _report_other_grounds(recordings: Sequence[Recording]) -> None:
@@ -223,12 +223,12 @@ def _fmu_of(record: dict[str, Any], file: Path) -> Path:
     here = file.absolute().parent
     tried = [named, *(folder / named for folder in (here, *here.parents))] if not named.is_absolute() else [named]
     tried.append(here / named.name)
-    found = next((path for path in tried if is_file(path)), None)
-    if found is None:
+    result = next((path for path in tried if is_file(path)), None)
+    if result is None:
         raise HostError(
             f"{file} names the FMU {named}, which is not there any more; say where it is now by --geometry FMU."
         )
-    return found
+    return result
 
 
 def _units(fmu: Path, token: str) -> tuple[dict[str, str], bool]:

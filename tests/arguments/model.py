@@ -360,8 +360,8 @@ def fingerprint(m: Model) -> Any:
 
 def allowed(method: str, argument: str, label: str, value: Any) -> bool:
     """Whether a value is right for an argument after all."""
-    words = ("name", "unit", "description", "display_unit", "text", "file", "near")
-    if isinstance(value, str) and argument in words:
+    message = ("name", "unit", "description", "display_unit", "text", "file", "near")
+    if isinstance(value, str) and argument in message:
         return label == "text" or (label == "empty" and argument not in ("name", "text", "file"))
     if label == "empty" and inspect.signature(getattr(Model, method)).parameters[argument].default == "":
         return True

@@ -66,17 +66,17 @@ def problem_of(error: Exception, argument: str, value: Any) -> str:
         return "cannot be printed"
     words = [argument, argument.replace("_", " "), *re.split(r"_\d?", argument)]
     named = any(word and word in message for word in words)
-    told = shown(value) in message or (isinstance(value, float) and f"{value:g}" in message)
+    reported = shown(value) in message or (isinstance(value, float) and f"{value:g}" in message)
     if isinstance(value, (list, tuple)):
-        told = told or any(shown(part) in message for part in value)
+        reported = reported or any(shown(part) in message for part in value)
     if isinstance(value, np.ndarray):
-        told = told or str(value.shape) in message or "nan" in message
-    return "" if named or told else "neither the argument nor the value is named"
+        reported = reported or str(value.shape) in message or "nan" in message
+    return "" if named or reported else "neither the argument nor the value is named"
 
 
 def problems_of(use: Callable[[Any], object], argument: str, allowed: Callable[[str, Any], bool]) -> list[str]:
     """What is wrong with the refusals of an argument's wrong values, but for those that `allowed` names."""
-    found = []
+    results = []
     for label, value in WRONG.items():
         if allowed(label, value):
             continue
@@ -87,8 +87,8 @@ def problems_of(use: Callable[[Any], object], argument: str, allowed: Callable[[
             problem = problem_of(error, argument, value)
             problem += f": {error}" if problem else ""
         if problem:
-            found.append(ascii(f"{argument} = {label}: {problem}"))
-    return found
+            results.append(ascii(f"{argument} = {label}: {problem}"))
+    return results
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ _QUICK = ("record of a result", "events of a recording", "manoeuvre", "rows of a
 def refused(kind: str, numbers: Iterable[int], folder: Path) -> tuple[int, int]:
     """How many altered files there were, and how many were refused; each was read, or refused in one sentence."""
     name, _, _, read = KINDS[kind]
-    count = found = 0
+    count = result = 0
     for seed in numbers:
         file = folder / "read" / name
         if kind == "car":  # a car has tables beside its file
@@ -30,9 +30,9 @@ def refused(kind: str, numbers: Iterable[int], folder: Path) -> tuple[int, int]:
         file.write_bytes(MENDED.get(kind, bytes)(altered(GOOD[kind], seed)))
         fault = fault_of(read, file, may_be_read=False, many=kind in MANY)
         assert fault in ("", "it is read"), f"{kind}, seed {seed}: {fault}"
-        count, found = count + 1, found + (fault == "")
+        count, result = count + 1, result + (fault == "")
         shutil.rmtree(file.parent)
-    return count, found
+    return count, result
 
 
 def test_every_reader_is_attacked() -> None:

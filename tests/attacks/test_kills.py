@@ -52,14 +52,14 @@ def attack(what: str, longest: float, folder: Path, command: Callable[[int], tup
     """Kill commands at moments by chance; each is then run to its end. Numbers of those that were killed."""
     seed = random.SystemRandom().randrange(2**40)
     print(f"{what}: {kills()} kills, seed {seed}")
-    chance, found = random.Random(seed), []
+    chance, results = random.Random(seed), []
     for number in range(kills()):
         if killed(started(folder, *command(number)), chance.uniform(0.2, longest)):
-            found.append(number)
+            results.append(number)
         again = started(folder, *command(number))
         assert again.wait(timeout=300.0) == 0, f"{what} {number} after its kill"
     assert left(folder / "temporary") == left(folder / "cache") == []
-    return found
+    return results
 
 
 def left(folder: Path) -> list[Path]:

@@ -22,7 +22,7 @@ def test_a_checkout_against_itself() -> None:
         assert row["ratio"] > 0.0
 
 
-def test_what_is_no_checkout_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_folder_that_is_no_checkout_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert cost.main(["turns", "--other", str(tmp_path), "--only", "slalom"]) == 2
     assert "has no mbs/kernel/src; git worktree add FOLDER COMMIT" in capsys.readouterr().err
     assert cost.main(["turns"]) == 2

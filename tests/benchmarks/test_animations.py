@@ -35,8 +35,8 @@ def test_the_films_are_small():
 def test_the_command_films(tmp_path, capsys):
     chromium_or_skip()
     assert pictures.main(["films", "--out", str(tmp_path / "films"), "--only", "pendulum"]) == 0
-    said = capsys.readouterr().out
-    assert "pendulum.webp  61 pictures, 4.1 s" in said
+    output = capsys.readouterr().out
+    assert "pendulum.webp  61 pictures, 4.1 s" in output
     with Image.open(tmp_path / "films" / "pendulum.webp") as file:
         assert file.n_frames > 30
 

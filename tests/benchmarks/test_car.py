@@ -47,7 +47,7 @@ def test_another_car_has_its_own_references(capsys):
     assert "hatchback\n\n| manoeuvre |" in capsys.readouterr().out
 
 
-def test_a_car_without_references_is_told(capsys):
+def test_a_car_without_references_is_reported(capsys):
     assert car.main(["accuracy", "--car", "bus"]) == 2
     assert "There are no references of a car 'bus'; there are: prototype" in capsys.readouterr().err
 
@@ -55,11 +55,11 @@ def test_a_car_without_references_is_told(capsys):
 def test_measures_of_a_car(tmp_path, capsys, monkeypatch):
     """What a car has is held by `benchmarks.figures`; here where it is written."""
     file = tmp_path / "handling.json"
-    told = {m.name: 0.5 + k for k, m in enumerate(MEASURES)}
-    monkeypatch.setattr(measures, "measure", lambda car: told)
+    reported = {m.name: 0.5 + k for k, m in enumerate(MEASURES)}
+    monkeypatch.setattr(measures, "measure", lambda car: reported)
     assert car.main(["handling", "--cars", "hatchback", "--json", str(file)]) == 0
     rows = json.loads(file.read_text(encoding="utf-8"))["rows"]
-    assert {row["measure"]: row["hatchback"] for row in rows} == told
+    assert {row["measure"]: row["hatchback"] for row in rows} == reported
     assert all(set(row) == {"measure", "unit", "hatchback", "usual", "meaning"} for row in rows)
     assert "| roll gradient, deg/g |" in capsys.readouterr().out
 

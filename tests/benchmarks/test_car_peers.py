@@ -131,9 +131,9 @@ def test_what_is_not_installed_is_left_out_with_a_word(capsys, monkeypatch) -> N
     monkeypatch.setattr(car_peers, "PEERS", {"Exudyn": ("no_such_module",)})
     monkeypatch.setattr(car_peers, "SCENES", ())
     assert car_peers.main([]) == 0
-    said = capsys.readouterr()
-    assert "Exudyn's car: no_such_module not installed" in said.err
-    assert "Exudyn" not in said.out.partition("Python")[0]
+    captured = capsys.readouterr()
+    assert "Exudyn's car: no_such_module not installed" in captured.err
+    assert "Exudyn" not in captured.out.partition("Python")[0]
 
 
 @pytest.mark.slow

@@ -129,10 +129,10 @@ def test_what_goes_against_the_rule_is_counted_and_named():
     assert (line["right"], line["wrong"], line["missed"], line["false alarms"]) == (2, 2, 1, 1)
     assert line["right without a repeat"] == 0.5
     assert line["above the estimate"] == 1
-    said = honesty_blocks(rows)["honesty exceptions"]
-    assert "missed: s at 0.3 s (0.3)" in said
-    assert "false alarm: s at 0.02 s (0.02)" in said
-    assert "estimate 1.0e-02" in said
+    reported = honesty_blocks(rows)["honesty exceptions"]
+    assert "missed: s at 0.3 s (0.3)" in reported
+    assert "false alarm: s at 0.02 s (0.02)" in reported
+    assert "estimate 1.0e-02" in reported
 
 
 def test_written_sentences_are_wrapped_and_tables_are_not():
@@ -203,10 +203,10 @@ def test_every_method_has_a_title_and_all_but_those_for_comparison_a_colour_of_t
 def test_the_puma_table_has_the_paper_beside_it(tmp_path):
     assert paper.main(["puma", "--quick", "--json", str(tmp_path / "p.json")]) == 0
     _, rows = read(tmp_path / "p.json")
-    found = {r["h_s"]: r for r in rows}
-    assert found[0.01]["paper_error_mm"] == pytest.approx(0.53)
-    assert found[0.005]["error_mm"] < 0.3 * found[0.01]["error_mm"] < 0.3  # mm
-    assert found[0.1]["ended"] == "finished" or "refused" in found[0.1]["ended"]
+    actual = {r["h_s"]: r for r in rows}
+    assert actual[0.01]["paper_error_mm"] == pytest.approx(0.53)
+    assert actual[0.005]["error_mm"] < 0.3 * actual[0.01]["error_mm"] < 0.3  # mm
+    assert actual[0.1]["ended"] == "finished" or "refused" in actual[0.1]["ended"]
 
 
 def test_tables_go_between_their_marks_and_nothing_else_changes():

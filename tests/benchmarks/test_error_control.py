@@ -26,8 +26,8 @@ def test_the_table_holds_every_method_and_the_choice(tmp_path: Path) -> None:
 
 
 def row(method: str, cpu: float, error: float, warned: str = "") -> dict[str, object]:
-    found = {"method": method, "cpu_ms": cpu, "error_over_tolerance": error, "warned": warned}
-    return {"scene": "s", "tolerance": 1e-3, "ratio": None} | found
+    results = {"method": method, "cpu_ms": cpu, "error_over_tolerance": error, "warned": warned}
+    return {"scene": "s", "tolerance": 1e-3, "ratio": None} | results
 
 
 @pytest.mark.parametrize(

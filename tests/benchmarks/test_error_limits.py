@@ -15,8 +15,8 @@ def test_the_computed_motion_is_slower_by_what_the_trapezoidal_rule_says(steps):
 
 
 def test_rows_of_each_table_have_its_columns():
-    made = error_limits.trust_blocks([{"table": "frequency", **error_limits.frequency(20)}])["trust frequency"]
-    (row,) = rows_of(made)
+    result = error_limits.trust_blocks([{"table": "frequency", **error_limits.frequency(20)}])["trust frequency"]
+    (row,) = rows_of(result)
     assert row["steps in a period"] == "20"
     assert float(row["frequency error"]) == pytest.approx(0.0081, rel=0.02)
 

@@ -40,15 +40,15 @@ def test_it_must_be_good_in_every_manoeuvre() -> None:
 
 
 @pytest.mark.parametrize(
-    ("output", "tolerance", "said"),
+    ("output", "tolerance", "message"),
     [
         ("noise", 0.1, "no output 'noise'"),
         ("moment", 0.0, "must be positive"),
         ("moment", 0.001, "the best is 0.02 away"),
     ],
 )
-def test_what_cannot_be_chosen(output: str, tolerance: float, said: str) -> None:
-    with pytest.raises(ValueError, match=said):
+def test_invalid_choices_are_refused(output: str, tolerance: float, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         fidelity.cheapest(ROWS, output, tolerance)
 
 
@@ -72,8 +72,8 @@ def test_errors_of_a_reference_with_itself_are_nothing() -> None:
 
 def test_naive_models_move_alike_and_are_larger() -> None:
     for scene in ("double four-bar", "prototype car"):
-        found = unreduced_models.measure(scene, 1)
-        assert found["naive_coordinates"] > 2 * found["coordinates"]
-        assert found["naive_rows"] > 2 * found["rows"]
-        assert found["difference"] < 0.01
-    assert np.isfinite(found["factor"])
+        result = unreduced_models.measure(scene, 1)
+        assert result["naive_coordinates"] > 2 * result["coordinates"]
+        assert result["naive_rows"] > 2 * result["rows"]
+        assert result["difference"] < 0.01
+    assert np.isfinite(result["factor"])

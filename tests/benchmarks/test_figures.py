@@ -32,7 +32,7 @@ def test_only_the_last_of_three_digits_may_be_one_off():
 
 
 @pytest.mark.parametrize(
-    ("before", "after", "said"),
+    ("before", "after", "message"),
     [
         ("2.5", "2.6", "row a, 0.1: error is 2.6 on the page and 2.5 when it is made again."),
         ("1e-05", "1e-06", "row b, 0.1: error is 1e-06 on the page and 1e-05"),
@@ -41,16 +41,16 @@ def test_only_the_last_of_three_digits_may_be_one_off():
         ("| error |", "| errors |", "error is None on the page"),
     ],
 )
-def test_an_altered_figure_is_a_sentence(before, after, said):
-    assert any(said in line for line in differences(AGAIN, PAGE.replace(before, after)))
+def test_an_altered_figure_is_a_sentence(before, after, message):
+    assert any(message in line for line in differences(AGAIN, PAGE.replace(before, after)))
 
 
-def test_an_altered_sentence_is_told():
+def test_an_altered_sentence_is_reported():
     again = RemadeTable("README.md", "takes 0.36 s of time")
     assert differences(again, PAGE.replace("0.36", "0.29")) == ["README.md does not say: takes 0.36 s of time"]
 
 
-def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_told(tmp_path):
+def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_reported(tmp_path):
     """A panel less, another unit, a curve more, a figure of the summary that is another."""
 
     def drawn(name, panels, load):
@@ -87,8 +87,8 @@ def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_told(tmp_path)
         f"{drawn_now}largest wheel load: 2355 N",
     ]
     assert differences(again, new) == []
-    (said,) = differences(again, "")
-    assert said.startswith("docs/images/x.png does not say what it shows; python -m benchmarks.figures --write")
+    (reported,) = differences(again, "")
+    assert reported.startswith("docs/images/x.png does not say what it shows; python -m benchmarks.figures --write")
 
 
 @pytest.mark.parametrize("name", chart_commands.DRAWN)
@@ -109,16 +109,16 @@ def test_a_table_is_written_with_what_was_made_and_keeps_the_rest():
 
 
 def test_the_readme_says_what_the_tables_of_the_pages_say():
-    made = [*figures.readme(), *figures.instructions()]
-    assert [line for again in made for line in differences(again, read(again.page))] == []
+    result = [*figures.readme(), *figures.instructions()]
+    assert [line for again in result for line in differences(again, read(again.page))] == []
 
 
 def test_each_figure_of_the_readme_is_held():
     """A digit at a time, all others as they are."""
     for again in figures.readme():
-        page, said = (" ".join(text.split()) for text in (read(again.page), again.text))
-        assert page.count(said) == 1
-        digits = [page.index(said) + found.start() for found in re.finditer(r"\d", said)]
+        page, reported = (" ".join(text.split()) for text in (read(again.page), again.text))
+        assert page.count(reported) == 1
+        digits = [page.index(reported) + found.start() for found in re.finditer(r"\d", reported)]
         assert digits
         for k in digits:
             altered = f"{page[:k]}{(int(page[k]) + 1) % 10}{page[k + 1 :]}"
@@ -136,9 +136,9 @@ def test_each_cell_of_the_table_of_instructions_is_held():
         assert differences(again, page.replace(table, altered))
 
 
-def test_a_table_that_is_made_without_rows_is_told():
-    made = MADE.rsplit("\n", 2)[0]
-    assert differences(RemadeTable("docs/x.md", made, "t", ("method", "h s")), PAGE) == [
+def test_a_table_that_is_made_without_rows_is_reported():
+    result = MADE.rsplit("\n", 2)[0]
+    assert differences(RemadeTable("docs/x.md", result, "t", ("method", "h s")), PAGE) == [
         "docs/x.md, table 't': there are no rows when it is made again."
     ]
 

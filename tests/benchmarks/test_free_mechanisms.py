@@ -19,7 +19,7 @@ OF_CARS = {"TYRE", "MAGIC_TYRE", "HUB_WRENCH", "AUTOMATIC_DRIVE", "ELECTRIC_DRIV
 
 
 def test_each_joint_and_each_force_has_a_mechanism(monkeypatch):
-    words = {
+    message = {
         name
         for name, method in inspect.getmembers(mbs.Model, inspect.isfunction)
         if method.__annotations__.get("return") in KINDS and not name.startswith("_")
@@ -29,29 +29,31 @@ def test_each_joint_and_each_force_has_a_mechanism(monkeypatch):
     def noted(name, method):
         return lambda *given, **more: used.add(name) or method(*given, **more)
 
-    for name in words:
+    for name in message:
         monkeypatch.setattr(mbs.Model, name, noted(name, getattr(mbs.Model, name)))
     for build in MECHANISMS.values():
         types |= {element.type.name for element in build(1.0).model.elements}
-    assert words - used == {"joint_named"}
+    assert message - used == {"joint_named"}
     assert {kind.name for kind in ElementType} - types == OF_CARS
 
 
 def test_energy_momentum_keeps_the_energy_of_each():
     for name in ELEMENTS:
-        found = measure(name, 0.2, 300, "energy_momentum")
+        actual = measure(name, 0.2, 300, "energy_momentum")
         if name == "tabled body":
-            assert found["told"] == "no"
+            assert actual["told"] == "no"
         else:
-            assert found["energy"] < (0.1 if name.startswith("drive") else 1e-4 if name == "friction" else 1e-8), found
+            assert actual["energy"] < (0.1 if name.startswith("drive") else 1e-4 if name == "friction" else 1e-8), (
+                actual
+            )
 
 
 def test_a_force_that_gives_energy_is_seen():
     """A spring without its energy: what the bodies have is not kept."""
-    found = measure("spring, stops", 0.5, 500, "runge_kutta_8", told=True)
-    assert found["energy"] > WRONG
-    assert found["grows"]
-    assert "AccuracyWarning" in found["told"]
+    result = measure("spring, stops", 0.5, 500, "runge_kutta_8", told=True)
+    assert result["energy"] > WRONG
+    assert result["grows"]
+    assert "AccuracyWarning" in result["told"]
 
 
 def test_the_command_gives_the_tables(capsys):
@@ -65,12 +67,12 @@ def test_the_command_gives_the_tables(capsys):
 
 
 @pytest.mark.slow
-def test_what_grows_is_told_over_a_hundred_thousand_steps():
+def test_what_grows_is_reported_over_a_hundred_thousand_steps():
     """Bounded errors beyond `WRONG` are those of the page."""
     for name in MECHANISMS:
         for turn in TURNS:
-            found = measure(name, turn, STEPS, told=True)
-            assert found["energy"] is None or found["energy"] < WRONG or found["told"] or not found["grows"], found
+            result = measure(name, turn, STEPS, told=True)
+            assert result["energy"] is None or result["energy"] < WRONG or result["told"] or not result["grows"], result
 
 
 JOINTS = {
@@ -126,10 +128,10 @@ def check_pairs(count, seed):
         assert ran(free, system, "energy_momentum")[1] < 1e-8, which
         right, open_by = ran(free, system, "runge_kutta_8")
         assert open_by < 1e-3 or ran(free, system, "runge_kutta_8", 0.00125)[1] < 0.2 * open_by, which
-        with warnings.catch_warnings(record=True) as said:
+        with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             r, open_by = ran(free, system, "ali3p", check=True)
-        if open_by > 1e-3 and not any(issubclass(w.category, mbs.AccuracyWarning) for w in said):
+        if open_by > 1e-3 and not any(issubclass(w.category, mbs.AccuracyWarning) for w in caught):
             off = max(np.abs(r[name] - right[name]).max() for name in places)
             assert off < 0.05 * max(np.ptp(right[name]) for name in places), (*which, off)
 

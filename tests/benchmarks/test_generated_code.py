@@ -24,8 +24,8 @@ def test_generated_code_makes_the_same_steps() -> None:
 def test_the_table_has_a_row_for_each_scene() -> None:
     row = {"scene": "slalom", "step, ms": 5.0, "instructions loops": 300000, "instructions generated": 150000}
     row |= {"us loops": 20.0, "us generated": 12.5, "ratio": 0.625, "kB": 300}
-    (found,) = rows_of(blocks([row])["generated"])
-    assert found == {
+    (rows,) = rows_of(blocks([row])["generated"])
+    assert rows == {
         "scene": "slalom",
         "step, ms": "5",
         "instructions, loops": "300,000",

@@ -13,7 +13,7 @@ from tests.unoptimised import unoptimised
 
 @pytest.mark.slow
 @unoptimised()
-def test_counts_are_those_of_a_run_and_a_dearer_step_is_told(tmp_path, capsys, monkeypatch):
+def test_counts_are_those_of_a_run_and_a_dearer_step_is_reported(tmp_path, capsys, monkeypatch):
     scene = scene_instructions.SCENES[0]._replace(steps=20)
     monkeypatch.setattr(scene_instructions, "SCENES", [scene])
     table = tmp_path / "table.json"

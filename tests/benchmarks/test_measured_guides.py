@@ -22,18 +22,18 @@ def signals(pitch_rate: float = 0.0) -> guides.Signals:
 
 
 def test_signals_without_faults_return_the_motion() -> None:
-    found = guides.motion(signals(0.05), WAY)
-    assert np.max(np.abs(found.way - kerb_test.distance(T))) < 1e-3
-    assert np.max(np.abs(found.guide(T) - found.way)) < 1e-3
-    assert np.max(np.abs(found.heave)) < 1e-3
-    assert found.pitch[-1] == pytest.approx(0.05 * np.pi * 9.0 / (2.0 * np.pi), rel=0.01)  # rad, nose down
+    actual = guides.motion(signals(0.05), WAY)
+    assert np.max(np.abs(actual.way - kerb_test.distance(T))) < 1e-3
+    assert np.max(np.abs(actual.guide(T) - actual.way)) < 1e-3
+    assert np.max(np.abs(actual.heave)) < 1e-3
+    assert actual.pitch[-1] == pytest.approx(0.05 * np.pi * 9.0 / (2.0 * np.pi), rel=0.01)  # rad, nose down
 
 
 def test_offset_and_drift_are_taken_out_and_a_sign_is_seen() -> None:
     given = signals()
     faulty = guides.Signals(T, given.force + 0.3 - 0.03 * T[:, np.newaxis, np.newaxis])
-    found = guides.motion(faulty, WAY)
-    assert np.sqrt(np.mean((found.way - kerb_test.distance(T)) ** 2)) < 0.05
+    result = guides.motion(faulty, WAY)
+    assert np.sqrt(np.mean((result.way - kerb_test.distance(T)) ** 2)) < 0.05
     plain = cumulative_trapezoid(cumulative_trapezoid(faulty.force[:, 0, 0], T, initial=0.0), T, initial=0.0)
     assert np.abs(plain - kerb_test.distance(T)).max() > 5.0  # what drift would do
     turned = guides.motion(guides.Signals(T, -given.force), -WAY)

@@ -69,8 +69,8 @@ def test_the_reference_keeps_rows_and_axes(number):
 @pytest.mark.slow
 def test_the_command_judges_runs(tmp_path: Path, capsys):
     file = tmp_path / "r.json"
-    asked = ["--family", "planar", "gears", "--random", "1", "--seed", "8", "--json", str(file)]
-    assert honesty.main(asked) == 0
+    requested = ["--family", "planar", "gears", "--random", "1", "--seed", "8", "--json", str(file)]
+    assert honesty.main(requested) == 0
     written = json.loads(file.read_text(encoding="utf-8"))
     judged = [r for r in written["rows"] if r["verdict"] != "none"]
     assert written["meta"]["seed"] == 8
@@ -88,11 +88,11 @@ def test_an_unknown_family_is_refused(capsys):
 def test_a_wrong_run_without_a_word_is_found(monkeypatch):
     """The judge itself: with the checks of a run turned off the same case is silently wrong."""
     case, number = {"family": "tumbling", "seed": 1}, TUMBLES
-    told = list(random_honesty.rows_of(**case, numbers=[number]))
+    reported = list(random_honesty.rows_of(**case, numbers=[number]))
     real = random_honesty.mbs.simulate
     monkeypatch.setattr(random_honesty.mbs, "simulate", lambda *a, **k: real(*a, **k, estimate_error=False))
     silent = list(random_honesty.rows_of(**case, numbers=[number]))
-    assert [(r["kind"], r["verdict"]) for r in (told[0], silent[0])] == [
+    assert [(r["kind"], r["verdict"]) for r in (reported[0], silent[0])] == [
         ("body", "wrong, told"),
         ("body", "silently wrong"),
     ]
@@ -128,10 +128,10 @@ def test_the_engine_in_fine_steps_moves_as_the_reference(family):
         except NoReferenceError:
             continue
     n = round(case.span / INSTANTS / 1e-4)
-    found = case.run(h=case.span / INSTANTS / n, every=n)
-    sensors = {name: what for name, what in compared_sensors(case.system).items() if name in case.truth}
+    result = case.run(h=case.span / INSTANTS / n, every=n)
+    sensors = {name: sensor for name, sensor in compared_sensors(case.system).items() if name in case.truth}
     for name, size in sizes_of(case.truth, sensors, length_of(case.system)).items():
-        assert np.abs(found.values[name] - case.truth[name]).max() < 2e-3 * size
+        assert np.abs(result.values[name] - case.truth[name]).max() < 2e-3 * size
 
 
 @pytest.mark.parametrize(("seed", "number", "h"), [(2, 54, 0.02), (7, 968, 0.01)])
@@ -161,7 +161,7 @@ def told_and_true(seed, number, h):
     with pytest.warns(mbs.AccuracyWarning):
         run = drive.run(h=h)
     fine, length = drive.run(h=1e-4, estimate_error=False), length_of(drive.system)
-    judged = {name: what for name, what in compared_sensors(drive.system).items() if what.always}
+    judged = {name: sensor for name, sensor in compared_sensors(drive.system).items() if sensor.always}
     error = max(differences(run, fine, judged, None, length)[0].values())
     assert error > 0.05
     return run, error

@@ -46,9 +46,9 @@ def test_nothing_imports_a_command() -> None:
 @pytest.mark.slow
 def test_tests_other_than_those_of_the_commands_import_no_command() -> None:
     tests = [f for f in files(ROOT / "tests") if "benchmarks" not in f.relative_to(ROOT).parts]
-    found = {(f.name, name) for f in tests for name in imports(f) if name.startswith("benchmarks")}
-    assert found, "no test uses the references: look here again"
-    assert not {pair for pair in found if pair[1] in COMMANDS}
+    results = {(f.name, name) for f in tests for name in imports(f) if name.startswith("benchmarks")}
+    assert results, "no test uses the references: look here again"
+    assert not {pair for pair in results if pair[1] in COMMANDS}
 
 
 @pytest.mark.parametrize("room", ROOMS)

@@ -52,14 +52,14 @@ def drive() -> Drive:
 def test_the_fit_finds_the_numbers_of_a_drive(drive: Drive, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fitting, "LENGTH", 4.0)  # s: more windows cost nothing, longer ones do
     model = MODELS[PLACES["saturating bicycle, tanh"]]
-    found = fitting.fit(model, BODY, drive)
+    actual = fitting.fit(model, BODY, drive)
     assert np.max(np.abs(drive.yaw_rate * drive.vx)) > 0.75 * 9.81 * GRIP  # the curves bend
-    np.testing.assert_allclose(found.numbers, [*STIFFNESS, GRIP, OFFSET], rtol=0.01)
-    assert max(found.fitted, found.windows, found.whole) < 3e-4
-    assert found.lateral < 0.01
-    assert found.departed == 0
+    np.testing.assert_allclose(actual.numbers, [*STIFFNESS, GRIP, OFFSET], rtol=0.01)
+    assert max(actual.fitted, actual.windows, actual.whole) < 3e-4
+    assert actual.lateral < 0.01
+    assert actual.departed == 0
     linear = fitting.fit(MODELS[PLACES["linear bicycle"]], BODY, drive)
-    assert linear.windows > 20.0 * found.windows
+    assert linear.windows > 20.0 * actual.windows
 
 
 @pytest.mark.slow
@@ -98,11 +98,11 @@ def test_a_packed_log_is_read_by_its_alias_file(tmp_path: Path) -> None:
     rows = "\n".join(f"{5 + 0.01 * k:.2f},{k},{2 - 3 * k},36,0.5,0.1" for k in range(20))
     with gzip.open(tmp_path / "log.csv.gz", "wt", encoding="utf-8") as stream:
         stream.write(f"t,l,r,v,w,y\n{rows}\n")
-    found = read_drive(tmp_path / "log.csv.gz", tmp_path / "a.toml")
-    np.testing.assert_allclose(found.steer, np.radians(2.0 * np.arange(20)))
-    assert (found.time[0], found.interval) == (0.0, pytest.approx(0.01))
-    assert found.vx[0] == pytest.approx(10.0)
-    assert (found.vy[0], found.yaw_rate[0]) == (0.5, 0.1)
+    actual = read_drive(tmp_path / "log.csv.gz", tmp_path / "a.toml")
+    np.testing.assert_allclose(actual.steer, np.radians(2.0 * np.arange(20)))
+    assert (actual.time[0], actual.interval) == (0.0, pytest.approx(0.01))
+    assert actual.vx[0] == pytest.approx(10.0)
+    assert (actual.vy[0], actual.yaw_rate[0]) == (0.5, 0.1)
     (tmp_path / "a.toml").write_text('[time]\nname = "t"\n[signals]\n"chassis.vx" = "v"\n', encoding="utf-8")
     with pytest.raises(HostError, match=r"has no 'wheel_FL\.steer'"):
         read_drive(tmp_path / "log.csv.gz", tmp_path / "a.toml")
@@ -138,12 +138,12 @@ def test_the_bank_of_the_road_is_found_by_place_and_moves_the_car(drive: Drive) 
     rate = v * 4e-3 * (np.sin(phase) + np.sin(3.0 * phase) + 0.7 * np.cos(7.0 * phase))
     true = 0.4 * np.sin(2.0 * phase) - 0.2 * np.cos(4.0 * phase)
     banked = Drive(time, 0.0 * v, v, 0.0 * v, rate, 1.03 * rate * v - true)
-    found = bank_of(banked)
-    assert found.lap == pytest.approx(2200.0, abs=2.0)
-    assert found.roll_share == pytest.approx(0.03, abs=0.01)
-    assert found.unseen == 0.0
+    actual = bank_of(banked)
+    assert actual.lap == pytest.approx(2200.0, abs=2.0)
+    assert actual.roll_share == pytest.approx(0.03, abs=0.01)
+    assert actual.unseen == 0.0
     inside = (time > 5.0) & (time < 185.0)
-    for estimate in (found.by_sensor, found.by_place):
+    for estimate in (actual.by_sensor, actual.by_place):
         assert np.sqrt(np.mean((estimate - true)[inside] ** 2)) < 0.08
     noise = np.random.default_rng(5).normal(size=len(time))
     elsewhere = Drive(time, 0.0 * v, v, 0.0 * v, 0.1 * noise, noise)

@@ -26,8 +26,8 @@ def drive() -> Drive:
 
 def test_understeer_and_sideslip_are_binned_over_the_measured_acceleration(drive: Drive) -> None:
     rows = window_rows(drive)
-    found = curves(drive, L, drive.vy[rows] + 0.1, 0.9 * drive.yaw_rate[rows])
-    judged = [c for c in found if c.seconds >= ENOUGH]
+    actual = curves(drive, L, drive.vy[rows] + 0.1, 0.9 * drive.yaw_rate[rows])
+    judged = [c for c in actual if c.seconds >= ENOUGH]
     assert {c.quantity for c in judged} == {"understeer angle", "sideslip"}
     assert min(c.acceleration for c in judged) < -0.5
     assert max(c.acceleration for c in judged) > 0.5
@@ -42,9 +42,9 @@ def test_understeer_and_sideslip_are_binned_over_the_measured_acceleration(drive
             # A tenth less yaw rate is a tenth of its angle L r / v more understeer, to the left as to the right.
             assert c.difference == pytest.approx(np.degrees(0.1 * L * abs(ay) / V**2), rel=0.3)
     # A second that lies in two windows counts once.
-    assert sum(c.seconds for c in found) / 2.0 == pytest.approx(80.0 + 35.0 - 2 * 0.5, abs=0.1)
-    assert within(found, "sideslip", 0.3) == (len(judged) // 2, len(judged) // 2)
-    assert within(found, "sideslip", 0.1)[0] == 0
+    assert sum(c.seconds for c in actual) / 2.0 == pytest.approx(80.0 + 35.0 - 2 * 0.5, abs=0.1)
+    assert within(actual, "sideslip", 0.3) == (len(judged) // 2, len(judged) // 2)
+    assert within(actual, "sideslip", 0.1)[0] == 0
 
 
 def test_the_deviation_of_the_lateral_acceleration(drive: Drive) -> None:

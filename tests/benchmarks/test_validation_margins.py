@@ -52,19 +52,19 @@ def laps() -> Drive:
     return Drive(time, 0.0 * time, vx, 0.0 * time, curvature * vx)
 
 
-def test_seconds_are_told_apart_by_corner_speed_and_acceleration() -> None:
+def test_seconds_are_reported_apart_by_corner_speed_and_acceleration() -> None:
     drive = laps()
-    found = omitted_seconds.families(drive)
-    corners = found["corners"]
+    actual = omitted_seconds.families(drive)
+    corners = actual["corners"]
     assert [name.startswith("corner at") for name in corners.names] == [True, True]
     left, right = (np.flatnonzero(drive.yaw_rate * side > 0.0) for side in (1.0, -1.0))
     for rows in (left, right):
         assert np.bincount(corners.number[rows], minlength=3).max() > 0.9 * len(rows)
     assert corners.number[left[50]] != corners.number[right[50]]
     assert corners.number[np.argmax(drive.yaw_rate == 0.0)] == 2
-    speeds = np.bincount(found["speed"].number)
+    speeds = np.bincount(actual["speed"].number)
     np.testing.assert_allclose(speeds, len(drive.time) / omitted_seconds.SPEEDS, rtol=0.01)
-    assert np.bincount(found["acceleration"].number, minlength=5)[2] == (np.abs(drive.ax) < 1.0).sum()
+    assert np.bincount(actual["acceleration"].number, minlength=5)[2] == (np.abs(drive.ax) < 1.0).sum()
 
 
 def test_a_kind_is_judged_by_what_the_others_lead_to() -> None:
@@ -76,24 +76,24 @@ def test_a_kind_is_judged_by_what_the_others_lead_to() -> None:
     x = np.column_stack([random.normal(size=2 * count), np.ones(2 * count)])
     measured = random.normal(size=2 * count) + np.tile(number, 2)
     p = np.array([0.3, -0.2])
-    told = omitted_seconds.without_kinds(x, x @ p - measured, np.arange(count), {"corners": family})
+    reported = omitted_seconds.without_kinds(x, x @ p - measured, np.arange(count), {"corners": family})
     sizes = []
     for k in range(3):
         others = np.tile(number, 2) != k
         q = np.linalg.lstsq(x[others], measured[others], None)[0]
         own = np.flatnonzero(number == k)
         sizes.append(SCALES[0] * np.sqrt(np.mean((x[own] @ q - measured[own]) ** 2)))
-    assert told["corners, mean"] == pytest.approx(np.mean(sizes))
-    assert told["corners, worst"] == pytest.approx(max(sizes))
-    assert told["worst kind"] == "abc"[int(np.argmax(sizes))]
+    assert reported["corners, mean"] == pytest.approx(np.mean(sizes))
+    assert reported["corners, worst"] == pytest.approx(max(sizes))
+    assert reported["worst kind"] == "abc"[int(np.argmax(sizes))]
 
 
-def test_the_bounds_of_a_fit_are_read_and_a_number_near_one_is_told(tmp_path: Path) -> None:
+def test_the_bounds_of_a_fit_are_read_and_a_number_near_one_is_reported(tmp_path: Path) -> None:
     file = tmp_path / "fit.toml"
     file.write_text('["a.b"]\nlow = 1.0\nhigh = 2\n', encoding="utf-8")
     assert refit.sought_in(file) == {"a.b": "1.0:2.0"}
-    found = {"name": "a.b", "value": 1.5, "half_width_95": 0.1, "folds": [1.4, 1.6], "without": 1.02}
-    rows = [refit.row_of(found | {"value": value}, 1.0, 2.0) for value in (1.015, 1.5, 1.985)]
+    results = {"name": "a.b", "value": 1.5, "half_width_95": 0.1, "folds": [1.4, 1.6], "without": 1.02}
+    rows = [refit.row_of(results | {"value": value}, 1.0, 2.0) for value in (1.015, 1.5, 1.985)]
     assert [row["near a bound"] for row in rows] == ["yes", "no", "yes"]
     assert [line.split()[0] for line in refit.problems(rows)] == ["`a.b`", "`a.b`"]
     assert rows[1]["without it"] == pytest.approx(2.0)

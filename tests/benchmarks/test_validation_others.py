@@ -15,16 +15,18 @@ from mbs.tyre_files.fits import tmeasy_of_magic
 @pytest.mark.parametrize(("angle", "slip"), [(8.0, 0.0), (-3.0, 0.0), (0.0, -5.0), (0.0, 5.0)])
 def test_the_rig_returns_the_published_force_with_its_sign(angle: float, slip: float) -> None:
     lateral, load = slip == 0.0, 6000.0
-    told = tyre_rig.published(
+    reported = tyre_rig.published(
         tyre_rig.LATERAL if lateral else tyre_rig.LONGITUDINAL, lateral, load, angle if lateral else slip
     )
-    found = tyre_rig.on_the_rig(tyre_rig.magic(), load, angle, slip)
-    assert found[lateral] == pytest.approx(told, rel=3e-4)
-    assert np.sign(found[lateral]) == np.sign(angle + slip)
-    assert abs(found[not lateral]) < 0.01 * abs(told)
-    figure = Published("test", "N", {"formula": told}, tyre_rig.read_within(lateral, load, angle if lateral else slip))
-    assert figure.row(found[lateral])["verdict"] == "within"
-    assert figure.row(-found[lateral])["verdict"] != "within"
+    actual = tyre_rig.on_the_rig(tyre_rig.magic(), load, angle, slip)
+    assert actual[lateral] == pytest.approx(reported, rel=3e-4)
+    assert np.sign(actual[lateral]) == np.sign(angle + slip)
+    assert abs(actual[not lateral]) < 0.01 * abs(reported)
+    figure = Published(
+        "test", "N", {"formula": reported}, tyre_rig.read_within(lateral, load, angle if lateral else slip)
+    )
+    assert figure.row(actual[lateral])["verdict"] == "within"
+    assert figure.row(-actual[lateral])["verdict"] != "within"
 
 
 def test_the_other_formula_is_as_far_off_as_its_fit_tells() -> None:
@@ -32,8 +34,8 @@ def test_the_other_formula_is_as_far_off_as_its_fit_tells() -> None:
     assert errors["moment"] == 0.0  # there is no trail to be fitted
     load, most = 6000.0, 5500.0
     for angle in tyre_rig.ANGLES:
-        told = tyre_rig.published(tyre_rig.LATERAL, True, load, angle)
-        off = abs(tyre_rig.on_the_rig(tyre, load, angle)[1] - told)
+        reported = tyre_rig.published(tyre_rig.LATERAL, True, load, angle)
+        off = abs(tyre_rig.on_the_rig(tyre, load, angle)[1] - reported)
         assert 0.0 < off < 1.1 * errors["lateral"] * most
 
 
@@ -47,20 +49,20 @@ def test_times_are_those_of_the_speeds_asked_for() -> None:
 def test_the_part_is_merged_and_the_rest_of_the_page_stays(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     before = (DOCS / "validation.md").read_text(encoding="utf-8")
     (tmp_path / "validation.md").write_text(before, encoding="utf-8")
-    made = [Published("a test", "s", {"somebody": 1.0}, 0.05).row(1.2)]
+    result = [Published("a test", "s", {"somebody": 1.0}, 0.05).row(1.2)]
     monkeypatch.setattr("benchmarks.shared.command.DOCS", tmp_path)
-    monkeypatch.setattr(published_tests, "rows", lambda: made)
+    monkeypatch.setattr(published_tests, "rows", lambda: result)
     assert command.main(["others", "--write"]) == 0
     after = (tmp_path / "validation.md").read_text(encoding="utf-8")
     begin, end = "<!-- begin others -->\n", "<!-- end others -->"
-    assert after.split(begin)[1].split(end)[0] == table(made, published_tests.COLUMNS) + "\n"
+    assert after.split(begin)[1].split(end)[0] == table(result, published_tests.COLUMNS) + "\n"
     assert "| a test, s | 1 (somebody) | 0.05 | 1.2 | +14 % |" in after
     assert [part.split(begin)[0] if k == 0 else part for k, part in enumerate(after.split(end))] == [
         part.split(begin)[0] if k == 0 else part for k, part in enumerate(before.split(end))
     ]
 
 
-def test_a_row_of_the_page_that_would_be_lost_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_row_of_the_page_that_would_be_lost_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     assert command.main(["drive", "--log", "drive.csv", "--write"]) == 2
     assert "would lose" in capsys.readouterr().err
     assert command.main(["drive"]) == 2
@@ -78,11 +80,11 @@ def test_the_hatchback_is_slower_than_people_in_a_named_car(monkeypatch: pytest.
 
 @pytest.mark.slow
 def test_the_rows_of_another_program_have_its_sources_and_fail_where_it_differs() -> None:
-    found = published_tests.by_commonroad()
-    assert len(found) == 18
-    verdicts = [figure.row(value)["verdict"] for figure, value in found]
-    roll = [float(v.split()[0]) for (figure, _), v in zip(found, verdicts, strict=True) if "roll" in figure.test]
+    actual = published_tests.by_commonroad()
+    assert len(actual) == 18
+    verdicts = [figure.row(value)["verdict"] for figure, value in actual]
+    roll = [float(v.split()[0]) for (figure, _), v in zip(actual, verdicts, strict=True) if "roll" in figure.test]
     assert len(roll) == 3
     assert min(roll) > 4.0
-    yaw = [v for (f, _), v in zip(found, verdicts, strict=True) if "consistent: yaw" in f.test]
+    yaw = [v for (f, _), v in zip(actual, verdicts, strict=True) if "consistent: yaw" in f.test]
     assert all(abs(float(v.split()[0])) < 0.4 for v in yaw)

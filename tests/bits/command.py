@@ -43,17 +43,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     wanted = [n for n in GROUPS if options.only in n or any(options.only in e and group_of(e) == n for e in stored)]
     if not wanted:
         parser.error(f"no group or stored entry has {options.only!r} in its name; --list prints those there are")
-    found, failed = make_all(wanted, max(1, options.jobs))
-    for name, words in failed.items():
-        print(f"\n{name} cannot be made:\n{words}", file=sys.stderr)
+    result, failed = make_all(wanted, max(1, options.jobs))
+    for name, message in failed.items():
+        print(f"\n{name} cannot be made:\n{message}", file=sys.stderr)
     made = {*wanted, *(() if options.only else ("",))} - failed.keys()  # "": what no group makes any more
     kept = {name: entry for name, entry in stored.items() if group_of(name) in made}
-    rows = [row for row in store.compare(kept, found) if _asked(row.entry, options.only)]
-    report(rows, found, taken, options.most)
+    rows = [row for row in store.compare(kept, result) if _asked(row.entry, options.only)]
+    report(rows, result, taken, options.most)
     if options.update:
-        new = {name: entry for name, entry in found.items() if _asked(name, options.only)}
-        left = {name: entry for name, entry in stored.items() if name not in kept or not _asked(name, options.only)}
-        store.write(left | new, with_what())
+        new = {name: entry for name, entry in result.items() if _asked(name, options.only)}
+        remaining = {
+            name: entry for name, entry in stored.items() if name not in kept or not _asked(name, options.only)
+        }
+        store.write(remaining | new, with_what())
         print(f"written: {store.BASELINE}")
         return 1 if failed else 0
     return 1 if rows or failed else 0
@@ -93,15 +95,15 @@ def make_all(names: Sequence[str], jobs: int) -> tuple[dict[str, store.Entry], d
                 running[pool.submit(_in_a_process, name, fmus, Path(folder))] = name
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 name = running.pop(future)
-                made, words = future.result()
+                made, message = future.result()
                 bar.update()
                 bar.set_postfix_str(name)
                 entries |= made
-                if words:
-                    failed[name] = words
+                if message:
+                    failed[name] = message
                 for other in [other for other, needs in waiting.items() if name in needs]:
                     waiting[other].discard(name)
-                    if words:
+                    if message:
                         failed[other] = f"needs what {name} gives"
                         del waiting[other]
                         bar.update()
@@ -150,8 +152,8 @@ def report(rows: Sequence[store.Difference], found: dict[str, store.Entry], take
 
 def with_what() -> dict[str, str]:
     """What numbers may depend on beside the code."""
-    found = {"python": platform.python_version(), "platform": f"{platform.system()} {platform.machine()}"}
-    return found | {name: version(name) for name in ("numpy", "scipy", "fmpy", "pandas", "SALib")}
+    results = {"python": platform.python_version(), "platform": f"{platform.system()} {platform.machine()}"}
+    return results | {name: version(name) for name in ("numpy", "scipy", "fmpy", "pandas", "SALib")}
 
 
 def _asked(entry: str, text: str) -> bool:

@@ -135,8 +135,8 @@ def pages(car: str, fmus: Path, scratch: Path) -> Entries:
     """The scene of an FMU, and the page and the glTF of a result."""
     for kind in doors.KINDS:
         with zipfile.ZipFile(doors.fmu_file(car, kind, fmus)) as archive:
-            found = [n for n in archive.namelist() if n.endswith("geometry.json")]
-            for path in found:
+            results = [n for n in archive.namelist() if n.endswith("geometry.json")]
+            for path in results:
                 signals = tables.of_json(json.loads(archive.read(path)))
                 yield f"page/{car}/geometry of {kind}", entry_of(signals)
     fmu = doors.fmu_file(car, "fmi2", fmus)

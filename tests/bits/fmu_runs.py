@@ -74,22 +74,22 @@ def _kind_runs(
 
 def _scalars(result: np.ndarray) -> dict[str, np.ndarray]:
     """Columns of a result; elements of arrays one by one, which are the scalars of another kind."""
-    found = {}
+    results = {}
     for name in result.dtype.names:
         shape = result[name].shape[1:]
         for index in np.ndindex(shape):
-            found[name + "".join(f"[{k}]" for k in index)] = result[name][(slice(None), *index)]
-    return found
+            results[name + "".join(f"[{k}]" for k in index)] = result[name][(slice(None), *index)]
+    return results
 
 
 def _inputs(table: Mapping[str, np.ndarray]) -> np.ndarray:
     """Columns of a result that are inputs, as FMPy takes them; the times of the steps are whole multiples."""
-    found = np.zeros(len(table["time"]), [("time", float), *((name, float) for name in INPUTS)])
-    found["selector"] = 1.0
-    for name in found.dtype.names:
+    values = np.zeros(len(table["time"]), [("time", float), *((name, float) for name in INPUTS)])
+    values["selector"] = 1.0
+    for name in values.dtype.names:
         if name in table:
-            found[name] = table[name]
-    return found
+            values[name] = table[name]
+    return values
 
 
 def _derivatives(description: Any, folder: Path) -> dict[str, Any]:
@@ -111,7 +111,7 @@ def _derivatives(description: Any, folder: Path) -> dict[str, Any]:
     write(references, [0.1, 0.5])
     for k in range(40):
         slave.doStep(currentCommunicationPoint=k * STEP, communicationStepSize=STEP)
-    found = {}
+    results = {}
     for name, reference in zip(known, references, strict=True):
         for v in outputs:
             size = int(np.prod(v.shape)) if getattr(v, "shape", None) else 1
@@ -119,7 +119,7 @@ def _derivatives(description: Any, folder: Path) -> dict[str, Any]:
                 values = slave.getDirectionalDerivative([v.valueReference], [reference], [1.0])
             else:
                 values = slave.getDirectionalDerivative([v.valueReference], [reference], [1.0], size)
-            found[f"{v.name} by {name}"] = values
+            results[f"{v.name} by {name}"] = values
     slave.terminate()
     slave.freeInstance()
-    return found
+    return results

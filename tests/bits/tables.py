@@ -32,9 +32,9 @@ def of_csv(path: Path) -> Signals:
 
 def of_json(data: Any) -> Signals:
     """Numbers of a tree by their path; those of a list are one signal, and entries of a list go by their ``name``."""
-    found: dict[str, list[float]] = {}
-    _collect(data, "", found)
-    return {path: np.array(values) for path, values in found.items()}
+    results: dict[str, list[float]] = {}
+    _collect(data, "", results)
+    return {path: np.array(values) for path, values in results.items()}
 
 
 def of_json_file(path: Path) -> Signals:
@@ -44,13 +44,13 @@ def of_json_file(path: Path) -> Signals:
 
 def of_xml(text: str | bytes) -> Signals:
     """Numeric attributes of elements, by kind of element and attribute, in the order of the file."""
-    found: dict[str, list[float]] = {}
+    results: dict[str, list[float]] = {}
     for element in ET.fromstring(text).iter():
         for key, value in element.attrib.items():
             numbers = [_number(part) for part in value.split()]
             if numbers and not np.isnan(numbers).any():
-                found.setdefault(f"{element.tag} {key}", []).extend(numbers)
-    return {path: np.array(values) for path, values in found.items()}
+                results.setdefault(f"{element.tag} {key}", []).extend(numbers)
+    return {path: np.array(values) for path, values in results.items()}
 
 
 def of_page(path: Path) -> Signals:

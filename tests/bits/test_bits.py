@@ -19,10 +19,10 @@ def baseline():
 
 def test_runs_of_mechanisms_are_as_stored(baseline):
     """More than half of the entries, which take seconds; the others take minutes."""
-    found, failed = make_all(["mechanisms"], 1)
+    actual, failed = make_all(["mechanisms"], 1)
     assert failed == {}
     stored = {name: entry for name, entry in baseline.items() if group_of(name) == "mechanisms"}
-    assert store.compare(stored, found) == []
+    assert store.compare(stored, actual) == []
 
 
 @pytest.mark.proof
@@ -66,7 +66,7 @@ def test_rounding_is_let_pass_only_where_bits_are_not_compared():
     assert store.compare(stored, {"a": store.entry_of({"s": [0.0, 0.0, 0.0]}, False)})
 
 
-def test_names_that_come_and_go_are_told():
+def test_names_that_come_and_go_are_reported():
     stored = {"a": store.entry_of({"s": SIGNAL, "t": [1.0]}), "b": store.entry_of({"s": [1.0]})}
     rows = store.compare(stored, {"a": store.entry_of({"s": SIGNAL, "u": [1.0]}), "c": stored["b"]})
     assert [(r.entry, r.signal, r.kind) for r in rows] == [
@@ -83,8 +83,8 @@ def test_the_file_gives_back_what_was_written(tmp_path):
         "b": store.entry_of({"s": SIGNAL, "none": [], "odd": [2.0]}, False),
     }
     store.write(entries, {"numpy": "x"}, tmp_path / "b.json")
-    found, taken = store.read(tmp_path / "b.json")
-    assert store.compare(entries, found) == []
-    assert found["a"][1]["s"] == entries["a"][1]["s"]
-    assert not found["b"][0]
+    actual, taken = store.read(tmp_path / "b.json")
+    assert store.compare(entries, actual) == []
+    assert actual["a"][1]["s"] == entries["a"][1]["s"]
+    assert not actual["b"][0]
     assert taken == {"numpy": "x"}

@@ -73,7 +73,7 @@ ATTACKS: dict[str, tuple[Callable[[Path], Path], str, str]] = {
 
 @pytest.mark.parametrize("kind", ATTACKS)
 def test_an_archive_is_refused_by_all_that_open_it(kind: str, tmp_path: Path) -> None:
-    make, words, verdict = ATTACKS[kind]
+    make, message, verdict = ATTACKS[kind]
     file = make(tmp_path / "a.fmu")
     out = tmp_path / "inside" / "of" / "it"
     out.mkdir(parents=True)
@@ -84,13 +84,13 @@ def test_an_archive_is_refused_by_all_that_open_it(kind: str, tmp_path: Path) ->
         lambda fmu: unpack(fmu, out),
         lambda fmu: add_platforms(fmu, ["linux64"], tmp_path / "made.fmu", lambda what, note: nullcontext()),
     ):
-        with pytest.raises(UserError, match=words) as refused:
+        with pytest.raises(UserError, match=message) as refused:
             use(file)
         assert "\n" not in str(refused.value)
     assert sorted(tmp_path.rglob("*")) == before
     (finding,) = archive_findings(file)
     assert finding.verdict == verdict
-    assert words in finding.words
+    assert message in finding.words
 
 
 def test_sizes_are_held_to_bounds_before_anything_is_unpacked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -104,8 +104,8 @@ def test_sizes_are_held_to_bounds_before_anything_is_unpacked(tmp_path: Path, mo
         Archive(bomb, unpacked=1_000_000)
     many = archive(tmp_path / "b.zip", *((f"{k}", "") for k in range(1000)))
     monkeypatch.setattr("ali3.archives.MOST_ENTRIES", 1000)
-    words = "has 1001 entries; it must have at most 1000 (or ALI3_LIMITS=2 set)"
-    assert [fault.words for fault in faults_of(many)] == [words]
+    message = "has 1001 entries; it must have at most 1000 (or ALI3_LIMITS=2 set)"
+    assert [fault.words for fault in faults_of(many)] == [message]
     monkeypatch.setattr("ali3.archives.MOST_ENTRIES", 100)
     with pytest.raises(FileError, match="has a directory of 48956 bytes"):
         faults_of(many)
@@ -113,7 +113,7 @@ def test_sizes_are_held_to_bounds_before_anything_is_unpacked(tmp_path: Path, mo
 
 def test_a_damaged_archive_is_one_sentence(tmp_path: Path) -> None:
     whole = archive(tmp_path / "a.zip", ("zeros", "\0" * 1000)).read_bytes()
-    told = set()
+    reported = set()
     for k in range(0, len(whole), 7):
         (tmp_path / "b.zip").write_bytes(whole[:k] + bytes([whole[k] ^ 0xFF]) + whole[k + 1 :])
         try:
@@ -121,9 +121,9 @@ def test_a_damaged_archive_is_one_sentence(tmp_path: Path) -> None:
                 for name in opened.names:
                     opened.read(name)
         except FileError as error:
-            told.add(str(error))
-    assert len(told) > 5
-    assert not [words for words in told if "\n" in words]
+            reported.add(str(error))
+    assert len(reported) > 5
+    assert not [message for message in reported if "\n" in message]
 
 
 V = '<ScalarVariable name="v{0}" valueReference="{0}" causality="local"><Real/></ScalarVariable>'
@@ -135,7 +135,7 @@ THREE = (
 
 
 @pytest.mark.parametrize(
-    ("content", "words"),
+    ("content", "message"),
     [
         (DESCRIPTION.format("".join(map(V.format, range(101)))), "has more than 100 variables"),
         (THREE, "has 1000000000 variables, the elements of arrays counted; it must have at most 100"),
@@ -147,11 +147,11 @@ THREE = (
         ('<?xml version="1.0" encoding="utf-7"?><a/>', "in an encoding that is not read"),
     ],
 )
-def test_descriptions_have_bounds(content: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_descriptions_have_bounds(content: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(description_file, "MOST_VARIABLES", 100)
     file = tmp_path / "a.fmu"
-    with zipfile.ZipFile(file, "w") as made:
-        made.writestr("modelDescription.xml", content)
-    with pytest.raises(HostError, match=words) as refused:
+    with zipfile.ZipFile(file, "w") as archive:
+        archive.writestr("modelDescription.xml", content)
+    with pytest.raises(HostError, match=message) as refused:
         read_description(file, validate=False)
     assert "\n" not in str(refused.value)

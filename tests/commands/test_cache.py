@@ -73,10 +73,10 @@ def test_a_folder_that_another_program_removes_meanwhile_is_none(tmp_path, monke
     is_dir = Path.is_dir
 
     def removed_then(path):
-        found = is_dir(path)
+        result = is_dir(path)
         if path.name == "1":
             path.rmdir()
-        return found
+        return result
 
     monkeypatch.setattr(Path, "is_dir", removed_then)
     forget_oldest(tmp_path, 1)
@@ -96,10 +96,10 @@ def test_a_kernel_is_compiled_once_for_all_folders_with_the_same_sources(tmp_pat
     monkeypatch.setattr(build, "cache_directory", lambda: tmp_path / "cache")
     monkeypatch.setattr(build, "compile_c", compile_c)
     folders = [tmp_path / "a", tmp_path / "b"]
-    made = []
+    results = []
 
     def make(target="x86_64-linux-gnu.2.17"):
-        made.append(build.compile_library(target).read_text())
+        results.append(build.compile_library(target).read_text())
 
     for folder in folders:
         for room in ("src", "include"):
@@ -107,16 +107,16 @@ def test_a_kernel_is_compiled_once_for_all_folders_with_the_same_sources(tmp_pat
     for folder in folders:
         monkeypatch.setattr(build, "HERE", folder)
         make()
-    assert made == ["library 1"] * 2
+    assert results == ["library 1"] * 2
     with (folders[1] / "src" / "system.h").open("a") as header:
         header.write("\n")
     make()
     make("aarch64-linux-gnu.2.17")
     monkeypatch.setattr(build, "FLAGS", [*build.FLAGS, "-g"])
     make()
-    assert made[2:] == ["library 2", "library 3", "library 4"]
+    assert results[2:] == ["library 2", "library 3", "library 4"]
     monkeypatch.setattr(build, "HERE", folders[0])
     monkeypatch.setattr(build, "FLAGS", build.FLAGS[:-1])
     make()
-    assert made[-1] == "library 1"
+    assert results[-1] == "library 1"
     assert len(compiled) == 4

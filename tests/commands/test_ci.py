@@ -24,12 +24,12 @@ SECTION = """\
 """
 
 
-@pytest.mark.parametrize(("number", "words"), [("1", ["ali3 build", "ali3 run"]), ("2", ['".[test]"', "-m pytest"])])
-def test_the_commands_of_the_readme(number: str, words: list[str]) -> None:
+@pytest.mark.parametrize(("number", "message"), [("1", ["ali3 build", "ali3 run"]), ("2", ['".[test]"', "-m pytest"])])
+def test_the_commands_of_the_readme(number: str, message: list[str]) -> None:
     command = [sys.executable, CI / "readme_command.py", number]
     line = subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
     assert line.startswith("python3 -m venv .venv && .venv/bin/python -m pip install -e ")
-    assert all(word in line for word in words)
+    assert all(word in line for word in message)
 
 
 @pytest.mark.parametrize("more", ["", "    pyhton3 -m venv\n\n", "    python3 two\n\n    python3 three\n\n"])
@@ -52,5 +52,5 @@ SKIPPED [1] tests/b/test_y.py:9: extra 'fem'
 SKIPPED [1] tests/c/test_z.py:88: CalculiX (ccx) is not installed
 SKIPPED [1] tests/c/test_w.py:1: The package imageio is not installed; run: python -m pip install "ali3[pictures]"
 """
-    found = module_of(CI / "skipped_for_packages.py").files(log)
-    assert found == ["tests/a/test_x.py", "tests/b/test_y.py", "tests/c/test_w.py"]
+    actual = module_of(CI / "skipped_for_packages.py").files(log)
+    assert actual == ["tests/a/test_x.py", "tests/b/test_y.py", "tests/c/test_w.py"]

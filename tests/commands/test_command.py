@@ -63,24 +63,24 @@ def options_of(name: str) -> dict[str, argparse.Action]:
     return {name: action for action in actions if action.help != argparse.SUPPRESS for name in action.option_strings}
 
 
-def names_exist(words: Sequence[str]) -> str:
+def names_exist(message: Sequence[str]) -> str:
     """What is wrong with the command and the options of a line that may have placeholders."""
-    if words[0] not in PARSERS:
+    if message[0] not in PARSERS:
         return "no command"
-    known = {*options_of(words[0]), "--inside"}
-    unknown = [w for w in words if w.startswith("--") and w.partition("=")[0] not in known]
+    known = {*options_of(message[0]), "--inside"}
+    unknown = [w for w in message if w.startswith("--") and w.partition("=")[0] not in known]
     return f"no option {unknown[0]}" if unknown else ""
 
 
-def parses(words: Sequence[str], capsys: pytest.CaptureFixture[str]) -> str:
+def parses(message: Sequence[str], capsys: pytest.CaptureFixture[str]) -> str:
     """What is wrong with a line as a user types it."""
     try:
-        PARSERS[words[0]].parse_args(words[1:])
+        PARSERS[message[0]].parse_args(message[1:])
     except KeyError:
         return "no command"
     except SystemExit as end:
-        said = capsys.readouterr().err.strip()
-        return said.splitlines()[-1] if end.code else ""
+        errors = capsys.readouterr().err.strip()
+        return errors.splitlines()[-1] if end.code else ""
     return ""
 
 
@@ -95,9 +95,9 @@ def typed_lines(text: str) -> Iterator[list[str]]:
     """Lines of commands in indented or fenced blocks."""
     for line in re.findall(r"^    (.*\bali3 .*)$", text.replace("\\\n", " "), re.MULTILINE):
         for part in line.split("&&"):
-            found = re.fullmatch(r"\s*(?:\$ )?(?:[\w./]*/)?ali3 ([^#]*?)\s*(?:#.*)?", part)
-            if found and not re.search(r"[\[|<]|\.\.\.", found[1]):
-                yield shlex.split(found[1])
+            match = re.fullmatch(r"\s*(?:\$ )?(?:[\w./]*/)?ali3 ([^#]*?)\s*(?:#.*)?", part)
+            if match and not re.search(r"[\[|<]|\.\.\.", match[1]):
+                yield shlex.split(match[1])
 
 
 @pytest.fixture
@@ -160,14 +160,14 @@ def test_the_help_of_a_command_imports_nothing_heavy(command: Command, tmp_path:
 
 
 def test_an_option_of_two_commands_is_one_option() -> None:
-    found: dict[str, list[argparse.Action]] = {}
+    results: dict[str, list[argparse.Action]] = {}
     for command in COMMANDS:
         for name, action in options_of(command.name).items():
-            found.setdefault(name, []).append(action)
-    shared = {name for name, actions in found.items() if len(actions) > 1 and name not in ("-h", "--help")}
+            results.setdefault(name, []).append(action)
+    shared = {name for name, actions in results.items() if len(actions) > 1 and name not in ("-h", "--help")}
     assert shared <= {name for key, option in SHARED.items() for name in (key, *option.other_names)}
     for key, option in SHARED.items():
-        for action in found[key]:
+        for action in results[key]:
             assert action.option_strings == [key, *option.other_names]
             assert action.help.startswith(option.help)
             if option.metavar:
@@ -191,7 +191,7 @@ def test_commands_that_documents_and_sentences_name_exist() -> None:
     spans = [(f, span) for f, text in texts.items() for span in re.findall(r"[`'\"]ali3 ([^`'\"]+)[`'\"]", text)]
     named = [(f, span.split()) for f, span in spans if "{" not in span]
     assert len(named) > 60
-    plain = [(f, w) for f, words in named if (w := [re.sub(r"[\[\]]", "", word).split("|")[0] for word in words])]
+    plain = [(f, w) for f, message in named if (w := [re.sub(r"[\[\]]", "", word).split("|")[0] for word in message])]
     wrong = [f"{f}: ali3 {' '.join(w)}: {why}" for f, w in plain if w[0] != "COMMAND" and (why := names_exist(w))]
     called = [(f, name) for f, text in texts.items() for name in re.findall(r"command_name\([\"'](\w+)", text)]
     assert len(called) > 5

@@ -21,7 +21,7 @@ def raiser(error: BaseException) -> int:
 
 
 @pytest.mark.parametrize(
-    ("error", "status", "words"),
+    ("error", "status", "message"),
     [
         (UserError("The step is 0 s."), 2, "error: The step is 0 s.\n"),
         (ValueError("No such scene."), 2, "error: No such scene.\n"),
@@ -33,12 +33,14 @@ def raiser(error: BaseException) -> int:
         (OSError("sources.so: failed to map segment from shared object"), 2, "from shared object\n"),
     ],
 )
-def test_errors_are_one_line(error: BaseException, status: int, words: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_errors_are_one_line(
+    error: BaseException, status: int, message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run_command(lambda: raiser(error), (ValueError,)) == status
-    said = capsys.readouterr()
-    assert said.err.endswith(words)
-    assert said.err.count("\n") == 1
-    assert said.out == ""
+    captured = capsys.readouterr()
+    assert captured.err.endswith(message)
+    assert captured.err.count("\n") == 1
+    assert captured.out == ""
 
 
 @pytest.mark.parametrize(
@@ -67,12 +69,12 @@ def test_memory_is_the_cause_where_there_is_none(
 )
 def test_no_value_makes_a_sentence_endless(error: Exception, capsys: pytest.CaptureFixture[str]) -> None:
     assert run_command(lambda: raiser(error)) == 2
-    said = capsys.readouterr().err
-    assert len(said) < 2200
-    assert said.endswith((" number.\n", "1 2 .\n", "file name too long.\n"))
+    errors = capsys.readouterr().err
+    assert len(errors) < 2200
+    assert errors.endswith((" number.\n", "1 2 .\n", "file name too long.\n"))
 
 
-def test_a_usual_sentence_is_told_whole() -> None:
+def test_a_usual_sentence_is_reported_whole() -> None:
     sentence = f"/{'folder/' * 25}car.fmu is not an FMU; its inputs are: {', '.join(f'input_{k}' for k in range(99))}."
     assert shortened(sentence) == sentence
 
@@ -108,11 +110,11 @@ def test_ctrl_c_during_a_drive_is_one_line_and_leaves_nothing(swing_fmu: Path, t
         # a shell that started these tests in the background lets all their children ignore it
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
-    said = ""
-    while "%" not in said:  # the bar: the drive has begun
+    reported = ""
+    while "%" not in reported:  # the bar: the drive has begun
         letter = process.stderr.read(1)
-        assert letter, said
-        said += letter
+        assert letter, reported
+        reported += letter
     process.send_signal(signal.SIGINT)
     rest = process.communicate(timeout=60)[1]
     assert process.returncode == 130

@@ -60,7 +60,7 @@ def test_extras_that_are_named_exist() -> None:
 
 
 @pytest.mark.parametrize(
-    ("command", "extra", "package", "told"),
+    ("command", "extra", "package", "reported"),
     [
         ("study", "", "pyarrow", "study"),
         ("simulator", "", "pyarrow", "simulator"),
@@ -73,9 +73,9 @@ def test_extras_that_are_named_exist() -> None:
         ("road", "roads", "trimesh", "roads"),
     ],
 )
-def test_the_extra_of_the_command_comes_first(command: str, extra: str, package: str, told: str) -> None:
+def test_the_extra_of_the_command_comes_first(command: str, extra: str, package: str, reported: str) -> None:
     command_needs(next(c.extra for c in COMMANDS if c.name == command))
-    assert missing_package(package, extra).endswith(f'pip install "ali3[{told}]"')
+    assert missing_package(package, extra).endswith(f'pip install "ali3[{reported}]"')
 
 
 @pytest.mark.slow
@@ -102,8 +102,8 @@ def test_a_module_that_a_library_wants_at_run_time(monkeypatch: pytest.MonkeyPat
     pytest.importorskip("trimesh.viewer")
     monkeypatch.setitem(sys.modules, "pyglet", None)
     error = caught(lambda: importlib.import_module("trimesh.viewer.windowed"))
-    told = missing_module(error, "pictures")
-    assert told == (
+    reported = missing_module(error, "pictures")
+    assert reported == (
         'The package trimesh needs pyglet, which is not installed; run: python -m pip install "ali3[pictures]" pyglet'
     )
 

@@ -35,19 +35,19 @@ def names(folder: Path) -> list[str]:
 
 
 def fail_half_way(file: Path, error: type[BaseException]) -> None:
-    with atomic_file(file) as made:
-        made.write_text("half")
+    with atomic_file(file) as temporary:
+        temporary.write_text("half")
         raise error
 
 
 def test_a_file_is_replaced_when_the_new_one_is_whole(tmp_path: Path) -> None:
     file = tmp_path / "a" / "table.csv"
-    with atomic_file(file) as made:
-        made.write_text("one")
+    with atomic_file(file) as temporary:
+        temporary.write_text("one")
         assert not file.exists()
-    with atomic_file(file) as made:
-        made.write_text("two")
-        assert made.suffix == ".csv"
+    with atomic_file(file) as temporary:
+        temporary.write_text("two")
+        assert temporary.suffix == ".csv"
         assert file.read_text() == "one"
     assert file.read_text() == "two"
     assert names(file.parent) == ["table.csv"]
@@ -65,8 +65,8 @@ def test_an_error_inside_leaves_the_old_file_and_nothing_else(tmp_path: Path) ->
 
 def test_the_mode_is_that_of_any_new_file(tmp_path: Path) -> None:
     (tmp_path / "plain").write_text("")
-    with atomic_file(tmp_path / "whole") as made:
-        made.write_text("")
+    with atomic_file(tmp_path / "whole") as temporary:
+        temporary.write_text("")
     assert (tmp_path / "whole").stat().st_mode == (tmp_path / "plain").stat().st_mode
 
 
@@ -74,14 +74,14 @@ def test_the_mode_is_that_of_any_new_file(tmp_path: Path) -> None:
 def test_a_link_stays_a_link(tmp_path: Path) -> None:
     (tmp_path / "real").mkdir()
     (tmp_path / "link").symlink_to(tmp_path / "real" / "file")
-    with atomic_file(tmp_path / "link") as made:
-        made.write_text("x")
+    with atomic_file(tmp_path / "link") as temporary:
+        temporary.write_text("x")
     assert (tmp_path / "link").is_symlink()
     assert (tmp_path / "real" / "file").read_text() == "x"
 
 
 @pytest.mark.parametrize("write", [check_writable, lambda f: atomic_file(f).__enter__()], ids=["check", "write"])
-def test_what_cannot_be_written_is_named(write: object, tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_written_is_named(write: object, tmp_path: Path) -> None:
     (tmp_path / "folder").mkdir()
     (tmp_path / "file").write_text("")
     with pytest.raises(FileError, match=r"folder is a folder; it must be a file\.$"):
@@ -151,8 +151,8 @@ def test_a_folder_is_there_whole_or_not_at_all(tmp_path):
     target = tmp_path / "new" / "folder"
 
     def fill(text):
-        with atomic_folder(target) as made:
-            (made / "a").write_text(text)
+        with atomic_folder(target) as temporary:
+            (temporary / "a").write_text(text)
 
     with pytest.raises(TypeError):
         fill(1)
@@ -162,15 +162,15 @@ def test_a_folder_is_there_whole_or_not_at_all(tmp_path):
 
 
 def test_of_two_programs_that_make_a_folder_the_first_wins(tmp_path):
-    with atomic_folder(tmp_path / "a") as made:
-        (made / "b").write_text("second")
+    with atomic_folder(tmp_path / "a") as temporary:
+        (temporary / "b").write_text("second")
         (tmp_path / "a").mkdir()
         (tmp_path / "a" / "b").write_text("first")
     assert (tmp_path / "a" / "b").read_text() == "first"
     assert [place.name for place in tmp_path.iterdir()] == ["a"]
     (tmp_path / "file").write_text("")
-    with pytest.raises(FileError, match="file cannot be written: "), atomic_folder(tmp_path / "file") as made:
-        (made / "b").write_text("")
+    with pytest.raises(FileError, match="file cannot be written: "), atomic_folder(tmp_path / "file") as temporary:
+        (temporary / "b").write_text("")
 
 
 def test_a_lock_goes_with_the_process_that_holds_it(tmp_path):

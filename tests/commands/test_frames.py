@@ -39,23 +39,23 @@ def through(value: Any, kind: Any) -> Any:
     stream = io.BytesIO()
     write_frame(stream, 3, value)
     stream.seek(0)
-    number, found = read_frame(stream, {3: kind})
+    number, result = read_frame(stream, {3: kind})
     assert number == 3
     assert not stream.read()
-    return found
+    return result
 
 
 def test_a_value_comes_back_as_it_was() -> None:
     table = np.array([[1.0, math.nan], [-0.0, math.inf]])
     given = Whole(table, [Part("ä\n", (2.5, "x"))], {3: [0.1]}, {"a": 1.5, "b": "1.5", "c": True}, b"\0\xff", table[:0])
-    found = through(given, Whole)
-    assert found.values.tobytes() == table.tobytes()
-    assert found.values.shape == (2, 2)
-    assert found.signals is not None
-    assert found.signals.shape == (0, 2)
-    assert (found.parts, found.by_number, found.raw) == (given.parts, given.by_number, given.raw)
-    assert [(type(x), x) for x in found.start.values()] == [(float, 1.5), (str, "1.5"), (bool, True)]
-    found.values[0, 0] = 2.0  # it belongs to the reader
+    actual = through(given, Whole)
+    assert actual.values.tobytes() == table.tobytes()
+    assert actual.values.shape == (2, 2)
+    assert actual.signals is not None
+    assert actual.signals.shape == (0, 2)
+    assert (actual.parts, actual.by_number, actual.raw) == (given.parts, given.by_number, given.raw)
+    assert [(type(x), x) for x in actual.start.values()] == [(float, 1.5), (str, "1.5"), (bool, True)]
+    actual.values[0, 0] = 2.0  # it belongs to the reader
     assert through([np.float64(1.5), np.int32(2), None], None) == [1.5, 2, None]
 
 
@@ -94,7 +94,7 @@ def test_a_frame_that_is_cut_is_an_end() -> None:
             read_frame(io.BytesIO(whole[:size]), {3: None})
 
 
-def test_what_has_no_form_is_refused() -> None:
+def test_values_of_unknown_types_are_refused() -> None:
     for value in (object(), np.array([object()])):
         with pytest.raises(TypeError):
             write_frame(io.BytesIO(), 1, value)

@@ -17,13 +17,13 @@ FRAME = re.compile(r"<!doctype|<style|<body|\bfont-family:|max-width: \d+em", re
 
 
 def test_a_table_has_its_texts() -> None:
-    made = table("", ("a", "<b>"), [("heading",), ("row", "<i>&"), ("other", element("td", "mine"))], 'x"')
-    page = html_elements.document("<b>", [made])
+    result = table("", ("a", "<b>"), [("heading",), ("row", "<i>&"), ("other", element("td", "mine"))], 'x"')
+    page = html_elements.document("<b>", [result])
     assert page.count("<style>") == 1
     tree = html5lib.parse(page, namespaceHTMLElements=False)
     assert tree.findtext("head/title") == "<b>"
-    found = [[(cell.tag, cell.get("scope"), cell.text) for cell in row] for row in tree.iter("tr")]
-    assert found == [
+    actual = [[(cell.tag, cell.get("scope"), cell.text) for cell in row] for row in tree.iter("tr")]
+    assert actual == [
         [("th", "col", "a"), ("th", "col", "<b>")],
         [("th", "colgroup", "heading")],
         [("th", "row", "row"), ("td", None, "<i>&")],
@@ -47,13 +47,13 @@ def test_a_picture_is_in_the_page() -> None:
 
 
 def test_a_drawing_says_what_it_shows(tmp_path: Path) -> None:
-    for words, title in (("a < b\x07", "a < b\ufffd"), ("", "A drive & more")):
+    for message, title in (("a < b\x07", "a < b\ufffd"), ("", "A drive & more")):
         figure = Figure()
         figure.suptitle("A drive & more")
         axes = figure.subplots()
         axes.plot([0.0, 1.0], label="measured")
         axes.set(title="speed", xlabel="time, s")
-        file = drawing(figure, words).write(tmp_path / "a.svg")
+        file = drawing(figure, message).write(tmp_path / "a.svg")
         tree = etree.parse(file)
         assert (tree.getroot().get("role"), tree.findtext("{*}title")) == ("img", title)
         assert description_of(file) == "A drive & more\npanel speed; x time, s; curves measured"
@@ -62,5 +62,5 @@ def test_a_drawing_says_what_it_shows(tmp_path: Path) -> None:
 def test_no_other_room_has_a_frame_or_style_sheet_of_its_own() -> None:
     known = {"ali3/html.py", "viewer/notebook.py", "fmu_src/description/documentation.py"}
     files = [f for room in ("ali3", "mbs", "fmu_src", "hosts") for f in (ROOT / room).rglob("*.py")]
-    found = {f.relative_to(ROOT).as_posix() for f in files if FRAME.search(f.read_text(encoding="utf-8"))}
-    assert found <= known, found - known
+    results = {f.relative_to(ROOT).as_posix() for f in files if FRAME.search(f.read_text(encoding="utf-8"))}
+    assert results <= known, results - known

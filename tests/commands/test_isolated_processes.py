@@ -50,7 +50,7 @@ class Counter:
         return self.count, os.getpid()
 
 
-def test_an_error_of_who_is_told_is_his_and_the_next_task_is_done(worker: Isolated[str, tuple[int, int]]) -> None:
+def test_an_error_of_who_is_reported_is_his_and_the_next_task_is_done(worker: Isolated[str, tuple[int, int]]) -> None:
     def full(word: object) -> None:
         raise OSError(28, "No space left on device")
 
@@ -63,12 +63,12 @@ def test_an_error_of_who_is_told_is_his_and_the_next_task_is_done(worker: Isolat
 
 @pytest.fixture
 def worker() -> Any:
-    made = Isolated(Counter(), tuple[int, int])
-    yield made
-    made.close()
+    isolated = Isolated(Counter(), tuple[int, int])
+    yield isolated
+    isolated.close()
 
 
-def test_a_process_that_does_not_begin_is_told_as_such(
+def test_a_process_that_does_not_begin_is_reported_as_such(
     worker: Isolated[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("ali3.isolated_processes._START", 1e-3)
@@ -108,8 +108,8 @@ def test_after_a_loss_there_is_a_new_process(worker: Isolated[str, Any]) -> None
 
 
 def test_errors_of_the_user_come_back(worker: Isolated[str, Any]) -> None:
-    for task, words in (("wrong", r"The value is 3\."), ("unreadable", r"a\.csv cannot be read\.")):
-        with pytest.raises(UserError, match=words):
+    for task, message in (("wrong", r"The value is 3\."), ("unreadable", r"a\.csv cannot be read\.")):
+        with pytest.raises(UserError, match=message):
             worker.do(task)
     assert worker.do("")[0] == 3
 

@@ -40,7 +40,7 @@ def test_what_readers_return_sums_itself_up(tmp_path: Path) -> None:
     write_road(LEVEL, tmp_path / "level.road")
     (tmp_path / "arm.urdf").write_text(URDF)
     tyre = next((PACKAGE / "vehicle" / "cars").rglob("*.tir"))
-    for thing, words in (
+    for thing, message in (
         (read_road(tmp_path / "level.road"), "x 100, y 100 m"),
         (RoadFile(tmp_path / "level.road"), "distance of the start from the road"),
         (PlaneRoad(grade_x=0.03, grade_y=0.04), "0.05"),
@@ -51,7 +51,7 @@ def test_what_readers_return_sums_itself_up(tmp_path: Path) -> None:
         (load("prototype"), "flexible frame"),
     ):
         assert isinstance(thing, Summarised)
-        assert words in thing.summary()
+        assert message in thing.summary()
         assert len(thing.summary().splitlines()) < 60
         assert plausibility_of(thing)
     with pytest.raises(TypeError, match="no summary for a int"):
@@ -71,13 +71,13 @@ def test_the_road_command_writes_its_table(tmp_path: Path, capsys: pytest.Captur
     road, table = str(tmp_path / "level.road"), tmp_path / "level.json"
     for more in ([], ["--start", "300", "0"]):
         assert road_command([road, "--json", str(table), *more]) == 0
-        said = capsys.readouterr()
+        captured = capsys.readouterr()
         rows = {(row["name"], row["of"]): row for row in json.loads(table.read_text())["road"]}
         assert rows["extent", "x"]["value"] == 100.0
         away = rows["distance of the start from the road", ""]
         assert (away["value"], away["inside"]) == ((250.0, False) if more else (0.0, True))
-        assert ("distance of the start from the road is 250 m" in said.err) == bool(more)
-        assert "usual" in said.out
+        assert ("distance of the start from the road is 250 m" in captured.err) == bool(more)
+        assert "usual" in captured.out
 
 
 @pytest.mark.parametrize("of_file", [False, True])

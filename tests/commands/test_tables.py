@@ -27,15 +27,15 @@ def table(folder: Path, text: str | bytes, **options: Any) -> TextTable:
     ],
 )
 def test_forms_of_one_table(tmp_path: Path, text: str) -> None:
-    found = table(tmp_path, text, units=True)
-    assert (found.names, found.units) == (["time", "u"], {"time": "s", "u": "m/s"})
-    assert np.array_equal(found.values(), [[0.0, 1.5], [-0.002, 0.25]])
+    actual = table(tmp_path, text, units=True)
+    assert (actual.names, actual.units) == (["time", "u"], {"time": "s", "u": "m/s"})
+    assert np.array_equal(actual.values(), [[0.0, 1.5], [-0.002, 0.25]])
 
 
 def test_a_cell_may_hold_the_mark_and_a_name_keeps_its_brackets(tmp_path: Path) -> None:
-    found = table(tmp_path, 'time [s],"wheel[1], load [N]"\n0,1\n')
-    assert found.names == ["time [s]", "wheel[1], load [N]"]
-    assert not found.units
+    actual = table(tmp_path, 'time [s],"wheel[1], load [N]"\n0,1\n')
+    assert actual.names == ["time [s]", "wheel[1], load [N]"]
+    assert not actual.units
     assert table(tmp_path, 'a,"b;c"\n1,2\n').names == ["a", "b;c"]
     assert table(tmp_path, "a\n1\n", units=True).units == {}
 
@@ -53,9 +53,9 @@ def test_a_cell_may_hold_the_mark_and_a_name_keeps_its_brackets(tmp_path: Path) 
 def test_the_heading_may_be_a_comment(
     tmp_path: Path, above: str, known: tuple[str, ...], names: list[str], headed: bool | None
 ) -> None:
-    found = table(tmp_path, above + "0,1\n1,2\n", units=True, headed=headed, known=known)
-    assert found.names == names
-    assert found.values().tolist() == [[0.0, 1.0], [1.0, 2.0]]
+    actual = table(tmp_path, above + "0,1\n1,2\n", units=True, headed=headed, known=known)
+    assert actual.names == names
+    assert actual.values().tolist() == [[0.0, 1.0], [1.0, 2.0]]
 
 
 def test_a_comment_of_other_words_is_no_heading_and_numbers_are_none(tmp_path: Path) -> None:
@@ -73,10 +73,10 @@ def test_every_so_many_lines_and_one_that_is_cut(tmp_path: Path) -> None:
 
 
 def test_comments_have_their_lines(tmp_path: Path) -> None:
-    found = table(tmp_path, "# start: a=1\nt\n0\n  # end\n")
-    assert found.comments == [(1, "# start: a=1")]
-    assert [row.line for row in found.rows()] == [3]
-    assert found.comments == [(1, "# start: a=1"), (4, "# end")]
+    actual = table(tmp_path, "# start: a=1\nt\n0\n  # end\n")
+    assert actual.comments == [(1, "# start: a=1")]
+    assert [row.line for row in actual.rows()] == [3]
+    assert actual.comments == [(1, "# start: a=1"), (4, "# end")]
 
 
 def test_a_table_without_names(tmp_path: Path) -> None:
@@ -86,7 +86,7 @@ def test_a_table_without_names(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "message"),
     [
         ("", "t.csv contains no values; it needs a heading and at least one row."),
         ("a\n", "t.csv contains no values; it needs a heading and at least one row."),
@@ -104,10 +104,10 @@ def test_a_table_without_names(tmp_path: Path) -> None:
         (b"a\n\xff\n", "t.csv is not text in UTF-8, from about line 1 on."),
     ],
 )
-def test_what_is_no_table(tmp_path: Path, text: str | bytes, words: str) -> None:
-    with pytest.raises(TableError) as told:
+def test_an_invalid_table_is_refused(tmp_path: Path, text: str | bytes, message: str) -> None:
+    with pytest.raises(TableError) as refusal:
         table(tmp_path, text).values()
-    assert str(told.value) == f"{tmp_path}/{words}"
+    assert str(refusal.value) == f"{tmp_path}/{message}"
 
 
 class _CountedName(str):

@@ -34,7 +34,7 @@ def holding(file: Path) -> subprocess.Popen[str]:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="locks of folders")
-def test_what_a_kill_leaves_goes_with_the_next_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_files_left_by_a_kill_are_removed_with_the_next_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     dead, alive = holding(tmp_path / "dead.txt"), holding(tmp_path / "alive.txt")
     try:
         assert len(left(tmp_path)) == 2
@@ -59,9 +59,9 @@ def test_what_a_kill_leaves_goes_with_the_next_file(tmp_path: Path, monkeypatch:
 
 def test_a_folder_goes_with_its_block(tmp_path: Path) -> None:
     def work() -> None:
-        with temporary_folder(tmp_path) as folder, atomic_folder(tmp_path / "made") as made:
+        with temporary_folder(tmp_path) as folder, atomic_folder(tmp_path / "made") as temporary:
             (folder / "a").write_text("x")
-            (made / "b").write_text("x")
+            (temporary / "b").write_text("x")
             assert len(left(tmp_path)) == 2
             raise ValueError("of the block")
 

@@ -39,7 +39,7 @@ def test_a_number_may_have_a_unit_of_its_quantity(text: str, unit: str, value: f
 
 
 @pytest.mark.parametrize(
-    ("text", "unit", "words"),
+    ("text", "unit", "message"),
     [
         ("20kN", "N/m", "'20kN' is not a number; write one in N/m, or with a unit .* behind it, such as 20N/m"),
         ("3bananas", "s", "'3bananas' is not a number; write one in s"),
@@ -50,8 +50,8 @@ def test_a_number_may_have_a_unit_of_its_quantity(text: str, unit: str, value: f
         ("nan", "s", "the value is nan"),
     ],
 )
-def test_another_unit_is_told_with_how_it_is_written(text: str, unit: str, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
+def test_another_unit_is_reported_with_how_it_is_written(text: str, unit: str, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         number_with_unit(text, unit)
 
 
@@ -68,7 +68,7 @@ def test_only_the_command_line_takes_units() -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "words"),
+    ("line", "message"),
     [
         (["-manoeuvre", "slalom"], "unrecognized arguments: -manoeuvre; did you mean '--manoeuvre'?"),
         (["--maneuver", "slalom"], "unrecognized arguments: --maneuver slalom; did you mean '--manoeuvre'?"),
@@ -77,15 +77,15 @@ def test_only_the_command_line_takes_units() -> None:
         (["--step", "10mm"], "argument --step: '10mm' is not a number; write one in s"),
     ],
 )
-def test_a_misspelt_option_is_told_with_the_near_one(
-    line: list[str], words: str, capsys: pytest.CaptureFixture[str]
+def test_a_misspelt_option_is_reported_with_the_near_one(
+    line: list[str], message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     parser = Parser(prog="p")
     for name in ("--manoeuvre", "--step"):
         add_option(parser, name)
     with pytest.raises(SystemExit):
         parser.parse_args(line)
-    assert words in capsys.readouterr().err
+    assert message in capsys.readouterr().err
 
 
 def test_options_of_one_letter_and_their_values_stay_what_they_are() -> None:
@@ -93,19 +93,19 @@ def test_options_of_one_letter_and_their_values_stay_what_they_are() -> None:
     for name in ("--manoeuvre", "--step"):
         add_option(parser, name)
     parser.add_argument("rest", nargs="*")
-    found = parser.parse_args(["-mslalom", "--step", "10ms", "--", "-manoeuvre"])
-    assert (found.manoeuvre, found.step, found.rest) == ("slalom", 0.01, ["-manoeuvre"])
+    actual = parser.parse_args(["-mslalom", "--step", "10ms", "--", "-manoeuvre"])
+    assert (actual.manoeuvre, actual.step, actual.rest) == ("slalom", 0.01, ["-manoeuvre"])
 
 
 def test_a_value_may_begin_with_a_minus_sign() -> None:
     parser = Parser(prog="p")
     parser.add_argument("--travel", type=quantity("mm"), nargs=2)
     parser.add_argument("--between")
-    found = parser.parse_args(["--travel", "-3cm", "-1e1", "--between", "-1:1"])
-    assert (found.travel, found.between) == ([-30.0, -10.0], "-1:1")
+    actual = parser.parse_args(["--travel", "-3cm", "-1e1", "--between", "-1:1"])
+    assert (actual.travel, actual.between) == ([-30.0, -10.0], "-1:1")
 
 
-def test_misspelt_cars_worlds_and_manoeuvres_are_told_before_anything_is_made(tmp_path: Path) -> None:
+def test_misspelt_cars_worlds_and_manoeuvres_are_reported_before_anything_is_made(tmp_path: Path) -> None:
     for check, word, meant in (
         (lambda word: check_car(Path(word)), "hatchbak", "hatchback"),
         (check_world, "proving_grund", "proving_ground"),

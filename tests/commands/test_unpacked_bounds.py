@@ -49,8 +49,8 @@ def array_header(file: Path) -> None:
 
 def packed_arrays(file: Path) -> None:
     """An entry of 5 GB, by its directory alone."""
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as made:
-        made.writestr("heights.npy", b"x")
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("heights.npy", b"x")
     content = bytearray(file.read_bytes())
     place = content.find(b"PK\1\2")
     content[place + 24 : place + 28] = struct.pack("<I", 4 * GB)
@@ -110,12 +110,12 @@ BOMBS: dict[str, tuple[str, Callable[[Path], None], Callable[[Path], object], ty
 @pytest.mark.parametrize("kind", [pytest.param(k, marks=pytest.mark.slow) if k == "Parquet" else k for k in BOMBS])
 def test_a_small_file_does_not_fill_the_memory(kind: str, tmp_path: Path) -> None:
     resource = pytest.importorskip("resource")
-    name, make, read, error, words = BOMBS[kind]
+    name, make, read, error, message = BOMBS[kind]
     file = tmp_path / name
     make(file)
     assert file.stat().st_size < 20_000_000
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    with pytest.raises(error, match=words) as refused:
+    with pytest.raises(error, match=message) as refused:
         read(file)
     assert "\n" not in str(refused.value)
     assert name in str(refused.value)
@@ -187,8 +187,12 @@ def test_named_files_lie_below_the_folder_and_are_counted(tmp_path: Path) -> Non
     (below / "link").symlink_to(tmp_path / "c")
     named = NamedFiles(below, 25, HostError)
     assert named.file("../a", below / "deck").resolve() == (below / "a").resolve()
-    for name, words in (("../../c", "'../../c' is not below"), ("/dev/zero", "is not below"), ("../link", "not below")):
-        with pytest.raises(HostError, match=f"^m, line 3: .*{words}"):
+    for name, message in (
+        ("../../c", "'../../c' is not below"),
+        ("/dev/zero", "is not below"),
+        ("../link", "not below"),
+    ):
+        with pytest.raises(HostError, match=f"^m, line 3: .*{message}"):
             named.file(name, below / "deck", "m, line 3")
     with pytest.raises(HostError, match="'a.*' is not a file name"):
         named.file("a\0", below)
@@ -226,13 +230,13 @@ def test_a_buffer_of_a_mesh_is_a_file_below_its_folder(tmp_path: Path) -> None:
         return read_mesh(folder / "a.gltf")[0].shape
 
     assert mesh("my%20points.bin") == (3, 3)
-    for uri, words in (
+    for uri, message in (
         ("pipe", "'pipe' is a pipe or device"),
         ("../outside.bin", "'../outside.bin' is not below"),
         ("/dev/zero", "'/dev/zero' is not below"),
         ("none.bin", "'none.bin' cannot be read: there is no such file"),
     ):
-        with pytest.raises(MeshError, match=f"a.gltf: {words}"):
+        with pytest.raises(MeshError, match=f"a.gltf: {message}"):
             mesh(uri)
 
 

@@ -227,9 +227,9 @@ def _variable(name: str, where: str) -> Any:
 
     if name != "mass":
         raise HostError(f"{where}: there is no {name[:60]!r}.")
-    made = Mass()
-    made.name = name  # type: ignore[attr-defined]
-    return made
+    mass = Mass()
+    mass.name = name  # type: ignore[attr-defined]
+    return mass
 
 
 def _places() -> dict[str, Callable[[Path, bytes], Any]]:
@@ -267,14 +267,14 @@ TABLES = [kind for kind, (name, _, good, _) in KINDS.items() if name.endswith(".
 def test_a_heading_that_is_a_comment_keeps_its_meaning(tmp_path: Path, kind: str) -> None:
     """Nothing that a table says is passed over: it is read the same, or refused."""
     name, _, good, read = KINDS[kind]
-    found = []
+    results = []
     for mark in ("", "# "):
         (tmp_path / name).write_text(mark + good.replace("@", "1"))
         try:
-            found.append(pickle.dumps(read(tmp_path / name)))
+            results.append(pickle.dumps(read(tmp_path / name)))
         except (UserError, ValueError) as error:
-            found.append(str(error).encode())
-    assert found[0] == found[1]
+            results.append(str(error).encode())
+    assert results[0] == results[1]
 
 
 class _Late(BaseException):
@@ -441,9 +441,9 @@ def test_a_pipe_in_the_place_of_an_fmu_is_called_so(command: str, tmp_path: Path
     table.write_text("time,u\n0,0\n1,0\n")
     name, *option = command.split()
     more = {"compare": [table], "simulator": ["--headless", "--stop-time", "1"]}.get(name, [])
-    words = [table, *option, pipe, "--no-open"] if option else [pipe, *more]
+    message = [table, *option, pipe, "--no-open"] if option else [pipe, *more]
     main = next(c for c in COMMANDS if c.name == name).module
     with _soon():
-        done = run(importlib.import_module(main).main, *words)
+        done = run(importlib.import_module(main).main, *message)
     assert done.returncode == 2
     assert done.stderr.strip().endswith(f"error: {pipe} is a pipe or device; it must be a file.")

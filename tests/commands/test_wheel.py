@@ -61,9 +61,9 @@ def test_the_names_it_puts_among_the_packages(wheel: Path) -> None:
 def test_its_command_is_ali3_and_its_drawer_is_found(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         points = next(name for name in archive.namelist() if name.endswith("entry_points.txt"))
-        found = ConfigParser()
-        found.read_string(archive.read(points).decode())
-    assert {name: dict(found[name]) for name in found.sections()} == {
+        parser = ConfigParser()
+        parser.read_string(archive.read(points).decode())
+    assert {name: dict(parser[name]) for name in parser.sections()} == {
         "console_scripts": {"ali3": "ali3.command:main"},
         "ali3.drawers": {"page": "viewer.drawer"},
     }

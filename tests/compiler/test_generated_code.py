@@ -79,16 +79,16 @@ def instances(system: System) -> tuple[Instance, Instance]:
 def same_steps(one: Instance, other: Instance, h: float, steps: int) -> int:
     """Steps until both end alike; states have the same bytes after each."""
     for k in range(steps):
-        said = []
+        reported = []
         for instance in (one, other):
             try:
                 instance.step(h)
-                said.append("")
+                reported.append("")
             except KernelError as error:
-                said.append(str(error))
-        assert said[0] == said[1]
+                reported.append(str(error))
+        assert reported[0] == reported[1]
         assert one.save() == other.save(), f"step {k}"
-        if said[0]:
+        if reported[0]:
             return k
     return steps
 

@@ -189,15 +189,17 @@ def test_similar_mechanisms_move_alike(name):
 
     No step is divided: forces of contacts divide steps by their rates in 1/s, which is no part of a period.
     """
-    found = {}
+    results = {}
     for size in (1.0, 1e-6, 1e-4, 1e-2, 1e2, 1e4, 1e5, 1e6, 1e7):
         time = 2.0 * np.sqrt(size)
         run = Simulation(compile(MECHANISMS[name](size)), settings=Settings(max_halvings=0)).run(
             10.0 * time, time / 200.0
         )
-        found[size] = run["p"] / size
-    for size, motion in found.items():
-        np.testing.assert_allclose(motion, found[1.0], rtol=0, atol=1e-6 * np.ptp(found[1.0]), err_msg=f"{size:g} m")
+        results[size] = run["p"] / size
+    for size, motion in results.items():
+        np.testing.assert_allclose(
+            motion, results[1.0], rtol=0, atol=1e-6 * np.ptp(results[1.0]), err_msg=f"{size:g} m"
+        )
 
 
 def rods(size, ratio):

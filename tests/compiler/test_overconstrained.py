@@ -37,17 +37,17 @@ def motion(system, method):
 @pytest.fixture(scope="module")
 def exact():
     """Motion of the exact loops by loop and method; None where the method does not take the loop."""
-    found = {}
+    results = {}
     for loop, build in LOOPS.items():
         system = compile(build(drawn.exact))
         for method in METHODS:
             try:
-                found[loop, method] = motion(system, method)
+                results[loop, method] = motion(system, method)
             except SimulationError as error:
                 if not method.startswith("semi_recursive") or "this method needs" not in str(error):
                     raise
-                found[loop, method] = None
-    return found
+                results[loop, method] = None
+    return results
 
 
 @pytest.mark.parametrize("loop", LOOPS)

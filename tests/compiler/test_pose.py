@@ -48,11 +48,11 @@ def test_pose_moves_turns_and_starts_the_whole_scene():
 
 def test_pose_slides_and_turns_the_whole_scene():
     """Each point has the velocity of the origin and that of the turn about it; the hinge and the spin stay."""
-    yaw, speed, left, rate = 0.9, 7.0, -1.5, 0.6
-    s = Simulation(compile(trolley()), pose=Pose(3.0, -2.0, 0.4, yaw, speed, left, rate)).sensors
+    yaw, speed, remaining, rate = 0.9, 7.0, -1.5, 0.6
+    s = Simulation(compile(trolley()), pose=Pose(3.0, -2.0, 0.4, yaw, speed, remaining, rate)).sensors
     c, d = np.cos(yaw), np.sin(yaw)
     turn = np.array([[c, -d, 0], [d, c, 0], [0, 0, 1]])
-    expected = turn @ (np.array([speed, left, 0.0]) + np.cross([0.0, 0.0, rate], [0.5, 0.7, 0.3]))
+    expected = turn @ (np.array([speed, remaining, 0.0]) + np.cross([0.0, 0.0, rate], [0.5, 0.7, 0.3]))
     np.testing.assert_allclose([s["vx"], s["vy"], s["vz"]], expected, rtol=0, atol=EXACT)
     assert s["turn"] == pytest.approx(rate, abs=EXACT)
     assert s["hinge"] == pytest.approx(0.0, abs=EXACT)
@@ -71,12 +71,12 @@ def test_motion_does_not_depend_on_the_pose():
     """The same scene elsewhere and turned does the same, seen from itself."""
     here = Simulation(compile(trolley())).run(0.5, 0.005)
     yaw = 2.2
-    there = Simulation(compile(trolley()), pose=Pose(5.0, 1.0, 0.0, yaw, 0.0)).run(0.5, 0.005)
+    present = Simulation(compile(trolley()), pose=Pose(5.0, 1.0, 0.0, yaw, 0.0)).run(0.5, 0.005)
     c, d = np.cos(yaw), np.sin(yaw)
-    x, y = there["px"] - 5.0, there["py"] - 1.0
+    x, y = present["px"] - 5.0, present["py"] - 1.0
     np.testing.assert_allclose(c * x + d * y, here["px"], rtol=0, atol=1e-7)
     np.testing.assert_allclose(-d * x + c * y, here["py"], rtol=0, atol=1e-7)
-    np.testing.assert_allclose(there["angle"], here["angle"], rtol=0, atol=1e-7)
+    np.testing.assert_allclose(present["angle"], here["angle"], rtol=0, atol=1e-7)
 
 
 def test_far_away_the_rows_lose_no_digits():

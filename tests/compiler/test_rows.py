@@ -69,8 +69,8 @@ def test_jacobian_is_the_derivative_of_the_rows(name):
     def phi(at):
         return np.array(instance.evaluate(at.tolist(), qd.tolist(), y.tolist(), 0.0)["phi"])
 
-    found = instance.evaluate(q.tolist(), qd.tolist(), y.tolist(), 0.0)
-    values = np.array(found["jacobian"])
+    result = instance.evaluate(q.tolist(), qd.tolist(), y.tolist(), 0.0)
+    values = np.array(result["jacobian"])
     dense = np.zeros((system.nc, system.nq))
     row = np.repeat(np.arange(system.nc), np.diff(system.arrays["row_ptr"]))
     dense[row, system.arrays["row_col"]] = values
@@ -86,11 +86,11 @@ def test_start_is_consistent_and_rows_are_scaled_by_the_mass(name):
     system, instance = loaded(MODELS[name]())
     a = system.arrays
     instance.initialise(0.0)
-    found = instance.evaluate(a["q0"].tolist(), a["qd0"].tolist(), a["y0"].tolist(), 0.0)
-    phi, values = np.array(found["phi"]), np.array(found["jacobian"])
+    result = instance.evaluate(a["q0"].tolist(), a["qd0"].tolist(), a["y0"].tolist(), 0.0)
+    phi, values = np.array(result["phi"]), np.array(result["jacobian"])
     assert np.max(np.abs(phi) * a["row_measure"]) < 1e-10
     row = np.repeat(np.arange(system.nc), np.diff(a["row_ptr"]))
-    Jv = np.bincount(row, values * a["qd0"][a["row_col"]], minlength=system.nc) + np.array(found["phi_t"])
+    Jv = np.bincount(row, values * a["qd0"][a["row_col"]], minlength=system.nc) + np.array(result["phi_t"])
     assert np.max(np.abs(Jv) * a["row_measure"]) < 1e-9
     mass_row = np.repeat(np.arange(system.nq), np.diff(a["mass_ptr"]))
     diagonal = np.zeros(system.nq)

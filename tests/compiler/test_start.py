@@ -40,10 +40,10 @@ def test_a_drawing_that_does_not_close_is_closed():
 def test_an_assembly_that_cannot_close_is_refused_with_names_and_amounts():
     with pytest.raises(ModelError, match="cannot be closed") as error:
         compile(four_bar(6.0))  # 6 m cannot span 2 m between 1 m and 1.5 m
-    found = {name: float(gap) for name, gap in re.findall(r"'(\w+)' by ([\d.]+) m", str(error.value))}
-    assert {"B", "C"} <= set(found)
+    results = {name: float(gap) for name, gap in re.findall(r"'(\w+)' by ([\d.]+) m", str(error.value))}
+    assert {"B", "C"} <= set(results)
     # the coupler is 6 m long, its ends reach 1 + 2 + 1.5 m at most: no less than 1.5 m can stay open
-    assert 1.5 * (1.0 - LISTED) < sum(found.values()) < 2.0
+    assert 1.5 * (1.0 - LISTED) < sum(results.values()) < 2.0
 
 
 def test_a_rod_that_cannot_reach_is_refused_by_name():
@@ -205,9 +205,9 @@ def test_a_free_body_has_only_its_initial_velocity():
         for c in "xyz":
             m.sense_position(f"v{c}", body, None, c, order=1)
             m.sense_rotation(f"w{c}", body, c, order=1)
-        found = Simulation(compile(m)).sensors
-        np.testing.assert_allclose([found[f"v{c}"] for c in "xyz"], linear, atol=1e-9)
-        np.testing.assert_allclose([found[f"w{c}"] for c in "xyz"], angular, atol=1e-9)
+        simulation = Simulation(compile(m)).sensors
+        np.testing.assert_allclose([simulation[f"v{c}"] for c in "xyz"], linear, atol=1e-9)
+        np.testing.assert_allclose([simulation[f"w{c}"] for c in "xyz"], angular, atol=1e-9)
 
 
 def test_a_point_mass_has_no_angular_velocity():

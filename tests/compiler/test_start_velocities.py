@@ -27,14 +27,14 @@ def spin(w, dimension=2):
 
 
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_both_numbers_of_a_contradiction_are_told(dimension: int) -> None:
+def test_both_numbers_of_a_contradiction_are_reported(dimension: int) -> None:
     given, reached = ("1 rad/s", "3 rad/s") if dimension == 2 else ("0, 0, 1 rad/s", "0, 0, 3 rad/s"), []
     system = mbs.compile(arm(spin(1.0, dimension), spin(3.0, dimension), dimension))
-    (told,) = mbs.simulate(system, 0.01, 0.01, progress=False).notices
-    assert told in str(system)
+    (notices,) = mbs.simulate(system, 0.01, 0.01, progress=False).notices
+    assert notices in str(system)
     for name, number in zip("ab", given, strict=True):
-        assert f"the angular velocity of '{name}' is given as {number} and is " in told
-        reached.append(told.split(f"given as {number} and is ")[1].split(" rad/s")[0])
+        assert f"the angular velocity of '{name}' is given as {number} and is " in notices
+        reached.append(notices.split(f"given as {number} and is ")[1].split(" rad/s")[0])
     assert reached[0] == reached[1]  # the weld
     assert 1.0 < float(reached[0].split()[-1]) < 3.0
 
@@ -59,15 +59,15 @@ def test_velocities_that_fit_are_kept(first: dict, second: dict | None) -> None:
 
 
 @pytest.mark.parametrize(
-    ("first", "second", "words"),
+    ("first", "second", "message"),
     [
         ({"linear": (0.0, 1.0), "angular": 3.0}, None, "velocity of 'a' is given as 0, 1 m/s"),
         (spin(2.0), {"linear": (0.0, 4.0)}, "velocity of 'b' is given as 0, 4 m/s"),
         (spin(2.0), spin(0.0), "velocity of 'b' is given as 0 rad/s"),
     ],
 )
-def test_parts_of_a_velocity_contradict_each_other_too(first: dict, second: dict | None, words: str) -> None:
-    assert words in str(mbs.compile(arm(first, second)))
+def test_parts_of_a_velocity_contradict_each_other_too(first: dict, second: dict | None, message: str) -> None:
+    assert message in str(mbs.compile(arm(first, second)))
 
 
 def test_a_rate_and_a_velocity_contradict_each_other() -> None:

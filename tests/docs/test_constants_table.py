@@ -19,7 +19,7 @@ WORTH = {"%": 0.01, "s": 1.0, "rad": 1.0, "": 1.0}
 
 def in_python() -> dict[str, float]:
     """Names in capitals that a module gives a value with a number in it."""
-    found = {}
+    results = {}
     for room, names in MODULES.items():
         for name in names:
             module = import_module(f"mbs.{room}.{name}")
@@ -30,23 +30,23 @@ def in_python() -> dict[str, float]:
                 if not any(isinstance(n, int | float) for n in given):
                     continue
                 values = {t: getattr(module, t) for t in targets}
-                found |= {f"{name} {t}": v for t, v in values.items() if isinstance(v, int | float)}
-    return found
+                results |= {f"{name} {t}": v for t, v in values.items() if isinstance(v, int | float)}
+    return results
 
 
 def in_c() -> dict[str, float]:
     """Static constants and enumerators of a value, and numbers of the header."""
-    found = {}
+    results = {}
     for source in SOURCES:
         text = (ROOT / source).read_text(encoding="utf-8")
         for line in re.findall(r"static const \w+ (.*?);|enum \{ (.*?) \}", text, re.DOTALL):
             for name, value in re.findall(r"([A-Z_]+) = ([\d.e-]+)", "".join(line)):
-                found[f"{source.rsplit('/', 1)[1]} {name}"] = float(value)
+                results[f"{source.rsplit('/', 1)[1]} {name}"] = float(value)
     header = (ROOT / "mbs/kernel/include/ali3.h").read_text(encoding="utf-8")
     for name, value in re.findall(r"#define ALI3_(\w+) ([\d.e-]+)\b", header):
         if name not in ELSE:
-            found[f"ali3.h {name}"] = float(value)
-    return found
+            results[f"ali3.h {name}"] = float(value)
+    return results
 
 
 def on_the_page() -> dict[str, float]:

@@ -47,17 +47,17 @@ def _names() -> Iterator[tuple[str, Any]]:
 
 def _functions() -> dict[str, Any]:
     """Public functions and methods, each once."""
-    found: dict[Any, str] = {}
+    results: dict[Any, str] = {}
     for name, thing in _names():
         if inspect.isfunction(thing):
-            found.setdefault(thing, name)
+            results.setdefault(thing, name)
         elif inspect.isclass(thing) and thing.__module__.startswith("mbs"):
             for method, given in inspect.getmembers(thing):
                 function = getattr(given, "__func__", given)
                 public = inspect.isfunction(function) and not method.startswith("_")
                 if public and function.__module__.startswith("mbs"):
-                    found.setdefault(function, f"{name}.{method}")
-    return {name: function for function, name in found.items()}
+                    results.setdefault(function, f"{name}.{method}")
+    return {name: function for function, name in results.items()}
 
 
 FUNCTIONS = _functions()
@@ -68,16 +68,16 @@ def _entries(text: str, section: str = "Parameters") -> dict[str, str]:
     head = f"{section}\n{'-' * len(section)}\n"
     if head not in text:
         return {}
-    found: dict[str, str] = {}
+    results: dict[str, str] = {}
     names: list[str] = []
     for line in SECTION.split(text.split(head, 1)[1])[0].splitlines():
         if line and not line.startswith(" "):
-            said, _, type = line.partition(" :")
-            names = [name.strip().lstrip("*") for name in said.split(",")]
-            found |= dict.fromkeys(names, type)
+            reported, _, type = line.partition(" :")
+            names = [name.strip().lstrip("*") for name in reported.split(",")]
+            results |= dict.fromkeys(names, type)
         else:
-            found |= {name: f"{found[name]}\n{line.strip()}" for name in names}
-    return found
+            results |= {name: f"{results[name]}\n{line.strip()}" for name in names}
+    return results
 
 
 def _faults(text: str, parameters: dict[str, str]) -> list[str]:

@@ -17,9 +17,9 @@ MODULES = sorted(
 
 @pytest.mark.parametrize("name", MODULES)
 def test_examples_of_a_module(name: str) -> None:
-    found = doctest.testmod(importlib.import_module(name))
-    assert found.attempted > 0
-    assert found.failed == 0
+    actual = doctest.testmod(importlib.import_module(name))
+    assert actual.attempted > 0
+    assert actual.failed == 0
 
 
 def test_there_are_some() -> None:

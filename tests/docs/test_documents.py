@@ -57,7 +57,7 @@ def defines(file, name):
 def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_path):
     page = (ROOT / "docs" / "stepping.md").read_text(encoding="utf-8")
     thing, _, whole, fmu, _, model = snippets(page)
-    said = re.search(r"^    (after .*)$", page, re.MULTILINE)[1]
+    reported = re.search(r"^    (after .*)$", page, re.MULTILINE)[1]
     (tmp_path / "dist").mkdir()
     shutil.copy(prototype_fmu, tmp_path / "dist")
     x, y = map(float, re.search(r"x = ([\d.-]+) m, y = ([\d.-]+) m", run(whole, tmp_path)).groups())
@@ -71,7 +71,7 @@ def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_p
     )
     printed = run(f"for code in {ways!r}:\n    exec(code, {{}})", tmp_path).splitlines()
     by_fmu, by_model, by_name = printed[:2], printed[2:4], printed[4:]
-    assert by_fmu[0] == said
+    assert by_fmu[0] == reported
     assert by_fmu[0] == by_model[0]
     # on a busy machine the model has differed by 3e-14 in a few runs of all tests, never alone; why is not known
     assert ast.literal_eval(by_model[1]) == pytest.approx(ast.literal_eval(by_fmu[1]), rel=1e-11)
@@ -92,8 +92,8 @@ def test_stepping_page_gives_derivatives_and_says_where_fmpy_fails(prototype_fmu
         "import fmpy, numpy\ntable = numpy.zeros(3, [('time', float), ('steering', float)])\ntable['time'] = 0, 1, 2\n"
     )
     call = "fmpy.simulate_fmu('dist/PrototypeCar.fmu', stop_time=1.0, input=table, set_input_derivatives=True)"
-    told = run(f"{table}try:\n    {call}\nexcept ValueError as error:\n    print(error)", tmp_path)
-    assert told.strip().endswith("Can only assign sequence of same size")
+    reported = run(f"{table}try:\n    {call}\nexcept ValueError as error:\n    print(error)", tmp_path)
+    assert reported.strip().endswith("Can only assign sequence of same size")
 
 
 @pytest.mark.slow
@@ -105,8 +105,8 @@ def test_stepping_page_makes_several_environments(tmp_path):
 def test_readme_models_a_pendulum(tmp_path):
     code = next(s for s in snippets(README) if "import mbs" in s)
     printed = run(code, tmp_path).strip()
-    said = re.search(r"It prints `(.*?)`", README)[1]
-    assert printed.split("energy")[0] == said.split("energy")[0]
+    reported = re.search(r"It prints `(.*?)`", README)[1]
+    assert printed.split("energy")[0] == reported.split("energy")[0]
     assert float(re.search(r"kept to (\S+) J", printed)[1]) < 1e-3
 
 
@@ -134,13 +134,13 @@ def test_pages_list_the_manoeuvres_and_the_scene_of_ones_own():
 
 @pytest.mark.slow
 def test_tables_of_variables_are_those_of_the_cars():
-    found = tables()
-    made = blocks(found)
+    result = tables()
+    made = blocks(result)
     text = (ROOT / "docs" / "variables.md").read_text(encoding="utf-8")
     assert re.findall(r"<!-- made with the site: (.+) -->", text) == list(made)
     page = "\n".join(made.values())
     # nothing is missing and nothing is there that no car has
-    names = {v.name for variables in found.values() for v in variables}
+    names = {v.name for variables in result.values() for v in variables}
     shown = set(re.findall(r"^\| ((?:`[^`]+`[,. ]*)+)", page, re.MULTILINE))
     listed = {name for cell in shown for name in re.findall(r"`([^`]+)`", cell)}
     four = {re.sub(r"_FL\b", f"_{wheel}", name) for name in listed for wheel in ("FL", "FR", "RL", "RR")}
@@ -202,9 +202,9 @@ def test_the_pages_name_every_method_and_the_readme_counts_methods_and_scenes():
     for text, heading in ((stability, "## Where each method must not be used"), (THEORY, "## Other methods")):
         section = text.partition(heading)[2].partition("\n## ")[0]
         assert re.findall(r"^\| `(\w+)`", section, re.MULTILINE) == list(METHODS)
-    words = {9: "nine", 13: "thirteen"}
-    assert f"the {words[len(METHODS)]} methods" in README
-    assert f"has {words[len(CASES)]} scenes" in README
+    message = {9: "nine", 13: "thirteen"}
+    assert f"the {message[len(METHODS)]} methods" in README
+    assert f"has {message[len(CASES)]} scenes" in README
 
 
 def test_theory_names_functions_that_exist():
@@ -213,20 +213,20 @@ def test_theory_names_functions_that_exist():
         for file, names in re.findall(rf"`({FILE})`(?: \||,)((?:[,\s]*`\w+`)+)", THEORY)
         if file.endswith((".c", ".h", ".py"))
     ]
-    found = [(file, name) for file, names in listed for name in re.findall(r"`(\w+)`", names)]
-    assert len(found) > 40
-    missing = [f"{file}: {name}" for file, name in found if not defines(file, name)]
+    results = [(file, name) for file, names in listed for name in re.findall(r"`(\w+)`", names)]
+    assert len(results) > 40
+    missing = [f"{file}: {name}" for file, name in results if not defines(file, name)]
     assert not missing
 
 
 @pytest.mark.parametrize("file", [ROOT / page for page in PAGES[1:]], ids=lambda p: p.name)
 def test_guides_name_what_the_kernel_has(file):
     sources = (ROOT / "mbs" / "kernel").rglob("*.[ch]")
-    words = set(re.findall(r"\w+", "\n".join(source.read_text(encoding="utf-8") for source in sources)))
+    message = set(re.findall(r"\w+", "\n".join(source.read_text(encoding="utf-8") for source in sources)))
     code = re.findall(r"`([^`]+)`", file.read_text(encoding="utf-8"))
     named = {word for span in code for word in re.findall(r"\b(?:ali3_\w*[a-z0-9]\b(?!<)|ALI3_\w+|(?<=->)\w+)", span)}
     assert len(named) >= 4
-    assert named - words == set()
+    assert named - message == set()
 
 
 def test_theory_has_all_equations_from_1_to_25():

@@ -48,6 +48,6 @@ def test_the_site_has_them(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("sphinx")
     monkeypatch.syspath_prepend(ROOT / "docs" / "_site")
     monkeypatch.delitem(sys.modules, "made_tables", raising=False)
-    made = importlib.import_module("made_tables")
+    result = importlib.import_module("made_tables")
     pages = "".join(page.read_text(encoding="utf-8") for page in (ROOT / "docs").glob("*.md"))
-    assert sorted(made.MARK.findall(pages)) == sorted(made.MAKERS)
+    assert sorted(result.MARK.findall(pages)) == sorted(result.MAKERS)

@@ -33,22 +33,22 @@ def text(live_pages: ModuleType, app: SimpleNamespace, page: str = "docs/driving
 def test_pages_that_cannot_be_made_are_left_out_with_one_line(
     live_pages: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    made = {"prototype"}
+    result = {"prototype"}
 
     def make(names: Sequence[str], out: Path) -> str:
-        for name in made & set(names):
+        for name in result & set(names):
             (out / f"{name}.html").write_text("x" * 1_600_000)
-        return "; ".join(f"{name}: there is no compiler" for name in names if name not in made)
+        return "; ".join(f"{name}: there is no compiler" for name in names if name not in result)
 
     monkeypatch.setattr(live_pages, "make", make)
     monkeypatch.delenv(live_pages.MODE, raising=False)
     app = site(tmp_path)
     live_pages.build(app)
-    said = capsys.readouterr().err
-    assert said.startswith(
+    errors = capsys.readouterr().err
+    assert errors.startswith(
         "warning: pages that run FMUs are left out of the site: proving_ground: there is no compiler; "
     )
-    assert said.count("\n") == 1
+    assert errors.count("\n") == 1
     shown = text(live_pages, app)
     assert '<a href="live/prototype.html">Open it</a> (1.6 MB)' in shown
     assert '<a href="live/prototype.html">Open it</a> (1.6 MB)' in text(live_pages, app, "README.md")
@@ -59,10 +59,10 @@ def test_pages_that_cannot_be_made_are_left_out_with_one_line(
         live_pages.build(app)
 
     monkeypatch.delenv(live_pages.MODE)
-    made |= set(live_pages.PAGES)
+    result |= set(live_pages.PAGES)
     live_pages.build(app)
     assert capsys.readouterr().err == ""
-    made.clear()  # not made again from the same sources
+    result.clear()  # not made again from the same sources
     live_pages.build(app)
     assert app.config.live_pages == list(live_pages.PAGES)
 

@@ -174,7 +174,7 @@ def test_kerb_lets_a_point_rest_on_its_top_and_stops_it_at_its_face():
 
 
 @pytest.mark.parametrize(
-    ("make", "words"),
+    ("make", "message"),
     [
         (lambda: element(points=np.zeros((0, 3))), "points of shape"),
         (lambda: element(points=[[np.nan, 0.0, 0.0]]), "not finite"),
@@ -182,8 +182,8 @@ def test_kerb_lets_a_point_rest_on_its_top_and_stops_it_at_its_face():
         (lambda: ContactPoints.for_mass(0.0), "mass of contact points is 0"),
     ],
 )
-def test_bad_data_is_named(make, words):
-    with pytest.raises(ModelError, match=words):
+def test_bad_data_is_named(make, message):
+    with pytest.raises(ModelError, match=message):
         make()
 
 

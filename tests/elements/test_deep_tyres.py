@@ -31,15 +31,15 @@ def softening(element: Element) -> Element:
 
 @cache
 def tyres() -> dict[str, Element]:
-    found = {}
+    results = {}
     for name in car_names():
         for e in load(name).model().elements:
             if e.name in ("tyre FL", "tyre RL"):
-                found[f"{name}, {e.name}"] = Element(replace(e, integer=(0, *e.integer[1:])))
+                results[f"{name}, {e.name}"] = Element(replace(e, integer=(0, *e.integer[1:])))
     for file in FILES:
-        found[file.name] = element_of(tyre_file(file).tyre())
-        found[f"{file.name}, softening"] = softening(element_of(tyre_file(file).tyre()))
-    return found
+        results[file.name] = element_of(tyre_file(file).tyre())
+        results[f"{file.name}, softening"] = softening(element_of(tyre_file(file).tyre()))
+    return results
 
 
 def at_depths(element: Element, lean: float, speed: float, aside: float, spin: float):

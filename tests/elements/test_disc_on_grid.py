@@ -87,9 +87,9 @@ def test_the_depth_is_that_of_a_dense_search(height: float, spacing: float, camb
     for _ in range(200):
         centre = np.array([FOOT + rng.uniform(-0.4, 0.4), 0.0, max(height, 0.0) + rng.uniform(0.15, 0.3)])
         distance = float(np.hypot(x - centre[0], (z - centre[2]) / np.cos(camber)).min())
-        found = contacts(road, centre, axis, RADIUS)
-        shared += len(found) == 2
-        assert -1e-6 < found[0]["penetration"] - (RADIUS - distance) < 0.25e-3 + 1e-6
+        actual = contacts(road, centre, axis, RADIUS)
+        shared += len(actual) == 2
+        assert -1e-6 < actual[0]["penetration"] - (RADIUS - distance) < 0.25e-3 + 1e-6
     assert shared > 0 or spacing > 0.05 or height < 0.0
 
 

@@ -108,9 +108,9 @@ def test_roads_give_unit_normals_everywhere(name: str) -> None:
             continue
         axis /= np.linalg.norm(axis)
         centre = rng.normal(size=3) * 10.0 ** rng.integers(-3, 9)
-        found = contacts(ROADS[name], centre, axis, 0.3)
-        assert 1 <= len(found) <= 2
-        for c in found:
+        result = contacts(ROADS[name], centre, axis, 0.3)
+        assert 1 <= len(result) <= 2
+        for c in result:
             assert all(np.all(np.isfinite(v)) for v in c.values())
             assert np.linalg.norm(c["normal"]) == pytest.approx(1.0, abs=1e-9)
             assert np.linalg.norm(c["down"]) == pytest.approx(1.0, abs=1e-9)

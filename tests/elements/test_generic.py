@@ -97,7 +97,7 @@ def test_tangent_is_the_symmetric_part_of_the_derivative(name: str, weights: tup
 def test_spring_force_is_tension_positive_and_elastic_force_the_gradient_of_its_energy() -> None:
     element = spring(3, EndStops(0.60, 80000.0, 0.90, 50000.0))
     rng = np.random.default_rng(2)
-    seen = set()
+    visited = set()
     for length in np.linspace(0.5, 1.0, 11):
         n = rng.normal(size=3)
         n /= np.linalg.norm(n)
@@ -105,7 +105,7 @@ def test_spring_force_is_tension_positive_and_elastic_force_the_gradient_of_its_
         assert r.out["length"] == pytest.approx(length, abs=1e-12)
         expected = 12360.0 * (length - 0.75) + 80000.0 * min(0.0, length - 0.60) + 50000.0 * max(0.0, length - 0.90)
         assert r.out["force"] == pytest.approx(expected, abs=1e-8)
-        seen.add(int(np.sign(length - 0.60) + np.sign(length - 0.90)))
+        visited.add(int(np.sign(length - 0.60) + np.sign(length - 0.90)))
         slope = [
             (
                 element(length * n + 1e-6 * e, np.zeros(3)).potential
@@ -115,7 +115,7 @@ def test_spring_force_is_tension_positive_and_elastic_force_the_gradient_of_its_
             for e in np.eye(3)
         ]
         assert np.allclose(r.f, -np.array(slope), atol=0.1)  # a stop's force has a kink, 5e4 N/m times 1e-6 m
-    assert {-2, 0, 2} <= seen
+    assert {-2, 0, 2} <= visited
 
 
 def test_damper_takes_the_power_of_its_rate() -> None:

@@ -79,13 +79,13 @@ def test_a_lane_has_the_bits_of_the_element_alone(name: str) -> None:
         given = rng.choice([0.0, 0.1, 1.0], size=(WIDTH, 4))
         h = float(rng.choice([0.0, 1e-3, 1e-2]))
         reach = float(rng.choice([0.0, 0.1, 10.0]))
-        found = together(element, u, ud, y, (h, 0.5 * h, 0.25 * h * h, reach), given)
+        result = together(element, u, ud, y, (h, 0.5 * h, 0.25 * h * h, reach), given)
         for k in range(WIDTH):
             alone = element(u[k], ud[k], y[k], h, 0.5 * h, 0.25 * h * h, given[k], reach=reach)
             expected = [alone.f, alone.S.ravel(), alone.y, np.array([*alone.out.values()]), np.array([alone.potential])]
-            for got, wanted in zip(found, expected, strict=True):
+            for got, wanted in zip(result, expected, strict=True):
                 assert got[k, : wanted.size].tobytes() == wanted.tobytes(), (draw, k, u[k], ud[k])
-        differing += not np.array_equal(*np.hstack([found[0], found[3]]))
+        differing += not np.array_equal(*np.hstack([result[0], result[3]]))
     assert differing > 200
 
 

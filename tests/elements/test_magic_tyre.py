@@ -188,13 +188,13 @@ def test_the_relaxation_length_is_that_of_the_file(file: Path) -> None:
         sigma = c.PTY1 * sin(2.0 * atan(load / (c.PTY2 * Fz0))) * c.R0 * c.LFZO * c.LSGAL
     else:
         sigma = c.R0 * load / Fz0
-    h, left = 1e-3 * sigma / speed, []
+    h, remaining = 1e-3 * sigma / speed, []
     for _ in range(1000):
         r = element(u, ud, y, h)
         y = r.y
-        left.append((r.out["lateral_force"] - last) / (first - last))
-    assert left[-1] == pytest.approx(np.exp(-1.0), rel=2e-2 if t.combination == "ellipse" else 2e-3)
-    assert np.all(np.diff(left) < 0.0)
+        remaining.append((r.out["lateral_force"] - last) / (first - last))
+    assert remaining[-1] == pytest.approx(np.exp(-1.0), rel=2e-2 if t.combination == "ellipse" else 2e-3)
+    assert np.all(np.diff(remaining) < 0.0)
 
 
 def pushes(rng: np.random.Generator, t: MagicTyre) -> tuple[np.ndarray, np.ndarray]:
@@ -355,9 +355,9 @@ def test_moments_act_on_the_wheel_about_normal_heading_and_axis(gamma: float) ->
     t = tyre_file(OWN[1]).tyre()
     u, ud = pose(t, t.nominal_load, 0.03, 0.05, gamma, 20.0)
     r = settled(element_of(t), u, ud)
-    forward, left, up = np.eye(3)
+    forward, remaining, up = np.eye(3)
     axis, out = u[3:6], r.out
-    force = out["longitudinal_force"] * forward + out["lateral_force"] * left + out["vertical_force"] * up
+    force = out["longitudinal_force"] * forward + out["lateral_force"] * remaining + out["vertical_force"] * up
     rho = np.array([out[f"contact_{k}"] for k in "xyz"]) - u[:3]
     longer = rolling_radius(t, ud[6], out["deflection"]) / out["loaded_radius"]
     lever = np.cross(rho, force) + (longer - 1.0) * (np.cross(rho, force) @ axis) * axis

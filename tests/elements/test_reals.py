@@ -64,23 +64,25 @@ def test_every_declared_number_of_an_element_is_one_of_its_record(name: str):
     record = use(thing)
     if not isinstance(record, ElementRecord) or not isinstance(thing, Element):
         return
-    found = dict(zip(record.real_names, zip(record.real, record.real_checks, strict=False), strict=True))
+    actual = dict(zip(record.real_names, zip(record.real, record.real_checks, strict=False), strict=True))
     own, last = type(thing)._numbers()
-    there = last and last[0] in found
-    assert {name for name in record.real_names if name in own + last} == {*own, *(last if there else ())} - UNUSED[name]
+    present = last and last[0] in actual
+    assert {name for name in record.real_names if name in own + last} == {*own, *(last if present else ())} - UNUSED[
+        name
+    ]
     for key, real in declared(type(thing)).items():
         if isinstance(real, Real) and key in own:
             values = getattr(thing, key) if real.parts else (getattr(thing, key),)
             names = [f"{key}_{part}" for part in real.parts] or [key]
             if key not in ("angle_range", "signs"):  # a tyre's coefficients have other axes
-                assert [found[n] for n in names] == [(value, real.check) for value in values]
+                assert [actual[n] for n in names] == [(value, real.check) for value in values]
 
 
 def test_numbers_of_stops_are_those_of_the_spring_that_has_them():
     stops = EndStops(0.9, 8e3, 1.1, 5e3, 0.05, 0.06, 0.01, 0.02, 1e6, 0.002, 0.3, 0.4)
     record = SpringDamper(1.0, stops=stops).record("s", vectors(3)[0])
-    found = dict(zip(record.real_names, record.real, strict=True))
-    assert {key: found[key] for key in declared(EndStops)} == {key: getattr(stops, key) for key in declared(EndStops)}
+    actual = dict(zip(record.real_names, record.real, strict=True))
+    assert {key: actual[key] for key in declared(EndStops)} == {key: getattr(stops, key) for key in declared(EndStops)}
 
 
 def test_names_of_roads_are_those_of_the_kernel():
@@ -97,9 +99,9 @@ def declaring() -> list[type[Element]]:
 
 
 def test_the_headers_in_c_are_what_the_classes_say():
-    there = {file: file.read_text(encoding="utf-8") for file in fields_in_c.FOLDER.glob("*_fields.h")}
-    assert dict(fields_in_c.headers()) == there, "run: python -m mbs.elements.fields_in_c"
-    assert len(there) == len(ElementType)
+    present = {file: file.read_text(encoding="utf-8") for file in fields_in_c.FOLDER.glob("*_fields.h")}
+    assert dict(fields_in_c.headers()) == present, "run: python -m mbs.elements.fields_in_c"
+    assert len(present) == len(ElementType)
 
 
 ELEMENTS = {name: use for name, use in NUMBERS.items() if isinstance(use[0], Element)}
@@ -120,9 +122,9 @@ def test_class_and_kernel_refuse_the_same_numbers(name: str):
                 refused = real.check(value, "it") != value
             except ModelError:
                 refused = True
-            said = harness.Element(record, n_inputs=6).with_reals({k: value}).check()
+            reported = harness.Element(record, n_inputs=6).with_reals({k: value}).check()
             ours = f"the {called} of {type(thing)._words} {fields_in_c.RANGES[real.check][1]}"
-            assert (said == ours) is refused, f"{key} = {value:g}: {said}"
+            assert (reported == ours) is refused, f"{key} = {value:g}: {reported}"
             if refused and isinstance(getattr(thing, key, None), float):
                 with pytest.raises(ModelError, match=rf"(?i){called} of .* is {value:g}\b"):
                     use(replace(thing, **{key: value}))
@@ -139,6 +141,6 @@ def test_the_kernel_refuses_inputs_and_roads_that_do_not_exist(name: str):
 
 def test_every_number_and_every_output_has_a_unit_and_a_sentence():
     for kind in declaring():
-        said = fields_in_c.texts(kind)
-        assert all(said[field] for field in declared(kind))
+        reported = fields_in_c.texts(kind)
+        assert all(reported[field] for field in declared(kind))
         assert all(output.unit and output.description for output in kind._outputs)

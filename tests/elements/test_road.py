@@ -49,8 +49,8 @@ def test_kerb_distance_is_that_of_the_nearest_point_of_the_solid_in_the_wheel_pl
             centre = np.array([x, 0.3, 0.02 + height])
             if side * (x - 2.0) <= 0.0 and centre[2] <= top + 0.02:
                 continue  # the centre would be inside the step
-            found = contacts(road, centre, axis, RADIUS)
-            c, low = found
+            result = contacts(road, centre, axis, RADIUS)
+            c, low = result
             assert low["point"][2] == pytest.approx(0.02, abs=ROUND_OFF)
             # along every ray of the wheel plane: where it enters the quarter space, if it does
             ray = rim(np.zeros(3), axis, 1.0)

@@ -177,7 +177,7 @@ HEAD = 5 + 12  # reals before the tables
 
 
 @pytest.mark.parametrize(
-    ("place", "value", "words"),
+    ("place", "value", "message"),
     [
         (HEAD, 0.0, "must rise"),
         (HEAD + 3 * len(SPRING), 1e6, "energies"),
@@ -186,8 +186,8 @@ HEAD = 5 + 12  # reals before the tables
         (HEAD + 4 * len(SPRING) + 2 * len(DAMPER), -1.0, "must not fall"),
     ],
 )
-def test_the_kernel_checks_tables(place: int, value: float, words: str) -> None:
-    assert words in (element(SPRING, DAMPER).with_reals({place: value}).check() or "")
+def test_the_kernel_checks_tables(place: int, value: float, message: str) -> None:
+    assert message in (element(SPRING, DAMPER).with_reals({place: value}).check() or "")
 
 
 def test_the_kernel_checks_the_energies_from_stretch_nought_and_the_count() -> None:

@@ -44,15 +44,15 @@ def turned(element: Element, angle: float, load: float = LOAD) -> np.ndarray:
 
 def steered(element: Element, rate: float, duration: float, h: float, y: np.ndarray | None = None, at: float = 0.0):
     """Turn about the vertical on the spot at a rate, rad/s; results of all steps, the last angle."""
-    y, angle, found = np.zeros(6) if y is None else y, at, []
+    y, angle, results = np.zeros(6) if y is None else y, at, []
     for _ in range(round(duration / h)):
         angle += rate * h
         ud = np.zeros(7)
         ud[3:6] = -rate * cos(angle), -rate * sin(angle), 0.0
         r = element(turned(element, angle), ud, y, h, 0.5 * h, 0.25 * h * h)
-        found.append(r)
+        results.append(r)
         y = r.y
-    return found, angle
+    return results, angle
 
 
 def lever(element: Element) -> float:
@@ -66,8 +66,8 @@ def lever(element: Element) -> float:
 @pytest.mark.parametrize("name", ["tmeasy", "magic formula"])
 def test_on_the_spot_the_carcass_twists_then_the_patch_slides_at_its_friction(name: str) -> None:
     element, h = elements()[name], 0.002
-    found, _ = steered(element, 0.5, 1.0, h)
-    moments = np.array([r.out["aligning_moment"] for r in found])
+    run, _ = steered(element, 0.5, 1.0, h)
+    moments = np.array([r.out["aligning_moment"] for r in run])
     angle = 0.5 * 4.5 * h  # after five steps: the trapezoidal rule begins from rest
     assert moments[4] == pytest.approx(-BORE.stiffness * angle - BORE.damping * 0.5, rel=1e-4)
     reals = dict(zip(element.element.real_names, element.element.real, strict=True))
@@ -105,8 +105,8 @@ def test_turning_takes_energy_and_what_is_stored_comes_back(name: str) -> None:
 @pytest.mark.parametrize("name", ["tmeasy", "magic formula"])
 def test_a_wheel_that_stops_turning_keeps_its_moment_and_is_quiet(name: str) -> None:
     element, h = elements()[name], 0.005
-    found, angle = steered(element, 0.5, 0.02, h)  # well below sliding
-    rest, _ = steered(element, 0.0, 1.0, h, found[-1].y, angle)
+    run, angle = steered(element, 0.5, 0.02, h)  # well below sliding
+    rest, _ = steered(element, 0.0, 1.0, h, run[-1].y, angle)
     moments = np.array([r.out["aligning_moment"] for r in rest])
     assert moments[-1] == pytest.approx(-BORE.stiffness * 0.01, rel=2e-3)
     assert np.ptp(moments[5:]) < 5e-3 * abs(moments[-1])
@@ -124,8 +124,8 @@ def test_force_and_moment_share_friction(name: str) -> None:
         ud[1] = 0.03
         y = element(turned(element, 0.0), ud, y, h).y
     held = element(turned(element, 0.0), np.zeros(7), y, h).out["lateral_force"]
-    found, _ = steered(element, 0.5, 1.0, h, y)
-    forces = [hypot(r.out["longitudinal_force"], r.out["lateral_force"]) for r in found]
+    run, _ = steered(element, 0.5, 1.0, h, y)
+    forces = [hypot(r.out["longitudinal_force"], r.out["lateral_force"]) for r in run]
     assert abs(held) > 150.0
     assert forces[-1] < 0.1 * abs(held)
     assert all(later <= before * (1.0 + 1e-9) for before, later in pairwise(forces))
@@ -184,8 +184,8 @@ def test_of_the_formula_it_is_gone_where_the_wheel_rolls() -> None:
 @pytest.mark.parametrize("before", [0.01, 0.5])
 def test_the_tangent_about_the_normal_is_the_slope_of_the_moment_or_the_safe_share(name: str, before: float) -> None:
     element, h, rate = elements()[name], 0.005, 0.5
-    found, angle = steered(element, rate, before, h)
-    y, way = found[-1].y, np.array([-cos(angle), -sin(angle)])
+    run, angle = steered(element, rate, before, h)
+    y, way = run[-1].y, np.array([-cos(angle), -sin(angle)])
 
     def at(w: float):
         ud = np.zeros(7)

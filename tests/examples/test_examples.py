@@ -38,10 +38,10 @@ def test_an_example_keeps_its_promise(
 ) -> None:
     example = module_of(FOLDER / f"{name}.py")
     monkeypatch.chdir(tmp_path)
-    found = example.main()
-    low, high, said = PROMISED[name]
-    assert low <= found <= high
-    assert said in capsys.readouterr().out
+    result = example.main()
+    low, high, reported = PROMISED[name]
+    assert low <= result <= high
+    assert reported in capsys.readouterr().out
     drawn = image.imread(tmp_path / f"{name}.png")
     assert drawn.shape == image.imread(ROOT / "docs" / "images" / "examples" / f"{name}.png").shape
     assert drawn.std() > 0.02

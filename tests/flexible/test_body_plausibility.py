@@ -64,30 +64,30 @@ UNITS = {
 
 
 @pytest.mark.parametrize("body", BODIES)
-def test_units_of_a_whole_model_are_told(body: str) -> None:
+def test_units_of_a_whole_model_are_reported(body: str) -> None:
     K, M, x = BODIES[body]()
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert "total mass" in external_model(K, M, x).summary()
-    for words, units in UNITS.items():
-        with pytest.warns(FlexibleWarning) as told:
+    for message, units in UNITS.items():
+        with pytest.warns(FlexibleWarning) as caught:
             external_model(*in_units(K, M, *units), x / units[0], what="body.mtx")
-        (sentence,) = (str(w.message) for w in told)
+        (sentence,) = (str(w.message) for w in caught)
         assert sentence.startswith("body.mtx: ")
-        assert words in sentence.split("would explain it")[0]
+        assert message in sentence.split("would explain it")[0]
 
 
 def test_a_mass_that_is_known_tells_what_the_matrices_cannot() -> None:
     model = straight(4).finite_element_model()
-    for factor, words in (
+    for factor, message in (
         (1e3, "g in place of kg"),
         (1e-3, "t in place of kg"),
         (1.0 / 0.45359237, "pounds"),
         (1.5, ""),
     ):
-        with pytest.warns(FlexibleWarning, match="over that given beside it") as told:
+        with pytest.warns(FlexibleWarning, match="over that given beside it") as caught:
             external_model(model.K, factor * model.mass_matrix(), model.positions, total_mass=model.mass.masses.sum())
-        assert (words in str(told[0].message)) if words else ("would explain" not in str(told[0].message))
+        assert (message in str(caught[0].message)) if message else ("would explain" not in str(caught[0].message))
 
 
 def turned(K: Any, i: int, j: int) -> Any:
@@ -134,14 +134,14 @@ def swapped(K: Any) -> Any:
 
 @pytest.mark.parametrize("case", REFUSED)
 def test_matrices_that_contradict_are_refused_with_the_cause(case: str) -> None:
-    plant, words = REFUSED[case]
-    with pytest.raises(ModelError, match=words) as told:
+    plant, message = REFUSED[case]
+    with pytest.raises(ModelError, match=message) as refusal:
         external_model(*plant(*of_portal()))
-    if not words.endswith("supports"):
-        assert "without supports" not in str(told.value)
+    if not message.endswith("supports"):
+        assert "without supports" not in str(refusal.value)
 
 
-def test_a_mass_matrix_in_another_order_is_told() -> None:
+def test_a_mass_matrix_in_another_order_is_reported() -> None:
     K, M, x = of_portal()
     orders = (BY_AXIS, by_node([3, 1, 7, 0, 2, 8, 6, 5, 4]), np.r_[2, 1, 0, 3:54], np.r_[6, 1:6, 0, 7:54])
     for mass in (*(M[order][:, order] for order in orders), turned(M, 0, 6)):
@@ -149,13 +149,15 @@ def test_a_mass_matrix_in_another_order_is_told() -> None:
             warnings.simplefilter("always")
             try:
                 external_model(K, mass, x)
-                told = " ".join(str(w.message) for w in caught)
+                message = " ".join(str(w.message) for w in caught)
             except ModelError as error:
-                told = str(error)
-        assert re.search("freedoms are not in the order of the nodes|mass node pairs that|mass rigid inertia off", told)
+                message = str(error)
+        assert re.search(
+            "freedoms are not in the order of the nodes|mass node pairs that|mass rigid inertia off", message
+        )
 
 
-def test_all_orders_and_axes_of_a_bar_of_solids_are_told_apart() -> None:
+def test_all_orders_and_axes_of_a_bar_of_solids_are_reported_apart() -> None:
     """Of 3 freedoms a node: axes, signs and orders are named where they contradict."""
     K, M, x = of_bar()
     for order in itertools.permutations(range(3)):
@@ -174,8 +176,8 @@ def test_the_summary_has_the_frequencies(tmp_path: Path) -> None:
     scipy.io.mmwrite(tmp_path / "M.mtx", sp.coo_matrix(model.mass_matrix()))
     rows = [f"{n},{a},{b},{c}" for n, (a, b, c) in zip(model.names, model.positions.tolist(), strict=True)]
     (tmp_path / "nodes.csv").write_text("\n".join(["name,x,y,z", *rows]))
-    found = read_model(tmp_path / "K.mtx", tmp_path / "M.mtx", tmp_path / "nodes.csv")
-    assert isinstance(found, FiniteElementModel)
-    assert re.search(rf"total mass +{model.mass.masses.sum():.4g} kg", str(found))
-    assert re.search(r"negative eigenvalues +stiffness 0, mass 0", found.summary())
-    assert str(found) == found.summary()
+    actual = read_model(tmp_path / "K.mtx", tmp_path / "M.mtx", tmp_path / "nodes.csv")
+    assert isinstance(actual, FiniteElementModel)
+    assert re.search(rf"total mass +{model.mass.masses.sum():.4g} kg", str(actual))
+    assert re.search(r"negative eigenvalues +stiffness 0, mass 0", actual.summary())
+    assert str(actual) == actual.summary()

@@ -26,11 +26,11 @@ def test_the_frame_in_calculix_lies_between_our_two_theories() -> None:
     """Shear makes the short tubes softer; solid-expanded sections shear less than Cowper's thin ring."""
     soft, stiff = frame_figures("timoshenko"), frame_figures("euler_bernoulli")
     for name in soft:
-        found = np.abs(STORED[name]["extrapolated"])
+        result = np.abs(STORED[name]["extrapolated"])
         low, high = np.abs(soft[name]), np.abs(stiff[name])
         assert (low < high).all()
-        assert (found > (1 - MESH) * low).all(), name
-        assert (found < (1 + MESH) * high).all(), name
+        assert (result > (1 - MESH) * low).all(), name
+        assert (result < (1 + MESH) * high).all(), name
         assert (high / low - 1 < 0.05).all(), "the bracket must be narrow to say anything"
 
 

@@ -123,8 +123,8 @@ def test_inertia_modes_make_weight_and_steady_acceleration_exact(model: FiniteEl
         errors = []
         for inertia in (False, True):
             body = craig_bampton(model, REFERENCE, INTERFACES, count, inertia_modes=inertia)
-            found = body.modes @ np.linalg.solve(body.K, body.modes.T @ load)
-            errors.append(np.abs(found - u).max() / np.abs(u).max())
+            result = body.modes @ np.linalg.solve(body.K, body.modes.T @ load)
+            errors.append(np.abs(result - u).max() / np.abs(u).max())
             np.testing.assert_allclose(body.K[:9, 9:], 0.0)
         assert errors[1] < 1e-7 < 1e-3 < errors[0]
 
@@ -180,8 +180,8 @@ def test_a_straight_beam_without_rotary_inertia_has_no_inertia_mode_about_its_ax
     free = np.setdiff1d(np.arange(model.n_dof), held)
     exact = spsolve(sp.csc_matrix(model.K[free][:, free]), load[free])
     shapes = body.modes[free, body.n_static :]
-    found = shapes @ np.linalg.solve(body.K[body.n_static :, body.n_static :], shapes.T @ load[free])
-    assert np.abs(found - exact).max() < 1e-9 * np.abs(exact).max()
+    result = shapes @ np.linalg.solve(body.K[body.n_static :, body.n_static :], shapes.T @ load[free])
+    assert np.abs(result - exact).max() < 1e-9 * np.abs(exact).max()
 
 
 def _largest(model: FiniteElementModel, rows: sp.sparray) -> float:
@@ -203,14 +203,14 @@ def test_load_path_modes_keep_what_the_loads_excite_and_nothing_else(model: Fini
     np.testing.assert_allclose(np.diag(small.K), (2 * np.pi * small.frequencies) ** 2, rtol=1e-8)
     # forces at the interfaces with the inertia that balances them: same deformation in both
     force = loads @ np.array([3.0, -1.0, 2.0, 5.0, 4.0])
-    found = []
+    results = []
     for b in (body, small):
         R = model.rigid_motions(b.origin)
         F = np.zeros(model.n_dof)
         F[np.concatenate([model.freedoms(n) for n in INTERFACES])] = force
         F -= model.mass_matrix() @ R @ np.linalg.solve(R.T @ (model.mass_matrix() @ R), R.T @ F)
-        found.append(b.modes @ np.linalg.solve(b.K, b.modes.T @ F))
-    np.testing.assert_allclose(found[1], found[0], rtol=1e-6, atol=1e-7 * np.abs(found[0]).max())
+        results.append(b.modes @ np.linalg.solve(b.K, b.modes.T @ F))
+    np.testing.assert_allclose(results[1], results[0], rtol=1e-6, atol=1e-7 * np.abs(results[0]).max())
     with pytest.raises(ModelError, match="9 rows are needed"):
         load_path_modes(body, np.ones((4, 2)))
     with pytest.raises(ModelError, match="nothing that deforms the body"):

@@ -38,11 +38,11 @@ def test_a_frame_written_to_files_comes_back(tmp_path: Path, suffix: str) -> Non
     lines = ["name,x,y,z", "# a comment"]
     lines += [f"{n},{x[0]!r},{x[1]!r},{x[2]!r}" for n, x in zip(frame.names, frame.positions.tolist(), strict=True)]
     (tmp_path / "nodes.csv").write_text("\n".join(lines) + "\n")
-    found = read_model(tmp_path / f"K{suffix}", tmp_path / f"M{suffix}", tmp_path / "nodes.csv")
-    assert found.names == frame.names
-    np.testing.assert_allclose(found.K.toarray(), model.K.toarray(), rtol=1e-12, atol=1e-3)
-    np.testing.assert_allclose(found.mass_matrix().toarray(), model.mass_matrix().toarray(), rtol=1e-12)
-    a, b = (craig_bampton(m, "N0", ["N3", "N7"], 4) for m in (found, model))
+    actual = read_model(tmp_path / f"K{suffix}", tmp_path / f"M{suffix}", tmp_path / "nodes.csv")
+    assert actual.names == frame.names
+    np.testing.assert_allclose(actual.K.toarray(), model.K.toarray(), rtol=1e-12, atol=1e-3)
+    np.testing.assert_allclose(actual.mass_matrix().toarray(), model.mass_matrix().toarray(), rtol=1e-12)
+    a, b = (craig_bampton(m, "N0", ["N3", "N7"], 4) for m in (actual, model))
     np.testing.assert_allclose(a.frequencies, b.frequencies, rtol=PRINTED)
     np.testing.assert_allclose(a.K, b.K, rtol=PRINTED, atol=PRINTED * b.K.max())
     (tmp_path / "nodes.csv").write_text("name,x,y,z\nN0,0.0,0.0\n")
@@ -54,9 +54,9 @@ def test_a_frame_written_to_files_comes_back(tmp_path: Path, suffix: str) -> Non
 def test_a_consistent_mass_matrix_is_lumped_to_the_masses_of_the_frame() -> None:
     frame = portal()
     consistent = frame.finite_element_model("consistent", rotary=True)
-    found = external_model(consistent.K, consistent.mass_matrix(), frame.positions, frame.names)
+    actual = external_model(consistent.K, consistent.mass_matrix(), frame.positions, frame.names)
     lumped = frame.finite_element_model("lumped", rotary=False)
-    np.testing.assert_allclose(found.mass.masses, lumped.mass.masses, rtol=1e-9)
+    np.testing.assert_allclose(actual.mass.masses, lumped.mass.masses, rtol=1e-9)
 
 
 def test_negative_row_sums_of_quadratic_elements_are_scaled_from_the_diagonal() -> None:
@@ -103,10 +103,10 @@ def test_a_nastran_model_is_read(tmp_path: Path, binary: bool, sparse: str, endi
     op4.write(str(tmp_path / "frame.op4"), {"KGG": K, "MGG": M, "K4": 1j * K}, None, binary, 16, endian, sparse)
     grid = [f"GRID,{10 + i},,{x[0]:.6f},{x[1]:.6f},{x[2]:.6f}" for i, x in enumerate(frame.positions)]
     (tmp_path / "frame.bdf").write_text("\n".join(grid) + "\n")
-    found = read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
-    assert found.names == tuple(str(10 + i) for i in range(9))
-    np.testing.assert_allclose(found.K.toarray(), K, rtol=1e-12, atol=1e-3)
-    np.testing.assert_allclose(natural_modes(found, 9)[0], natural_modes(model, 9)[0], rtol=PRINTED, atol=1e-3)
+    actual = read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
+    assert actual.names == tuple(str(10 + i) for i in range(9))
+    np.testing.assert_allclose(actual.K.toarray(), K, rtol=1e-12, atol=1e-3)
+    np.testing.assert_allclose(natural_modes(actual, 9)[0], natural_modes(model, 9)[0], rtol=PRINTED, atol=1e-3)
     np.testing.assert_allclose(read_output4(tmp_path / "frame.op4")["K4"].toarray(), 1j * K, rtol=1e-12, atol=1e-3)
     with pytest.raises(ModelError, match=r"has no matrix KAA; it has K4, KGG, MGG"):
         read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4", stiffness="KAA")
@@ -151,14 +151,14 @@ def test_grid_points_in_systems_upon_systems_and_in_all_forms_of_fields(tmp_path
         "*B      3.25\n"
         "ENDDATA\n"
     )
-    found = grid_points(tmp_path / "deck.bdf")
+    actual = grid_points(tmp_path / "deck.bdf")
     table = bulk.bulk2uset(str(tmp_path / "deck.bdf"))[0].reset_index().to_numpy(float)[::6]
-    assert list(found) == [9, 11, 12] == table[:, 0].tolist()
-    np.testing.assert_allclose([place for place, _ in found.values()], table[:, 3:6], atol=1e-12)
+    assert list(actual) == [9, 11, 12] == table[:, 0].tolist()
+    np.testing.assert_allclose([place for place, _ in actual.values()], table[:, 3:6], atol=1e-12)
 
 
 @pytest.mark.parametrize(
-    ("deck", "words"),
+    ("deck", "message"),
     [
         ("GRID,1,5,0.,0.,0.", "coordinate system 5 is defined by no CORD2R, CORD2C or CORD2S"),
         ("GRID,1,5,0.,0.,0.\nCORD2R,5,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.", "coordinate system 5 refers to itself"),
@@ -189,10 +189,10 @@ def test_grid_points_in_systems_upon_systems_and_in_all_forms_of_fields(tmp_path
         ("GRDSET,,,,,,3\nGRID,1,,0.,0.,0.", "Grid point 1 has displacements in a system of its own"),
     ],
 )
-def test_bulk_data_that_cannot_be_used_are_refused(tmp_path: Path, deck: str, words: str) -> None:
+def test_bulk_data_that_cannot_be_used_are_refused(tmp_path: Path, deck: str, message: str) -> None:
     (tmp_path / "frame.bdf").write_text(deck)
     (tmp_path / "frame.op4").write_text("")
-    with pytest.raises(ModelError, match=words):
+    with pytest.raises(ModelError, match=message):
         read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
 
 
@@ -208,9 +208,9 @@ def test_grid_points_behind_tabs_and_replicated_ones(tmp_path: Path) -> None:
     wanted = {1: (1.5, 2.0, -3.0), 2: (0.123456789, 1.0, 2.0), 3: (4.0, 5.0, 6.0)}
     wanted |= {4 + k: (0.5 * k, 1.0, 2.0) for k in range(5)}
     wanted |= {10 + 2 * k: (1.0, 1.0 - k, 1.0) for k in range(4)} | {20: (1.0, 7.0, 1.0)}
-    found = grid_points(tmp_path / "deck.bdf")
-    assert list(found) == sorted(wanted)
-    for number, (place, own) in found.items():
+    actual = grid_points(tmp_path / "deck.bdf")
+    assert list(actual) == sorted(wanted)
+    for number, (place, own) in actual.items():
         assert own == 0
         np.testing.assert_allclose(place, wanted[number], atol=1e-12)
 
@@ -226,9 +226,9 @@ def test_nastran_places_are_those_of_the_basic_system(tmp_path: Path) -> None:
     system = ["CORD2R,5,0,1.,2.,3.,1.,2.,4.", ",1.,3.,3."]
     deck = ["SOL 103", "CEND", "BEGIN BULK", *reversed(grid), *system, "ENDDATA"]
     (tmp_path / "frame.bdf").write_text("\n".join(deck) + "\n")
-    found = read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
-    assert found.names == tuple(str(10 + i) for i in range(9))
-    np.testing.assert_allclose(found.positions, frame.positions, atol=1e-6)
+    actual = read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")
+    assert actual.names == tuple(str(10 + i) for i in range(9))
+    np.testing.assert_allclose(actual.positions, frame.positions, atol=1e-6)
     (tmp_path / "frame.bdf").write_text("\n".join([*grid[:-1], grid[-1] + ",5", *system]) + "\n")
     with pytest.raises(ModelError, match="Grid point 18 has displacements in a system of its own"):
         read_nastran(tmp_path / "frame.bdf", tmp_path / "frame.op4")

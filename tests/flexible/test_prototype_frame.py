@@ -134,20 +134,20 @@ def test_gauge_moments_by_inertia_relief(model: FiniteElementModel, factors: tup
     moments, bridges = gauge_rows(frame, FRAME.strain_gauges(tubes))
     forces = interface_forces(INTERFACES, *factors)
     relief = inertia_relief(model, REFERENCE, INTERFACES, moments)
-    found = relief.balanced @ forces
+    actual = relief.balanced @ forces
     front, rear = STATIC_MOMENTS[factors]
-    np.testing.assert_allclose(found, [front, front, rear, rear], rtol=MOMENT_DIGITS)
+    np.testing.assert_allclose(actual, [front, front, rear, rear], rtol=MOMENT_DIGITS)
     if factors == (1, 1):
         np.testing.assert_allclose(relief.acceleration_of_forces @ forces, [0, 0, 9.81, 0, 0, 0], atol=5e-4)
     # half-bridge: upper minus lower fibre = 2 M r / I
     stress = inertia_relief(model, REFERENCE, INTERFACES, bridges).balanced @ forces
     tube = frame.beams[FRAME.strain_gauges(tubes)[0].element].section
-    np.testing.assert_allclose(stress, 2 * found * 0.020 / tube.Iy, rtol=1e-9)
+    np.testing.assert_allclose(stress, 2 * actual * 0.020 / tube.Iy, rtol=1e-9)
 
 
 def test_moments_and_stresses_do_not_depend_on_the_division_of_the_tubes() -> None:
     """What the beams carry between their ends is in the rows: no mesh is needed for it."""
-    forces, found = interface_forces(INTERFACES), []
+    forces, actual = interface_forces(INTERFACES), []
     for refinement in (1, 2):
         frame, tubes = FRAME.frame(refinement=refinement)
         rows = gauge_rows(frame, FRAME.strain_gauges(tubes))[0]
@@ -155,8 +155,8 @@ def test_moments_and_stresses_do_not_depend_on_the_division_of_the_tubes() -> No
         peak = peak_tube_stress(
             frame, inertia_relief(model, REFERENCE, INTERFACES, section_force_field(frame)).balanced @ forces
         )
-        found.append([*inertia_relief(model, REFERENCE, INTERFACES, rows).balanced @ forces, 1e-6 * peak.max()])
-    np.testing.assert_allclose(found[0], found[1], rtol=1e-6)
+        actual.append([*inertia_relief(model, REFERENCE, INTERFACES, rows).balanced @ forces, 1e-6 * peak.max()])
+    np.testing.assert_allclose(actual[0], actual[1], rtol=1e-6)
 
 
 def test_largest_stress_and_sag_at_rest(model: FiniteElementModel) -> None:
@@ -173,8 +173,8 @@ def test_largest_stress_and_sag_at_rest(model: FiniteElementModel) -> None:
 
 def test_static_and_dynamic_modes_need_inertia_modes_for_the_moments_at_rest() -> None:
     """60 + 5 modes carry a third to a half less than the moment at rest; with the inertia modes all of it."""
-    exact, found = frame_tables.moments(), frame_tables.moments_by_modes()
-    (plain, few), *_, (full, inertia), (one_a_force, paths) = found.values()
+    exact, results = frame_tables.moments(), frame_tables.moments_by_modes()
+    (plain, few), *_, (full, inertia), (one_a_force, paths) = results.values()
     assert (plain, full, one_a_force) == (65, 71, 60)
     np.testing.assert_allclose(inertia, exact, rtol=1e-6)
     np.testing.assert_allclose(paths, exact, rtol=1e-4)

@@ -68,8 +68,8 @@ def test_a_push_to_the_left_presses_the_left_fibre() -> None:
     section = rectangle(0.03, 0.05)
     frame = straight(2, 1.0, section)
     u = clamped(frame, 2, np.array([0.0, 40.0, 0.0, 0.0, 0.0, 0.0]))
-    (left,) = fibre_stresses(frame, 0, 0.0, np.array([[0.015, 0.0]])) @ u
-    assert left == pytest.approx(-40.0 * 1.0 * 0.015 / section.Iz, rel=ROUND_OFF)
+    (remaining,) = fibre_stresses(frame, 0, 0.0, np.array([[0.015, 0.0]])) @ u
+    assert remaining == pytest.approx(-40.0 * 1.0 * 0.015 / section.Iz, rel=ROUND_OFF)
 
 
 def test_half_bridge_does_not_see_pull_twist_or_sideways_bending() -> None:
@@ -184,8 +184,8 @@ def test_a_cantilever_under_its_own_weight_has_the_moments_of_statics_with_few_e
             if xi != 0.0:
                 continue
             exact[:3] -= q * L / n / 2
-        found = body.recovery(section_forces(frame, element, xi)) @ eta
-        np.testing.assert_allclose(found, exact, rtol=1e-6, atol=1e-6 * abs(q[2]) * L)
+        actual = body.recovery(section_forces(frame, element, xi)) @ eta
+        np.testing.assert_allclose(actual, exact, rtol=1e-6, atol=1e-6 * abs(q[2]) * L)
 
 
 def test_a_pendulum_of_few_elements_has_the_stress_of_its_inertia() -> None:

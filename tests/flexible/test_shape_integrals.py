@@ -28,8 +28,8 @@ def test_integrals_have_their_symmetries_and_the_modal_mass(body: ReducedBody) -
     np.testing.assert_array_equal(s.T, s.T.transpose(1, 0, 3, 2))
     assert s.mass == pytest.approx(body.masses.sum())
     x, weighted = body.mass_positions, body.masses[:, None] * body.mass_positions
-    for found, expected in ((s.S0, weighted.sum(axis=0)), (s.J0, weighted.T @ x)):
-        np.testing.assert_allclose(found, expected, atol=1e-12)
+    for actual, expected in ((s.S0, weighted.sum(axis=0)), (s.J0, weighted.T @ x)):
+        np.testing.assert_allclose(actual, expected, atol=1e-12)
     np.testing.assert_allclose(s.P, np.einsum("k,kij->ij", body.masses, body.mass_shapes), atol=1e-13)
     j, l = 2, 5
     literal = np.einsum("k,ki,kj->ij", body.masses, body.mass_shapes[:, :, l], body.mass_shapes[:, :, j])

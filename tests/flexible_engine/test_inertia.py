@@ -94,9 +94,9 @@ def test_velocity_forces_are_the_literal_product(body: Literal, seed: int) -> No
     Bd = (body.B(q + 0.5 * qd) - body.B(q - 0.5 * qd)) @ qd  # B is linear in q
     expected = -body.B(q).T @ (body.masses * Bd)
     damping = np.concatenate([np.zeros(12), body.reduced.C @ qd[12:]])
-    found = body.force(q, qd) - body.force(q, 0.0 * qd) + damping
+    result = body.force(q, qd) - body.force(q, 0.0 * qd) + damping
     assert np.linalg.norm(expected) > 1.0
-    assert np.max(np.abs(found - expected)) < ROUND_OFF * 10 * np.max(np.abs(expected))
+    assert np.max(np.abs(result - expected)) < ROUND_OFF * 10 * np.max(np.abs(expected))
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -136,8 +136,8 @@ def test_forces_are_those_of_lagrange(body: Literal, seed: int) -> None:
     expected = slope - momentum_rate - np.concatenate([np.zeros(12), body.reduced.C @ qd[12:]])
     # on the tangent of the frame conditions: A'A = 1 was used
     free = _tangent(q)
-    found = body.force(q, qd)
-    assert np.max(np.abs(free @ (found - expected))) < 1e-6 * np.max(np.abs(expected))
+    result = body.force(q, qd)
+    assert np.max(np.abs(free @ (result - expected))) < 1e-6 * np.max(np.abs(expected))
 
 
 def _tangent(q: np.ndarray) -> np.ndarray:
@@ -157,15 +157,15 @@ def test_energies_are_sums_over_the_mass_points(body: Literal, seed: int) -> Non
     simulation = body.simulation
     simulation.instance.set_q(body.put(q), body.put(qd))
     simulation.instance.initialise(0.0)
-    found = simulation.sensors
+    actual = simulation.sensors
     velocity = body.B(q) @ qd
     kinetic = 0.5 * np.sum(body.masses * velocity**2)
     gravity = -np.sum(body.reduced.masses * (body.positions(q).reshape(-1, 3) @ GRAVITY))
     elastic = 0.5 * q[12:] @ body.reduced.K @ q[12:]
-    assert found["kinetic"] == pytest.approx(kinetic, rel=1e-12)
-    assert found["gravity"] == pytest.approx(gravity, rel=1e-12)
-    assert found["elastic"] == pytest.approx(elastic, rel=1e-12)
-    assert found["total"] == pytest.approx(kinetic + gravity + elastic, rel=1e-12)
+    assert actual["kinetic"] == pytest.approx(kinetic, rel=1e-12)
+    assert actual["gravity"] == pytest.approx(gravity, rel=1e-12)
+    assert actual["elastic"] == pytest.approx(elastic, rel=1e-12)
+    assert actual["total"] == pytest.approx(kinetic + gravity + elastic, rel=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -223,5 +223,5 @@ def test_rows_with_the_same_modes_are_squared_whole() -> None:
     for alpha in (1e11, 3e11):
         instance.set_settings(alpha=alpha)
         tangents.append(np.reshape(instance.tangent(h), (n, n)))
-    found = (tangents[1] - tangents[0]) / (0.25 * h * h * 2e11)
-    np.testing.assert_allclose(found, J.T @ J, atol=1e-12 * np.max(np.abs(J.T @ J)))
+    actual = (tangents[1] - tangents[0]) / (0.25 * h * h * 2e11)
+    np.testing.assert_allclose(actual, J.T @ J, atol=1e-12 * np.max(np.abs(J.T @ J)))

@@ -9,9 +9,9 @@ from tests.flexible_engine.bodies import soft_pendulum
 
 
 def test_one_soft_body_is_warned_of_with_its_name_and_the_parts_it_needs() -> None:
-    with pytest.warns(BendingWarning, match=r"body 'part 0' bends by 0\.045 rad .* Divide it into 2 or more") as told:
+    with pytest.warns(BendingWarning, match=r"body 'part 0' bends by 0\.045 rad .* Divide it into 2 or more") as caught:
         simulate(soft_pendulum(1), 2.0, 0.0025, progress=False)
-    assert len(told) == 1
+    assert len(caught) == 1
 
 
 def test_two_bodies_are_not_warned_of() -> None:

@@ -92,8 +92,8 @@ def flapping_frequency(parts: int, speed: float) -> tuple[float, float]:
     names = system.meta["coordinates"]
     up, across = (names.index(f"part {parts - 1}.a{k}") for k in "zy")
     modes = linearise(simulation).oscillating_modes()
-    found = [mode.frequency_hz for mode in modes if abs(mode.shape[up]) > abs(mode.shape[across])]
-    return 2 * np.pi * min(found), 1.8751041**2 * np.sqrt(E * radius**2 / 4 / rho) / length**2
+    results = [mode.frequency_hz for mode in modes if abs(mode.shape[up]) > abs(mode.shape[across])]
+    return 2 * np.pi * min(results), 1.8751041**2 * np.sqrt(E * radius**2 / 4 / rho) / length**2
 
 
 @pytest.mark.slow

@@ -81,8 +81,8 @@ def test_the_energy_momentum_step_carries_a_spinning_beam_to_its_deflection() ->
     settings = Settings(method="energy_momentum", max_halvings=0)
     t = simulate(system, spinning_beam.DURATION, 0.02, settings=settings, progress=False)
     when, _, expected = np.loadtxt(SPIN_UP, delimiter=",", skiprows=2).T
-    _, found = spinning_beam.in_turning_axes(t.t, t["tip.x"], t["tip.y"])
-    assert np.abs(np.interp(when, t.t, found) - expected).max() < DEFLECTION * np.abs(expected).max()
+    _, result = spinning_beam.in_turning_axes(t.t, t["tip.x"], t["tip.y"])
+    assert np.abs(np.interp(when, t.t, result) - expected).max() < DEFLECTION * np.abs(expected).max()
 
 
 def test_damped_bodies_cannot_step_backwards() -> None:
@@ -111,12 +111,12 @@ def test_rates_of_energies() -> None:
     instance.initialise()
     instance.set_settings(**METHODS["runge_kutta_8"])  # its accelerations are those of the state
     instance.run(0.002, 50)
-    found, chosen = rates_of(instance)
+    actual, chosen = rates_of(instance)
     slopes = slopes_of(instance, RATE_STEP)
     names = [s["name"] for s in system.meta["sensors"]]
     assert {"kinetic", "gravity", *NAMES} <= {n for n, k in zip(names, chosen, strict=True) if k}
-    assert np.allclose(found[chosen], slopes[chosen], rtol=RATE_ERROR, atol=RATE_ERROR * np.max(np.abs(slopes)))
-    assert np.max(np.abs(found[chosen])) > 1.0
+    assert np.allclose(actual[chosen], slopes[chosen], rtol=RATE_ERROR, atol=RATE_ERROR * np.max(np.abs(slopes)))
+    assert np.max(np.abs(actual[chosen])) > 1.0
 
 
 def test_a_stiff_beam_takes_one_iteration_a_step() -> None:

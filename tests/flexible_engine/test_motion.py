@@ -155,13 +155,13 @@ def test_frequencies_at_rest(joint: str) -> None:
     if joint == "weld":
         m.weld("root", m.ground, beam.interface(0))
     model = linearise(Simulation(compile(m)))
-    found = sorted(mode.frequency_hz for mode in model.oscillating_modes())
+    actual = sorted(mode.frequency_hz for mode in model.oscillating_modes())
     second, area = np.pi * 0.005**4 / 4, np.pi * 0.005**2
     roots = {"weld": (1.8751041, 4.6940911), "free": (4.7300407, 7.8532046)}[joint]
     rate = np.sqrt(ALUMINIUM.E * second / (ALUMINIUM.rho * area)) / (2 * np.pi)
     for k, root in enumerate(roots):  # twice each: two planes
-        assert found[2 * k] == pytest.approx(root**2 * rate, rel=2e-3)
-        assert found[2 * k + 1] == pytest.approx(root**2 * rate, rel=2e-3)
+        assert actual[2 * k] == pytest.approx(root**2 * rate, rel=2e-3)
+        assert actual[2 * k + 1] == pytest.approx(root**2 * rate, rel=2e-3)
 
 
 def test_no_flexible_body_no_cost() -> None:

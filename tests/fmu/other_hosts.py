@@ -18,13 +18,22 @@ def by_c_host(
     program = compile_host(folder)
     place = unpack(fmu, folder / "fmu")
     references = {v.name: v.valueReference for v in fmpy.read_model_description(str(fmu)).modelVariables}
-    asked = [references[name] for name in outputs]
+    requested = [references[name] for name in outputs]
     library = next((place / "binaries" / fmpy.platform).iterdir())
-    command = [program, library, (place / "resources").as_uri(), guid_of(place), steps, step, min(asked), max(asked)]
+    command = [
+        program,
+        library,
+        (place / "resources").as_uri(),
+        guid_of(place),
+        steps,
+        step,
+        min(requested),
+        max(requested),
+    ]
     given = [part for name, value in start.items() for part in ("--set", f"{name}={value}")]
     done = subprocess.run([*map(str, command), *given], capture_output=True, text=True, check=True)
     rows = np.array([[float.fromhex(word) for word in line.split()] for line in done.stdout.splitlines()])
-    return rows[:, [1 + reference - min(asked) for reference in asked]]
+    return rows[:, [1 + reference - min(requested) for reference in requested]]
 
 
 def by_libcosim(
@@ -56,8 +65,8 @@ def by_libcosim(
         manipulator = CosimManipulator.create_override()
         execution.add_manipulator(manipulator)
         manipulator.slave_real_values(index, [variables[n].valueReference for n in inputs], list(inputs.values()))
-    asked, rows = [variables[n].valueReference for n in outputs], []
+    requested, rows = [variables[n].valueReference for n in outputs], []
     for _ in range(steps):
         assert execution.step(1)
-        rows.append(list(observer.last_real_values(index, asked)))
+        rows.append(list(observer.last_real_values(index, requested)))
     return np.array(rows)

@@ -389,8 +389,8 @@ def led_crank() -> mbs.Model:
     bars = [m.body(f"bar {k}", mass=1.0, com=0.5 * (ends[k] + ends[k + 1]), inertia=0.1) for k in range(3)]
     for k, (one, other) in enumerate(zip([m.ground, *bars], [*bars, m.ground], strict=True)):
         m.revolute(f"hinge {k}", one, other, point=ends[k])
-    asked = m.input("angle", min=-4.0, max=4.0, unit="rad")
-    turn = m.guide_input("turn", input=asked, frequency=5.0, unit="rad")
+    requested = m.input("angle", min=-4.0, max=4.0, unit="rad")
+    turn = m.guide_input("turn", input=requested, frequency=5.0, unit="rad")
     m.drive("motor", m.relative_angle("turned", m.ground, bars[0]), turn)
     ball = m.point_mass("ball", mass=1e-10, position=(0.0, 5.0))
     m.force("push", ball, inputs=[m.input("push", unit="N"), None])

@@ -19,34 +19,34 @@ SETTLED = {"initial.speed": 20.0, "initial.yaw_rate": 0.25, "step_size": H, "ini
 
 def car() -> tuple[Instance, c_int64]:
     """A car at 20 m/s that takes its work off a number."""
-    instance, left = Instance(LoadedSystem(mbs.compile(prototype_car.build()).to_bytes())), c_int64(10**9)
-    instance._library.ali3_count_work(instance._handle, byref(left))
+    instance, remaining = Instance(LoadedSystem(mbs.compile(prototype_car.build()).to_bytes())), c_int64(10**9)
+    instance._library.ali3_count_work(instance._handle, byref(remaining))
     instance.set_pose(0.0, 0.0, 0.0, 0.0, 20.0)
     instance.initialise(0.0)
-    return instance, left
+    return instance, remaining
 
 
 def test_steps_and_iterations_are_taken_off_what_is_left() -> None:
-    instance, left = car()
-    before = left.value
+    instance, remaining = car()
+    before = remaining.value
     instance.run(H, 50)
     report = instance.report()
     parts = 50 + 2 * (report["halvings"] + report["divisions"])
-    assert before - left.value == parts + report["iterations"]
+    assert before - remaining.value == parts + report["iterations"]
 
 
 @pytest.mark.parametrize("act", [lambda car: car.run(H, 1000), lambda car: car.settle(10.0, H)])
 def test_where_nothing_is_left_the_kernel_ends(act: Callable[[Instance], None]) -> None:
     """Within a step of the bound; with more it goes on to the bits of a car without one."""
-    instance, left = car()
+    instance, remaining = car()
     free, _ = car()
-    left.value = 100
+    remaining.value = 100
     with pytest.raises(KernelError) as ended:
         act(instance)
     assert ended.value.status == Status.TOO_DEAR
-    assert -20 < left.value <= 0
+    assert -20 < remaining.value <= 0
     instance.reset()
-    left.value = 10**9
+    remaining.value = 10**9
     instance.set_pose(0.0, 0.0, 0.0, 0.0, 20.0)
     instance.initialise(0.0)
     for one in (instance, free):
@@ -80,7 +80,7 @@ def test_derivatives_of_a_start_are_those_of_settled_ones(prototype_fmu: Path, h
         driven.set(name, value)
     driven.slave.enterInitializationMode()
     roll, known = driven.references["chassis.roll"], driven.references["initial.yaw_rate"]
-    (found,) = driven.slave.getDirectionalDerivative([roll], [known], [1.0])
+    (actual,) = driven.slave.getDirectionalDerivative([roll], [known], [1.0])
     step = 1e-3
     up, down = (
         host(prototype_fmu)
@@ -88,8 +88,8 @@ def test_derivatives_of_a_start_are_those_of_settled_ones(prototype_fmu: Path, h
         .get("chassis.roll")
         for way in (step, -step)
     )
-    assert found == pytest.approx((up - down) / (2.0 * step), rel=1e-3)
-    assert abs(found) > 0.05  # without settling it is 0
+    assert actual == pytest.approx((up - down) / (2.0 * step), rel=1e-3)
+    assert abs(actual) > 0.05  # without settling it is 0
     for name, value in (("step_size", 2e-5), ("initial.settling", 3.0)):
         assert driven.set(name, value) == OK
     assert driven.call("getDirectionalDerivative", [roll], [known], [1.0]) == ERROR
@@ -97,7 +97,7 @@ def test_derivatives_of_a_start_are_those_of_settled_ones(prototype_fmu: Path, h
     assert "it may make 99998 in each" in driven.messages[-1]
     for name, value in SETTLED.items():
         driven.set(name, value)
-    assert driven.slave.getDirectionalDerivative([roll], [known], [1.0]) == [found]
+    assert driven.slave.getDirectionalDerivative([roll], [known], [1.0]) == [actual]
     assert driven.get("chassis.roll") == host(prototype_fmu).start(SETTLED).get("chassis.roll")
 
 
@@ -105,11 +105,11 @@ def test_derivatives_of_a_start_are_those_of_settled_ones(prototype_fmu: Path, h
 def test_derivatives_of_a_long_step_are_refused(build: Callable[..., Path], host: HostMaker) -> None:
     driven = host(build("sled")).start()
     assert driven.step(0.0, 600_000 * H) == OK
-    asked = [driven.references["chassis.x"]], [driven.references["thrust"]], [1.0]
-    assert driven.call("getDirectionalDerivative", *asked) == ERROR
+    requested = [driven.references["chassis.x"]], [driven.references["thrust"]], [1.0]
+    assert driven.call("getDirectionalDerivative", *requested) == ERROR
     assert "600000 inner steps of the communication step twice" in driven.messages[-1]
     assert driven.step(600_000 * H, H) == OK
-    assert driven.call("getDirectionalDerivative", *asked) == OK
+    assert driven.call("getDirectionalDerivative", *requested) == OK
 
 
 @pytest.mark.slow

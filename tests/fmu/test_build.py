@@ -52,8 +52,8 @@ def test_names_of_scenes_become_names_of_fmus() -> None:
 
 @pytest.mark.parametrize(("function", "name"), [("swing", "swing"), ("compiled", "compiled"), ("", "own_scene")])
 def test_scene_of_a_file(file: Path, function: str, name: str) -> None:
-    found, system = load_scene(f"{file}:{function}" if function else str(file))
-    assert found == name
+    actual, system = load_scene(f"{file}:{function}" if function else str(file))
+    assert actual == name
     assert [s["name"] for s in system.meta["sensors"]] == ["bob.x"]
 
 

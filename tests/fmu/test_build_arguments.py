@@ -57,7 +57,7 @@ def test_systems_stand_in_the_order_of_their_numbers(system: mbs.System) -> None
     assert systems_by_number([system, other]) == {0: system, 1: other}
 
 
-def test_a_name_too_long_for_a_file_is_said_before_the_work(system: mbs.System, tmp_path: Path) -> None:
+def test_a_name_too_long_for_a_file_is_reported_before_the_work(system: mbs.System, tmp_path: Path) -> None:
     with pytest.raises(FileError, match="cannot be written: file name too long"):
         build_fmu(system, "x" * 300, tmp_path, ["linux64"])
     assert list(tmp_path.iterdir()) == []

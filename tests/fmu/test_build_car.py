@@ -69,8 +69,8 @@ def test_a_folder_or_a_file_becomes_an_fmu(
 
 
 def test_the_file_of_the_fmu_is_the_car_again(tmp_path: Path) -> None:
-    made = load("prototype")
-    files = car_files(made)
+    result = load("prototype")
+    files = car_files(result)
     assert sorted(f.rpartition("/")[2] for f in files) == [
         "car.toml",
         "joints.csv",
@@ -82,7 +82,7 @@ def test_the_file_of_the_fmu_is_the_car_again(tmp_path: Path) -> None:
         file = tmp_path / name
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_bytes(data)
-    assert load(tmp_path / "resources" / "car").model_dump() == made.model_dump()
+    assert load(tmp_path / "resources" / "car").model_dump() == result.model_dump()
 
 
 @pytest.mark.slow
@@ -96,7 +96,7 @@ def test_another_file_gives_another_token(car: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("edit", "words"),
+    ("edit", "message"),
     [
         (lambda t: t.replace("width = 1.5", "with = 1.5"), ["vehicle.with is not known", "'width'"]),
         (lambda t: t.replace("schema = 2", "schema = 0"), ["schema is 0"]),
@@ -105,15 +105,15 @@ def test_another_file_gives_another_token(car: Path, tmp_path: Path) -> None:
     ],
 )
 def test_faults_are_sentences_and_nothing_is_built(
-    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], edit: Callable[[str], str], words: list[str]
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], edit: Callable[[str], str], message: list[str]
 ) -> None:
     change(car, edit)
     assert build_fmu.main(command(car, tmp_path / "out")) == 2
-    said = capsys.readouterr().err
-    assert said.startswith("error: ")
-    assert "Traceback" not in said
-    assert all(word in said for word in words)
-    assert all(str(car) in line for line in said.splitlines())
+    errors = capsys.readouterr().err
+    assert errors.startswith("error: ")
+    assert "Traceback" not in errors
+    assert all(word in errors for word in message)
+    assert all(str(car) in line for line in errors.splitlines())
     assert not (tmp_path / "out").exists()
 
 
@@ -123,21 +123,21 @@ def test_what_is_odd_is_a_warning_without_the_place_in_the_source(
 ) -> None:
     change(car, lambda text: text.replace("damping = 1000.0", "damping = 0.0"))
     assert build_fmu.main(command(car, tmp_path / "out")) == 0
-    said = capsys.readouterr().err
-    assert f"warning: {car / 'car.toml'}: front damping ratio in bump is 0; usual is " in said
-    assert "It follows from front.damper.damping = 0, " in said
-    assert ".py" not in said
-    assert "CarWarning" not in said
+    errors = capsys.readouterr().err
+    assert f"warning: {car / 'car.toml'}: front damping ratio in bump is 0; usual is " in errors
+    assert "It follows from front.damper.damping = 0, " in errors
+    assert ".py" not in errors
+    assert "CarWarning" not in errors
 
 
-def test_what_is_no_car(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    for given, words in (
+def test_unknown_cars_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for given, message in (
         (tmp_path / "nowhere", "the cars of the package are"),
         ("protottype", "did you mean 'prototype'?"),
         (tmp_path, "the cars of the package are"),
     ):
         assert build_fmu.main(command(given, tmp_path / "out")) == 2
-        assert words in capsys.readouterr().err
+        assert message in capsys.readouterr().err
     with pytest.raises(SystemExit):
         build_fmu.main(["--car", "prototype", "--scene", "pendulum"])
     assert "not allowed with" in capsys.readouterr().err
@@ -160,7 +160,7 @@ def test_a_fidelity_that_is_none_is_a_sentence(word: str, tmp_path: Path, capsys
     assert f"The fidelity of the car is {word}; it must be one of: 0 rigid" in capsys.readouterr().err
 
 
-def test_a_folder_of_the_name_of_a_car_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_of_the_name_of_a_car_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     assert car_text("prototype") == "prototype of the package"
     shutil.copytree(CARS / "prototype", "prototype")

@@ -30,8 +30,8 @@ def declared(unknowns: list[Any], every: list[str] | None = None) -> dict[str, s
 
 def slopes(driven: Any, names: list[str], known: str) -> dict[str, float]:
     references = [driven.references[n] for n in names]
-    found = driven.slave.getDirectionalDerivative(references, [driven.references[known]], [1.0])
-    return dict(zip(names, found, strict=True))
+    result = driven.slave.getDirectionalDerivative(references, [driven.references[known]], [1.0])
+    return dict(zip(names, result, strict=True))
 
 
 @pytest.mark.parametrize("kerb", [1e6, 0.0])
@@ -45,14 +45,14 @@ def test_initial_derivatives(prototype_fmu: Path, host: HostMaker, kerb: float) 
     driven.slave.enterInitializationMode()
     for name, value in (("road.kerb_x", kerb), ("initial.speed", 8.0), ("initial.yaw", 0.1), ("throttle", 0.3)):
         assert driven.set(name, value) == 0
-    seen = set()
+    visited = set()
     for known in (n for n in settable if n not in UNDERIVED):
         moved = {n for n, slope in slopes(driven, outputs, known).items() if slope != 0.0}
         assert moved <= {n for n in outputs if known in reach[n]}, known
-        seen |= {(known, n) for n in moved}
-    assert len(seen) > 250
+        visited |= {(known, n) for n in moved}
+    assert len(visited) > 250
     if kerb == 0.0:
-        assert ("initial.x", "wheel_FR.Fz") in seen
+        assert ("initial.x", "wheel_FR.Fz") in visited
     # While a start settles all that is set reaches what moves; it does not reach what only repeats an input.
     assert {n for n, known in reach.items() if known != set(settable)} >= {"used.brake", "solver.status"}
 

@@ -16,39 +16,39 @@ from tests.fmu.scenes import loaded_beam
 
 def test_every_parameter_is_as_if_the_model_were_built_with_it(build: Callable[..., Path], kind: str) -> None:
     system = mbs.compile(loaded_beam())
-    found = changes(
+    actual = changes(
         system,
         lambda values: mbs.compile(loaded_beam(**values)),
         fmu=build("loaded_beam", kind),
         inputs={"pull": lambda t: 1.0 if t > 0.2 else 0.0},
         t_end=1.0,
     )
-    assert [c.name for c in found] == ["load", "share", "free_length", "damping", "gain", "gear"]
-    assert {c.name: c.difference for c in found if c.difference > SAME} == {}
-    assert {c.name: c.fmu for c in found if c.fmu != 0.0} == {}
-    assert [c.name for c in found if c.effect < 1e-4] == []
+    assert [c.name for c in actual] == ["load", "share", "free_length", "damping", "gain", "gear"]
+    assert {c.name: c.difference for c in actual if c.difference > SAME} == {}
+    assert {c.name: c.fmu for c in actual if c.fmu != 0.0} == {}
+    assert [c.name for c in actual if c.effect < 1e-4] == []
 
 
 def test_it_falls_where_a_value_is_written_elsewhere() -> None:
     """A model that is rebuilt with half the change is another one."""
     system = mbs.compile(loaded_beam())
     old = {p["name"]: p["value"] for p in system.meta["parameters"]}
-    found = changes(
+    result = changes(
         system,
         lambda values: mbs.compile(loaded_beam(**{n: 0.5 * (v + old[n]) for n, v in values.items()})),
         inputs={"pull": lambda t: 1.0 if t > 0.2 else 0.0},
     )
-    assert min(c.difference for c in found) > 1e-4
+    assert min(c.difference for c in result) > 1e-4
 
 
 def test_of_several_that_are_changed_the_wrong_one_is_named() -> None:
     system = mbs.compile(loaded_beam())
-    found = changes(
+    actual = changes(
         system,
         lambda values: mbs.compile(loaded_beam(**{n: v for n, v in values.items() if n != "gain"})),
         inputs={"pull": lambda t: 1.0 if t > 0.2 else 0.0},
     )
-    assert [c.name for c in found if c.difference > SAME] == ["gain"]
+    assert [c.name for c in actual if c.difference > SAME] == ["gain"]
 
 
 def test_a_start_is_the_equilibrium_of_its_parameters_or_names_the_one_that_has_none(

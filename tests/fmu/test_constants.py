@@ -75,8 +75,8 @@ def test_fmi_3_reads_them_beside_time_and_outputs(files: dict[str, Path], host: 
     driven = host(files["fmi3"]).start()
     slave, references = driven.slave, driven.references
     slave.doStep(0.0, H)
-    asked = [references[n] for n in ("crane.ratio", "time", "rod.x", "crane.reach", "time")]
-    ratio, time, x, reach, again = slave.getFloat64(asked)
+    requested = [references[n] for n in ("crane.ratio", "time", "rod.x", "crane.reach", "time")]
+    ratio, time, x, reach, again = slave.getFloat64(requested)
     assert (ratio, reach) == (17.1, 1.25)
     assert time == again == H
     assert x == slave.getFloat64([references["rod.x"]])[0]
@@ -107,9 +107,9 @@ def test_a_table_of_constants_is_a_map_of_fmi_ls_struct(tabled: Callable[[str], 
         icons = etree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
     checker = schema(SCHEMA)
     assert checker.validate(manifest), checker.error_log
-    (found,) = [t for t in icons.iter("Terminal") if t.get("matchingRule") == f"{LS_STRUCT}.map"]
-    assert (found.get("name"), found.get("terminalKind")) == ("crane.damper", f"{LS_STRUCT}.map.rectilinearGrid")
-    members = [(m.get("variableName"), m.get("memberName"), m.get("variableKind")) for m in found]
+    (actual,) = [t for t in icons.iter("Terminal") if t.get("matchingRule") == f"{LS_STRUCT}.map"]
+    assert (actual.get("name"), actual.get("terminalKind")) == ("crane.damper", f"{LS_STRUCT}.map.rectilinearGrid")
+    members = [(m.get("variableName"), m.get("memberName"), m.get("variableKind")) for m in actual]
     assert members == [
         ("crane.damper.speed", "speed", f"{LS_STRUCT}.map.domain"),
         ("crane.damper.force", "force", f"{LS_STRUCT}.map.codomain"),

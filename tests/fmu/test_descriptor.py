@@ -49,11 +49,11 @@ def test_fmu_manipulation_toolbox_finds_nothing(build: Callable[..., Path], scen
         text=True,
         check=True,
     )
-    said = done.stdout + done.stderr
-    assert "compliant with FMI-2.0" in said
-    assert "No semantic error" in said
-    assert "ERROR" not in said
-    assert "WARNING" not in said
+    output = done.stdout + done.stderr
+    assert "compliant with FMI-2.0" in output
+    assert "No semantic error" in output
+    assert "ERROR" not in output
+    assert "WARNING" not in output
 
 
 @pytest.mark.parametrize("kind", kinds.ALL)
@@ -151,8 +151,8 @@ def test_names_that_fmi_does_not_allow_are_refused(name: str) -> None:
 
 
 def test_a_display_unit_is_so_much_of_its_unit() -> None:
-    found = {(unit, shown): part for unit, units in DISPLAY_UNITS.items() for shown, part in units.items()}
-    assert found == pytest.approx({names: 1.0 / size for names, size in ONE.items()}, rel=1e-15)
+    actual = {(unit, shown): part for unit, units in DISPLAY_UNITS.items() for shown, part in units.items()}
+    assert actual == pytest.approx({names: 1.0 / size for names, size in ONE.items()}, rel=1e-15)
 
 
 def test_what_no_name_in_fmi_has_is_an_underscore_and_names_stay_distinct() -> None:

@@ -57,7 +57,7 @@ def test_the_first_library_is_begun_at_both_ends(commands: list[list[str]]) -> N
     assert [c[c.index("-target") + 1] for c in commands[2:]] == ["x86_64-macos.10.13", "aarch64-macos.11.0"]
 
 
-def test_nothing_is_begun_for_nothing(commands: list[list[str]]) -> None:
+def test_without_platforms_no_compiler_is_started(commands: list[list[str]]) -> None:
     with compiled_ahead([]):
         pass
     assert commands == []

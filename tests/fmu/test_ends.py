@@ -95,15 +95,15 @@ def pythons() -> list[Python]:
     kept = [Path.home() / ".pyenv" / "versions", Path.home() / ".local" / "share" / "uv" / "python"]
     places = [str(p) for folder in kept for name in names for p in sorted(folder.glob(f"*/bin/{name}"))]
     on_path = [place for name in names if (place := shutil.which(name))]
-    found = [about(program) for program in [*places, *on_path, sys.executable]]
-    return list(dict(one for one in found if one is not None).values())
+    results = [about(program) for program in [*places, *on_path, sys.executable]]
+    return list(dict(one for one in results if one is not None).values())
 
 
 @pytest.fixture(scope="session")
 def own_python() -> Python:
-    found = about(sys.executable)
-    assert found is not None
-    return found[1]
+    result = about(sys.executable)
+    assert result is not None
+    return result[1]
 
 
 @pytest.mark.parametrize(("act", "code"), [("", 0), ("ctypes.memset(block, 0, 1)", FOUND), ("c.free(block)", FOUND)])
@@ -129,9 +129,9 @@ def test_ends_of_a_host_in_c(ends: Ends, own_python: Python, end: str) -> None:
 
 @pytest.mark.proof
 def test_three_hundred_ends_on_a_busy_machine(ends: Ends) -> None:
-    found = pythons()
-    tasks = [(ends.in_python, python, end) for python in found for end in ENDS]
-    tasks += [(ends.in_c, python, end) for python in found if python.library for end in C_ENDS]
+    result = pythons()
+    tasks = [(ends.in_python, python, end) for python in result for end in ENDS]
+    tasks += [(ends.in_c, python, end) for python in result if python.library for end in C_ENDS]
     rounds = 2 * -(-LEAST // (2 * len(tasks)))
     with ThreadPoolExecutor(4 * (os.cpu_count() or 1)) as pool:
         done = [pool.submit(run, python, end, watched=bool(k % 2)) for k in range(rounds) for run, python, end in tasks]

@@ -64,14 +64,14 @@ def test_every_fidelity_is_the_system_of_the_scene(
         assert [start, end] == own[fidelity]
         return
     moved = OUTPUTS.index("chassis.x")
-    for found, rigid, ported in zip((start, end), own[0], own[1], strict=True):
-        assert found[moved] == rigid[moved]
-        assert found == pytest.approx([*ported[:moved], rigid[moved]], rel=1e-9)
+    for actual, rigid, ported in zip((start, end), own[0], own[1], strict=True):
+        assert actual[moved] == rigid[moved]
+        assert actual == pytest.approx([*ported[:moved], rigid[moved]], rel=1e-9)
 
 
-@pytest.mark.parametrize(("value", "said"), [(1.5, "whole number"), (4.0, "outside its range"), (-1.0, "outside")])
-def test_other_values_are_refused(kerb: Path, value: float, said: str) -> None:
-    with Fmu(kerb) as fmu, pytest.raises(HostError, match=f"fidelity.*{said}"):
+@pytest.mark.parametrize(("value", "message"), [(1.5, "whole number"), (4.0, "outside its range"), (-1.0, "outside")])
+def test_other_values_are_refused(kerb: Path, value: float, message: str) -> None:
+    with Fmu(kerb) as fmu, pytest.raises(HostError, match=f"fidelity.*{message}"):
         fmu.initialise({"fidelity": value})
 
 
@@ -126,11 +126,11 @@ def test_fmi_3_has_the_fidelities_too(kerb_fmus: Path, own: dict[int, list[list[
 
 def logged(kerb: Path, fidelity: float | None, names: list[str], resets: int = 0) -> list[tuple[int, str, str]]:
     """Status, category and text of what an FMU logs while outputs are read at several times, as FMPy loads it."""
-    said: list[tuple[int, str, str]] = []
+    reported: list[tuple[int, str, str]] = []
 
     class Heard(Fmu):
         def _log(self, status: int, category: str, message: str) -> None:
-            said.append((status, category, message))
+            reported.append((status, category, message))
 
     with Heard(kerb) as fmu:
         for run in range(resets + 1):
@@ -146,7 +146,7 @@ def logged(kerb: Path, fidelity: float | None, names: list[str], resets: int = 0
             fmu.restore(state)
             fmu.free(state)
             get()
-    return said
+    return reported
 
 
 def test_a_stress_needs_no_word(kerb: Path) -> None:
@@ -155,7 +155,7 @@ def test_a_stress_needs_no_word(kerb: Path) -> None:
 
 
 @pytest.mark.slow
-def test_an_output_that_no_system_computes_is_told_once_a_run(
+def test_an_output_that_no_system_computes_is_reported_once_a_run(
     made_once: Callable[[str, Callable[[Path], None]], Path], kind_2: str, need: Callable[[str], None]
 ) -> None:
     """The rigid car alone: there is no System with ports beside it."""

@@ -88,15 +88,15 @@ def bits(host: HostMaker, fmu: Path, under: int, drive: dict[str, float], steps:
     made.start({name.replace("__", "."): value for name, value in start.items()})
     for name, value in drive.items():
         assert made.set(name, value) == OK
-    found: list[Any] = made.run(steps, STEP)
+    result: list[Any] = made.run(steps, STEP)
     known = made.references[next(iter(drive))]
     unknown = [v.valueReference for v in made.description.modelVariables if v.causality == "output"][:3]
-    found.append(list(made.slave.getDirectionalDerivative(unknown, [known], *([1.0], 3) if made.three else [[1.0]])))
+    result.append(list(made.slave.getDirectionalDerivative(unknown, [known], *([1.0], 3) if made.three else [[1.0]])))
     state = made.slave.getFMUState() if made.three else made.slave.getFMUstate()
-    found.append(bytes(made.slave.serializeFMUstate(state)))
+    result.append(bytes(made.slave.serializeFMUstate(state)))
     assert made.slave.calls > steps
     made.slave.terminate()
-    return found
+    return result
 
 
 def test_the_bits_do_not_depend_on_the_host(crane: Path, host: HostMaker) -> None:
@@ -109,23 +109,23 @@ def test_the_bits_do_not_depend_on_the_host(crane: Path, host: HostMaker) -> Non
 
 def test_the_logger_has_the_register_of_its_host(reach: Path, host: HostMaker) -> None:
     for name, under in ODD.items():
-        made = odd_host(host, reach, under)
-        made.start()
-        made.set("pull", 10.0)
-        assert made.step(0.0, 1.0) == DISCARD
-        assert made.messages
-        assert made.messages.controls == {under}, name
-        made.messages.clear()
-        made.call("getReal", [10**6])
-        assert made.messages.controls == {under}
+        result = odd_host(host, reach, under)
+        result.start()
+        result.set("pull", 10.0)
+        assert result.step(0.0, 1.0) == DISCARD
+        assert result.messages
+        assert result.messages.controls == {under}, name
+        result.messages.clear()
+        result.call("getReal", [10**6])
+        assert result.messages.controls == {under}
 
 
 def test_flags_of_the_host_stay(crane: Path, host: HostMaker) -> None:
     for under in (DEFAULT, *ODD.values()):
-        made = host(crane).start()
+        result = host(crane).start()
         set_flags(FLAGS["division by zero"])
         set_control(under)
-        made.slave.doStep(0.0, STEP)
+        result.slave.doStep(0.0, STEP)
         assert flags() & WRONG == FLAGS["division by zero"]
         set_control(DEFAULT)
 
@@ -149,19 +149,19 @@ def test_a_drive_of_a_car_raises_no_flag(tmp_path: Path, host: HostMaker, car: s
         chosen = {"fidelity": float(fidelity)} if systems > 1 else {}
         for start in STARTS:
             set_flags(0)
-            made = host(fmu)
+            result = host(fmu)
             assert flags() & WRONG == 0
-            made.slave = Odd(made.slave, DEFAULT)
-            made.start(chosen | start)
-            variables = made.description.modelVariables
+            result.slave = Odd(result.slave, DEFAULT)
+            result.start(chosen | start)
+            variables = result.description.modelVariables
             inputs = {v.name: v.valueReference for v in variables if v.causality == "input"}
             outputs = [v.valueReference for v in variables if v.causality == "output"]
             for k in range(steps):
                 on = {name for name, (begin, end) in PARTS.items() if begin <= k / steps < end} | {"selector"}
-                made.slave.setReal([*inputs.values()], [float(name in on) for name in inputs])
-                made.slave.doStep(k * 0.002, 0.002)
-                made.slave.getReal(outputs)
-            assert made.slave.wrong == [], f"fidelity {fidelity} from {start}"
+                result.slave.setReal([*inputs.values()], [float(name in on) for name in inputs])
+                result.slave.doStep(k * 0.002, 0.002)
+                result.slave.getReal(outputs)
+            assert result.slave.wrong == [], f"fidelity {fidelity} from {start}"
 
 
 @pytest.mark.slow
@@ -174,5 +174,5 @@ def test_no_car_depends_on_the_host(tmp_path: Path, host: HostMaker, car: str, f
             more = {"fidelity": fidelity} if len(fidelities) > 1 else {}
             usual = bits(host, fmu, DEFAULT, drive, 20, initial__speed=10.0, **more)
             for name, under in ODD.items():
-                found = bits(host, fmu, under, drive, 20, initial__speed=10.0, **more)
-                assert found == usual, f"{kind}, fidelity {fidelity}, {name}"
+                actual = bits(host, fmu, under, drive, 20, initial__speed=10.0, **more)
+                assert actual == usual, f"{kind}, fidelity {fidelity}, {name}"

@@ -39,8 +39,8 @@ def test_vectors_and_series_become_arrays() -> None:
         *(output(f"gauge_{k}.stress", "Pa") for k in (1, 2, 3)),
         output("speed", "m/s"),
     ]
-    found = arrays(table)
-    assert [(a.name, len(a.items)) for a in found] == [
+    actual = arrays(table)
+    assert [(a.name, len(a.items)) for a in actual] == [
         ("chassis.position", 3),
         ("chassis.orientation", 4),
         ("alone.x", 1),
@@ -48,7 +48,7 @@ def test_vectors_and_series_become_arrays() -> None:
         ("gauge.stress", 3),
         ("speed", 1),
     ]
-    assert [k for a in found for k in a.items] == list(range(len(table)))
+    assert [k for a in actual for k in a.items] == list(range(len(table)))
 
 
 def test_time_is_the_independent_variable(crane3: Any) -> None:
@@ -78,10 +78,10 @@ def test_wrong_calls_are_errors_with_a_sentence(crane3: Any) -> None:
         crane3.slave.enterConfigurationMode,
         lambda: crane3.slave.getDirectionalDerivative([0], [0], [1.0], 1),
     ):
-        said = len(crane3.messages)
+        reported = len(crane3.messages)
         with pytest.raises(FMICallException):
             call()
-        assert len(crane3.messages) == said + 1
+        assert len(crane3.messages) == reported + 1
     crane3.run(2, STEP)
 
 
@@ -242,8 +242,8 @@ def test_what_was_given_within_a_step_is_kept_in_states(build, host) -> None:
     slope = one.slope()
     assert other.slope() == slope
     assert one.driven.get("torque") == other.driven.get("torque") == pytest.approx(curve(15 * STEP))
-    for asked in (one, other):
-        asked.slave.doStep(15 * STEP, 5 * STEP)
+    for requested in (one, other):
+        requested.slave.doStep(15 * STEP, 5 * STEP)
     assert one.driven.outputs() == other.driven.outputs()
     assert one.slope() == other.slope() != slope
     with pytest.raises(FMICallException):
@@ -255,11 +255,11 @@ def test_a_derivative_is_over_all_that_was_given_within_the_step(build, host) ->
     scalar, part, ends = build("crane", "fmi3_scalar"), 1e-3, []
     for extra in (part, -part):
         curve = lambda time, extra=extra: 4.0 * math.cos(40.0 * time) + (extra if time > 5 * STEP else 0.0)  # noqa: E731
-        asked = Asked(host(scalar), curve)
-        asked.slave.doStep(0.0, 5 * STEP)
-        asked.driven.set("torque", 4.0 * math.cos(200.0 * STEP) + extra)
-        asked.slave.doStep(5 * STEP, 5 * STEP)
-        ends.append([asked.driven.get(n) for n in ("rod.angle", "rod.x", "rod.ay")])
+        requested = Asked(host(scalar), curve)
+        requested.slave.doStep(0.0, 5 * STEP)
+        requested.driven.set("torque", 4.0 * math.cos(200.0 * STEP) + extra)
+        requested.slave.doStep(5 * STEP, 5 * STEP)
+        ends.append([requested.driven.get(n) for n in ("rod.angle", "rod.x", "rod.ay")])
     exact = Asked(host(scalar), lambda time: 4.0 * math.cos(40.0 * time))
     exact.run(2, 5)
     differences = (np.array(ends[0]) - np.array(ends[1])) / (2.0 * part)
@@ -267,21 +267,21 @@ def test_a_derivative_is_over_all_that_was_given_within_the_step(build, host) ->
 
 
 def test_in_an_intermediate_update_only_real_inputs_can_be_set(build, host) -> None:
-    asked = Asked(host(build("crane", "fmi3_scalar")), lambda time: None)
+    requested = Asked(host(build("crane", "fmi3_scalar")), lambda time: None)
     tried: list[str] = []
 
     def wrong(time: float) -> None:
         calls = {
-            "get": lambda: asked.slave.getFloat64([asked.reference]),
-            "step": lambda: asked.slave.doStep(0.0, STEP),
-            "parameter": lambda: asked.slave.setFloat64([asked.driven.references["spring.stiffness"]], [1.0]),
+            "get": lambda: requested.slave.getFloat64([requested.reference]),
+            "step": lambda: requested.slave.doStep(0.0, STEP),
+            "parameter": lambda: requested.slave.setFloat64([requested.driven.references["spring.stiffness"]], [1.0]),
         }
         for what, call in calls.items():
             with pytest.raises((FMICallException, AssertionError)):
                 call()
             tried.append(what)
 
-    asked.torque = wrong
-    asked.slave.doStep(0.0, STEP)
+    requested.torque = wrong
+    requested.slave.doStep(0.0, STEP)
     assert tried == ["get", "step", "parameter"]
-    assert asked.driven.get("torque") == 4.0
+    assert requested.driven.get("torque") == 4.0

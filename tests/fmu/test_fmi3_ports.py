@@ -84,11 +84,11 @@ def derivatives(fmu: Fmu, outputs: list[str], given: Given) -> NDArray[np.float6
     count = (sum(sizes.values()),) if fmu.description.fmiVersion.startswith("3") else ()
     known = [place.reference for place in fmu.places(given)]
     try:
-        found = slave.getDirectionalDerivative(list(sizes), known, [1.0] * len(known), *count)
+        result = slave.getDirectionalDerivative(list(sizes), known, [1.0] * len(known), *count)
     except FMICallException:
         return np.full(len(outputs), math.nan)
     begin = dict(zip(sizes, np.cumsum([0, *sizes.values()]), strict=False))
-    return np.array([found[begin[place.reference] + place.item] for place in places])
+    return np.array([result[begin[place.reference] + place.item] for place in places])
 
 
 def drive(
@@ -114,16 +114,16 @@ def same(
     files: tuple[Path, Path], start: Given, given: Callable[[float, Mapping[str, float]], Given], steps: int
 ) -> tuple[list[str], NDArray[np.float64]]:
     """Outputs and rows of both, which must be equal to the last bit."""
-    (names, rows, slopes, said), three = (drive(file, start, given, steps) for file in files)
+    (names, rows, slopes, reported), three = (drive(file, start, given, steps) for file in files)
     order = [three[0].index(n) for n in names]
     assert len(order) == len(three[0])
     assert rows.tobytes() == three[1][:, order].tobytes()
     if steps >= 10:
         assert slopes.tobytes() == three[2][:, order].tobytes()
-        there = slopes[np.isfinite(slopes).all(axis=1)]
-        assert 2 * len(there) >= len(slopes)
-        assert np.count_nonzero(there[0]) > 0.5 * len(names)
-    assert said == three[3]
+        finite = slopes[np.isfinite(slopes).all(axis=1)]
+        assert 2 * len(finite) >= len(slopes)
+        assert np.count_nonzero(finite[0]) > 0.5 * len(names)
+    assert reported == three[3]
     return names, rows
 
 

@@ -40,11 +40,11 @@ VIOLENT = {
 
 def scene_of(system: mbs.System) -> dict[str, Any]:
     table = variable_table(system.meta, pose=False, step_size=0.01)
-    found = geometry(system, table, "Name", "what it is")
-    assert found is not None
-    assert scene_errors(found) == []
-    assert set(all_columns(found)) <= {v.name for v in table if v.causality == "output"}
-    return found
+    result = geometry(system, table, "Name", "what it is")
+    assert result is not None
+    assert scene_errors(result) == []
+    assert set(all_columns(result)) <= {v.name for v in table if v.causality == "output"}
+    return result
 
 
 @cache
@@ -54,7 +54,7 @@ def car(name: str) -> mbs.System:
 
 def places(scene: dict[str, Any], columns: dict[str, np.ndarray], count: int) -> dict[str, np.ndarray]:
     """Earth places of all points of all shapes, by number and name of the shape and number of the point."""
-    poses, found = FramePoses(scene, columns, count), {}
+    poses, results = FramePoses(scene, columns, count), {}
     for k, shape in enumerate(scene["shapes"]):
         anchors = [*shape.get("points", ()), *(shape.get("ends", ()) if "frame" not in shape else ())]
         if "frame" in shape:
@@ -62,8 +62,8 @@ def places(scene: dict[str, Any], columns: dict[str, np.ndarray], count: int) ->
         if shape["kind"] == "box":
             anchors += [[shape["frame"], list(np.array(anchors[0][1]) + e)] for e in np.eye(3)]
         for j, anchor in enumerate(anchors):
-            found[f"{k} {shape.get('name', shape.get('body'))} {j}"] = poses.points(anchor)
-    return found
+            results[f"{k} {shape.get('name', shape.get('body'))} {j}"] = poses.points(anchor)
+    return results
 
 
 def compare(system: mbs.System, run: mbs.Trajectory, tolerance: float) -> dict[str, Any]:
@@ -78,10 +78,10 @@ def compare(system: mbs.System, run: mbs.Trajectory, tolerance: float) -> dict[s
         for part, c in zip(POSE, b.columns, strict=True)
     }
     true |= {turn.column: run.poses[f"{turn.name}.angle"] for turn in system.drawing.places.turns}
-    there = places(system.scene, outputs | true, n)
-    assert set(here) == set(there)
+    present = places(system.scene, outputs | true, n)
+    assert set(here) == set(present)
     for name, place in here.items():
-        assert np.max(np.abs(place - there[name])) < tolerance, name
+        assert np.max(np.abs(place - present[name])) < tolerance, name
     return scene
 
 
@@ -181,8 +181,8 @@ def test_without_poses_the_drawing_says_what_is_missing_and_what_to_do() -> None
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["prototype", "hatchback"])
 def test_a_car_is_drawn_with_its_stress_by_default_and_without_the_poses_of_its_arms(name: str) -> None:
-    made = load(name).model
-    systems = {poses: posed_systems({0: made}, 0, poses)[0] for poses in (None, "wheels")}
+    result = load(name).model
+    systems = {poses: posed_systems({0: result}, 0, poses)[0] for poses in (None, "wheels")}
     plain, names = ([entry["name"] for entry in systems[poses].meta["sensors"]] for poses in ("wheels", None))
     scene = scene_of(systems[None])
     (part,) = scene["flexible"]
@@ -204,9 +204,9 @@ def test_gauges_under_other_names_read_what_is_called_so_and_are_left_out_in_oth
 
 @pytest.mark.slow
 def test_all_poses_of_a_car_come_after_all_else_at_every_fidelity() -> None:
-    made = load("prototype")
+    result = load("prototype")
     plain = [entry["name"] for entry in car("prototype").meta["sensors"]]
-    systems = posed_systems({k: make for k, make in made.fidelities().items() if k in (0, 3)}, 0, "all")
+    systems = posed_systems({k: make for k, make in result.fidelities().items() if k in (0, 3)}, 0, "all")
     names = [[entry["name"] for entry in system.meta["sensors"]] for system in systems.values()]
     assert names[0] == names[1]
     assert names[0][: len(plain)] == plain

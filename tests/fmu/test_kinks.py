@@ -57,14 +57,14 @@ def test_steps_that_pass_a_kink(name: str, inner: int, build: Callable[..., Path
         above, below = _sides(driven, unknown, "push", held, SIZE, k * STEP, STEP)
         driven.set("push", held)
         assert driven.step(k * STEP, STEP) == OK
-        found, passes, before = _derivative(driven, unknown, "push"), piece(driven) != before, piece(driven)
+        actual, passes, before = _derivative(driven, unknown, "push"), piece(driven) != before, piece(driven)
         if passes:
-            assert isinstance(found, str)
-            assert f"'{element}' passes a kink of its law: a stop" in found
+            assert isinstance(actual, str)
+            assert f"'{element}' passes a kink of its law: a stop" in actual
             refused += 1
         else:
-            assert np.allclose(found, above, rtol=1e-4)
-            assert np.allclose(found, below, rtol=1e-4)
+            assert np.allclose(actual, above, rtol=1e-4)
+            assert np.allclose(actual, below, rtol=1e-4)
     assert refused >= 4
 
 
@@ -114,8 +114,8 @@ def test_a_car_at_the_limits_of_its_motor(prototype_fmu: Path, host: HostMaker) 
         before, rate = rate, driven.get("engine_speed")
         if before <= full / most < rate:
             reached = k
-        if isinstance(found := _derivative(driven, unknown, "throttle"), str):
+        if isinstance(result := _derivative(driven, unknown, "throttle"), str):
             refused.append(k)
-            assert "'drive' passes a kink" in found
+            assert "'drive' passes a kink" in result
     assert reached in refused
     assert len(refused) == 2  # the other: the converter couples

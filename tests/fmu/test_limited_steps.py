@@ -57,9 +57,9 @@ def test_steps_are_counted_and_what_they_left_is_that_of_the_kernel(slider: Path
     for k in range(STEPS):
         status_of(driven, k)
         simulation.instance.step(H)
-        left, report = driven.get("solver.capped_residual"), simulation.instance.report()
-        largest = max(largest, left)
-        counts.append((driven.slave.getInteger([driven.references["solver.capped_steps"]])[0], left > 0.0))
+        remaining, report = driven.get("solver.capped_residual"), simulation.instance.report()
+        largest = max(largest, remaining)
+        counts.append((driven.slave.getInteger([driven.references["solver.capped_steps"]])[0], remaining > 0.0))
         assert counts[-1][0] == report["capped"]
         assert largest == report["capped_residual"]
     assert 10 < counts[-1][0] < STEPS
@@ -68,30 +68,30 @@ def test_steps_are_counted_and_what_they_left_is_that_of_the_kernel(slider: Path
 
 
 @FMI_2
-def test_the_largest_of_the_inner_steps_is_told(slider: Path, host: HostMaker) -> None:
+def test_the_largest_of_the_inner_steps_is_reported(slider: Path, host: HostMaker) -> None:
     """Communication steps of several inner ones, with and without derivatives of inputs, against single ones."""
     single, many, sloped = (start(host(slider), 2) for _ in range(3))
     inner = 5
     compared = 0
     for k in range(STEPS // inner):
-        left = []
+        remaining = []
         for i in range(inner):
             status_of(single, inner * k + i)
-            left.append(single.get("solver.capped_residual"))
+            remaining.append(single.get("solver.capped_residual"))
         status_of(many, k, inner * H)
         sloped.slave.setRealInputDerivatives([sloped.references["torque"]], [1], [1e-300])
         status_of(sloped, k, inner * H)
-        assert many.get("solver.capped_residual") == sloped.get("solver.capped_residual") == max(left)
-        compared += max(left) > left[-1]
+        assert many.get("solver.capped_residual") == sloped.get("solver.capped_residual") == max(remaining)
+        compared += max(remaining) > remaining[-1]
     assert compared > 5
 
 
-def test_it_is_said_once_and_once_more_where_much_is_left(slider: Path, host: HostMaker) -> None:
+def test_it_is_reported_once_and_once_more_where_much_is_left(slider: Path, host: HostMaker) -> None:
     driven = start(host(slider), 1, 5 * H)
     statuses = [status_of(driven, k, 5 * H) for k in range(STEPS)]
-    told = [m for m in driven.messages if LIMIT in m]
-    assert len(told) == 2
-    first, second = told
+    messages = [m for m in driven.messages if LIMIT in m]
+    assert len(messages) == 2
+    first, second = messages
     assert f"1 of {statuses.index(WARNING) + 1} steps ended at the limit of their iterations, {LIMIT} = 1" in first
     assert "mm. If that is too much, raise the limit or take a step_size below 0.005 s." in first
     assert "This is reported once." in second
@@ -107,11 +107,11 @@ def test_a_saved_state_goes_on_with_the_limit_its_count_and_what_was_said(slider
     other = host(slider)
     assert other.restore(bytes(driven.slave.serializeFMUstate(driven.slave.getFMUstate()))) == OK
     assert everything(other) == everything(driven)
-    said = len(driven.messages)
+    reported = len(driven.messages)
     for i in range(k, k + STEPS):
         assert status_of(other, i) == status_of(driven, i)
     assert everything(other) == everything(driven)
-    assert other.messages == driven.messages[said:]
+    assert other.messages == driven.messages[reported:]
     assert driven.get("solver.capped_steps") > 10
 
 
@@ -126,7 +126,7 @@ def test_a_refused_step_leaves_what_the_last_good_one_left(slider: Path, host: H
     assert everything(driven) == before
 
 
-def test_what_is_no_limit_is_refused(slider: Path, host: HostMaker) -> None:
+def test_an_invalid_limit_is_refused(slider: Path, host: HostMaker) -> None:
     driven = host(slider)
     driven.slave.setupExperiment()
     reference = [driven.references[LIMIT]]

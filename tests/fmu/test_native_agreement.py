@@ -99,8 +99,8 @@ def test_forces_and_moments_of_joints_that_turn(build: Callable[..., Path], host
         assert driven.step(30 * inner, inner) == OK
         ends.append(np.array(driven.slave.getReal(references)))
     expected = (ends[0] - ends[1]) / 2e-2
-    found = driven.slave.getDirectionalDerivative(references, [driven.references["torque"]], [1.0])
-    assert np.allclose(found, expected, rtol=1e-3, atol=1e-4 * np.max(np.abs(expected)))
+    actual = driven.slave.getDirectionalDerivative(references, [driven.references["torque"]], [1.0])
+    assert np.allclose(actual, expected, rtol=1e-3, atol=1e-4 * np.max(np.abs(expected)))
     assert np.min(np.abs(expected)) > 1e-3
 
 
@@ -123,9 +123,9 @@ def test_outputs_by_inputs_of_the_moving_car(cars: tuple[mbs.System, dict[str, P
             assert driven.step(100 * step, step) == 0
             ends.append(np.array(driven.slave.getReal(references)))
         expected = (ends[0] - ends[1]) / (2.0 * part)
-        found = driven.slave.getDirectionalDerivative(references, [driven.references[name]], [1.0])
-        assert np.allclose(found, expected, rtol=2e-3, atol=1e-3 * np.max(np.abs(expected)))
-        assert np.all(np.isfinite(found))
+        actual = driven.slave.getDirectionalDerivative(references, [driven.references[name]], [1.0])
+        assert np.allclose(actual, expected, rtol=2e-3, atol=1e-3 * np.max(np.abs(expected)))
+        assert np.all(np.isfinite(actual))
         assert np.max(np.abs(expected)) > 1.0
 
 
@@ -137,9 +137,9 @@ def test_a_start_below_the_road_is_refused_and_can_be_put_right(
     driven.slave.enterInitializationMode()
     assert driven.set("initial.z", -300.0) == OK
     assert driven.call("exitInitializationMode") == ERROR
-    said = driven.messages[-1]
-    clear = float(re.search(r"'initial\.z' is -300 m; from (\S+) m on", said)[1])
-    assert re.search(r"'tyre [FR][LR]' lies deeper in the road than its radius", said)
+    messages = driven.messages[-1]
+    clear = float(re.search(r"'initial\.z' is -300 m; from (\S+) m on", messages)[1])
+    assert re.search(r"'tyre [FR][LR]' lies deeper in the road than its radius", messages)
     assert 0.02 < clear < 0.04  # the tyres of the standing car are pressed in by 21 and 28 mm
     assert driven.set("initial.z", clear + SAG_ROUNDED) == OK
     assert driven.call("exitInitializationMode") == OK
@@ -164,9 +164,9 @@ def test_a_start_beyond_the_digits_is_refused_by_its_name(
     driven.slave.enterInitializationMode()
     assert driven.set(name, value) == OK
     assert driven.call("exitInitializationMode") == ERROR
-    said = driven.messages[-1]
-    assert "too far away or too fast" in said
-    assert f" '{name}' is {value:g} {unit}. Start nearer to the origin, or slower." in said
-    assert "wishbone" not in said
+    messages = driven.messages[-1]
+    assert "too far away or too fast" in messages
+    assert f" '{name}' is {value:g} {unit}. Start nearer to the origin, or slower." in messages
+    assert "wishbone" not in messages
     assert driven.set(name, 0.0) == OK
     assert driven.call("exitInitializationMode") == OK

@@ -143,17 +143,17 @@ def test_outputs_by_inputs_of_a_step(scene: tuple[Path, str, float, float], host
         ends.append(np.array(driven.slave.getReal(unknown)))
     expected = (ends[0] - ends[1]) / (2.0 * PART * size)
     before = driven.slave.serializeFMUstate(driven.slave.getFMUstate())
-    found = derivative(driven, unknown, [driven.references[name]], [1.0])
+    result = derivative(driven, unknown, [driven.references[name]], [1.0])
     counts = np.array(
         [n.name.startswith("solver") for n in driven.description.modelVariables if n.causality == "output"]
     )
     scale = np.abs(expected) + np.max(np.abs(expected[~counts])) * 1e-2
-    assert np.all((np.abs(found - expected) < DERIVATIVE_ERROR * scale)[~counts])
-    assert np.max(np.abs(found)) > 0.0
+    assert np.all((np.abs(result - expected) < DERIVATIVE_ERROR * scale)[~counts])
+    assert np.max(np.abs(result)) > 0.0
     # Looking changes nothing, and the derivative is linear in its seed.
     assert driven.slave.serializeFMUstate(driven.slave.getFMUstate()) == before
     assert np.allclose(
-        derivative(driven, unknown, [driven.references[name]], [-3.0]), -3.0 * np.array(found), rtol=1e-6
+        derivative(driven, unknown, [driven.references[name]], [-3.0]), -3.0 * np.array(result), rtol=1e-6
     )
 
 
@@ -178,12 +178,12 @@ def test_outputs_by_inputs_of_a_communication_step(
         ends.append(np.array(driven.slave.getReal(unknown)))
     expected = (ends[0] - ends[1]) / (2.0 * PART * size)
     driven.slave.setReal(known, [value])  # of the next step
-    found = derivative(driven, unknown, known, [1.0])
+    actual = derivative(driven, unknown, known, [1.0])
     scale = np.abs(expected) + np.max(np.abs(expected)) * 1e-2
-    assert np.all(np.abs(found - expected) < DERIVATIVE_ERROR * scale)
+    assert np.all(np.abs(actual - expected) < DERIVATIVE_ERROR * scale)
     assert np.min(np.abs(expected)) > 0.0
     assert other.restore(driven.slave.serializeFMUstate(driven.slave.getFMUstate())) == OK
-    assert derivative(other, unknown, known, [1.0]) == found
+    assert derivative(other, unknown, known, [1.0]) == actual
     assert other.step(20 * INNER + step, step) == driven.step(20 * INNER + step, step) == OK
     assert other.outputs() == driven.outputs()
 
@@ -219,9 +219,11 @@ def test_a_contact_that_is_made_has_no_derivative(prototype_fmu: Path, host: Hos
         status = driven.call("getDirectionalDerivative", unknown, known, [1.0])
         seen.append((before != touched, status))
         if status == ERROR:
-            told = driven.messages[-1]
-            made = "a contact with the road was made or lost" in told or "an inner step of it was halved" in told
-            assert made or "'tyre" in driven.messages[-1]  # not yet deep enough for all of its damping
+            messages = driven.messages[-1]
+            result = (
+                "a contact with the road was made or lost" in messages or "an inner step of it was halved" in messages
+            )
+            assert result or "'tyre" in driven.messages[-1]  # not yet deep enough for all of its damping
     assert (True, OK) not in seen
     assert (True, ERROR) in seen
     assert seen.count((False, OK)) > 20
@@ -238,9 +240,9 @@ def test_outputs_by_what_is_set_in_initialisation(build: Callable[..., Path], ho
     driven.slave.enterInitializationMode()
     unknown, known = driven.references["rod.ay"], driven.references["torque"]
     before = driven.outputs()
-    (found,) = derivative(driven, [unknown], [known], [1.0])
-    assert found == pytest.approx((ends[0] - ends[1]) / 2e-3, rel=1e-6)
-    assert abs(found) > 0.1
+    (actual,) = derivative(driven, [unknown], [known], [1.0])
+    assert actual == pytest.approx((ends[0] - ends[1]) / 2e-3, rel=1e-6)
+    assert abs(actual) > 0.1
     assert driven.outputs() == before
     assert driven.call("getDirectionalDerivative", [known], [unknown], [1.0]) == ERROR
 

@@ -45,8 +45,8 @@ def states(pair: list[Any]) -> list[bytes]:
 
 
 def random_call(rng: random.Random, references: dict[str, int], time: float) -> tuple[str, tuple[Any, ...]]:
-    known = list(references.values())
-    asked = [rng.choice([*known, *known, *known, 999]) for _ in range(rng.randrange(3))]
+    known_names = list(references.values())
+    requested = [rng.choice([*known_names, *known_names, *known_names, 999]) for _ in range(rng.randrange(3))]
     value = rng.choice(VALUES)
     inputs = [references["pull"]]
     return rng.choice(
@@ -61,13 +61,13 @@ def random_call(rng: random.Random, references: dict[str, int], time: float) -> 
                 ("setReal", ([references[n]], [value]))
                 for n in ("pull", "pull", "spring.stiffness", "spring.free_length", "step_size")
             ],
-            ("setReal", (asked, [value] * len(asked))),
-            ("setInteger", (asked, [2] * len(asked))),
-            ("setString", (asked, ["x"] * len(asked))),
-            ("getReal", (asked,)),
+            ("setReal", (requested, [value] * len(requested))),
+            ("setInteger", (requested, [2] * len(requested))),
+            ("setString", (requested, ["x"] * len(requested))),
+            ("getReal", (requested,)),
             ("getReal", (list(references.values()),)),
-            ("getInteger", (asked,)),
-            ("getBoolean", (asked,)),
+            ("getInteger", (requested,)),
+            ("getBoolean", (requested,)),
             ("getStatus", (rng.randrange(4),)),
             ("getRealStatus", (rng.randrange(4),)),
             ("getBooleanStatus", (rng.randrange(4),)),
@@ -86,8 +86,8 @@ def test_random_calls_are_answered_alike(pair: list[Any]) -> None:
     assert references == pair[1].references
     statuses = []
     for k in range(CALLS):
-        status, told, _ = both(pair, "getRealStatus", LAST_SUCCESSFUL_TIME)
-        function, arguments = random_call(rng, references, float(told) if status == OK else 0.0)
+        status, reported, _ = both(pair, "getRealStatus", LAST_SUCCESSFUL_TIME)
+        function, arguments = random_call(rng, references, float(reported) if status == OK else 0.0)
         statuses.append(both(pair, function, *arguments)[0])
         if k == 20:  # a run, whatever came before
             for function in ("reset", "setupExperiment", "enterInitializationMode", "exitInitializationMode"):

@@ -48,13 +48,13 @@ def table_of(system: mbs.System) -> tuple[Variable, ...]:
 def groups_of(model: mbs.Model) -> list[list[str]]:
     system, rng = mbs.compile(model), random.Random(3)
     entries = system.meta["parameters"]
-    found = parameter_groups(
+    result = parameter_groups(
         system,
         Instance(LoadedSystem(system.to_bytes())),
         lambda p: rng.uniform(entries[p]["min"], entries[p]["max"]),
         rng,
     )
-    return [[entries[p]["name"] for p in group] for group in found]
+    return [[entries[p]["name"] for p in group] for group in result]
 
 
 def test_what_changes_a_force_at_rest_moves_an_equilibrium() -> None:
@@ -71,7 +71,7 @@ def test_each_parameter_reaches_no_more_than_is_declared(settled: bool) -> None:
     table = table_of(system)
     reach, entries = probe([system], table), system.meta["parameters"]
     names = [v.name for v in table]
-    seen = set()
+    visited = set()
     for _ in range(5):
         values = {p["name"]: rng.uniform(p["min"], p["max"]) for p in entries}
         base = mbs.Simulation(system, parameters=values).sensors
@@ -80,9 +80,9 @@ def test_each_parameter_reaches_no_more_than_is_declared(settled: bool) -> None:
             other = mbs.Simulation(system, parameters=changed).sensors
             for output in (name for name in base if base[name] != other[name]):
                 assert names.index(p["name"]) in reach.initial[names.index(output)], (p["name"], output)
-                seen.add((p["name"], output))
-    assert ("load", "mass") in seen
-    assert (("spring_0.stiffness", "bob_2.y") in seen) == settled
+                visited.add((p["name"], output))
+    assert ("load", "mass") in visited
+    assert (("spring_0.stiffness", "bob_2.y") in visited) == settled
     number = names.index("spring_0.damping")
     assert number not in reach.initial[names.index("bob_2.y")]
     assert names.index("friction") not in reach.initial[names.index("bob_2.y")]

@@ -140,8 +140,8 @@ def late(name: str, lag: float) -> Columns:
     h, manoeuvre = 0.2 * H, manoeuvres.load(name)
     delayed: Manoeuvre = replace(manoeuvre, time=manoeuvre.time + lag)
     every = round(manoeuvres.sampling(name) / h)
-    found = manoeuvres.run_on(manoeuvres.system_of(name), delayed, h, every=every)
-    return {n: np.asarray(found[n]) for n in trajectories.SENSORS}
+    result = manoeuvres.run_on(manoeuvres.system_of(name), delayed, h, every=every)
+    return {n: np.asarray(result[n]) for n in trajectories.SENSORS}
 
 
 def beyond(name: str, found: Mapping[str, float], bounds: tuple[float, float]) -> list[str]:
@@ -208,9 +208,11 @@ def test_held_inputs_are_late_by_half_a_communication_step(car: Road, lagging: d
     wrong = []
     for name, expected in lagging.items():
         _, reference, length = trajectories.read(name)
-        found, lag = held(car(name), name), errors(expected, reference, length)
-        wrong += beyond(f"{name}, all", errors(found, reference, length), (1.3 * lag["place"], 1.3 * max(lag.values())))
-        wrong += beyond(f"{name}, left", errors(found, expected, length), LEFT[name])
+        results, lag = held(car(name), name), errors(expected, reference, length)
+        wrong += beyond(
+            f"{name}, all", errors(results, reference, length), (1.3 * lag["place"], 1.3 * max(lag.values()))
+        )
+        wrong += beyond(f"{name}, left", errors(results, expected, length), LEFT[name])
     assert not wrong, "\n".join(wrong)
 
 
@@ -270,14 +272,14 @@ def test_a_wild_drive_is_that_of_the_kernel_with_small_steps(car: Road, seed: in
         rows = run(fmu, wild, H, RandomDriver(seed, inputs))
     pose = Pose(**{n.removeprefix(manoeuvres.INITIAL): float(x) for n, x in start.items()})
     kernel = Simulation(manoeuvres.system_of("drop"), pose=pose)
-    found = []
+    results = []
     for row in rows.values[:, [rows.names.index(n) for n in inputs]].tolist():
         sensors = kernel.sensors
-        found.append([sensors[n] for n in trajectories.SENSORS])
+        results.append([sensors[n] for n in trajectories.SENSORS])
         for name, value in zip(inputs, row, strict=True):
             kernel.set_input(name, value)
         kernel.step(0.05 * H, 20)
-    reference = dict(zip(trajectories.SENSORS, np.array(found).T, strict=True))
+    reference = dict(zip(trajectories.SENSORS, np.array(results).T, strict=True))
     length = float(np.linalg.norm(np.diff([reference[n] for n in trajectories.POSITION], axis=1), axis=0).sum())
     wrong = beyond(f"seed {seed}", errors({n: rows[n] for n in reference}, reference, length), (1e-3, 0.03))
     assert not wrong, "\n".join(wrong)
@@ -292,19 +294,19 @@ def test_moments_and_stresses_of_the_kerb_in_every_kind(kerb_fmus: Path) -> None
         manoeuvre = Manoeuvre("kerb", np.zeros(0), {}, 15.0, {"fidelity": 1, "step_size": H})
         with Fmu(file) as fmu:
             rows[file.stem] = run(fmu, manoeuvre, H)
-    found = {n: rows["native"][n] for n in names}
-    assert all(np.array_equal(found[n], other[n]) for other in rows.values() for n in names)
+    actual = {n: rows["native"][n] for n in names}
+    assert all(np.array_equal(actual[n], other[n]) for other in rows.values() for n in names)
     reference = fidelity_runs.read_reference("kerb_test")
-    for n, low in ((n, low_pass(found[n], H, fidelity_runs.FREQUENCY)) for n in fidelity_runs.MOMENTS):
-        found[fidelity_runs.FILTERED + n] = low
-    error = fidelity_runs.errors(found, reference)
+    for n, low in ((n, low_pass(actual[n], H, fidelity_runs.FREQUENCY)) for n in fidelity_runs.MOMENTS):
+        actual[fidelity_runs.FILTERED + n] = low
+    error = fidelity_runs.errors(actual, reference)
     assert error["moment"] < 0.05
     assert error["wheel_load"] < 0.1
     assert error["motion"] < 2e-3
     outer, wall = 0.04, 0.002  # m, of the tubes with gauges
     for moment, stress in zip(fidelity_runs.MOMENTS, stresses, strict=True):
         across = outer / (np.pi / 64.0 * (outer**4 - (outer - 2.0 * wall) ** 4))  # between upper and lower fibre
-        assert found[stress] == pytest.approx(across * found[moment], rel=1e-9)
+        assert actual[stress] == pytest.approx(across * actual[moment], rel=1e-9)
 
 
 @pytest.mark.slow
@@ -322,8 +324,8 @@ def test_a_host_in_c_and_libcosim_run_the_references_of_constant_inputs(car: Roa
         every = round(manoeuvres.sampling(name) / H)
         behind = {n: x[1:] for n, x in reference.items()}
         for which, rows in through.items():
-            found = dict(zip(trajectories.SENSORS, rows[every - 1 :: every].T, strict=True))
-            wrong += beyond(f"{which}, {name}", errors(found, behind, length), BOUNDS[name])
+            result = dict(zip(trajectories.SENSORS, rows[every - 1 :: every].T, strict=True))
+            wrong += beyond(f"{which}, {name}", errors(result, behind, length), BOUNDS[name])
     assert not wrong, "\n".join(wrong)
 
 
@@ -337,9 +339,9 @@ def test_inputs_that_are_given_within_steps_of_fmi_3_are_as_right_as_derivatives
     }
     for name in ("step_steer_given_throttle", "slalom", "full_lock"):
         _, reference, length = trajectories.read(name)
-        found = {}
+        results = {}
         for kind, follow in (("native", True), ("fmi3_scalar", True), ("fmi3_scalar", False)):
             columns = accuracy.run_of_fmu(fmus[kind], name, 0.01, follow)
-            found[kind, follow] = trajectories.path_error(columns, reference) / length
-        assert found["fmi3_scalar", True] < 2.0 * found["native", True], name
-        assert found["fmi3_scalar", True] < 0.1 * found["fmi3_scalar", False], name
+            results[kind, follow] = trajectories.path_error(columns, reference) / length
+        assert results["fmi3_scalar", True] < 2.0 * results["native", True], name
+        assert results["fmi3_scalar", True] < 0.1 * results["fmi3_scalar", False], name

@@ -43,7 +43,7 @@ def test_asked_again_it_wishes_the_end_and_then_is_an_error(reach: Path, host: H
 
 
 @pytest.mark.parametrize("change", ["shorter step", "input", "state"])
-def test_what_clears_it(reach: Path, host: HostMaker, change: str) -> None:
+def test_calls_that_clear_a_refused_step(reach: Path, host: HostMaker, change: str) -> None:
     driven = at_the_edge(reach, host)
     time = BEGIN
     state = driven.slave.getFMUstate()
@@ -69,11 +69,11 @@ def test_what_has_left_its_table_is_named_with_its_range(
     count = next(k for k in range(100) if driven.step(k * H, H) != OK)
     travel = -12.5 * (count * H) ** 2  # 50 N on 2 kg
     assert -0.29 < travel < -0.25
-    words = driven.messages[-1]
-    assert "a coordinate has left the range of its table. 'wheel travel RL' is -0.2" in words
-    said = float(words.partition("'wheel travel RL' is ")[2].partition(";")[0])
-    assert said == pytest.approx(travel, abs=2e-3)
-    assert "its table goes from -0.2 to 0.2" in words
+    message = driven.messages[-1]
+    assert "a coordinate has left the range of its table. 'wheel travel RL' is -0.2" in message
+    reported = float(message.partition("'wheel travel RL' is ")[2].partition(";")[0])
+    assert reported == pytest.approx(travel, abs=2e-3)
+    assert "its table goes from -0.2 to 0.2" in message
 
 
 def test_fmpy_ends_soon_and_says_why(reach: Path) -> None:
@@ -84,7 +84,7 @@ def test_fmpy_ends_soon_and_says_why(reach: Path) -> None:
         f"fmpy.simulate_fmu({str(reach)!r}, stop_time=2.0, output_interval={BEGIN}, input=pull)\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=SECONDS)
-    said = done.stdout + done.stderr
-    assert "was refused" in said
-    assert "step_size" in said
-    assert len(said) < 10_000
+    output = done.stdout + done.stderr
+    assert "was refused" in output
+    assert "step_size" in output
+    assert len(output) < 10_000

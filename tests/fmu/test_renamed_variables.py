@@ -53,14 +53,14 @@ def test_values_rates_and_derivatives_are_ours_converted(host, build, renamed_cr
     assert theirs.get("X") == pytest.approx(1e3 * x, rel=1e-12)
     assert theirs.get("Rod[1].Angle") == pytest.approx(DEGREES * angle, rel=1e-12)
     assert theirs.get("rod.ay") == pytest.approx(ours.get("rod.ay"), rel=1e-9)
-    rate, there = (
+    rate, present = (
         h.slave.getRealOutputDerivatives([r], [1])[0]
         for h, r in ((ours, one["rod.angle"]), (theirs, other["Rod[1].Angle"]))
     )
-    assert there == pytest.approx(DEGREES * rate, rel=1e-9)
+    assert present == pytest.approx(DEGREES * rate, rel=1e-9)
     slope = ours.slave.getDirectionalDerivative([one["rod.x"]], [one["torque"]], [1.0])[0]
-    there = theirs.slave.getDirectionalDerivative([other["X"]], [other["Motor.Trq"]], [1.0])[0]
-    assert there == pytest.approx(1e3 * slope / -1e-3, rel=1e-6)
+    present = theirs.slave.getDirectionalDerivative([other["X"]], [other["Motor.Trq"]], [1.0])[0]
+    assert present == pytest.approx(1e3 * slope / -1e-3, rel=1e-6)
     # the end of the range is the other one
     assert theirs.set("Motor.Trq", -0.5) == 0
     assert "'Motor.Trq' was set to -0.5 N.m and is held at -0.03" in theirs.messages[-1]
@@ -101,19 +101,19 @@ def test_fmpy_the_c_host_and_libcosim_get_the_same_bits(host, renamed_crane, tmp
     driven = host(renamed_crane).start({"Motor.Trq": -4e-3})
     driven.run(50, 0.01)
     names = ("X", "Rod[1].Angle")
-    found = [driven.get(n) for n in names]
-    assert list(by_c_host(renamed_crane, tmp_path, {"Motor.Trq": -4e-3}, names, 50, 0.01)[-1]) == found
+    actual = [driven.get(n) for n in names]
+    assert list(by_c_host(renamed_crane, tmp_path, {"Motor.Trq": -4e-3}, names, 50, 0.01)[-1]) == actual
     if importlib.util.find_spec("libcosimpy") is None:
         return
     late = host(renamed_crane).start()
     late.set("Motor.Trq", -4e-3)  # libcosim sets it after initialisation
     late.run(50, 0.01)
-    found = by_libcosim(renamed_crane, {"Motor.Trq": -4e-3}, names, 50, 0.01)[-1]
-    assert list(found) == [late.get(n) for n in names]
+    actual = by_libcosim(renamed_crane, {"Motor.Trq": -4e-3}, names, 50, 0.01)[-1]
+    assert list(actual) == [late.get(n) for n in names]
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "message"),
     [
         ('partial = true\nspeed = "v"', "this model has none of the variables that it names"),
         ('torqe = "T"', "'torqe': this model has no such variable; did you mean 'torque'"),
@@ -127,8 +127,8 @@ def test_fmpy_the_c_host_and_libcosim_get_the_same_bits(host, renamed_crane, tmp
         ('torque = { name = "T", factor = "gain" }', "'torque': factor is 'gain'; it must be a number, or a constant"),
     ],
 )
-def test_names_that_cannot_be(tmp_path: Path, text: str, words: str) -> None:
-    with pytest.raises(UserError, match=words):
+def test_names_that_cannot_be(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(UserError, match=message):
         named(tmp_path, text)
 
 
@@ -138,10 +138,10 @@ def test_what_an_answer_is_watched_by_keeps_its_unit(tmp_path: Path) -> None:
     lines = [f'"{name}" = {{ name = "other.{name}", factor = 1e3 }}' for name in (*bound, "road_friction", "load")]
     (tmp_path / "names.toml").write_text("\n".join(lines), encoding="utf-8")
     table = variable_table(load_scene(f"{SCENES}:answered")[1].meta, pose=False, step_size=0.01)
-    found = renamed(table, read_content(tmp_path / "names.toml"))
-    assert set(found.named) == {"road_friction", "load"}
-    assert set(found.left_out) == set(bound)
-    assert "is of a port, which works in m" in found.left_out["road_height"]
+    actual = renamed(table, read_content(tmp_path / "names.toml"))
+    assert set(actual.named) == {"road_friction", "load"}
+    assert set(actual.left_out) == set(bound)
+    assert "is of a port, which works in m" in actual.left_out["road_height"]
 
 
 @pytest.mark.parametrize(
@@ -156,12 +156,12 @@ def test_what_an_answer_is_watched_by_keeps_its_unit(tmp_path: Path) -> None:
 def test_what_has_no_other_name_says_why(tmp_path: Path, text: str, why: str) -> None:
     (tmp_path / "names.toml").write_text('"rod.x" = "X"\n' + text, encoding="utf-8")
     system = load_scene(f"{SCENES}:crane")[1]
-    found = renamed(variable_table(system.meta, pose=False, step_size=0.01), read_content(tmp_path / "names.toml"))
-    assert set(found.named) == {"rod.x"}
-    assert why in next(iter(found.left_out.values()))
+    actual = renamed(variable_table(system.meta, pose=False, step_size=0.01), read_content(tmp_path / "names.toml"))
+    assert set(actual.named) == {"rod.x"}
+    assert why in next(iter(actual.left_out.values()))
 
 
-def test_a_body_on_the_ground_and_a_road_without_friction_are_told_under_other_names(host, tmp_path) -> None:
+def test_a_body_on_the_ground_and_a_road_without_friction_are_reported_under_other_names(host, tmp_path) -> None:
     """The force of the ground counts downwards; the friction is set while driving."""
     (tmp_path / "names.toml").write_text(
         '"chassis.ground_force" = { name = "Body.Fz", factor = -1e-3 }\n"road.friction" = "Mu"\n',
@@ -170,14 +170,14 @@ def test_a_body_on_the_ground_and_a_road_without_friction_are_told_under_other_n
     name, system = load_scene("prototype_car")
     path = build_fmu(system, name, tmp_path, [fmpy.platform], names=read_content(tmp_path / "names.toml"))
     driven = host(path).start({"payload.passenger.mass": 900.0})
-    (said,) = [m for m in driven.messages if "At the start the vehicle rests on its body" in m]
+    (messages,) = [m for m in driven.messages if "At the start the vehicle rests on its body" in m]
     force = driven.get("Body.Fz")
     assert force < -1.0
-    assert f"Body.Fz is {force:.4g}" in said
+    assert f"Body.Fz is {force:.4g}" in messages
     assert driven.step(0.0, 0.01) == 0
-    for value, told in ((0.05, False), (0.01, True), (0.0, True)):
+    for value, reported in ((0.05, False), (0.01, True), (0.0, True)):
         before = len(driven.messages)
         assert driven.set("Mu", value) == 0
         lines = [m for m in driven.messages[before:] if f"'Mu' was set to {value:g}" in m]
-        assert len(lines) == told
-        assert not told or "outside the range in which such vehicles work, 0.02257 to 2" in lines[0]
+        assert len(lines) == reported
+        assert not reported or "outside the range in which such vehicles work, 0.02257 to 2" in lines[0]

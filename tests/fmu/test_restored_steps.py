@@ -28,12 +28,12 @@ def step_size(request: pytest.FixtureRequest) -> float:
 @pytest.fixture
 def pair(build: Callable[..., Path], kind_2: str, host: HostMaker, step_size: float) -> tuple[Any, Any]:
     """Two instances in one state with some motion, and energy lost to a damper."""
-    made = []
+    results = []
     for _ in range(2):
         driven = host(build("sprung_reach", kind_2)).start({"step_size": step_size, "pull": 0.02})
         driven.run(BEFORE, H)
-        made.append(driven)
-    return made[0], made[1]
+        results.append(driven)
+    return results[0], results[1]
 
 
 def everything(driven: Any) -> list[float]:
@@ -104,7 +104,7 @@ def test_what_was_set_takes_effect_with_the_next_step(pair: tuple[Any, Any], cha
 
 
 @pytest.mark.parametrize("change", list(CHANGES))
-def test_what_was_set_can_be_undone(pair: tuple[Any, Any], change: str) -> None:
+def test_settings_can_be_undone(pair: tuple[Any, Any], change: str) -> None:
     """Inputs, parameters and slopes of the refused step leave nothing behind in the kernel."""
     tried, other = pair
     CHANGES[change](tried)

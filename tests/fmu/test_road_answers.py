@@ -45,10 +45,10 @@ def test_a_normal_that_is_none_holds_the_last_one_with_one_warning(host, sledge)
             assert h.set(name, value) == OK
         for each in (h, good):
             assert each.step(0.01 * time, 0.01) == OK
-    told = [text for text in h.messages if "normal of the road" in text]
-    assert len(told) == 1
-    assert "'road_normal_x' and its neighbours was set to (0, 0, 0)" in told[0]
-    assert "the last one, (-0.05, 0, 0.998749), is held" in told[0]
+    messages = [text for text in h.messages if "normal of the road" in text]
+    assert len(messages) == 1
+    assert "'road_normal_x' and its neighbours was set to (0, 0, 0)" in messages[0]
+    assert "the last one, (-0.05, 0, 0.998749), is held" in messages[0]
     assert h.get("x") == good.get("x")
     assert h.get("road_normal_x") == -0.05
 
@@ -58,10 +58,10 @@ def test_derivatives_that_lead_a_normal_astray_name_the_port(host, sledge) -> No
     """Asked again it wishes the end; without the derivative the step passes."""
     h = host(sledge).start(LEVEL)
     before = h.get("x")
-    for told in ("was refused, the state", "was refused again, the state"):
+    for reported in ("was refused, the state", "was refused again, the state"):
         assert slope(h, "road_normal_z", 1, -50.0) == OK
         assert h.step(0.0, 0.01) == DISCARD
-        assert told in h.messages[-1]
+        assert reported in h.messages[-1]
         assert "'road_normal_x' and its neighbours became (0, 0, 0." in h.messages[-1]
         assert "Give it at shorter intervals, or with derivatives that turn it less" in h.messages[-1]
         assert "Worst" not in h.messages[-1]
@@ -76,30 +76,30 @@ def test_a_start_with_a_normal_that_is_none_is_level(host, sledge) -> None:
     assert [text for text in h.messages if "(0, 0, 1), is held" in text]
 
 
-def test_an_answer_far_from_what_it_is_for_is_told_once(host, sledge) -> None:
+def test_an_answer_far_from_what_it_is_for_is_reported_once(host, sledge) -> None:
     h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
     for k in range(80):
         assert h.step(0.01 * k, 0.01) == OK
         h.get("x")
-    told = [text for text in h.messages if "last answer on the road" in text]
-    assert len(told) == 1
-    assert "'road_x' holds for the point (0, 0, 0), 10 m from its wheel" in told[0]
+    messages = [text for text in h.messages if "last answer on the road" in text]
+    assert len(messages) == 1
+    assert "'road_x' holds for the point (0, 0, 0), 10 m from its wheel" in messages[0]
 
 
 @pytest.mark.parametrize("step", [0.01, 0.25])
-def test_an_answer_far_away_is_told_where_no_output_is_read(host, sledge, step) -> None:
+def test_an_answer_far_away_is_reported_where_no_output_is_read(host, sledge, step) -> None:
     """It is passed at 0.5 s."""
     h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
-    told = []
+    reported = []
     for k in range(round(0.75 / step)):
         assert h.step(step * k, step) == OK
-        told.append(sum("last answer on the road" in text for text in h.messages))
-    assert told[round(0.5 / step) - 2] == 0
-    assert told[round(0.75 / step) - 1] == 1
+        reported.append(sum("last answer on the road" in text for text in h.messages))
+    assert reported[round(0.5 / step) - 2] == 0
+    assert reported[round(0.75 / step) - 1] == 1
 
 
 @pytest.mark.parametrize(("jump", "where"), [(150.0, "above"), (0.03, "above"), (-0.03, "below")])
-def test_an_answer_that_leaves_the_plane_of_the_last_one_is_told_once(host, sledge, jump, where) -> None:
+def test_an_answer_that_leaves_the_plane_of_the_last_one_is_reported_once(host, sledge, jump, where) -> None:
     """A road that goes on with its slope does not; 10 mm are what curvature makes between answers."""
     uphill = {"road_normal_x": -0.6, "road_normal_z": 0.8}
     h = host(sledge).start(LEVEL | uphill)
@@ -107,10 +107,10 @@ def test_an_answer_that_leaves_the_plane_of_the_last_one_is_told_once(host, sled
         h.set("road_x", x)
         h.set("road_height", up)
         h.step(0.001 * k, 0.001)
-        told = [text for text in h.messages if "the plane of the last one" in text]
-        assert len(told) == (k > 1)
-    assert f"At 0.002 s the answer 'road_height' = {6.01 + jump:g} m with its normal lies " in told[0]
-    assert f" {0.8 * abs(jump):.3g} m {where} the plane" in told[0]
+        messages = [text for text in h.messages if "the plane of the last one" in text]
+        assert len(messages) == (k > 1)
+    assert f"At 0.002 s the answer 'road_height' = {6.01 + jump:g} m with its normal lies " in messages[0]
+    assert f" {0.8 * abs(jump):.3g} m {where} the plane" in messages[0]
 
 
 def test_an_edge_whose_plane_turns_about_what_touches_it_is_no_jump(host, sledge) -> None:
@@ -143,20 +143,20 @@ def told_on_a_circle(host, sledge, lead: float, radius: float) -> list[str]:
 
 
 @pytest.mark.parametrize(("radius", "last"), [(400.0, 0.11), (550.0, 0.0)])
-def test_a_road_that_bends_too_much_between_answers_is_told_once(host, sledge, radius, last) -> None:
-    told = told_on_a_circle(host, sledge, 0.0, radius)
-    assert len(told) == (last > 0.1)
-    for text in told:
+def test_a_road_that_bends_too_much_between_answers_is_reported_once(host, sledge, radius, last) -> None:
+    reported = told_on_a_circle(host, sledge, 0.0, radius)
+    assert len(reported) == (last > 0.1)
+    for text in reported:
         assert "holds for 0.0 steps ahead of its wheel" in text
         assert "ports.road_lead is 0 now" in text
-        found = [float(number) for number in re.findall(r"off by (\S+) mm", text)]
-        assert found == pytest.approx([last, 0.0], abs=0.015)
+        actual = [float(number) for number in re.findall(r"off by (\S+) mm", text)]
+        assert actual == pytest.approx([last, 0.0], abs=0.015)
 
 
-@pytest.mark.parametrize(("radius", "told"), [(40.0, 0), (5.0, 1)])
-def test_a_road_that_is_reached_along_the_step_may_bend_more(host, sledge, radius, told) -> None:
+@pytest.mark.parametrize(("radius", "reported"), [(40.0, 0), (5.0, 1)])
+def test_a_road_that_is_reached_along_the_step_may_bend_more(host, sledge, radius, reported) -> None:
     """Off by a quarter in the middle of the step, told from 0.4 mm on."""
-    assert len(told_on_a_circle(host, sledge, 1.0, radius)) == told
+    assert len(told_on_a_circle(host, sledge, 1.0, radius)) == reported
 
 
 def test_an_answer_ahead_is_reached_along_the_step_and_one_at_the_wheel_holds(host, sledge) -> None:
@@ -190,8 +190,8 @@ def test_an_answer_that_nobody_sets_any_more_holds_at_once(host, sledge) -> None
     assert heights[0] < heights[1]
 
 
-@pytest.mark.parametrize(("turn", "told"), [(0.28, 0), (0.32, 1)])
-def test_a_normal_that_turns_at_once_is_told_once(host, sledge, turn, told) -> None:
+@pytest.mark.parametrize(("turn", "reported"), [(0.28, 0), (0.32, 1)])
+def test_a_normal_that_turns_at_once_is_reported_once(host, sledge, turn, reported) -> None:
     """About the centre of the wheel, as from ground to an edge: the plane is as far away as the last one."""
     h = host(sledge).start(LEVEL)
     centre, far, angle = (h.get("x"), h.get("z")), h.get("z"), 2.0 * math.asin(0.5 * turn)
@@ -202,8 +202,8 @@ def test_a_normal_that_turns_at_once_is_told_once(host, sledge, turn, told) -> N
         for name, n in zip("xz", normal, strict=True):
             h.set(f"road_normal_{name}", n)
         h.step(1e-6 * k, 1e-6)
-        assert sum("turned at once" in text for text in h.messages) == told * (k > 0)
-    if told:
+        assert sum("turned at once" in text for text in h.messages) == reported * (k > 0)
+    if reported:
         assert "answer 'road_normal_x' turned at once from (0, 0, 1) to (-0.316, 0, 0.949)" in h.messages[-1]
 
 
@@ -212,9 +212,9 @@ def test_a_step_that_is_refused_for_a_jump_asks_for_another_answer(host, sledge)
     h = host(sledge).start(LEVEL)
     h.set("road_height", 1e200)
     assert h.step(0.0, 0.01) == h.step(0.0, 0.01) == DISCARD
-    for said in h.messages[-2:]:
-        assert "It began with a jump of the answer 'road_height' to 1e+200 m. Set one that goes on" in said
-        assert "A smaller step_size" not in said
+    for messages in h.messages[-2:]:
+        assert "It began with a jump of the answer 'road_height' to 1e+200 m. Set one that goes on" in messages
+        assert "A smaller step_size" not in messages
     h.set("road_height", 0.0)
     assert h.step(0.0, 0.01) == OK
 
@@ -224,13 +224,13 @@ def test_the_start_is_lifted_to_the_answer(host, sledge) -> None:
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
-def test_what_is_not_finite_is_told_of_ports_without_a_range(host, sledge, bad) -> None:
+def test_what_is_not_finite_is_reported_of_ports_without_a_range(host, sledge, bad) -> None:
     h = host(sledge).start(LEVEL | {"road_height": 2.0})
     for _ in range(2):
         h.set("road_height", bad)
     assert h.get("road_height") == 2.0
-    said = f"The port 'road_height' was set to {bad:g} and holds its last value 2 m. This is reported once."
-    assert h.messages == [said]
+    reported = f"The port 'road_height' was set to {bad:g} and holds its last value 2 m. This is reported once."
+    assert h.messages == [reported]
 
 
 def test_a_state_with_everything_said_is_set_again(host, sledge, kind) -> None:
@@ -279,9 +279,9 @@ def test_derivatives_by_answers_are_those_of_differences(host, sledge) -> None:
         h.step(0.01 * k, 0.01)
     references = {v.name: v.valueReference for v in h.description.modelVariables}
     wanted = [references[n] for n in ("z", "x", "vx", "road_ahead_x")]
-    found = h.slave.getDirectionalDerivative(wanted, [references["road_height"]], [1.0])
-    assert 0.0 < found[0] < 1.0
-    assert found[3] == pytest.approx(found[1] + 0.01 * found[2], abs=1e-12)
+    actual = h.slave.getDirectionalDerivative(wanted, [references["road_height"]], [1.0])
+    assert 0.0 < actual[0] < 1.0
+    assert actual[3] == pytest.approx(actual[1] + 0.01 * actual[2], abs=1e-12)
 
 
 def test_the_scene_stands_in_the_description(sledge) -> None:

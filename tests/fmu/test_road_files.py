@@ -71,11 +71,11 @@ def get(host: Any) -> str:
 
 
 def heights(host: Any, steps: int = 300, time: float = 0.0) -> list[float]:
-    found = []
+    results = []
     for k in range(steps):
         assert host.step(time + k * H, H) == OK
-        found.append(host.get("chassis.z"))
-    return found
+        results.append(host.get("chassis.z"))
+    return results
 
 
 def test_the_description_has_it_after_all_others(car: Path) -> None:
@@ -186,9 +186,9 @@ def test_a_refused_file_changes_nothing_and_says_why(car: Path, host: Any, roads
     for value, sentence in cases.items():
         driven.messages.clear()
         assert text(driven, value) == ERROR
-        (said,) = driven.messages
-        assert "'road.file'" in said
-        assert sentence in said
+        (messages,) = driven.messages
+        assert "'road.file'" in messages
+        assert sentence in messages
     driven.start()
     assert get(driven) == str(roads / "high.road")
     assert driven.get("chassis.z") > 2.0
@@ -280,16 +280,16 @@ def test_a_road_that_is_cut_while_driving_is_a_refused_step(car: Path, host: Any
     assert driven.outputs() == before
 
 
-def test_starts_on_a_slope_and_parameters_without_effect_are_told(car: Path, host: Any, roads: Path) -> None:
+def test_starts_on_a_slope_and_parameters_without_effect_are_reported(car: Path, host: Any, roads: Path) -> None:
     driven = host(car)
     text(driven, str(roads / "slope.road"))
     driven.start({"road.friction": 0.5})
-    said = "\n".join(driven.messages)
-    assert "The road is not level where this starts: the start is raised by 2 m" in said
-    sinks = float(re.search(r"above its place of rest sinks by (\S+) m\.", said)[1])
+    messages = "\n".join(driven.messages)
+    assert "The road is not level where this starts: the start is raised by 2 m" in messages
+    sinks = float(re.search(r"above its place of rest sinks by (\S+) m\.", messages)[1])
     assert sinks == pytest.approx(0.05 * 2.3, rel=0.1)  # the wheelbase
-    assert "'road.friction' is 0.5, without effect" in said
-    assert "With 'initial.settling' of 3 it begins at rest" in said
+    assert "'road.friction' is 0.5, without effect" in messages
+    assert "With 'initial.settling' of 3 it begins at rest" in messages
     settled = host(car)
     text(settled, str(roads / "slope.road"))
     settled.start({"brake": 1.0, "initial.settling": 3.0})
@@ -309,11 +309,11 @@ def test_a_car_built_on_a_road_file_has_it_as_its_start_value(tmp_path: Path, ho
     (tmp_path / "step.road").unlink()
     driven = host(fmu).start({"initial.speed": 5.0})
     assert get(driven) == "step.road"
-    found = heights(driven, 500)
-    assert found[0] - found[-1] > 0.04
+    actual = heights(driven, 500)
+    assert actual[0] - actual[-1] > 0.04
     assert driven.call("reset") == OK
     driven.start({"initial.speed": 5.0})
-    assert heights(driven, 500) == found
+    assert heights(driven, 500) == actual
 
 
 @pytest.mark.slow
@@ -332,7 +332,7 @@ def test_fmi_3_gives_the_same(built: Callable[[str], Path], host: Any, roads: Pa
     assert third.get("speed") == driven.get("speed")
 
 
-def test_a_wheel_that_is_driven_into_a_wall_is_told_once(car: Path, host: Any, tmp_path: Path) -> None:
+def test_a_wheel_that_is_driven_into_a_wall_is_reported_once(car: Path, host: Any, tmp_path: Path) -> None:
     x = np.arange(-10.0, 30.0, 0.05)
     heights = np.repeat(0.35 * np.clip((x - 8.0) / 0.1, 0.0, 1.0)[:, None], 21, axis=1)  # below the body
     with pytest.warns(RoadWarning):
@@ -347,7 +347,7 @@ def test_a_wheel_that_is_driven_into_a_wall_is_told_once(car: Path, host: Any, t
     assert "was driven into a face of the road that is too high or too steep" in line
 
 
-def test_a_car_on_its_roof_is_told_once(car: Path, host: Any) -> None:
+def test_a_car_on_its_roof_is_reported_once(car: Path, host: Any) -> None:
     driven = host(car).start({"initial.speed": 30.0, "front.tyre.grip": 3.0, "rear.tyre.grip": 3.0})
     assert driven.messages == []
     rolled = []
@@ -360,7 +360,7 @@ def test_a_car_on_its_roof_is_told_once(car: Path, host: Any) -> None:
     assert sum("has rolled over" in line for line in driven.messages) == 1
 
 
-def test_values_with_which_no_car_works_are_told_with_those_that_do(car: Path, host: Any) -> None:
+def test_values_with_which_no_car_works_are_reported_with_those_that_do(car: Path, host: Any) -> None:
     driven = host(car).start({})
     works = {}
     for name, bad in {

@@ -17,9 +17,9 @@ H = 0.01
 
 @pytest.mark.slow
 def test_rows_at_an_interval_are_those_of_every_step(kerb_fmus: Path, tmp_path: Path) -> None:
-    tables, said = {}, {}
+    tables, reported = {}, {}
     for name, more in (("all", ()), ("few", ("--interval", "0.05"))):
-        asked = (
+        requested = (
             "--fidelity",
             "0",
             "-m",
@@ -31,15 +31,15 @@ def test_rows_at_an_interval_are_those_of_every_step(kerb_fmus: Path, tmp_path: 
             "--out",
             tmp_path / name,
         )
-        done = run(main, kerb_fmus / "native.fmu", *asked, *more)
+        done = run(main, kerb_fmus / "native.fmu", *requested, *more)
         assert done.returncode == 0, done.stderr
         (file,) = (tmp_path / name).glob("*.csv")
-        tables[name], said[name] = file.read_text(encoding="utf-8").splitlines(), done.stdout
+        tables[name], reported[name] = file.read_text(encoding="utf-8").splitlines(), done.stdout
     assert tables["few"] == [tables["all"][0], *tables["all"][1::5]]
     assert len(tables["few"]) == 32
-    assert "read every 10 ms; --interval reads fewer" in said["all"]
-    assert "read every 50 ms\n" in said["few"]
-    assert "failed steps               0 of 150" in said["few"]
+    assert "read every 10 ms; --interval reads fewer" in reported["all"]
+    assert "read every 50 ms\n" in reported["few"]
+    assert "failed steps               0 of 150" in reported["few"]
 
 
 def test_an_interval_that_is_no_multiple_of_the_step_is_refused(kerb_fmus: Path, tmp_path: Path) -> None:
@@ -52,7 +52,7 @@ def test_an_interval_that_is_no_multiple_of_the_step_is_refused(kerb_fmus: Path,
 @pytest.mark.parametrize("looks", [False, True])
 def test_between_rows_outputs_are_read_that_somebody_looks_at(kerb_fmus: Path, looks: bool) -> None:
     """Who looks between rows sees the value of that time."""
-    seen: list[float] = []
+    recorded: list[float] = []
     read: list[int] = []
     with Fmu(kerb_fmus / "native.fmu") as fmu:
         reader = fmu.reader
@@ -73,12 +73,12 @@ def test_between_rows_outputs_are_read_that_somebody_looks_at(kerb_fmus: Path, l
 
         def until(time, observation):  # type: ignore[no-untyped-def]
             if looks:
-                seen.append(observation["stress.SG1"])
+                recorded.append(observation["stress.SG1"])
             return time > 0.295
 
         result = driven(fmu, manoeuvre, H, until=until, every=10)
     assert [n for n in read if n > 1] == 4 * [outputs]
     assert len(read) - 4 == (27 if looks else 0)
     if looks:
-        assert seen[9::10] == result["stress.SG1"][1:].tolist()
-        assert len(np.unique(seen)) > 25
+        assert recorded[9::10] == result["stress.SG1"][1:].tolist()
+        assert len(np.unique(recorded)) > 25

@@ -39,9 +39,9 @@ def run(driven: Any, h: float, end: float = 2.0) -> list[int]:
 def test_a_wrong_run_warns_once_and_shows_its_balance(slider: Path, host: HostMaker) -> None:
     driven = host(slider)
     statuses = run(driven, 1e-3)
-    told = [m for m in driven.messages if "step_size" in m]
-    assert len(told) == 1
-    assert "without a force" in told[0]
+    messages = [m for m in driven.messages if "step_size" in m]
+    assert len(messages) == 1
+    assert "without a force" in messages[0]
     assert statuses.count(WARNING) == 1
     assert set(statuses) == {OK, WARNING}
     error, balance, angle = (driven.get(name) for name in NAMES)
@@ -68,10 +68,10 @@ def test_an_fmu_and_python_agree_on_a_driven_motion_whose_balance_is_open(
     """The drive takes up what the rows err: the balance says nothing, and a second motion decides."""
     driven, h = host(build("driven_crank", kind)), 1.0 / steps
     driven.start({"step_size": h})
-    found = [driven.get("piston.x")]
+    results = [driven.get("piston.x")]
     for k in range(2 * steps):
         driven.step(k * h, h)
-        found.append(driven.get("piston.x"))
+        results.append(driven.get("piston.x"))
     driven.slave.terminate()  # what is not judged yet is told at the end
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
@@ -79,7 +79,7 @@ def test_an_fmu_and_python_agree_on_a_driven_motion_whose_balance_is_open(
     assert run.report is not None
     assert run.report.energy_balance > 0.1
     piston = piston_of(30.0, 0.01, run.t)
-    for values in (np.array(found), run["piston.x"]):
+    for values in (np.array(results), run["piston.x"]):
         assert (np.abs(values - piston).max() > 0.05 * np.ptp(piston)) == wrong
     assert bool(caught) == wrong
     assert any("step_size" in message for message in driven.messages) == wrong
@@ -101,10 +101,12 @@ def test_a_start_tells_of_contradicting_velocities_and_of_what_cannot_move(
 ) -> None:
     """With both numbers, as a run in Python does."""
     driven = host(build("contradicting_arm", kind)).start()
-    told = mbs.simulate(mbs.compile(contradicting_arm()), 0.01, 0.01, progress=False).notices
-    assert [text for text in told if "is given as 0, 3 m/s and is 0, " in text or "is given as 2 rad/s and is " in text]
-    assert [text for text in told if text.startswith("Parts that cannot move") and "'bar 0', 'bar 1'" in text]
-    assert all(any(text in message for message in driven.messages) for text in told)
+    notices = mbs.simulate(mbs.compile(contradicting_arm()), 0.01, 0.01, progress=False).notices
+    assert [
+        text for text in notices if "is given as 0, 3 m/s and is 0, " in text or "is given as 2 rad/s and is " in text
+    ]
+    assert [text for text in notices if text.startswith("Parts that cannot move") and "'bar 0', 'bar 1'" in text]
+    assert all(any(text in message for message in driven.messages) for text in notices)
 
 
 @pytest.mark.filterwarnings(
@@ -125,15 +127,15 @@ def test_a_changed_assembly_mode_is_reported_once(
     assert not any("closed loop" in m for m in driven.messages)
     for k in range(30, 50):
         driven.step(k * h, h)
-    (told,) = (m for m in driven.messages if "closed loop" in m)
-    assert "1.6 s" in told
-    assert "'B', 'C'" in told
+    (messages,) = (m for m in driven.messages if "closed loop" in m)
+    assert "1.6 s" in messages
+    assert "'B', 'C'" in messages
     assert driven.get("solver.status") == Status.BRANCH_CHANGED
 
 
-@pytest.mark.parametrize(("h", "told"), [(0.01, True), (0.00125, False)])
-def test_driving_with_jumps_is_told_where_forces_are_wrong(
-    prototype_fmu: Path, host: HostMaker, h: float, told: bool
+@pytest.mark.parametrize(("h", "reported"), [(0.01, True), (0.00125, False)])
+def test_driving_with_jumps_is_reported_where_forces_are_wrong(
+    prototype_fmu: Path, host: HostMaker, h: float, reported: bool
 ) -> None:
     """Pedals and steering that jump, and a wheel that lands from 5 cm: at 10 ms a force of a tyre is 9.4 % off."""
     driven = host(prototype_fmu).start({"initial.speed": 15.0, "initial.z": 0.05, "step_size": h})
@@ -142,33 +144,33 @@ def test_driving_with_jumps_is_told_where_forces_are_wrong(
         driven.set("throttle", float(k // 50 % 2 == 0))
         driven.set("brake", 0.4 * (k // 50 % 3 == 1))
         driven.step(0.01 * k, 0.01)
-    assert ["too fast for the step" in m for m in driven.messages] == [True] * told
+    assert ["too fast for the step" in m for m in driven.messages] == [True] * reported
 
 
-@pytest.mark.parametrize(("mass", "told"), [(900.0, True), (225.0, False)])
-def test_a_vehicle_that_rests_on_its_body_at_the_start_is_told(
-    prototype_fmu: Path, host: HostMaker, mass: float, told: bool
+@pytest.mark.parametrize(("mass", "reported"), [(900.0, True), (225.0, False)])
+def test_a_vehicle_that_rests_on_its_body_at_the_start_is_reported(
+    prototype_fmu: Path, host: HostMaker, mass: float, reported: bool
 ) -> None:
     """What is told is what the wheels do not bear of the weight."""
     driven = host(prototype_fmu).start({"payload.passenger.mass": mass})
     lines = [m for m in driven.messages if "At the start the vehicle rests on its body" in m]
-    assert len(lines) == told
+    assert len(lines) == reported
     weight = 9.81 * (load("prototype").vehicle.mass + mass)
     missing = weight - sum(driven.get(f"wheel_{w}.Fz") for w in ("FL", "FR", "RL", "RR"))
     assert missing == pytest.approx(driven.get("chassis.ground_force"), abs=1e-3 * weight)
-    assert (missing > 0.05 * weight) is told
-    if told:
+    assert (missing > 0.05 * weight) is reported
+    if reported:
         assert f"chassis.ground_force is {driven.get('chassis.ground_force'):.4g} N" in lines[0]
 
 
-def test_a_wheel_that_falls_deep_into_the_road_is_told_with_its_name(prototype_fmu: Path, host: HostMaker) -> None:
+def test_a_wheel_that_falls_deep_into_the_road_is_reported_with_its_name(prototype_fmu: Path, host: HostMaker) -> None:
     driven = host(prototype_fmu).start({"initial.z": 30.0, "step_size": 0.002})
     deepest = 0.0
     for k in range(1400):
         assert driven.step(0.002 * k, 0.002) in (OK, WARNING)
         deepest = max(deepest, *(driven.get(f"wheel_{w}.deflection") for w in ("FL", "FR", "RL", "RR")))
-    (told,) = [m for m in driven.messages if "deep in the road" in m]
-    assert "It is the wheel of 'tyre " in told
+    (messages,) = [m for m in driven.messages if "deep in the road" in m]
+    assert "It is the wheel of 'tyre " in messages
     assert deepest > 0.9 * load("prototype").front.tyre.radius
 
 
@@ -180,5 +182,5 @@ def test_an_inertia_that_no_body_has_is_refused_by_its_name(prototype_fmu: Path,
     driven.slave.setupExperiment(startTime=0.0)
     driven.slave.enterInitializationMode()
     assert driven.call("exitInitializationMode") == ERROR
-    words = "'chassis.inertia.x' is 900 kg.m2, farthest from its start value 77.9. Set the moments nearer"
-    assert words in driven.messages[-1]
+    message = "'chassis.inertia.x' is 900 kg.m2, farthest from its start value 77.9. Set the moments nearer"
+    assert message in driven.messages[-1]

@@ -28,11 +28,11 @@ def test_it_is_the_start_of_the_engine(prototype_fmu: Path, host: HostMaker) -> 
     instance.initialise(0.0)
     instance.settle(1.0, H)
     for k in range(10):
-        found = instance.sensors()
-        assert [driven.get(n) for n in OUTPUTS] == [found[sensors.index(n)] for n in OUTPUTS]
+        actual = instance.sensors()
+        assert [driven.get(n) for n in OUTPUTS] == [actual[sensors.index(n)] for n in OUTPUTS]
         assert driven.step(k * H, H) == 0
         instance.step(H)
-    assert abs(found[sensors.index("chassis.roll")]) > 0.03
+    assert abs(actual[sensors.index("chassis.roll")]) > 0.03
 
 
 def test_without_it_a_start_is_as_drawn(prototype_fmu: Path, host: HostMaker) -> None:
@@ -40,7 +40,7 @@ def test_without_it_a_start_is_as_drawn(prototype_fmu: Path, host: HostMaker) ->
     assert abs(driven.get("chassis.roll")) < 1e-3
 
 
-def test_one_that_has_not_settled_is_told(prototype_fmu: Path, host: HostMaker) -> None:
+def test_one_that_has_not_settled_is_reported(prototype_fmu: Path, host: HostMaker) -> None:
     short, long = (host(prototype_fmu).start({**START, "initial.settling": t}) for t in (0.1, 3.0))
     assert any("has not settled" in m and "initial.settling" in m for m in short.messages)
     assert not any("settle" in m for m in long.messages)

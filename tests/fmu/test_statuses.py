@@ -95,7 +95,7 @@ def test_a_start_in_the_road(build: Callable[..., Path], host: HostMaker, kind: 
     assert host(fmu).start({"initial.z": clear}).step(0.0, H) == OK
 
 
-def test_who_drives_into_a_wall_goes_on_from_another_state(
+def test_a_car_that_drove_into_a_wall_continues_from_another_state(
     build: Callable[..., Path], host: HostMaker, kind: str
 ) -> None:
     fmu = build("before_a_wall", kind)
@@ -134,11 +134,11 @@ def test_a_shorter_step_passes(
 @FMI_2
 def test_without_memory(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
     driven = host(build("crane", kind))
-    inner, left = fmpy.fmi2.defaultCallbacks, [10**6]
+    inner, remaining = fmpy.fmi2.defaultCallbacks, [10**6]
 
     def allocate(count: int, size: int) -> int | None:
-        left[0] -= 1
-        return inner.allocateMemory(count, size) if left[0] > 0 else None
+        remaining[0] -= 1
+        return inner.allocateMemory(count, size) if remaining[0] > 0 else None
 
     callbacks = fmi2CallbackFunctions()
     callbacks.logger = driven._callbacks.logger
@@ -146,19 +146,19 @@ def test_without_memory(build: Callable[..., Path], host: HostMaker, kind: str) 
     callbacks.freeMemory = inner.freeMemory
     driven._callbacks = callbacks
     driven.instance()
-    needed, texts = 10**6 - left[0], []
+    needed, texts = 10**6 - remaining[0], []
     for most in range(1, needed):
-        left[0] = most
+        remaining[0] = most
         with pytest.raises(Exception, match="nstantiate"):
             driven.instance()
         texts.append(driven.messages[-1])
-    told = [
+    reported = [
         text
         for text in texts
         if load_library().ali3_status_text(Status.NO_MEMORY).decode() in text and "was refused" in text
     ]
-    assert told
-    for text in told:
+    assert reported
+    for text in reported:
         said(Status.NO_MEMORY, text)
 
 

@@ -95,7 +95,7 @@ def test_communication_steps_of_any_size(crane: Path, host: HostMaker) -> None:
     assert driven.get("rod.x") == pytest.approx(expected["rod.x"][-1], abs=SUBSTEP_ERROR)
 
 
-def test_a_step_far_from_the_tuned_one_is_said_once(crane: Path, host: HostMaker) -> None:
+def test_a_step_far_from_the_tuned_one_is_reported_once(crane: Path, host: HostMaker) -> None:
     driven = host(crane).start()
     assert driven.whole_status(0.0, 0.005) == OK  # no warning
     driven.slave.doStep(0.005, 0.005)
@@ -103,7 +103,7 @@ def test_a_step_far_from_the_tuned_one_is_said_once(crane: Path, host: HostMaker
     assert len(driven.messages) == 1
 
 
-def test_steps_longer_than_the_tuned_one_are_said_after_shorter_ones_too(crane: Path, host: HostMaker) -> None:
+def test_steps_longer_than_the_tuned_one_are_reported_after_shorter_ones_too(crane: Path, host: HostMaker) -> None:
     """With what they cost, and a step_size that has none: 14.9 ms are two steps of 7.45 ms."""
     driven, time = host(crane).start(), 0.0
     for step in (0.005, 0.0149, 0.0149, 0.005, 0.0125):

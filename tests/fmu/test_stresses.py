@@ -148,8 +148,8 @@ def test_down_a_kerb_they_are_those_of_the_run_with_ports(h: float, bound: float
         own.step(h)
         following_it.follow(rigid)
         rows.append((gauges_of(without, following_it), gauges_of(ported, own)))
-    found, expected = np.array(rows).transpose(1, 0, 2)
-    assert (np.abs(found - expected).max(axis=0) / np.abs(expected).max(axis=0)).max() < bound
+    values, expected = np.array(rows).transpose(1, 0, 2)
+    assert (np.abs(values - expected).max(axis=0) / np.abs(expected).max(axis=0)).max() < bound
 
 
 def test_payloads_inputs_and_road_follow() -> None:

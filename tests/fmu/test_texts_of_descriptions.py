@@ -72,7 +72,7 @@ def test_types_have_names_without_numbers(car: tuple[str, tuple[Variable, ...]])
 
 
 @pytest.mark.parametrize(
-    ("texts", "said"),
+    ("texts", "message"),
     [
         (("x of the centre", "y of the centre", "z of the centre"), "x, y, z of the centre"),
         (("at gauge 1", "at gauge 2", "at gauge 3"), "at gauge 1 to 3"),
@@ -81,8 +81,8 @@ def test_types_have_names_without_numbers(car: tuple[str, tuple[Variable, ...]])
         (("one", "two of them"), "one; two of them"),
     ],
 )
-def test_a_text_of_an_array_is_of_all_elements(texts: tuple[str, ...], said: str) -> None:
-    assert common_text(texts) == said
+def test_a_text_of_an_array_is_of_all_elements(texts: tuple[str, ...], message: str) -> None:
+    assert common_text(texts) == message
 
 
 def test_inputs_of_a_car_are_the_terminal_of_its_driver(car: tuple[str, tuple[Variable, ...]]) -> None:

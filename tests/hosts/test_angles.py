@@ -95,7 +95,7 @@ def test_windows_in_any_turn_are_the_same(fmu: Path, log: Path, tmp_path: Path) 
     assert of_heading(numbers(fmu, still, "--windows", 2, "--signals", "chassis.yaw"), "rms") < 1e-9
 
 
-def test_an_error_of_the_heading_is_told(fmu: Path, log: Path, tmp_path: Path) -> None:
+def test_an_error_of_the_heading_is_reported(fmu: Path, log: Path, tmp_path: Path) -> None:
     """By its own size, also where the simulated heading is in another turn; a whole turn in the meantime counts."""
     record = numbers(fmu, altered(log, tmp_path, lambda yaw: np.mod(yaw + 0.3, math.tau)))
     assert of_heading(record, "mean") == pytest.approx(-0.3, abs=1e-9)
@@ -108,8 +108,8 @@ def test_a_fit_by_a_heading_over_three_turns(fmu: Path, log: Path, tmp_path: Pat
     record = numbers(
         fmu, wrapped, "--set", "damping=1.2", "--fit", "damping=0.5:3", "--signals", "chassis.yaw", "--anyway"
     )
-    (found,) = record["fit"]["found"]
-    assert found["value"] == pytest.approx(1.0, abs=1e-5)
+    (actual,) = record["fit"]["found"]
+    assert actual["value"] == pytest.approx(1.0, abs=1e-5)
 
 
 @pytest.mark.parametrize("every", [1, 10])
@@ -128,8 +128,8 @@ def test_a_measure_counts_turns(fmu: Path, log: Path) -> None:
         result = drive(opened, read_table(log, {"pull"}), 0.01)
     angle, units = np.unwrap(column(log, "chassis.yaw")), {"chassis.yaw": "rad", "chassis.wz": "rad/s"}
     for text, expected in (("final(chassis.yaw)", angle[-1]), ("range(chassis.yaw)", np.ptp(angle))):
-        (found,) = parse_measure(text).evaluate(result)
-        assert found.value == pytest.approx(float(expected), abs=1e-6)
+        (actual,) = parse_measure(text).evaluate(result)
+        assert actual.value == pytest.approx(float(expected), abs=1e-6)
         assert parse_measure(text).columns(units) == {text: "rad"}
 
 

@@ -40,17 +40,17 @@ def car(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_car_is_built_once_for_each_content(car: Path, tmp_path: Path) -> None:
-    told: list[str] = []
-    first = built_fmu.fmu_of_car(str(car), told.append)
+    reported: list[str] = []
+    first = built_fmu.fmu_of_car(str(car), reported.append)
     assert first.read_text() == (car / "car.toml").read_text()
-    assert built_fmu.fmu_of_car(str(car), told.append) == first
-    assert len(told) == 1
+    assert built_fmu.fmu_of_car(str(car), reported.append) == first
+    assert len(reported) == 1
     shutil.copytree(car, tmp_path / "elsewhere")
-    assert built_fmu.fmu_of_car(str(tmp_path / "elsewhere"), told.append) == first
+    assert built_fmu.fmu_of_car(str(tmp_path / "elsewhere"), reported.append) == first
     for file in (car / "car.toml", car / "tubes.csv", tmp_path / "frame.op4"):
         file.write_text(file.read_text() + "\n")
-        assert built_fmu.fmu_of_car(str(car), told.append) != first
-    assert len(told) == 4
+        assert built_fmu.fmu_of_car(str(car), reported.append) != first
+    assert len(reported) == 4
     assert [f.name for f in first.parent.parent.iterdir() if f.name.startswith(PREFIX)] == []
 
 
@@ -62,13 +62,13 @@ def test_another_program_builds_again(car: Path, monkeypatch: pytest.MonkeyPatch
 
 def test_a_command_with_many_cars_loses_none(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(built_fmu, "_KEPT", 1)
-    made = [built_fmu.fmu_of_car(str(car), print, ports) for ports in ("1", "2", "3")]
-    assert all(fmu.is_file() for fmu in made)
-    for fmu in made:
+    result = [built_fmu.fmu_of_car(str(car), print, ports) for ports in ("1", "2", "3")]
+    assert all(fmu.is_file() for fmu in result)
+    for fmu in result:
         os.utime(fmu.parent, (0, 0))
-    assert built_fmu.fmu_of_car(str(car), print, "1") == made[0]  # used again, and so kept
+    assert built_fmu.fmu_of_car(str(car), print, "1") == result[0]  # used again, and so kept
     built_fmu.fmu_of_car(str(car), print, "4")
-    assert [fmu.is_file() for fmu in made] == [True, False, False]
+    assert [fmu.is_file() for fmu in result] == [True, False, False]
 
 
 def test_other_ports_are_another_fmu(car: Path) -> None:
@@ -81,17 +81,17 @@ def test_a_command_takes_an_fmu_or_a_car(
     car: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    made = fmu_file(Path("car"))
-    assert made.read_text() == (car / "car.toml").read_text()
+    result = fmu_file(Path("car"))
+    assert result.read_text() == (car / "car.toml").read_text()
     assert "The car car is built for this machine" in capsys.readouterr().out
-    assert fmu_file(Path("car", "car.toml")) == fmu_file(Path("car")) == made
+    assert fmu_file(Path("car", "car.toml")) == fmu_file(Path("car")) == result
     assert capsys.readouterr().out == ""
     for given in ("x.fmu", "dist/x", "cut", "run-1"):  # what is there, or looks like a file
         (tmp_path / "cut").write_text("")
         assert fmu_file(Path(given)) == Path(given)
     built = []
-    monkeypatch.setattr("hosts.fmu.fmu_file.fmu_of_car", lambda name, tell: built.append(name) or made)
-    assert fmu_file(Path("hatchback")) == fmu_file(None) == made
+    monkeypatch.setattr("hosts.fmu.fmu_file.fmu_of_car", lambda name, tell: built.append(name) or result)
+    assert fmu_file(Path("hatchback")) == fmu_file(None) == result
     assert built == ["hatchback", "prototype"]
     (tmp_path / "dist").mkdir()
     (tmp_path / "dist" / "PrototypeCar.fmu").write_text("")
@@ -117,15 +117,15 @@ def test_a_build_that_is_stopped_ends_its_process_and_says_so(car: Path, monkeyp
             return
         raise Stopped(signal.SIGTERM)
 
-    before, told = signal.signal(signal.SIGALRM, stop), list[str]()
+    before, reported = signal.signal(signal.SIGALRM, stop), list[str]()
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.05)
         with pytest.raises(Stopped):
-            built_fmu.fmu_of_car(str(car), told.append)
+            built_fmu.fmu_of_car(str(car), reported.append)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
-    assert "was stopped and nothing was run" in told[-1]
+    assert "was stopped and nothing was run" in reported[-1]
     with pytest.raises(ProcessLookupError):
         os.kill(int(pid.read_text()), 0)
     assert not list((car.parent / "cache").rglob("*.fmu"))

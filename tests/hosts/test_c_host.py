@@ -53,7 +53,7 @@ def test_names_and_references_set_the_same(fmu: Path, host: list[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "message"),
     [
         (("abc", 0.01, 0, 0), "STEPS is 'abc'; it must be a whole number from 0 on."),
         (("-1", 0.01, 0, 0), "STEPS is '-1'"),
@@ -74,10 +74,10 @@ def test_names_and_references_set_the_same(fmu: Path, host: list[str]) -> None:
         ((10, 0.01, 0, 0, "--set", "spring.damping=1e9"), "spring.damping=1e9: status 3"),
     ],
 )
-def test_what_it_refuses(host: list[str], arguments: tuple[object, ...], words: str) -> None:
+def test_invalid_values_are_refused(host: list[str], arguments: tuple[object, ...], message: str) -> None:
     done = run(host, *arguments)
     assert done.returncode in (1, 4)
-    assert words in done.stderr
+    assert message in done.stderr
     assert done.stdout == ""
 
 
@@ -93,14 +93,14 @@ def test_names_are_found_whatever_stands_around_them(host: list[str], tmp_path: 
         '<ScalarVariable name="a&lt;&amp;&quot;b" valueReference="3" causality="local"><Real/>'
         '<ScalarVariable name="a" valueReference="4" causality="output" variability="constant"><Real/>'
     )
-    for name, words in (
+    for name, message in (
         ("b", "'b' is of the causality output"),
         ('a<&"b', "is of the causality local"),
         ("a", "'a' is a constant"),
         ("c", "no variable 'c'"),
     ):
         done = run([host[0], str(library), *host[2:]], 1, 0.01, 0, 0, "--set", f"{name}=1")
-        assert words in done.stderr
+        assert message in done.stderr
 
 
 def test_inputs_on_lines_are_given_within_steps_of_fmi_3(scene_fmu: Callable[..., Path], tmp_path: Path) -> None:

@@ -106,14 +106,14 @@ def test_it_checks_with_what_is_set(
     fmu = scene_fmu(f"{Path(__file__).with_name('scenes.py')}:tuned", kind)
     command = [str(fmu), "--steps", "5", "--set", "spring.free_length=1.5", "--set", "pull=4"]
     assert main(command) == 0
-    said = capfd.readouterr().out
-    assert "set  spring.free_length      0.8 -> 1.5 m (--set)" in said
-    assert "5 steps of" in said
-    seen = []
+    output = capfd.readouterr().out
+    assert "set  spring.free_length      0.8 -> 1.5 m (--set)" in output
+    assert "5 steps of" in output
+    recorded = []
     for start in ({}, {"spring.free_length": 1.5, "pull": 4.0}):
-        subject = open_subject(fmu, tmp_path / f"at{len(seen)}", 5, start)
-        seen.append(Instance(subject).start().run(5))
-    assert seen[0] != seen[1]
+        subject = open_subject(fmu, tmp_path / f"at{len(recorded)}", 5, start)
+        recorded.append(Instance(subject).start().run(5))
+    assert recorded[0] != recorded[1]
     assert main([*command, "--set", "spring.damping=90"]) == 2
     assert "--set: 'spring.damping' is 90 N·s/m; its range is 0 to 20 N·s/m." in capfd.readouterr().err
 

@@ -81,14 +81,14 @@ def test_long_steps_are_notes(fmu: Callable[[str], Path]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "words"),
+    ("old", "new", "message"),
     [
         (b"fmi2GetRealStatus\0", b"fmi2GetRealStatos\0", "1 of 34 are missing: fmi2GetRealStatus (FMI 2.0, 2.3)"),
         (b"fmi2", b"fmi9", "34 of 34 are missing: fmi2CancelStep, "),
     ],
 )
 def test_missing_functions_are_one_line(
-    fmu: Callable[[str], Path], tmp_path: Path, old: bytes, new: bytes, words: str
+    fmu: Callable[[str], Path], tmp_path: Path, old: bytes, new: bytes, message: str
 ) -> None:
     copy = tmp_path / "copy.fmu"
     with zipfile.ZipFile(fmu("long_steps")) as source, zipfile.ZipFile(copy, "w") as target:
@@ -101,7 +101,7 @@ def test_missing_functions_are_one_line(
     code, found = verdicts(copy)
     assert code == 1
     assert [name for name, (verdict, _) in found.items() if verdict == "BAD"] == ["functions"]
-    assert found["functions"][1].startswith(words)
+    assert found["functions"][1].startswith(message)
     left_out = [check for check in CHECKS if check.calls]
     assert found["not done"] == ("note", f"{len(left_out)} checks, which call functions of the FMU")
     assert len(found) == len(CHECKS) - len(left_out) + 1
@@ -112,9 +112,9 @@ def test_a_state_of_any_size_is_named_and_every_other_check_is_done(tmp_path: Pa
     assert code == 1
     assert list(found) == [check.name for check in CHECKS]
     bound = "at most 100000000 (or ALI3_LIMITS=351844 set)"
-    words = f"The FMU says that its state has 35184372088832 bytes; it must have {bound}"
-    assert found["altered states"] == ("BAD", words)
-    assert found["states"] == ("BAD", f"{words}; say the size that is needed (FMI 2.0, 2.1.8)")
+    message = f"The FMU says that its state has 35184372088832 bytes; it must have {bound}"
+    assert found["altered states"] == ("BAD", message)
+    assert found["states"] == ("BAD", f"{message}; say the size that is needed (FMI 2.0, 2.1.8)")
 
 
 @pytest.mark.parametrize("limit", [6_000_000_000, 900_000_000])

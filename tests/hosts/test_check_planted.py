@@ -91,7 +91,7 @@ def found(fmu: Path) -> tuple[int, dict[str, tuple[str, str]]]:
 @pytest.mark.parametrize("three", [False, True])
 def test_without_a_fault_nothing_is_bad(tmp_path: Path, three: bool) -> None:
     _, lines = found(planted_fmu(tmp_path, "NONE", three))
-    bad = {name: words for name, (verdict, words) in lines.items() if verdict == "BAD"}
+    bad = {name: message for name, (verdict, message) in lines.items() if verdict == "BAD"}
     assert not bad
     assert lines["stop time"][0] == "note"  # a step beyond it is taken
     assert lines["derivatives"][0] == "note"  # over a step, without a word
@@ -100,10 +100,10 @@ def test_without_a_fault_nothing_is_bad(tmp_path: Path, three: bool) -> None:
 @pytest.mark.parametrize("three", [False, True])
 @pytest.mark.parametrize("plant", [*PLANTS, *ALSO])
 def test_each_fault_is_found(tmp_path: Path, plant: str, three: bool) -> None:
-    check, verdict, words = PLANTS.get(plant) or ("messages", "note" if three else "BAD", ALSO[plant])
+    check, verdict, message = PLANTS.get(plant) or ("messages", "note" if three else "BAD", ALSO[plant])
     _, lines = found(planted_fmu(tmp_path, plant, three))
     assert lines[check][0] == verdict, lines[check]
-    assert words in lines[check][1]
+    assert message in lines[check][1]
     assert f"(FMI {'3' if three else '2'}.0, " in lines[check][1]
 
 
@@ -116,7 +116,7 @@ def test_an_fmu_of_one_instance_in_a_process(tmp_path: Path, three: bool) -> Non
     assert not [name for name, (verdict, _) in lines.items() if verdict == "BAD"]
     assert lines["repeats"] == ("ok", "bit for bit, one after another")
     _, lines = found(planted_fmu(tmp_path, "ONCE", three))
-    (bad,) = [words for verdict, words in lines.values() if verdict == "BAD"]
+    (bad,) = [message for verdict, message in lines.values() if verdict == "BAD"]
     assert bad.startswith(
         f"it is not instantiated (FMI {'3.0, 2.3.1' if three else '2.0, 2.1.5'}): Failed to instantiate"
     )

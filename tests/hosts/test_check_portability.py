@@ -63,7 +63,7 @@ def test_ours_have_none_of_it(fmus: dict[str, Path]) -> None:
     for fmu in fmus.values():
         found = findings(fmu)
         assert len(found) == len(CHECKS)
-        assert all(words.startswith("ok") for words in found.values()), found
+        assert all(message.startswith("ok") for message in found.values()), found
 
 
 XML = "modelDescription.xml"
@@ -116,13 +116,13 @@ TEXTS: list[tuple[str, str, str, list[Change]]] = [
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "check", "said", "changes"), TEXTS)
+@pytest.mark.parametrize(("kind", "check", "message", "changes"), TEXTS)
 def test_documents(
-    fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, said: str, changes: list[Change]
+    fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, message: str, changes: list[Change]
 ) -> None:
     words = findings(changed(fmus[kind], tmp_path / "copy.fmu", changes))[check]
     assert words.startswith("note" if check in OPEN else "BAD")
-    assert said in words
+    assert message in words
 
 
 CALLS: list[tuple[str, str, str, Change]] = [
@@ -190,8 +190,8 @@ CALLS: list[tuple[str, str, str, Change]] = [
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "check", "said", "change"), CALLS)
-def test_calls(fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, said: str, change: Change) -> None:
+@pytest.mark.parametrize(("kind", "check", "message", "change"), CALLS)
+def test_calls(fmus: dict[str, Path], tmp_path: Path, kind: str, check: str, message: str, change: Change) -> None:
     words = findings(changed(fmus[kind], tmp_path / "copy.fmu", [change], face_name(kind)))[check]
     assert words.startswith("note" if check in OPEN else "BAD")
-    assert said in words
+    assert message in words

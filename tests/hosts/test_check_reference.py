@@ -109,8 +109,8 @@ def test_a_stopped_check_of_a_folder_goes_on_with_the_tables_that_are_left(
     done = run(*command)
     assert (done.returncode, driven) == (0, [3, 2])
     assert done.stdout.startswith("1 of 3 tables are there; --again repeats them.\n")
-    told = [line for line in done.stdout.splitlines() if " against " in line]
-    assert [Path(line.split(" against ")[1].split(", ")[0]).name for line in told] == ["a.csv", "b.csv", "c.csv"]
+    output = [line for line in done.stdout.splitlines() if " against " in line]
+    assert [Path(line.split(" against ")[1].split(", ")[0]).name for line in output] == ["a.csv", "b.csv", "c.csv"]
     assert "are there" not in run(*command).stdout  # a check that reached its end is made anew
     assert driven == [3, 2, 3]
 
@@ -123,23 +123,23 @@ def test_of_one_table_nothing_is_kept(fmu: Path, result: Path, given: tuple[str,
     assert f"{result} is a single table." in done.stderr
 
 
-def test_tables_are_told_in_their_order_whichever_is_done_first() -> None:
-    told = in_order(iter([(2, "c"), (0, "a"), (1, "b"), (3, "d")]))
-    assert [next(told), *told] == ["a", "b", "c", "d"]
+def test_tables_are_reported_in_their_order_whichever_is_done_first() -> None:
+    reported = in_order(iter([(2, "c"), (0, "a"), (1, "b"), (3, "d")]))
+    assert [next(reported), *reported] == ["a", "b", "c", "d"]
 
 
 @pytest.mark.parametrize("at", [0.4, 0.404])
-def test_a_jump_inside_a_step_is_told(fmu: Path, tmp_path: Path, at: float) -> None:
+def test_a_jump_inside_a_step_is_reported(fmu: Path, tmp_path: Path, at: float) -> None:
     table, reference = tmp_path / "given.csv", tmp_path / "reference.csv"
     table.write_text(f'"time","pull"\n0,0\n{at},30\n{at},-20\n1,0\n')
     reference.write_text('"time","bob.x"\n0,0\n1,0\n')
-    told = run(main, fmu, "--reference", reference, "-m", table, "--step", 0.01).stdout
-    assert told.count("jumps inside a communication step: 1 of pull, the first at 0.404 s") == (at == 0.404)
-    assert told.count("jumps inside") == (at == 0.404)
+    output = run(main, fmu, "--reference", reference, "-m", table, "--step", 0.01).stdout
+    assert output.count("jumps inside a communication step: 1 of pull, the first at 0.404 s") == (at == 0.404)
+    assert output.count("jumps inside") == (at == 0.404)
 
 
 @pytest.mark.parametrize(
-    ("what", "bounds", "said"),
+    ("what", "bounds", "message"),
     [
         (lambda y: 1000.0 * y, (), "bob.y: in agreement where the table has it 1000 times as large: mm in place of m?"),
         (lambda y: -y, (), "bob.y: in agreement where the table has it with the other sign"),
@@ -149,8 +149,8 @@ def test_a_jump_inside_a_step_is_told(fmu: Path, tmp_path: Path, at: float) -> N
         (lambda y: 0.0 * y, (), "1 m            0 s     0 m, taken as 0.0001  10000 times"),
     ],
 )
-def test_what_it_would_agree_with_is_told(
-    what: Callable[[np.ndarray], np.ndarray], bounds: tuple[str, ...], said: str, fmu: Path, result: Path
+def test_a_change_that_would_make_signals_agree_is_reported(
+    what: Callable[[np.ndarray], np.ndarray], bounds: tuple[str, ...], message: str, fmu: Path, result: Path
 ) -> None:
     def change(heading: list[str], rows: list[list[str]]) -> None:
         k = heading.index("bob.y")
@@ -159,11 +159,11 @@ def test_what_it_would_agree_with_is_told(
 
     done = run(main, fmu, "--reference", changed(result, change), *bounds)
     assert done.returncode == 1
-    assert said in done.stdout
-    assert ("in agreement" in done.stdout) == ("in agreement" in said or "by one row" in said)
+    assert message in done.stdout
+    assert ("in agreement" in done.stdout) == ("in agreement" in message or "by one row" in message)
 
 
-def test_inputs_without_a_column_and_rows_far_apart_are_told(fmu: Path, tmp_path: Path) -> None:
+def test_inputs_without_a_column_and_rows_far_apart_are_reported(fmu: Path, tmp_path: Path) -> None:
     (tmp_path / "few.csv").write_text('"time","pull","bob.x"\n0,0,0\n0.5,20,0\n1,0,0\n')
     (tmp_path / "none.csv").write_text('"time","bob.x"\n0,0\n0.5,0\n1,0\n')
     few, none = (run(main, fmu, "--reference", tmp_path / f"{name}.csv").stdout for name in ("few", "none"))
@@ -203,18 +203,18 @@ def test_a_table_may_have_one_row(fmu: Path, tmp_path: Path) -> None:
     assert "1 beyond their bounds" in done.stdout
 
 
-def test_without_a_bound_the_usual_one_is_told(fmu: Path, result: Path) -> None:
+def test_without_a_bound_the_usual_one_is_reported(fmu: Path, result: Path) -> None:
     assert "the bound is 1 % of the range of each" in run(main, fmu, "--reference", result).stdout
 
 
-def test_a_table_that_begins_later_is_told(fmu: Path, tmp_path: Path) -> None:
+def test_a_table_that_begins_later_is_reported(fmu: Path, tmp_path: Path) -> None:
     (tmp_path / "table.csv").write_text('"time","pull","bob.x"\n0.5,2,0\n1,0,0\n')
-    said = run(main, fmu, "--reference", tmp_path / "table.csv").stdout
-    assert "table.csv begins at 0.5 s and is compared from there\n" in said
-    assert "begin of the table: at 0.5 s; before, its first row holds pull at 2\n" in said
+    output = run(main, fmu, "--reference", tmp_path / "table.csv").stdout
+    assert "table.csv begins at 0.5 s and is compared from there\n" in output
+    assert "begin of the table: at 0.5 s; before, its first row holds pull at 2\n" in output
 
 
-def test_what_the_fmu_does_not_have_is_told(fmu: Path, result: Path) -> None:
+def test_variables_that_the_fmu_lacks_are_reported(fmu: Path, result: Path) -> None:
     def change(heading: list[str], rows: list[list[str]]) -> None:
         heading[heading.index("bob.y")] = "bob.height"
 
@@ -224,7 +224,7 @@ def test_what_the_fmu_does_not_have_is_told(fmu: Path, result: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("table", "options", "said"),
+    ("table", "options", "message"),
     [
         ('"time","pull"\n0,0\n1,1\n', (), "no column that is an output"),
         ('"time","bob.x"\n0,0\n', (), "a reference must end after 0 s"),
@@ -240,13 +240,13 @@ def test_what_the_fmu_does_not_have_is_told(fmu: Path, result: Path) -> None:
         ('"time","bob.x"\n0,0\n1,0\n', ("--soak",), "--reference cannot be combined with --soak"),
     ],
 )
-def test_what_is_no_reference_is_one_sentence(
-    table: str, options: tuple[object, ...], said: str, fmu: Path, tmp_path: Path
+def test_an_invalid_reference_is_refused_in_one_sentence(
+    table: str, options: tuple[object, ...], message: str, fmu: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "table.csv").write_text(table)
     done = run(main, fmu, "--reference", tmp_path / "table.csv", *options)
     assert done.returncode == 2
-    assert said in done.stderr
+    assert message in done.stderr
     assert len(done.stderr.splitlines()) == 1
 
 

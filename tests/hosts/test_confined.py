@@ -63,8 +63,8 @@ def host(tmp_path: Path) -> Iterator[Host]:
 
 
 def by_run(host: Host, out: Path, *options: str) -> set[float]:
-    code, said, rows = driven(host.fmu, out, host.port, *options)
-    assert code == 0, said
+    code, reported, rows = driven(host.fmu, out, host.port, *options)
+    assert code == 0, reported
     return set(rows[1:, 2])
 
 
@@ -141,20 +141,22 @@ def test_the_same_bits_come_out(
 
 
 def test_the_catalogue_measures_the_same(prototype_fmu: Path, tmp_path: Path) -> None:
-    found = []
+    results = []
     for name, more in (("free", ()), ("bound", ("--confined",))):
         out = tmp_path / name
         done = run(catalogue, prototype_fmu, "--tests", "drop", "--jobs", 1, "--out", out, *more)
         assert done.returncode == 0, done.stderr
-        found.append([(out / "measures.csv").read_bytes(), *(f.read_bytes() for f in sorted(out.glob("runs/*/*.csv")))])
-    assert found[0] == found[1]
-    assert len(found[0]) > 1
+        results.append(
+            [(out / "measures.csv").read_bytes(), *(f.read_bytes() for f in sorted(out.glob("runs/*/*.csv")))]
+        )
+    assert results[0] == results[1]
+    assert len(results[0]) > 1
 
 
-def test_an_fmu_that_crashes_is_told_as_ever(tmp_path: Path) -> None:
-    code, said, table = driven(odd_fmu("faults", tmp_path), tmp_path / "out", CRASH, "--confined")
+def test_an_fmu_that_crashes_is_reported_as_ever(tmp_path: Path) -> None:
+    code, reported, table = driven(odd_fmu("faults", tmp_path), tmp_path / "out", CRASH, "--confined")
     assert code == 1
-    assert "The process of the FMU crashed (SIGSEGV) in fmi2DoStep at 0.04 s; 5 rows were kept." in said
+    assert "The process of the FMU crashed (SIGSEGV) in fmi2DoStep at 0.04 s; 5 rows were kept." in reported
     assert len(table) == 5
 
 
@@ -164,7 +166,7 @@ def test_without_bubblewrap_nothing_is_run(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setenv("PATH", str(tmp_path))
     for main in (drive, simulator, catalogue):
         done = run(main, fmu, "--confined", "--out" if main != simulator else "--record", tmp_path / "out")
-        said = "error: --confined is not possible here, and nothing was run: install bubblewrap (bwrap).\n"
-        assert (done.returncode, done.stderr) == (2, said)
+        reported = "error: --confined is not possible here, and nothing was run: install bubblewrap (bwrap).\n"
+        assert (done.returncode, done.stderr) == (2, reported)
     _bubblewrap.cache_clear()
     assert not (tmp_path / "out").exists()

@@ -40,14 +40,14 @@ def repository(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def cases(file: Path) -> dict[tuple[str, str], str]:
     """Verdict by class and name, as junitparser reads the file."""
-    found = {}
+    results = {}
     for suite in junitparser.JUnitXml.fromfile(str(file)):
         listed = list(suite)
         kinds = [type(case.result[0]).__name__.lower() if case.result else "good" for case in listed]
         assert (suite.tests, suite.failures) == (len(listed), kinds.count("failure"))
         assert (suite.errors, suite.skipped) == (kinds.count("error"), kinds.count("skipped"))
-        found |= {(case.classname, case.name): kind for case, kind in zip(listed, kinds, strict=True)}
-    return found
+        results |= {(case.classname, case.name): kind for case, kind in zip(listed, kinds, strict=True)}
+    return results
 
 
 def spoil(folder: Path, name: str, signal: str, by: float) -> None:
@@ -107,16 +107,16 @@ def test_what_is_no_reference_is_an_error_and_the_others_are_compared(repository
     error = done.stderr.splitlines()[-1]  # a slow run has shown its progress before
     assert error.startswith("error: ")
     assert "a.csv" in error
-    found = cases(tmp_path / "a.xml")
-    assert {key: kind for key, kind in found.items() if kind != "good"} == {
+    actual = cases(tmp_path / "a.xml")
+    assert {key: kind for key, kind in actual.items() if kind != "good"} == {
         ("a", "comparison"): "error",
         ("model_rest", "bob.height"): "skipped",
     }
-    assert found[("model_swing", "bob.y")] == "good"
+    assert actual[("model_swing", "bob.y")] == "good"
 
 
 @pytest.mark.parametrize(
-    ("options", "said"),
+    ("options", "message"),
     [
         (("--reference", "nothing"), "nothing"),
         (("--reference", "references", "--bound", "bob.z=1"), "--bound bob.z: "),
@@ -124,21 +124,23 @@ def test_what_is_no_reference_is_an_error_and_the_others_are_compared(repository
     ],
 )
 def test_an_error_is_no_good_file(
-    repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...], said: str
+    repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...], message: str
 ) -> None:
     monkeypatch.chdir(repository)
     done = run(main, "model.fmu", *options, "--junit", tmp_path / "a.xml")
     assert done.returncode == 2
-    assert said in done.stderr
+    assert message in done.stderr
     if options[0] != "--show-parameters":
         assert "error" in cases(tmp_path / "a.xml").values()
 
 
 def test_any_text_is_read_back(tmp_path: Path) -> None:
     """Characters that XML does not have are question marks."""
-    words = 'a < b & "c" \x00\x1b[31m\ud800 Ω €'
+    message = 'a < b & "c" \x00\x1b[31m\ud800 Ω €'
     write_junit(
-        tmp_path / "a.xml", words, [Case(words, words, "bad", words), *2 * [Case("b", "c", "good", words, 0.125)]]
+        tmp_path / "a.xml",
+        message,
+        [Case(message, message, "bad", message), *2 * [Case("b", "c", "good", message, 0.125)]],
     )
     (suite,) = junitparser.JUnitXml.fromfile(str(tmp_path / "a.xml"))
     bad, good, _ = list(suite)

@@ -74,11 +74,11 @@ def test_each_patch_of_a_terrain_tells_the_heights_within_it_alone() -> None:
 
 def test_beyond_a_terrain_they_are_left_out_with_a_word() -> None:
     """It ends at 120 m, before the end of the third lane."""
-    made = with_course(
+    result = with_course(
         {"roads": [hand_world.terrain(-80.0)], "missing": [{"name": "a", "why": "b"}]}, course_of("iso_3888_1", WIDTH)
     )
-    assert "scenery" not in made
-    assert [item["name"] for item in made["missing"]] == ["a", "cones of ISO 3888-1"]
+    assert "scenery" not in result
+    assert [item["name"] for item in result["missing"]] == ["a", "cones of ISO 3888-1"]
 
 
 def test_the_world_of_a_road_file_lies_beside_it(tmp_path: Path) -> None:

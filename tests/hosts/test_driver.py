@@ -96,19 +96,19 @@ def test_settings_of_the_manoeuvre_are_those_of_a_driver() -> None:
     assert driver.settings == DriverSettings(driver.settings.speed, 2.3, 0.525, 3.2, 1.5)
 
 
-def test_the_manoeuvre_comes_before_the_car() -> None:
+def test_settings_of_the_manoeuvre_override_those_of_the_car() -> None:
     driver = make_driver(SETTINGS | {"wheelbase": "3.1"}, CAR)
     assert (driver.settings.wheelbase, driver.settings.wheel_angle_max) == (3.1, 0.525)
 
 
 @pytest.mark.parametrize("missing", list(CAR))
-def test_what_no_one_tells_of_the_car_is_asked_for(missing: str) -> None:
-    told = {name: value for name, value in CAR.items() if name != missing}
+def test_constants_that_the_fmu_does_not_report_are_requested(missing: str) -> None:
+    reported = {name: value for name, value in CAR.items() if name != missing}
     with pytest.raises(HostError, match=rf"this FMU does not provide .*'{missing}'.*\[driver\]") as refusal:
-        make_driver(SETTINGS, told)
+        make_driver(SETTINGS, reported)
     (setting,) = (name for name, constant in CONSTANTS.items() if constant == missing)
     assert f"--driver {setting}=NUMBER" in str(refusal.value)
-    assert make_driver(SETTINGS | {setting: "1.25"}, told)
+    assert make_driver(SETTINGS | {setting: "1.25"}, reported)
 
 
 @pytest.mark.parametrize(

@@ -44,12 +44,12 @@ def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(
     kind: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
 ) -> None:
     """A message of FMI 2.0 is a format of printf, one of FMI 3.0 is the text."""
-    told: list[str] = []
+    reported: list[str] = []
     description = read_model_description(fmus["crane", kind])
     folder = Path(fmpy.extract(fmus["crane", kind], tmp_path))
     with pytest.raises(Exception, match="instantiate"):
-        Instance(description, folder, "crane", lambda *message: told.append(message[2]), token="{100% of #r1#}")
-    assert "{100% of #r1#}" in told[-1]
+        Instance(description, folder, "crane", lambda *message: reported.append(message[2]), token="{100% of #r1#}")
+    assert "{100% of #r1#}" in reported[-1]
 
 
 @pytest.mark.parametrize("kind", kinds.IN_C)
@@ -57,13 +57,13 @@ def test_all_is_unpacked_but_what_no_running_fmu_reads(
     kind: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
 ) -> None:
     unpack(fmus["crane", kind], tmp_path)
-    found = {file.relative_to(tmp_path).as_posix() for file in tmp_path.rglob("*") if file.is_file()}
+    actual = {file.relative_to(tmp_path).as_posix() for file in tmp_path.rglob("*") if file.is_file()}
     with zipfile.ZipFile(fmus["crane", kind]) as fmu:
-        left = set(fmu.namelist()) - found
-        assert len(found) + len(left) == len(fmu.namelist())
-    assert {name.partition("/")[0] for name in left} == {"sources", "documentation"}
-    assert {name.partition("/")[0] for name in found} >= {"modelDescription.xml", "binaries", "resources"}
-    assert len(left) > len(found)
+        remaining = set(fmu.namelist()) - actual
+        assert len(actual) + len(remaining) == len(fmu.namelist())
+    assert {name.partition("/")[0] for name in remaining} == {"sources", "documentation"}
+    assert {name.partition("/")[0] for name in actual} >= {"modelDescription.xml", "binaries", "resources"}
+    assert len(remaining) > len(actual)
 
 
 @pytest.mark.slow
@@ -89,7 +89,7 @@ def test_with_held_inputs_results_are_the_same_bytes(
 
 
 @pytest.mark.slow
-def test_what_goes_straight_is_held_and_late_and_this_is_told(
+def test_what_goes_straight_is_held_and_late_and_this_is_reported(
     fmus: dict[tuple[str, str], Path], tmp_path: Path
 ) -> None:
     """Without intermediate update half a step late: as the FMU of FMI 2.0 with a table that is late by that.
@@ -109,7 +109,7 @@ def test_what_goes_straight_is_held_and_late_and_this_is_told(
     for name, at in (("table", t), ("later", np.append(0.0, t[1:] + 0.5 * H))):
         rows = "".join(f"{x},{y}\n" for x, y in zip(at.tolist(), torque.tolist(), strict=True))
         (tmp_path / f"{name}.csv").write_text(f'"time","torque"\n{rows}')
-    found = {}
+    results = {}
     for kind, table in (("native", "table"), ("fmi3", "table"), ("plain", "table"), ("native", "later")):
         fmu = plain if kind == "plain" else fmus["crane", kind]
         done = run(main, fmu, "-m", tmp_path / f"{table}.csv", "--step", H, "--out", tmp_path / "out")
@@ -117,12 +117,12 @@ def test_what_goes_straight_is_held_and_late_and_this_is_told(
         assert ("torque: 5 ms late on average" in done.stdout) == (kind == "plain")
         assert ("late on average" in done.stdout) == (kind == "plain")
         (written,) = (Path(line.split()[1].rstrip(",")) for line in done.stdout.splitlines() if "written:" in line)
-        found[kind, table] = read_csv(written)["rod.x"]
-    lag = float(np.abs(found["plain", "table"] - found["native", "table"]).max())
-    left = float(np.abs(found["plain", "table"] - found["native", "later"]).max())
+        results[kind, table] = read_csv(written)["rod.x"]
+    lag = float(np.abs(results["plain", "table"] - results["native", "table"]).max())
+    remaining = float(np.abs(results["plain", "table"] - results["native", "later"]).max())
     assert lag > 1e-4
-    assert left < 0.1 * lag
-    assert float(np.abs(found["fmi3", "table"] - found["native", "table"]).max()) < 0.1 * lag
+    assert remaining < 0.1 * lag
+    assert float(np.abs(results["fmi3", "table"] - results["native", "table"]).max()) < 0.1 * lag
 
 
 @pytest.mark.slow

@@ -78,10 +78,10 @@ def test_a_run_with_inputs_and_parameters_that_are_elements(fmu: Path, tmp_path:
     done = run(run_command, fmu, "-m", table, "--step", H, "--out", tmp_path / "out", *values)
     assert done.returncode == 0, done.stderr
     (file,) = (tmp_path / "out").glob("*.csv")
-    found = pd.read_csv(file, comment="#")
+    result = pd.read_csv(file, comment="#")
     u = np.where(np.arange(100)[:, None] < 40, [0.5, 0.0, -1.0], [2.0, 0.0, 1.0])
     expected = motion(u, np.array([[0.0, 1.0], [-9.0, -0.4]])) * [1.0, 3.0]
-    got = np.column_stack([found[next(n for n in found if n.startswith(f"y[{k}]"))] for k in (1, 2)])
+    got = np.column_stack([result[next(n for n in result if n.startswith(f"y[{k}]"))] for k in (1, 2)])
     assert np.abs(got - expected).max() < 1e-6 * np.abs(expected).max()
     assert np.abs(expected).max() > 0.5
 
@@ -135,9 +135,9 @@ def described_as(fmu: Path, folder: Path, change: dict[str, str]) -> Path:
     with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(made, "w") as new:
         for name in old.namelist():
             content = old.read(name)
-            for words, others in change.items() if name == "modelDescription.xml" else ():
-                assert words.encode() in content
-                content = content.replace(words.encode(), others.encode())
+            for message, others in change.items() if name == "modelDescription.xml" else ():
+                assert message.encode() in content
+                content = content.replace(message.encode(), others.encode())
             new.writestr(name, content)
     return made
 
@@ -213,21 +213,21 @@ def test_checks_drive_elements_of_inputs(fmu: Path, tmp_path: Path) -> None:
     hidden = '<Output valueReference="7" dependencies=""/>'
     silent = described_as(fmu, tmp_path, {'<Output valueReference="7"/>': hidden})
     (tmp_path / "told").mkdir()
-    told = described_as(fmu, tmp_path / "told", {'<Output valueReference="7"/>': hidden.replace('""', '"1"')})
+    reported = described_as(fmu, tmp_path / "told", {'<Output valueReference="7"/>': hidden.replace('""', '"1"')})
     lines = {}
-    for path in (fmu, silent, told):
+    for path in (fmu, silent, reported):
         done = run(check, path, "--steps", 5, "--set", "A[2,1]=-9", "--set", "u[2]=4")
         assert "set  A[2,1]                  -4 -> -9 (--set)" in done.stdout
         lines[path] = {line[6:28].strip(): line[:4].strip() + " " + line[30:] for line in done.stdout.splitlines()}
     assert lines[fmu]["runs"] == "ok 5 steps of 0.01 s, 2 outputs move"
     assert "NaN for an input" in lines[fmu]["refusals"]
     assert lines[fmu]["refused steps"].startswith("note a refused step at 0 s can be asked for without end")
-    for path in (fmu, told):
+    for path in (fmu, reported):
         assert lines[path]["dependencies"].startswith("note 1 outputs, such as y, are said to depend on inputs")
     assert lines[silent]["dependencies"] == "ok outputs change at a communication point as they are said to"
     assert lines[silent]["derivatives"].startswith("note they are those over the last step")
     subject = open_subject(fmu, tmp_path / "open", 5, {"A[2,1]": -9.0, "u[2]": 4.0})
     assert [v.name for v in subject.inputs] == ["u[1]", "u[2]", "u[3]"]
-    found = np.array(Instance(subject).start().run(5))
+    values = np.array(Instance(subject).start().run(5))
     expected = motion(np.tile([1.0, 4.0, 3.0], (5, 1)), np.array([[0.0, 1.0], [-9.0, -0.4]]))[1:]
-    assert np.abs(found - expected).max() < 1e-8
+    assert np.abs(values - expected).max() < 1e-8

@@ -25,17 +25,17 @@ def fmus(scene_fmu: Callable[..., Path]) -> dict[str, Path]:
 @pytest.mark.slow
 def test_a_study(fmus: dict[str, Path], tmp_path: Path) -> None:
     text = (HERE / "study" / "study.txt").read_text(encoding="utf-8").replace("runs = 16", "runs = 4")
-    found = {}
+    results = {}
     for kind, fmu in fmus.items():
         file, out = tmp_path / f"{kind}.toml", tmp_path / kind
         file.write_text(text.format(fmu=fmu), encoding="utf-8")
         assert study([str(file), "--out", str(out), "--jobs", "1", "--no-report"]) == 0
-        found[kind] = read_study(out)
-    assert list(found["fmi3"]["status"]) == ["done"] * 4
+        results[kind] = read_study(out)
+    assert list(results["fmi3"]["status"]) == ["done"] * 4
     for name in MEASURES:
-        assert list(found["fmi3"][name]) == list(found["native"][name])
-        assert found["fmi3"][name].std() > 1e-3
-        assert found["fmi3"].attrs["units"][name] == found["native"].attrs["units"][name] == "m"
+        assert list(results["fmi3"][name]) == list(results["native"][name])
+        assert results["fmi3"][name].std() > 1e-3
+        assert results["fmi3"].attrs["units"][name] == results["native"].attrs["units"][name] == "m"
 
 
 @pytest.mark.slow
@@ -51,15 +51,15 @@ def test_a_comparison_with_a_log(fmus: dict[str, Path], tmp_path: Path) -> None:
 
     t = np.arange(0.0, 4.005, 0.01)
     x, y = solve_ivp(rates, (0.0, 4.1), [0.0, -1.0, 0.0, 0.0], t_eval=t, rtol=1e-9, atol=1e-11).y[:2]
-    log, found = tmp_path / "log.csv", {}
+    log, actual = tmp_path / "log.csv", {}
     rows = np.column_stack([t, 6.0 * np.sin(1.3 * t), x, y])
     log.write_text("time,pull,bob.x,bob.y\n" + "\n".join(",".join(map(repr, map(float, r))) for r in rows) + "\n")
     for kind, fmu in fmus.items():
         out = tmp_path / kind
-        asked = [str(fmu), str(log), "--out", str(out), "--json", str(tmp_path / f"{kind}.json")]
-        assert compare([*asked, "--fit", "spring.stiffness", "--fit", "spring.damping=0.2:5"]) == 0
+        requested = [str(fmu), str(log), "--out", str(out), "--json", str(tmp_path / f"{kind}.json")]
+        assert compare([*requested, "--fit", "spring.stiffness", "--fit", "spring.damping=0.2:5"]) == 0
         record = json.loads((tmp_path / f"{kind}.json").read_text())
-        found[kind] = {f["name"]: f["value"] for f in record["fit"]["found"]}
+        actual[kind] = {f["name"]: f["value"] for f in record["fit"]["found"]}
     for name, true in (("spring.stiffness", stiffness), ("spring.damping", damping)):
-        assert found["native"][name] == pytest.approx(true, rel=0.02)
-        assert found["fmi3"][name] == pytest.approx(true, rel=0.03)
+        assert actual["native"][name] == pytest.approx(true, rel=0.02)
+        assert actual["fmi3"][name] == pytest.approx(true, rel=0.03)

@@ -61,7 +61,7 @@ COMMANDS: dict[str, Callable[[Path, Path, int], tuple[object, ...]]] = {
 
 @pytest.mark.parametrize("fault", list(_WORDS))
 @pytest.mark.parametrize("command", list(COMMANDS))
-def test_it_is_told_once_and_the_exit_code_is_1(faults: Path, tmp_path: Path, command: str, fault: int) -> None:
+def test_it_is_reported_once_and_the_exit_code_is_1(faults: Path, tmp_path: Path, command: str, fault: int) -> None:
     main, *arguments = COMMANDS[command](faults, tmp_path / "out", fault)
     done = run(main, *arguments)  # type: ignore[arg-type]
     assert done.returncode == 1, done.stdout + done.stderr
@@ -78,7 +78,7 @@ def test_a_study_and_a_check_tell_it_of_their_runs(faults: Path, tmp_path: Path)
     assert done.returncode == 0, done.stderr  # every run has its row
     assert "3 failed" in done.stdout
     reasons = read_study(tmp_path / "out")["reason"]
-    assert [sum(words in str(reason) for reason in reasons) for words in _WORDS.values()] == [1, 1, 1]
+    assert [sum(message in str(reason) for reason in reasons) for message in _WORDS.values()] == [1, 1, 1]
     done = run(check, faults, "--set", f"u={CRASH}")
     assert done.returncode == 1
     assert done.stdout.count(f"the process {_WORDS[CRASH]}") > 1
@@ -89,13 +89,13 @@ def test_a_recording_is_repeated_in_another_process(faults: Path, tmp_path: Path
     assert run(simulator, faults, *_SIMULATED, "--record", folder).returncode == 0
     replayed = run(simulator, "--recording", folder, "--replay")
     assert (replayed.returncode, replayed.stdout) == (0, "11 rows, the same bits in all of them\n")
-    asked = ("--recording", folder, "--save-manoeuvre", part, "--from", 0.06)
-    for options in (("--recording", folder, "--replay"), asked):
+    requested = ("--recording", folder, "--save-manoeuvre", part, "--from", 0.06)
+    for options in (("--recording", folder, "--replay"), requested):
         done = run(simulator, odd_fmu("crashing", tmp_path), *options)
-        words = "error: The process of the FMU crashed (SIGSEGV) in fmi2DoStep at 0.02 s.\n"
-        assert (done.returncode, done.stderr) == (1, words)
+        message = "error: The process of the FMU crashed (SIGSEGV) in fmi2DoStep at 0.02 s.\n"
+        assert (done.returncode, done.stderr) == (1, message)
     assert not part.exists()
-    saved = run(simulator, *asked)
+    saved = run(simulator, *requested)
     assert saved.returncode == 0, saved.stderr
     assert part.is_file()
     assert part.with_suffix(".state").is_file()

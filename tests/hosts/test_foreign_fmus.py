@@ -42,7 +42,7 @@ def driven(fmu: Path, out: Path, fault: int, *options: object) -> tuple[int, str
 
 
 @pytest.mark.parametrize(
-    ("fault", "words", "rows"),
+    ("fault", "message", "rows"),
     [
         (LEAVE, "The process of the FMU ended with exit code 0 in fmi2DoStep at 0.04 s; 5 rows were kept.", 5),
         (CRASH, "The process of the FMU crashed (SIGSEGV) in fmi2DoStep at 0.04 s; 5 rows were kept.", 5),
@@ -50,12 +50,12 @@ def driven(fmu: Path, out: Path, fault: int, *options: object) -> tuple[int, str
         (CLOSE, "; 101 rows were kept.", 101),
     ],
 )
-def test_what_ends_a_run_is_told_with_the_rows_until_then(
-    faults: Path, tmp_path: Path, temporary: Path, fault: int, words: str, rows: int
+def test_the_cause_of_an_early_end_is_reported_with_the_rows_until_then(
+    faults: Path, tmp_path: Path, temporary: Path, fault: int, message: str, rows: int
 ) -> None:
-    code, said, table = driven(faults, tmp_path / "out", fault)
+    code, reported, table = driven(faults, tmp_path / "out", fault)
     assert code == 1
-    assert said.count(words) == 1
+    assert reported.count(message) == 1
     assert len(table) == rows
     good = np.where(np.isnan(table[:, 2]), table[:, 0], table[:, 2])
     assert np.allclose(good, table[:, 0], atol=1e-12)  # the output is the time
@@ -63,7 +63,7 @@ def test_what_ends_a_run_is_told_with_the_rows_until_then(
     assert not list(temporary.iterdir())
 
 
-def test_processes_of_an_fmu_end_with_it_and_are_told(faults: Path, tmp_path: Path, temporary: Path) -> None:
+def test_processes_of_an_fmu_end_with_it_and_are_reported(faults: Path, tmp_path: Path, temporary: Path) -> None:
     done = run(main, faults, "--set", f"u={FORK}", "--out", tmp_path / "out")
     assert done.returncode == 0
     assert done.stderr == "note: 3 processes that an FMU had started were ended with it.\n"
@@ -76,18 +76,18 @@ def test_another_folder_and_files_of_an_fmu_change_nothing_here(
     faults: Path, tmp_path: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch, fault: int
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    code, said, table = driven(Path(os.path.relpath(faults)), Path("out"), fault)
+    code, reported, table = driven(Path(os.path.relpath(faults)), Path("out"), fault)
     assert code == 0
-    assert "written: out/faults.csv" in said
+    assert "written: out/faults.csv" in reported
     assert len(table) == 101
     assert sorted(p.name for p in tmp_path.iterdir()) == ["out", "temporary"]
     assert not list(temporary.iterdir())
 
 
 def test_one_that_prints_without_end_is_ended(faults: Path, tmp_path: Path) -> None:
-    code, said, table = driven(faults, tmp_path / "out", PRINT)
+    code, reported, table = driven(faults, tmp_path / "out", PRINT)
     assert code == 1
-    assert "was ended in fmi2DoStep at 0.04 s because it printed more than 200 MB; 5 rows were kept." in said
+    assert "was ended in fmi2DoStep at 0.04 s because it printed more than 200 MB; 5 rows were kept." in reported
     assert len(table) == 5
 
 

@@ -53,9 +53,9 @@ def on_circle(radius: float, speed: float, sideslip: float) -> Result:
 
 @pytest.mark.parametrize("radius", [40.0, -25.0])
 def test_steering_that_stays_brings_the_circle_it_begins_with(radius: float) -> None:
-    (found,) = marks_of_inputs(on_circle(radius, 8.0, -0.05))
-    assert found["centre"] == pytest.approx([3.0, -4.0], abs=1e-9)
-    assert found["radius"] == pytest.approx(abs(radius))
+    (actual,) = marks_of_inputs(on_circle(radius, 8.0, -0.05))
+    assert actual["centre"] == pytest.approx([3.0, -4.0], abs=1e-9)
+    assert actual["radius"] == pytest.approx(abs(radius))
 
 
 def test_runs_that_are_looked_at_have_their_marks(prototype_fmu: Path) -> None:
@@ -76,10 +76,10 @@ def test_a_straight_run_brings_the_line_where_it_begins_to_stop() -> None:
     speed = np.where(TIME < 10.0, 20.0, np.maximum(0.0, 20.0 - 8.0 * (TIME - 10.0)))
     way = np.cumsum(speed) * 0.01
     brake = np.where(TIME < 0.5, 0.3, np.where(TIME > 10.0, 0.8, 0.0))  # it holds the car at the start, too
-    (found,) = marks_of_inputs(driven(brake=brake, speed=speed, chassis_x=way))
+    (actual,) = marks_of_inputs(driven(brake=brake, speed=speed, chassis_x=way))
     begins = np.flatnonzero(TIME <= 10.0)[-1]
-    assert np.array(found["points"])[:, 0] == pytest.approx(way[begins], abs=0.21)
-    assert np.ptp(np.array(found["points"])[:, 1]) == pytest.approx(4.0)
+    assert np.array(actual["points"])[:, 0] == pytest.approx(way[begins], abs=0.21)
+    assert np.ptp(np.array(actual["points"])[:, 1]) == pytest.approx(4.0)
 
 
 @pytest.mark.parametrize(
@@ -145,12 +145,12 @@ def test_marks_lie_on_a_grid_of_heights_or_are_named(end: float) -> None:
     road = {"kind": "grid", "origin": [-1.0, -2.0], "spacing": [1.0, 0.5], "shape": [*x.shape]}
     road |= {"heights": encoded(0.5 + 0.25 * x - 0.125 * y)}
     line = {"kind": "line", "points": [[-1.0, 2.0], [0.3, 0.7], [end, -1.9]], "colour": "white"}
-    made = with_marks({"roads": [road]}, [line], "marks")
+    result = with_marks({"roads": [road]}, [line], "marks")
     if end > 34.0:
-        assert "scenery" not in made
-        assert [missed["name"] for missed in made["missing"]] == ["marks"]
+        assert "scenery" not in result
+        assert [missed["name"] for missed in result["missing"]] == ["marks"]
         return
-    points = np.array(made["scenery"][0]["points"])
+    points = np.array(result["scenery"][0]["points"])
     heights = 0.5 + 0.25 * np.minimum(points[:, 0], 4.0) - 0.125 * points[:, 1]
     assert points[:, 2] == pytest.approx(heights, abs=1e-6)
 

@@ -16,7 +16,7 @@ def variable(unit: str, low: float, high: float) -> Variable:
 
 
 @pytest.mark.parametrize(
-    ("unit", "low", "high", "values", "words"),
+    ("unit", "low", "high", "values", "message"),
     [
         ("1", -1.0, 1.0, 45.0 * WAVE, "% or deg"),
         ("1", 0.0, 1.0, 20.0 * np.abs(WAVE), "%"),
@@ -31,12 +31,14 @@ def variable(unit: str, low: float, high: float) -> Variable:
         ("1", 0.0, math.inf, -1.0 - WAVE, "range"),
     ],
 )
-def test_another_unit_is_told_with_its_row(unit: str, low: float, high: float, values: np.ndarray, words: str) -> None:
-    told = beyond_range(variable(unit, low, high), values)
+def test_another_unit_is_reported_with_its_row(
+    unit: str, low: float, high: float, values: np.ndarray, message: str
+) -> None:
+    reported = beyond_range(variable(unit, low, high), values)
     worst = int(np.argmax(np.maximum(low - values, values - high)))
-    assert words in told
-    assert f"in row {worst + 1} " in told
-    assert f"{values[worst]:.6g}" in told
+    assert message in reported
+    assert f"in row {worst + 1} " in reported
+    assert f"{values[worst]:.6g}" in reported
 
 
 def test_rounding_is_none() -> None:

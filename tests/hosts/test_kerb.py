@@ -29,9 +29,9 @@ def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.drawn
 def test_the_picture_and_the_table(fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--kerb", str(fmu), "--fidelity", "1", "--out", str(tmp_path)]) == 0
-    said = capsys.readouterr().out
-    assert all(f"\n{g} " in said for g in kerb.GAUGES)
-    assert "Newton iterations" in said
+    output = capsys.readouterr().out
+    assert all(f"\n{g} " in output for g in kerb.GAUGES)
+    assert "Newton iterations" in output
     assert (tmp_path / "kerb_test.png").read_bytes().startswith(b"\x89PNG")
     head, *rows = (tmp_path / "kerb_test.csv").read_text().splitlines()
     assert '"bending_moment.SG1"' in head
@@ -39,7 +39,7 @@ def test_the_picture_and_the_table(fmu: Path, tmp_path: Path, capsys: pytest.Cap
 
 
 @pytest.mark.parametrize(
-    ("options", "said"),
+    ("options", "message"),
     [
         (["--fidelity", "0.5"], "whole number"),
         (["--step", "0.1"], "below 0.05 s"),
@@ -49,11 +49,11 @@ def test_the_picture_and_the_table(fmu: Path, tmp_path: Path, capsys: pytest.Cap
         (["--parameters", "no.ssv"], "parameter set no.ssv cannot be read: there is no such file"),
     ],
 )
-def test_what_it_refuses(
-    fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: list[str], said: str
+def test_invalid_values_are_refused(
+    fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: list[str], message: str
 ) -> None:
     assert main(["--kerb", str(fmu), "--out", str(tmp_path), *options]) == 2
-    assert said in capsys.readouterr().err
+    assert message in capsys.readouterr().err
 
 
 def test_a_folder_that_cannot_be_made_is_named(fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -67,20 +67,20 @@ def test_without_an_fmu_that_of_the_scene_is_built_and_kept(
     fmu: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """The build itself is tested elsewhere; here it takes the FMU that is there."""
-    asked: list[tuple[str, ...]] = []
+    requested: list[tuple[str, ...]] = []
 
     def build(_: str, options: tuple[str, ...], folder: Path) -> None:
-        asked.append(options)
+        requested.append(options)
         folder.mkdir(exist_ok=True)
         shutil.copy(fmu, folder)
 
     monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
     monkeypatch.setattr(built_fmu, "build_fmu", build)
     monkeypatch.chdir(tmp_path)
-    for told in ("The scene kerb_test is built for this machine", ""):
+    for reported in ("The scene kerb_test is built for this machine", ""):
         assert main(["--kerb", "--fidelity", "1", "--out", str(tmp_path)]) == 0
-        assert ("is built" in told) is ("is built" in capsys.readouterr().out)
-    assert asked == [("--scene", "kerb_test")]
+        assert ("is built" in reported) is ("is built" in capsys.readouterr().out)
+    assert requested == [("--scene", "kerb_test")]
     assert main(["--kerb", "prototype"]) == 2
     assert "--kerb runs the scene kerb_test; --manoeuvre kerb_drop drives the car prototype" in capsys.readouterr().err
     assert main(["--kerb", str(fmu), "-m", "slalom"]) == 2

@@ -118,7 +118,7 @@ def test_bad_tables_are_refused(tmp_path: Path, text: str, message: str) -> None
         load_manoeuvre(written(tmp_path, text))
 
 
-def test_what_is_no_file_is_no_table(tmp_path: Path) -> None:
+def test_a_missing_file_is_no_table(tmp_path: Path) -> None:
     (tmp_path / "folder.csv").mkdir()
     with pytest.raises(HostError, match=r"folder\.csv is a folder; it must be a file\.$"):
         load_manoeuvre(str(tmp_path / "folder.csv"))
@@ -138,10 +138,10 @@ def test_a_table_whose_record_does_not_fit_is_refused(tmp_path: Path) -> None:
         (tmp_path / "m.json").write_text(json.dumps(record | changed))
         return load_manoeuvre(written(tmp_path, text))
 
-    found = read(good)
-    assert found.time.tolist() == [0.0, 1.0, 1.0, 2.0]
-    assert found.inputs["u"].tolist() == [0.0, 0.5, 1.0, 1.0]
-    assert (found.step, found.held) == (0.1, frozenset())
+    actual = read(good)
+    assert actual.time.tolist() == [0.0, 1.0, 1.0, 2.0]
+    assert actual.inputs["u"].tolist() == [0.0, 0.5, 1.0, 1.0]
+    assert (actual.step, actual.held) == (0.1, frozenset())
     cut = '"time","u","v"\n1,1,0\n2,1,0\n'
     rows = [
         (text, jumps)
@@ -256,10 +256,10 @@ def test_one_toml_file_has_all_of_a_manoeuvre_and_is_written_as_it_is_read(tmp_p
 
 def test_many_numbers_come_back_to_the_bit(tmp_path: Path) -> None:
     values = np.array([-0.0, 0.1 + 0.2, 1e-300, -1e22, 123456.0, 1234567.0, *np.random.default_rng(1).normal(size=500)])
-    made = Manoeuvre("m", np.arange(len(values)) / 3.0, {"a b": values, 'ä."q': -values}, 9.0)
-    write_manoeuvre(made, tmp_path / "m.toml")
+    manoeuvre = Manoeuvre("m", np.arange(len(values)) / 3.0, {"a b": values, 'ä."q': -values}, 9.0)
+    write_manoeuvre(manoeuvre, tmp_path / "m.toml")
     assert max(map(len, (tmp_path / "m.toml").read_text(encoding="utf-8").splitlines())) <= 120
-    assert same(read_manoeuvre(str(tmp_path / "m.toml")), made)
+    assert same(read_manoeuvre(str(tmp_path / "m.toml")), manoeuvre)
 
 
 @pytest.mark.parametrize(
@@ -329,8 +329,10 @@ def test_a_drive_by_what_squares_to_no_number_is_refused(tmp_path: Path) -> None
 
     with Fmu(build_fmu(mbs.compile(model), "bob", tmp_path, [fmpy.platform])) as fmu:
         check_columns(fmu, drive(9e99))
-        for value, words in ((1e308, "1e+308"), (-2e100, "-2e+100")):
-            with pytest.raises(HostError, match=re.escape(f"'pull' with the value {words}; it must be within 1e+100")):
+        for value, message in ((1e308, "1e+308"), (-2e100, "-2e+100")):
+            with pytest.raises(
+                HostError, match=re.escape(f"'pull' with the value {message}; it must be within 1e+100")
+            ):
                 check_columns(fmu, drive(value))
 
 

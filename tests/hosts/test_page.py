@@ -52,10 +52,10 @@ def same(name: str, content: bytes) -> bytes:
 def refusal(fmu: Path, capsys: pytest.CaptureFixture[str], *more: str) -> str:
     assert main(["--live", "--no-open", str(fmu), "--out", str(fmu.parent / "made"), *more]) == 2
     assert not list((fmu.parent / "made").glob("*"))
-    said = capsys.readouterr().err.strip()
-    assert said.count("\n") == 0
-    assert said.startswith("error: ")
-    return said
+    errors = capsys.readouterr().err.strip()
+    assert errors.count("\n") == 0
+    assert errors.startswith("error: ")
+    return errors
 
 
 def test_the_page_holds_what_the_fmu_has_and_no_more(tuned: Path, tmp_path: Path) -> None:
@@ -103,14 +103,14 @@ def test_an_fmu_without_the_binary_gets_it_from_its_own_sources_or_says_how(
     folder.mkdir()
     bare = changed(tuned, folder, lambda name, content: None if name.endswith(".wasm") else content)
     monkeypatch.setattr(commands, "module_command", lambda *a: ["false"])
-    said = refusal(bare, capsys)
-    assert f"--out '{folder}'" in said
-    assert "has no binary in WebAssembly, and none could be added" in said
-    assert "--scene tuned --kind native --platforms this,wasm32" in said
+    reported = refusal(bare, capsys)
+    assert f"--out '{folder}'" in reported
+    assert "has no binary in WebAssembly, and none could be added" in reported
+    assert "--scene tuned --kind native --platforms this,wasm32" in reported
 
 
 @pytest.mark.parametrize(
-    ("tool", "words"),
+    ("tool", "message"),
     [
         (b'generationTool="OpenModelica 1.26"', "is an FMU of OpenModelica 1.26; a page runs"),
         (b"", "is an FMU of an unknown tool; a page runs"),
@@ -118,12 +118,12 @@ def test_an_fmu_without_the_binary_gets_it_from_its_own_sources_or_says_how(
     ],
 )
 def test_fmus_of_others(
-    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], tool: bytes, words: str
+    tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], tool: bytes, message: str
 ) -> None:
     def change(name: str, content: bytes) -> bytes:
         return re.sub(rb'generationTool="[^"]*"', tool, content) if name == "modelDescription.xml" else content
 
-    assert words in refusal(changed(tuned, tmp_path, change), capsys)
+    assert message in refusal(changed(tuned, tmp_path, change), capsys)
 
 
 def test_a_road_that_is_none(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -212,9 +212,9 @@ def test_an_fmu_that_is_named_beside_a_record_is_drawn_where_the_run_was(tuned: 
     result.with_suffix(".json").write_text(json.dumps(record))
 
     def drawn() -> tuple[list[str], list[str]]:
-        (recording,), told, _ = recordings_of([result], fmu, ViewRunOptions(None, None, None, FmuOptions([], [])))
+        (recording,), recordings, _ = recordings_of([result], fmu, ViewRunOptions(None, None, None, FmuOptions([], [])))
         assert recording.scene is not None
-        return [item["kind"] for item in recording.scene.get("scenery", [])], told
+        return [item["kind"] for item in recording.scene.get("scenery", [])], recordings
 
     kinds, (sentence,) = drawn()
     assert kinds.count("cone") == 34
@@ -249,21 +249,21 @@ def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.Capture
     assert "is not an FMU (not a zip archive)" in refusal(text, capsys)
     assert "There is no file" in refusal(tmp_path / "None.fmu", capsys)
     assert "has no drawing of itself (resources/geometry.json)" in refusal(changed(tuned, tmp_path, same, None), capsys)
-    for scene, words in (({"format": "x"}, "format is 'x'"), (b"{", "is not a JSON")):
+    for scene, message in (({"format": "x"}, "format is 'x'"), (b"{", "is not a JSON")):
         content = scene if isinstance(scene, bytes) else json.dumps(scene).encode()
         fmu = changed(tuned, tmp_path, lambda name, old, put=content: put if name == SCENE else old)
-        assert words in refusal(fmu, capsys)
+        assert message in refusal(fmu, capsys)
 
 
 def test_an_fmu_of_fmi_3(scene_fmu: Callable[..., Path], capsys: pytest.CaptureFixture[str]) -> None:
-    said = refusal(scene_fmu(f"{SCENES}:tuned", "fmi3"), capsys)
-    assert "is an FMU of FMI 3.0; a page runs the kind native (FMI 2.0)" in said
-    assert "--scene tuned --kind native --platforms this,wasm32" in said
+    reported = refusal(scene_fmu(f"{SCENES}:tuned", "fmi3"), capsys)
+    assert "is an FMU of FMI 3.0; a page runs the kind native (FMI 2.0)" in reported
+    assert "--scene tuned --kind native --platforms this,wasm32" in reported
 
 
 def test_wrong_wishes(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     fmu = changed(tuned, tmp_path, same)
-    for more, words in (
+    for more, message in (
         (("--set", "spring.mass=1"), "'spring.mass' is a constant"),
         (("--set", "spring.damping=50"), "its range is 0 to 20 N·s/m"),
         (("--set", "spring.dumping=5"), "did you mean 'spring.damping'"),
@@ -271,7 +271,7 @@ def test_wrong_wishes(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture
         (("--plot", "bob.z"), "'bob.z' is not an input or output of Tuned"),
         (("--name", "a", "--name", "b"), "--name is given 2 times for 1 FMUs"),
     ):
-        assert words in refusal(fmu, capsys, *more)
+        assert message in refusal(fmu, capsys, *more)
     blocked = tmp_path / "file"
     blocked.write_text("")
     assert main(["--live", "--no-open", str(fmu), "--out", str(blocked)]) == 2

@@ -54,9 +54,9 @@ def file(tmp_path: Path) -> Path:
 
 def taken(variables: Variables, file: Path, text: str) -> Settings:
     file.write_text(text)
-    made = Settings(variables)
-    made.add_set(file)
-    return made
+    settings = Settings(variables)
+    settings.add_set(file)
+    return settings
 
 
 def bits(value: float) -> bytes:
@@ -96,9 +96,9 @@ def test_values_come_back_to_the_last_bit(tuned: Path, file: Path, tmp_path: Pat
     assert check([str(tuned), *given, "--save-parameters", str(file)]) == 0
     assert not is_as_built(file)
     with Fmu(tuned) as fmu:
-        made = Settings(fmu.table)
-        made.add_set(file)
-        fmu.initialise(made.start)
+        settings = Settings(fmu.table)
+        settings.add_set(file)
+        fmu.initialise(settings.start)
         back = fmu.getter(list(odd))()
     assert [bits(x) for x in back] == [bits(x) for x in odd.values()]
     other = {p.name: float(p.value) for p in read_ssv(str(file)).parameters}
@@ -108,7 +108,7 @@ def test_values_come_back_to_the_last_bit(tuned: Path, file: Path, tmp_path: Pat
 
 
 @pytest.mark.parametrize(
-    ("entry", "value", "words"),
+    ("entry", "value", "message"),
     [
         ("spring.stiffness=0.25[kN/m]", 250.0, "100 -> 250 N/m (0.25 kN/m in set.ssv)"),
         ("spring.free_length=500[mm]", 0.5, "0.8 -> 0.5 m (500 mm in set.ssv)"),
@@ -119,16 +119,16 @@ def test_values_come_back_to_the_last_bit(tuned: Path, file: Path, tmp_path: Pat
     ],
 )
 def test_units_are_converted_by_their_definitions(
-    variables: Variables, file: Path, entry: str, value: float, words: str
+    variables: Variables, file: Path, entry: str, value: float, message: str
 ) -> None:
-    made = taken(variables, file, ssv(entry))
-    (found,) = made.start.values()
-    assert found == pytest.approx(value, rel=1e-15)
-    assert any(words in text for _, text in made.rows())
+    result = taken(variables, file, ssv(entry))
+    (actual,) = result.start.values()
+    assert actual == pytest.approx(value, rel=1e-15)
+    assert any(message in text for _, text in result.rows())
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "message"),
     [
         (ssv("spring.stiffness=2[kN/mm]"), "given in 'kN/mm', which the file does not define among its Units"),
         (ssv("spring.stiffness=2[1/s2]"), r"given in 1/s2 \(s-2\); its unit is N/m \(kg.s-2\)"),
@@ -163,15 +163,15 @@ def test_units_are_converted_by_their_definitions(
         ('<!DOCTYPE a [<!ENTITY b "c">]>' + ssv("spring.damping=1"), "document type declaration"),
     ],
 )
-def test_what_cannot_be_taken_is_one_sentence(variables: Variables, file: Path, text: str, words: str) -> None:
+def test_unusable_values_are_refused_in_one_sentence(variables: Variables, file: Path, text: str, message: str) -> None:
     file.write_text(text)
-    made = Settings(variables)
-    with pytest.raises(UserError, match=words) as raised:
-        made.add_set(file)
+    settings = Settings(variables)
+    with pytest.raises(UserError, match=message) as raised:
+        settings.add_set(file)
     assert "\n" not in str(raised.value)
     assert str(raised.value).endswith((".", "?"))
     assert "set.ssv" in str(raised.value)
-    assert made.start == {}  # nothing of the file
+    assert settings.start == {}  # nothing of the file
 
 
 def test_version_2_is_read(variables: Variables, file: Path) -> None:
@@ -207,24 +207,24 @@ def test_display_units_of_the_fmu_are_known(file: Path) -> None:
         Unit(name="K", baseUnit=BaseUnit(K=1), displayUnits=[celsius]),
         Unit(name="x"),
     ]
-    made = [
+    result = [
         ScalarVariable(name=name, type="Real", causality="parameter", variability="fixed", start="0", unit=unit)
         for name, unit in (("angle", "rad"), ("heat", "K"), ("odd", "x"))
     ]
-    found = taken(
-        Variables(ModelDescription(modelVariables=made, unitDefinitions=units)),
+    actual = taken(
+        Variables(ModelDescription(modelVariables=result, unitDefinitions=units)),
         file,
         ssv("angle=90[deg]", "heat=20[degC]", "odd=3[x]"),
     )
-    assert found.start == pytest.approx({"angle": 1.5707963267948966, "heat": 293.15, "odd": 3.0}, rel=1e-15)
-    assert ("heat", "0 -> 293.15 K (20 degC in set.ssv)") in found.rows()
+    assert actual.start == pytest.approx({"angle": 1.5707963267948966, "heat": 293.15, "odd": 3.0}, rel=1e-15)
+    assert ("heat", "0 -> 293.15 K (20 degC in set.ssv)") in actual.rows()
     with pytest.raises(UserError, match="the FMU does not define its unit x"):
-        taken(Variables(ModelDescription(modelVariables=made, unitDefinitions=units)), file, ssv("odd=3[mm]"))
+        taken(Variables(ModelDescription(modelVariables=result, unitDefinitions=units)), file, ssv("odd=3[mm]"))
 
 
 def test_files_that_are_none_are_named(variables: Variables, tmp_path: Path) -> None:
-    for path, words in ((tmp_path / "no.ssv", "there is no such file"), (tmp_path, "is a folder")):
-        with pytest.raises(UserError, match=words):
+    for path, message in ((tmp_path / "no.ssv", "there is no such file"), (tmp_path, "is a folder")):
+        with pytest.raises(UserError, match=message):
             Settings(variables).add_set(path)
     (tmp_path / "large.ssv").write_bytes(b" " * 10_000_001)
     with pytest.raises(UserError, match="has 10000001 bytes; it must have at most 10000000"):
@@ -253,12 +253,12 @@ def test_altered_files_are_refused_or_read(
         data[place % len(data)] = byte
     file = tmp_path_factory.getbasetemp() / "altered.ssv"
     file.write_bytes(bytes(data))
-    said = ""
+    message = ""
     try:
         read_parameter_set(file)
     except UserError as error:
-        said = str(error)
-    assert "\n" not in said
+        message = str(error)
+    assert "\n" not in message
 
 
 def kinds() -> Variables:
@@ -280,10 +280,10 @@ def test_every_kind_goes_out_and_comes_back(file: Path) -> None:
     values = {"count": 7, "on": True, "road": "a b.npz", "gear": 2, "depth": -1.5}
     write_parameter_set(parameter_set_of(kinds(), "all", values), file, as_built=False)
     xmlschema.validate(str(file), str(ModelicaStandard.schemas["ssv"]))
-    made = Settings(kinds())
-    made.add_set(file)
-    assert made.start == values
-    assert [type(x) for x in made.start.values()] == [int, bool, str, int, float]
+    settings = Settings(kinds())
+    settings.add_set(file)
+    assert settings.start == values
+    assert [type(x) for x in settings.start.values()] == [int, bool, str, int, float]
     assert {p.name: p.value for p in read_ssv(str(file)).parameters}["gear"] == "high"
     by_hand = Settings(kinds())
     by_hand.add_texts(
@@ -293,7 +293,7 @@ def test_every_kind_goes_out_and_comes_back(file: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "words"),
+    ("name", "text", "message"),
     [
         ("count", "2.5", "'count' is 2.5; it must be a whole number"),
         ("count", "-1", "'count' is -1; its range is from 0"),
@@ -303,8 +303,8 @@ def test_every_kind_goes_out_and_comes_back(file: Path) -> None:
         ("depth", "5", "'depth' is 5; its range is up to 4"),
     ],
 )
-def test_values_of_the_command_line_are_of_their_kind(name: str, text: str, words: str) -> None:
-    with pytest.raises(HostError, match=words):
+def test_values_of_the_command_line_are_of_their_kind(name: str, text: str, message: str) -> None:
+    with pytest.raises(HostError, match=message):
         Settings(kinds()).add_texts([(name, text)], "--set")
 
 
@@ -340,11 +340,11 @@ def test_a_set_that_a_person_has_edited_is_kept(variables: Variables, file: Path
 
 
 def test_a_picture_names_what_the_user_has_changed() -> None:
-    made = Settings(kinds())
-    made.add_numbers({"depth": 2.0}, "start of rest")
-    assert made.title("car") == "car"
-    made.add_texts([("count", "4"), ("on", "true"), ("gear", "2")], "--set")
-    assert made.title("car") == "car, count 4, on true, 1 more"
+    settings = Settings(kinds())
+    settings.add_numbers({"depth": 2.0}, "start of rest")
+    assert settings.title("car") == "car"
+    settings.add_texts([("count", "4"), ("on", "true"), ("gear", "2")], "--set")
+    assert settings.title("car") == "car, count 4, on true, 1 more"
 
 
 @pytest.mark.slow
@@ -363,14 +363,14 @@ def test_a_set_of_all_parameters_of_a_car_is_the_engine_with_them(file: Path, tm
     for _ in range(50):
         simulation.step(0.002)
     with Fmu(fmu) as driven:
-        made = Settings(driven.table)
-        made.add_set(file)
-        assert {s.variable.name for s in made.changes} == set(changed)
-        driven.initialise(made.start)
+        settings = Settings(driven.table)
+        settings.add_set(file)
+        assert {s.variable.name for s in settings.changes} == set(changed)
+        driven.initialise(settings.start)
         for k in range(50):
             driven.step(0.002 * k, 0.002)
         computed = {entry["name"] for entry in system.meta["sensors"] if entry.get("computed", True)}
         names = [n for n in driven.names("output") if n in computed]
         assert len(names) > 100
-        found = dict(zip(names, driven.getter(names)(), strict=True))
-    assert found == {n: simulation.sensors[n] for n in names}
+        actual = dict(zip(names, driven.getter(names)(), strict=True))
+    assert actual == {n: simulation.sensors[n] for n in names}

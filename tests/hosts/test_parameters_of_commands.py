@@ -41,14 +41,16 @@ def test_the_command_line_wins_over_the_set_and_the_set_over_the_manoeuvre(
 
 
 @pytest.mark.slow
-def test_what_does_nothing_is_told(tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    for text, words in (
+def test_parameter_sets_without_effect_are_reported(
+    tuned: Path, file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for text, message in (
         (ssv(), "empty: it sets nothing"),
         (ssv("spring.damping=1"), "all 1 values are those of the FMU: it changes nothing"),
     ):
         file.write_text(text)
         assert run([str(tuned), "--parameters", str(file), "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
-        assert words in capsys.readouterr().out
+        assert message in capsys.readouterr().out
     assert run([str(tuned), "--set", "spring.damping=1", "--stop-time", "0.1", "--out", str(tmp_path)]) == 0
     assert "1 N·s/m as in the FMU (--set)" in capsys.readouterr().out
     twice = ["--set", "spring.damping=1", "--set", "spring.damping=2"]
@@ -63,29 +65,31 @@ def test_a_tunable_parameter_may_be_a_column_and_a_fixed_one_not(
     table = tmp_path / "softer.csv"
     table.write_text('"time","pull","spring.stiffness"\n0,0,100\n1,0,100\n1,0,50\n2,0,50\n')
     assert run([str(tuned), "--input", str(table), "--out", str(tmp_path), "--step", "0.01"]) == 0
-    found = read_csv(tmp_path / "tuned_softer.csv")
-    assert (found["spring.stiffness"][99], found["spring.stiffness"][100]) == (100.0, 50.0)
+    actual = read_csv(tmp_path / "tuned_softer.csv")
+    assert (actual["spring.stiffness"][99], actual["spring.stiffness"][100]) == (100.0, 50.0)
     with Fmu(tuned) as fmu:  # the same by hand
         fmu.initialise({})
         for k in range(200):
             if k == 100:
                 fmu.setter(["spring.stiffness"])([50.0])
             fmu.step(0.01 * k, 0.01)
-        assert fmu.getter(["bob.y"])()[0] == found["bob.y"][-1]
-    assert found["bob.y"][-1] < found["bob.y"][100] - 0.05
+        assert fmu.getter(["bob.y"])()[0] == actual["bob.y"][-1]
+    assert actual["bob.y"][-1] < actual["bob.y"][100] - 0.05
     table.write_text('"time","spring.free_length"\n0,0.8\n1,0.7\n')
     assert run([str(tuned), "--input", str(table), "--out", str(tmp_path)]) == 2
-    said = capsys.readouterr().err
-    assert "a column 'spring.free_length', a fixed parameter of Tuned.fmu: it can be set before the start only" in said
+    errors = capsys.readouterr().err
+    assert (
+        "a column 'spring.free_length', a fixed parameter of Tuned.fmu: it can be set before the start only" in errors
+    )
     table.write_text('"time","spring.stiffness"\n0,100\n1,1e5\n')
     assert run([str(tuned), "--input", str(table), "--out", str(tmp_path)]) == 2
-    said = capsys.readouterr().err
-    assert "has a column 'spring.stiffness' that reaches 100000 N/m in row 2" in said
-    assert "range of the FMU's input is 10 to 900 N/m" in said
+    errors = capsys.readouterr().err
+    assert "has a column 'spring.stiffness' that reaches 100000 N/m in row 2" in errors
+    assert "range of the FMU's input is 10 to 900 N/m" in errors
     table.write_text('"time","bob.x"\n0,1\n1,1\n')
     assert run([str(tuned), "-m", str(table), "--out", str(tmp_path)]) == 2
-    said = capsys.readouterr().err
-    assert "'bob.x', which is not an input of Tuned.fmu; its inputs are: pull; a tunable parameter, such as" in said
+    errors = capsys.readouterr().err
+    assert "'bob.x', which is not an input of Tuned.fmu; its inputs are: pull; a tunable parameter, such as" in errors
 
 
 def test_differences_of_a_set(tuned: Path, file: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -114,8 +118,8 @@ def test_every_host_says_the_same_of_a_wrong_set(
     Path("pull.csv").write_text('"time","pull"\n0,0\n1,10\n')
     command = check if "--show-parameters" in more else run
     assert command([str(tuned), *more, "--parameters", str(file)]) == 2
-    said = capsys.readouterr().err
-    assert said == "error: set.ssv: 'spring.damping' is 200 N·s/m; its range is 0 to 20 N·s/m.\n"
+    errors = capsys.readouterr().err
+    assert errors == "error: set.ssv: 'spring.damping' is 200 N·s/m; its range is 0 to 20 N·s/m.\n"
 
 
 @pytest.mark.slow
@@ -126,10 +130,10 @@ def test_a_column_of_whole_numbers_is_held_between_its_rows(
     table = tmp_path / "shift.csv"
     table.write_text('"time","pull","gear"\n0,0,1\n1,2,3\n2,2,-1\n')
     assert run([str(fmu), "--input", str(table), "--step", "0.1", "--out", str(tmp_path)]) == 0
-    found = read_csv(tmp_path / "switched_shift.csv")
-    assert list(found["gear"]) == [1.0] * 10 + [3.0] * 11  # with which the next step begins
-    assert list(found["gear_used"]) == [1.0] * 11 + [3.0] * 10
-    assert found["pull"][5] == pytest.approx(1.0)
+    actual = read_csv(tmp_path / "switched_shift.csv")
+    assert list(actual["gear"]) == [1.0] * 10 + [3.0] * 11  # with which the next step begins
+    assert list(actual["gear_used"]) == [1.0] * 11 + [3.0] * 10
+    assert actual["pull"][5] == pytest.approx(1.0)
     table.write_text('"time","gear"\n0,1\n1,1.5\n')
     assert run([str(fmu), "--input", str(table), "--out", str(tmp_path)]) == 2
     assert "a column 'gear' with the value 1.5; 'gear' is a whole number" in capsys.readouterr().err

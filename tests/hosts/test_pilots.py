@@ -78,11 +78,11 @@ def test_tables_are_linear_between_and_step_where_a_time_stands_twice() -> None:
 
 
 @pytest.mark.parametrize(
-    ("time", "values", "words"),
+    ("time", "values", "message"),
     [([0.0, 1.0], [0.0], "2 times and 1 values"), ([], [], "0 times"), ([0.0, 2.0, 1.0], [0.0] * 3, "from 2 s to 1 s")],
 )
-def test_a_wrong_table_is_told(time: list[float], values: list[float], words: str) -> None:
-    with pytest.raises(HostError, match=words):
+def test_a_wrong_table_is_reported(time: list[float], values: list[float], message: str) -> None:
+    with pytest.raises(HostError, match=message):
         SteeringTable(time, values)
 
 

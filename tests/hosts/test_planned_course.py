@@ -46,7 +46,7 @@ def test_one_lane_change_needs_the_curvature_of_two_arcs() -> None:
     assert 4 * 2.98 / (far + 6.0) ** 2 < bend < 1.2 * 4 * 3.0 / far**2
 
 
-def test_a_car_too_wide_is_told() -> None:
+def test_a_car_too_wide_is_reported() -> None:
     course = course_of("iso_3888_2", 1.5)
     with pytest.raises(HostError, match=r"lane 1 is 1\.9 m wide; a car of 2\.1 m"):
         planned(course, 0.0, 4.0, 2.1)

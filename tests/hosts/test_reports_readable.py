@@ -35,17 +35,17 @@ def written(folder: Path) -> list[Path]:
 @pytest.mark.slow
 def test_axe_finds_nothing_in_reports(tmp_path: Path) -> None:
     files = written(tmp_path)
-    found: dict[str, Any] = {}
+    results: dict[str, Any] = {}
     with headless_chromium() as chromium:
         for colours in ("light", "dark"):
             page = chromium.new_page(viewport={"width": 900, "height": 700}, color_scheme=colours)
             for file in files:
                 page.goto(file.as_uri())
                 page.evaluate(OPEN)
-                found[f"{file.name} {colours}"] = axe_findings(page)
+                results[f"{file.name} {colours}"] = axe_findings(page)
             page.close()
-    assert {key: words for key, words in found.items() if words} == {}
-    assert len(found) == 6
+    assert {key: message for key, message in results.items() if message} == {}
+    assert len(results) == 6
 
 
 @pytest.mark.slow

@@ -36,9 +36,9 @@ def test_what_the_parameter_is_set_to(tmp_path, monkeypatch):
     Path("rough.road").touch()
     assert road_value("rough.road", tmp_path) == str(tmp_path / "rough.road")
     Path("hill.csv").write_text(TABLE.format(2.0))
-    made = road_value("hill.csv", tmp_path / "out")
-    assert made == str(tmp_path / "out" / "hill.road")
-    assert np.all(np.asarray(mbs.read_road(made).heights) == 2.0)
+    result = road_value("hill.csv", tmp_path / "out")
+    assert result == str(tmp_path / "out" / "hill.road")
+    assert np.all(np.asarray(mbs.read_road(result).heights) == 2.0)
     Path("bad.csv").write_text("1,2\n")
     with pytest.raises(HostError, match=r"^bad.csv has 1 rows; a grid needs at least two\.$"):
         road_value("bad.csv", tmp_path / "out")
@@ -56,7 +56,7 @@ def test_a_run_on_a_table(sledge, tmp_path, capsys):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("x", "start", "words"),
+    ("x", "start", "message"),
     [
         (0.0, 0.0, ""),
         (550.0, 0.0, "distance of the start from the road is 500 m"),
@@ -64,14 +64,14 @@ def test_a_run_on_a_table(sledge, tmp_path, capsys):
         (4.5e5, 0.0, "coordinates of a map"),
     ],
 )
-def test_a_start_beside_the_road_is_told_before_the_drive(tmp_path, capfd, x, start, words):
+def test_a_start_beside_the_road_is_reported_before_the_drive(tmp_path, capfd, x, start, message):
     rows = "".join(f"{x + at:g},0,0,0\n" for at in (-50.0, 0.0, 50.0))
     (tmp_path / "far.csv").write_text(f"x,-5,0,5\n{rows}")
     road = road_value(str(tmp_path / "far.csv"), tmp_path)
     report_starts([{"road.file": road, "initial.x": start}] * 3)
-    said = capfd.readouterr().err
-    assert said.count("warning: ") == bool(words)
-    assert words in said
+    errors = capfd.readouterr().err
+    assert errors.count("warning: ") == bool(message)
+    assert message in errors
 
 
 def test_a_road_that_is_not_there(sledge, tmp_path, capsys):

@@ -71,14 +71,14 @@ def driven(
 @pytest.mark.parametrize("refused", [1000, 13, 10])
 def test_the_last_step_has_a_row(slopes: bool, refused: int) -> None:
     """Where the stop time is not a multiple of the interval too, but not behind a step that was refused."""
-    asked: dict[str, Any] = {"time": (0.0, 0.17), "u": (1.0, 3.0), "slopes": slopes, "refused": refused}
-    few, each = driven(every=5, **asked), driven(every=1, **asked)
+    requested: dict[str, Any] = {"time": (0.0, 0.17), "u": (1.0, 3.0), "slopes": slopes, "refused": refused}
+    few, each = driven(every=5, **requested), driven(every=1, **requested)
     end = min(17, refused)
     rows = [*range(0, end, 5), end] if end in (10, 17) else [0, 5, 10]
     assert few.time.tolist() == [H * k for k in rows]
     assert few.values.tolist() == each.values[rows].tolist()
     assert few.failed_steps == (refused < 17)
-    rough = driven(every=5, last=False, **asked)
+    rough = driven(every=5, last=False, **requested)
     for run_of in (few, each, rough):
         assert run_of.refusal == (f"the FMU refused the step at {H * refused:g} s" if refused < 17 else "")
 
@@ -109,7 +109,7 @@ def test_a_summary_of_rows_says_so() -> None:
 
 
 @pytest.mark.parametrize(
-    ("slopes", "time", "u", "what", "said"),
+    ("slopes", "time", "u", "what", "message"),
     [
         (True, (0.0, 0.1, 0.1, 0.2), (0.0, 0.0, 1.0, 1.0), None, ""),
         (True, (0.0, 0.104, 0.104, 0.12, 0.12, 0.2), (0.0, 0.0, 1.0, 1.0, 2.0, 2.0), "jumps",
@@ -136,13 +136,13 @@ def test_a_summary_of_rows_says_so() -> None:
         (True, (0.0, 0.104, 0.2), (0.0, 1.0, 1.8), None, ""),
     ],
 )  # fmt: skip
-def test_what_is_inside_a_step_is_told(
-    slopes: bool, time: tuple[float], u: tuple[float], what: str | None, said: str
+def test_what_is_inside_a_step_is_reported(
+    slopes: bool, time: tuple[float], u: tuple[float], what: str | None, message: str
 ) -> None:
     rows = {k: v for k, v in summary(driven(time, u, 1, slopes), H) if k.endswith("inside a communication step")}
-    assert rows == ({f"{what} inside a communication step": said} if what else {})
-    if "--step" in said:  # what helps does help: the integral is then that of the table, and nothing is told
-        step = float(said.split("--step ")[1].split(" ")[0])
+    assert rows == ({f"{what} inside a communication step": message} if what else {})
+    if "--step" in message:  # what helps does help: the integral is then that of the table, and nothing is told
+        step = float(message.split("--step ")[1].split(" ")[0])
         manoeuvre = Manoeuvre("m", np.array(time), {"u": np.array(u)}, time[-1])
         coarse, fine = (run(Integrator(slopes), manoeuvre, h) for h in (H, step))  # type: ignore[arg-type]
         area = float(np.trapezoid(u, time))
@@ -152,11 +152,11 @@ def test_what_is_inside_a_step_is_told(
 
 @pytest.mark.parametrize("name", manoeuvre_names())
 def test_a_manoeuvre_of_the_package_has_nothing_inside_steps_of_2_ms(name: str) -> None:
-    asked = load_manoeuvre(name)
-    for straight in (list(asked.inputs), []):
-        assert missed_inputs(asked, 0.002, straight, ()) is None
+    requested = load_manoeuvre(name)
+    for straight in (list(requested.inputs), []):
+        assert missed_inputs(requested, 0.002, straight, ()) is None
     if name == "slalom":  # the same with corners that matter
-        assert missed_inputs(asked, 0.3, list(asked.inputs), ()) is not None
+        assert missed_inputs(requested, 0.3, list(requested.inputs), ()) is not None
 
 
 @pytest.mark.parametrize("held", [False, True])
@@ -170,21 +170,21 @@ def test_many_values_of_a_table_are_those_one_by_one(held: bool, before: bool) -
 
 @pytest.mark.parametrize("held", [frozenset(), frozenset({"u"})])
 def test_every_change_of_an_input_that_the_table_holds_is_a_jump(held: frozenset[str]) -> None:
-    asked = Manoeuvre("m", np.array([0.0, 0.05, 0.104]), {"u": np.array([0.0, 1.0, 2.0])}, 0.2, held=held)
-    rows = dict(summary(run(Integrator(True), asked, H), H))  # type: ignore[arg-type]
+    requested = Manoeuvre("m", np.array([0.0, 0.05, 0.104]), {"u": np.array([0.0, 1.0, 2.0])}, 0.2, held=held)
+    rows = dict(summary(run(Integrator(True), requested, H), H))  # type: ignore[arg-type]
     assert ("jumps inside a communication step" in rows) == bool(held)
 
 
 @pytest.mark.parametrize(("stop", "end"), [(1.0, 0.8), (0.6, 0.4), (0.8, None), (0.4, None)])
 def test_a_run_that_ends_at_another_time_says_so(stop: float, end: float | None) -> None:
-    asked = Manoeuvre("m", np.array([0.0]), {"u": np.array([1.0])}, stop)
-    found = run(Integrator(True), asked, 0.4)  # type: ignore[arg-type]
-    said = dict(summary(found, 0.4)).get("end of the run")
-    assert (said is None) == (end is None)
-    if said is not None:
-        assert said.startswith(f"at {end} s, a whole number of steps of 0.4 s, in place of {stop:g} s; --step ")
-        shorter = float(said.split("--step ")[1].split(" ")[0])
-        assert run(Integrator(True), asked, shorter).time[-1] == pytest.approx(stop, abs=1e-8)  # type: ignore[arg-type]
+    requested = Manoeuvre("m", np.array([0.0]), {"u": np.array([1.0])}, stop)
+    result = run(Integrator(True), requested, 0.4)  # type: ignore[arg-type]
+    reported = dict(summary(result, 0.4)).get("end of the run")
+    assert (reported is None) == (end is None)
+    if reported is not None:
+        assert reported.startswith(f"at {end} s, a whole number of steps of 0.4 s, in place of {stop:g} s; --step ")
+        shorter = float(reported.split("--step ")[1].split(" ")[0])
+        assert run(Integrator(True), requested, shorter).time[-1] == pytest.approx(stop, abs=1e-8)  # type: ignore[arg-type]
 
 
 def test_time_in_the_air_ends_with_the_run() -> None:
@@ -201,8 +201,8 @@ def test_there_need_be_no_outputs(every: int) -> None:
         assert result.values[-1].tolist() == [1.0, pytest.approx(0.17)][: 1 + len(names)]
 
 
-@pytest.mark.parametrize(("error", "told"), [(-3.0, "3.0%"), (0.5, "")])
-def test_an_error_of_the_steps_beside_the_work_of_a_steering_is_told(error, told):
+@pytest.mark.parametrize(("error", "reported"), [(-3.0, "3.0%"), (0.5, "")])
+def test_an_error_of_the_steps_beside_the_work_of_a_steering_is_reported(error, reported):
     works = ("drive", "brakes", "tyres", "dampers", "drag", "ground", "steering")
     names = [f"energy.{n}" for n in ("kinetic", "gravity", "elastic", *works)] + ["solver.energy_error"]
     values = np.zeros((3, len(names)))
@@ -210,5 +210,5 @@ def test_an_error_of_the_steps_beside_the_work_of_a_steering_is_told(error, told
     values[2, -1] = error
     run = Result(names, {}, np.arange(3.0), values, 1.0, 2.0, 0, [])
     said = dict(energy_balance(run))["- work of steering"]
-    assert (told in said) if told else said == "+0.0000 kJ"
-    assert ("shorter steps" in said) == bool(told)
+    assert (reported in said) if reported else said == "+0.0000 kJ"
+    assert ("shorter steps" in said) == bool(reported)

@@ -55,9 +55,9 @@ def test_a_short_soak_test_is_good(car: Path, tmp_path: Path, capfd: pytest.Capt
     numbers = tmp_path / "soak.json"
     command = [str(car), "--soak", "--stop-time", "10", "--drives", "4", "--jobs", "2", "--seed", "3"]
     assert main([*command, "--out", str(tmp_path), "--json", str(numbers)]) == 0
-    told = capfd.readouterr().out
-    assert "0.0111 h simulated in 20" in told
-    assert "0 failures, 0 drives whose memory grew" in told
+    output = capfd.readouterr().out
+    assert "0.0111 h simulated in 20" in output
+    assert "0 failures, 0 drives whose memory grew" in output
     outcomes = json.loads(numbers.read_text())["outcomes"]
     assert [outcome["seed"] for outcome in outcomes] == [3, 4, 5, 6]
     for outcome in outcomes:
@@ -100,10 +100,10 @@ def test_what_is_set_wins_over_the_start_by_chance(car: Path, ground: Ground, tm
     # Over a ramp of 1 m, as the random driver meets it.
     ramp = next(target for target in ground.targets if target.yaw > 4.0)
     start = {"initial.x": ramp.x, "initial.y": ramp.y + 10.0, "initial.yaw": ramp.yaw, "initial.speed": 16.0}
-    made = drive(task(car, tmp_path, seconds=2.5, start=start | {"initial.z": 0.0}, grounds=(ground,)))
-    assert made.failures == []
-    assert 0.1 < made.counts.longest_jump < 1.2
-    assert made.counts.highest > 0.8
+    run = drive(task(car, tmp_path, seconds=2.5, start=start | {"initial.z": 0.0}, grounds=(ground,)))
+    assert run.failures == []
+    assert 0.1 < run.counts.longest_jump < 1.2
+    assert run.counts.highest > 0.8
 
 
 @pytest.mark.slow
@@ -171,8 +171,8 @@ def test_a_state_that_is_not_restored_is_seen(car: Path, tmp_path: Path, monkeyp
         self.setter(["throttle"])([0.123456])
 
     monkeypatch.setattr(Fmu, "restore", wrong)
-    made = drive(task(car, tmp_path, seconds=2.0))
-    assert "restored" in {failure.kind for failure in made.failures}
+    run = drive(task(car, tmp_path, seconds=2.0))
+    assert "restored" in {failure.kind for failure in run.failures}
 
 
 OUTPUTS = [
@@ -183,8 +183,8 @@ OUTPUTS = [
 
 
 def row(**values: float) -> list[float]:
-    known = {name.replace(".", "_"): 0.0 for name in OUTPUTS} | {"wheel_FL_Fz": 1000.0, "chassis_z": 0.3} | values
-    return list(known.values())
+    known_names = {name.replace(".", "_"): 0.0 for name in OUTPUTS} | {"wheel_FL_Fz": 1000.0, "chassis_z": 0.3} | values
+    return list(known_names.values())
 
 
 def test_the_watch_sees_what_is_wrong() -> None:
@@ -257,8 +257,8 @@ def is_worker(process: psutil.Process) -> bool:
 @pytest.mark.slow
 def test_a_soak_test_that_is_ended_tells_what_is_done(car: Path, tmp_path: Path) -> None:
     out = tmp_path / "numbers.json"
-    words = ["--soak", "--stop-time", "300", "--drives", "2", "--jobs", "2", "--json", str(out)]
-    command = [sys.executable, "-m", "ali3", "check", str(car), *words, "--out", str(tmp_path)]
+    message = ["--soak", "--stop-time", "300", "--drives", "2", "--jobs", "2", "--json", str(out)]
+    command = [sys.executable, "-m", "ali3", "check", str(car), *message, "--out", str(tmp_path)]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     end = time.monotonic() + 60.0
     workers: list[psutil.Process] = []
@@ -266,11 +266,11 @@ def test_a_soak_test_that_is_ended_tells_what_is_done(car: Path, tmp_path: Path)
         time.sleep(0.1)
         workers = [p for p in psutil.Process(process.pid).children() if is_worker(p)]
     process.send_signal(signal.SIGHUP)
-    told, error = process.communicate(timeout=30.0)
+    output, error = process.communicate(timeout=30.0)
     assert process.returncode == 128 + signal.SIGHUP
     assert error.splitlines()[-1] == "stopped by SIGHUP"
     assert "Traceback" not in error
-    assert "h simulated in" in told
+    assert "h simulated in" in output
     assert len(json.loads(out.read_text())["outcomes"]) == 2
 
 
@@ -281,11 +281,11 @@ def test_a_process_that_dies_is_a_failure(
     monkeypatch.setattr("hosts.soak.soak.drive", dying)
     drives = ["--stop-time", "5", "--drives", "2", "--seed", "8"]
     assert main([str(car), "--soak", *drives, "--out", str(tmp_path)]) == 1
-    told = capfd.readouterr().out
-    assert "seed 9, run -1, 2.5 s" in told
-    assert "The process of the drive was killed (SIGKILL)" in told or sys.platform == "win32"
-    assert re.search(r"the whole drive again: .* --soak .* --seed 9 --stop-time 5.0 --drives 1", told)
-    assert "2 failures" in told
+    output = capfd.readouterr().out
+    assert "seed 9, run -1, 2.5 s" in output
+    assert "The process of the drive was killed (SIGKILL)" in output or sys.platform == "win32"
+    assert re.search(r"the whole drive again: .* --soak .* --seed 9 --stop-time 5.0 --drives 1", output)
+    assert "2 failures" in output
 
 
 def test_a_failed_drive_is_repeated_with_all_that_it_was_given(
@@ -298,13 +298,13 @@ def test_a_failed_drive_is_repeated_with_all_that_it_was_given(
     print_outcomes(
         [given], [Outcome(7, 2, failures=[failure])], "ali3 check --soak", ["proving_ground", "my world.toml"]
     )
-    told = capfd.readouterr().out
-    last, whole = (re.search(rf"{what} again: (.*)", told)[1] for what in ("seconds", "drive"))  # type: ignore[index]
+    output = capfd.readouterr().out
+    last, whole = (re.search(rf"{what} again: (.*)", output)[1] for what in ("seconds", "drive"))  # type: ignore[index]
     assert shlex.split(last)[-5:] == [given.fmu, "-m", failure.manoeuvre, "--step", repr(given.step)]
-    asked: list[argparse.Namespace] = []
-    monkeypatch.setattr("hosts.soak.soak.soak", lambda options, prog: asked.append(options))
+    requested: list[argparse.Namespace] = []
+    monkeypatch.setattr("hosts.soak.soak.soak", lambda options, prog: requested.append(options))
     main(shlex.split(whole)[2:])
-    options = asked[0]
+    options = requested[0]
     assert (options.fmu, options.seed, options.fidelity) == (Path(given.fmu), 7, [2.0])
     assert (options.step, options.stop_time, options.drives) == (given.step, given.seconds, 1)
     assert options.world == ["proving_ground", "my world.toml"]

@@ -113,21 +113,21 @@ def test_a_start_backwards_holds_no_speed() -> None:
         run(Unsigned(), asked(-1.0), H)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(("steering", "told"), [(0.02, False), (0.07, True), (-0.1, True)])
-def test_a_change_above_3_per_cent_is_told_with_a_time_that_helps(steering: float, told: bool) -> None:
+@pytest.mark.parametrize(("steering", "reported"), [(0.02, False), (0.07, True), (-0.1, True)])
+def test_a_change_above_3_per_cent_is_reported_with_a_time_that_helps(steering: float, reported: bool) -> None:
     result = run(Slider(), asked(22.22, steering), H)  # type: ignore[arg-type]
     change = result["speed"] / 22.22 - 1.0
-    assert (np.abs(change).max() > 0.03) == told == (dict(result.missed).get("throttle") is not None)
-    if told:
-        words = dict(result.missed)["throttle"]
-        assert f"changes by {100.0 * change[-1]:+.2g} %" in words
-        until = float(words.split("--stop-time ")[1].split(" ")[0])
+    assert (np.abs(change).max() > 0.03) == reported == (dict(result.missed).get("throttle") is not None)
+    if reported:
+        message = dict(result.missed)["throttle"]
+        assert f"changes by {100.0 * change[-1]:+.2g} %" in message
+        until = float(message.split("--stop-time ")[1].split(" ")[0])
         again = run(Slider(), asked(22.22, steering, until), H)  # type: ignore[arg-type]
         assert not again.missed
         assert run(Slider(), asked(22.22, steering, until + 2 * H), H).missed  # type: ignore[arg-type]
 
 
-def test_what_cannot_be_held_is_refused_with_what_can() -> None:
+def test_an_input_that_cannot_be_held_is_refused_with_those_that_can() -> None:
     with pytest.raises(HostError, match=r"which is 0 m/s; give one above 0, as --set initial\.speed"):
         run(Slider(), asked(0.0), H)  # type: ignore[arg-type]
     with pytest.raises(HostError, match=r"does not hold 80 m/s: after 30 s it is at [67]\d\.\d+ m/s with") as error:
@@ -143,23 +143,23 @@ def test_what_cannot_be_held_is_refused_with_what_can() -> None:
 
 
 def test_a_file_says_so(tmp_path: Path) -> None:
-    made = read_manoeuvre("step_steer")
-    assert made.find_throttle
-    assert "throttle" not in made.inputs
-    write_manoeuvre(made, tmp_path / "again.toml")
+    result = read_manoeuvre("step_steer")
+    assert result.find_throttle
+    assert "throttle" not in result.inputs
+    write_manoeuvre(result, tmp_path / "again.toml")
     assert read_manoeuvre(str(tmp_path / "again.toml")).find_throttle
     given = read_manoeuvre("step_steer_given_throttle")
     assert not given.find_throttle
-    assert all(np.array_equal(given.inputs[n], values) for n, values in made.inputs.items())
-    jobs = [Job("m", m, step=H) for m in (made, replace(made, find_throttle=False))]
+    assert all(np.array_equal(given.inputs[n], values) for n, values in result.inputs.items())
+    jobs = [Job("m", m, step=H) for m in (result, replace(result, find_throttle=False))]
     assert len({job_digest(job) for job in jobs}) == 2
-    for text, words in {
+    for text, message in {
         "find_throttle = 1": "find_throttle is 1; it must be true or false",
         "find_throttle = true\n[driver]\nspeed = 1": r"with find_throttle there is no \[driver\]",
         "find_throttle = true\n[inputs]\ntime = [0]\nthrottle = [1]": "there is no throttle in",
     }.items():
         (tmp_path / "m.toml").write_text(f"stop_time = 1.0\n{text}\n")
-        with pytest.raises(HostError, match=words):
+        with pytest.raises(HostError, match=message):
             read_manoeuvre(str(tmp_path / "m.toml"))
 
 
@@ -180,13 +180,13 @@ def test_step_steer_keeps_its_speed_and_its_table_repeats_it(
         assert main([str(prototype_fmu), *more, "--step", "0.01", "--out", str(out)]) == 0
         return read_csv(next(out.glob("*.csv"))), capsys.readouterr().out
 
-    found, said = drive("-m", "step_steer", "--set", f"initial.speed={speed}", "--set", "throttle=0.9")
-    assert f"which holds {speed:.4g} m/s straight on" in said
-    assert "0.9 of --set has no effect" in said
-    before = found["time"] <= 1.0
-    assert found["speed"][before] == pytest.approx(speed, rel=0.002)
-    assert np.abs(found["speed"] / speed - 1.0).max() < 0.03
-    assert np.abs(found["chassis.ay"]).max() > 0.4 * 4.0
+    run, reported = drive("-m", "step_steer", "--set", f"initial.speed={speed}", "--set", "throttle=0.9")
+    assert f"which holds {speed:.4g} m/s straight on" in reported
+    assert "0.9 of --set has no effect" in reported
+    before = run["time"] <= 1.0
+    assert run["speed"][before] == pytest.approx(speed, rel=0.002)
+    assert np.abs(run["speed"] / speed - 1.0).max() < 0.03
+    assert np.abs(run["chassis.ay"]).max() > 0.4 * 4.0
     table = next((tmp_path / "0").glob("*.csv"))
     again, _ = drive("-m", str(table))
-    assert all(np.array_equal(found[name], again[name]) for name in found.dtype.names)
+    assert all(np.array_equal(run[name], again[name]) for name in run.dtype.names)

@@ -40,7 +40,7 @@ def test_nothing_is_passed_that_was_not_driven(course: str) -> None:
     assert re.fullmatch(
         r"passed, 0\.\d\d m to spare; entered at 72\.0 km/h, 72\.0 km/h asked for", verdict(course, whole)
     )
-    for rows, told in {
+    for rows, reported in {
         "too short to come there": (whole[:20], "lane 1 was not reached: it begins at 15 m, .* comes to 11 m; --stop"),
         "too short for the second": (whole[:50], "lane 2 was not reached"),
         "a step too short": (whole[whole <= end], "lane 3 was not left"),
@@ -55,7 +55,7 @@ def test_nothing_is_passed_that_was_not_driven(course: str) -> None:
     }.values():  # fmt: skip
         said = verdict(course, rows)
         assert said.startswith("not passed: ")
-        assert re.search(told, said), said
+        assert re.search(reported, said), said
         assert "inf" not in said
     assert verdict(course, whole[whole <= end + 0.5]).startswith("passed")
     assert "the car stands at" in verdict(course, np.zeros(50), speed=0.0)
@@ -67,32 +67,34 @@ def test_nothing_is_passed_that_was_not_driven(course: str) -> None:
 
 @pytest.mark.parametrize(("speed", "passed"), [(20.0, True), (19.2, True), (20.8, True), (19.1, False), (21.0, False)])
 def test_it_is_passed_at_the_speed_that_was_asked_for(speed: float, passed: bool) -> None:
-    said = verdict("iso_3888_1", np.arange(0.0, 160.0, 0.5), speed=speed)
-    assert f"entered at {3.6 * speed:.1f} km/h, 72.0 km/h asked for" in said
-    assert said.startswith("passed" if passed else "not passed")
+    reported = verdict("iso_3888_1", np.arange(0.0, 160.0, 0.5), speed=speed)
+    assert f"entered at {3.6 * speed:.1f} km/h, 72.0 km/h asked for" in reported
+    assert reported.startswith("passed" if passed else "not passed")
     if not passed:
-        asked = float(said.split("--driver speed=")[1].split(" ")[0])
-        assert verdict("iso_3888_1", np.arange(0.0, 160.0, 0.5), speed=speed, asked=asked).startswith("passed")
+        requested = float(reported.split("--driver speed=")[1].split(" ")[0])
+        assert verdict("iso_3888_1", np.arange(0.0, 160.0, 0.5), speed=speed, asked=requested).startswith("passed")
 
 
 def test_the_start_follows_the_speed_of_the_driver() -> None:
-    asked = load_manoeuvre("double_lane_change")
-    slow = with_settings(asked, {"speed": 10.0}, ("initial.speed",), None)
+    requested = load_manoeuvre("double_lane_change")
+    slow = with_settings(requested, {"speed": 10.0}, ("initial.speed",), None)
     assert slow.start == {"initial.speed": 10.0}
     assert slow.driver["speed"] == "10.0"
-    assert slow.stop_time == 2.0 * asked.stop_time  # as long a way
-    assert with_settings(asked, {"speed": 15.0}, ("initial.speed",), None).stop_time == 11.0  # whole steps end there
-    assert with_settings(asked, {"speed": 10.0}, ("initial.speed",), 3.0).stop_time == asked.stop_time
-    assert with_settings(asked, {"speed": 40.0}, ("initial.speed",), None).stop_time == asked.stop_time
-    assert with_settings(asked, {"speed": 10.0}, (), None).start == asked.start
-    assert with_settings(asked, {"heading_gain": 1.0}, ("initial.speed",), None).start == asked.start
+    assert slow.stop_time == 2.0 * requested.stop_time  # as long a way
+    assert (
+        with_settings(requested, {"speed": 15.0}, ("initial.speed",), None).stop_time == 11.0
+    )  # whole steps end there
+    assert with_settings(requested, {"speed": 10.0}, ("initial.speed",), 3.0).stop_time == requested.stop_time
+    assert with_settings(requested, {"speed": 40.0}, ("initial.speed",), None).stop_time == requested.stop_time
+    assert with_settings(requested, {"speed": 10.0}, (), None).start == requested.start
+    assert with_settings(requested, {"heading_gain": 1.0}, ("initial.speed",), None).start == requested.start
 
 
 @pytest.mark.parametrize(
     ("name", "value", "near"),
     [("spead", "20", "'speed'"), ("coarse", "iso_3888_1", "'course'"), ("course", "iso3888_1", "'iso_3888_1'")],
 )
-def test_a_misspelt_setting_or_course_is_told_with_the_near_one(name: str, value: str, near: str) -> None:
+def test_a_misspelt_setting_or_course_is_reported_with_the_near_one(name: str, value: str, near: str) -> None:
     with pytest.raises(HostError, match=f"did you mean {near}"):
         make_driver({"course": "iso_3888_1", "speed": "20"} | SIZE | {name: value}, {})
 
@@ -104,22 +106,24 @@ def said_of(fmu: Path, out: Path, capsys: pytest.CaptureFixture[str], *more: str
 
 
 @pytest.mark.slow
-def test_what_the_command_says(prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_output_of_the_command(prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Remedies are those that help: each is tried."""
     for speed in (15.0, 20.0):
-        said = said_of(prototype_fmu, tmp_path, capsys, "--driver", f"speed={speed:g}")
-        assert said.startswith("passed, ")
-        entry = float(said.split("entered at ")[1].split(" ")[0])
+        reported = said_of(prototype_fmu, tmp_path, capsys, "--driver", f"speed={speed:g}")
+        assert reported.startswith("passed, ")
+        entry = float(reported.split("entered at ")[1].split(" ")[0])
         assert abs(entry - 3.6 * speed) < 3.0
-        assert said.endswith(f"{3.6 * speed:.1f} km/h asked for")
+        assert reported.endswith(f"{3.6 * speed:.1f} km/h asked for")
     for more in (("--stop-time", "0.5"), ("--set", "initial.x=-60"), ("--set", "initial.speed=8")):
-        asked = dict([more])
+        requested = dict([more])
         for _ in range(2):  # who starts slowly needs more time, and is then told that it was too slow
-            said = said_of(prototype_fmu, tmp_path, capsys, *(part for option in asked.items() for part in option))
-            assert said.startswith("not passed: "), said
-            option, value = re.search(r"(--\S+) (\S+)", said).groups()  # type: ignore[union-attr]
-            asked[option] = value
-            last = said_of(prototype_fmu, tmp_path, capsys, *(part for option in asked.items() for part in option))
+            reported = said_of(
+                prototype_fmu, tmp_path, capsys, *(part for option in requested.items() for part in option)
+            )
+            assert reported.startswith("not passed: "), reported
+            option, value = re.search(r"(--\S+) (\S+)", reported).groups()  # type: ignore[union-attr]
+            requested[option] = value
+            last = said_of(prototype_fmu, tmp_path, capsys, *(part for option in requested.items() for part in option))
             if last.startswith("passed"):
                 break
         assert last.startswith("passed"), (more, last)

@@ -308,7 +308,9 @@ def test_a_table_that_would_fill_the_memory_is_read_in_part(
         ("a.fmu", "x", "is not an FMU (not a zip archive)"),
     ],
 )
-def test_what_cannot_be_shown(work: Path, said: Said, name: str, content: str | bytes, sentence: str) -> None:
+def test_files_that_cannot_be_shown_are_refused(
+    work: Path, said: Said, name: str, content: str | bytes, sentence: str
+) -> None:
     Path(name).write_bytes(content if isinstance(content, bytes) else content.encode())
     status, text = said(name, "--no-open")
     assert status == 2
@@ -349,14 +351,14 @@ def test_options_that_cannot_be_met(result: Path, said: Said) -> None:
 
 
 def test_names_of_before_are_named(result: Path, said: Said, capsys: pytest.CaptureFixture[str]) -> None:
-    for given, words in (
+    for given, message in (
         (["--out", "page.html"], "page.html is the name of a file; --out names the output folder"),
         (["--out", "x.GLB"], "x.GLB is the name of a file; --out names the output folder"),
     ):
         with pytest.raises(SystemExit) as end:
             said(result, *given)
         assert end.value.code == 2
-        assert words in capsys.readouterr().err
+        assert message in capsys.readouterr().err
 
 
 def test_without_a_browser_for_pictures_there_is_one_sentence(

@@ -62,9 +62,9 @@ def test_a_car_is_drawn_whole_with_its_wheels_on_the_road(
         # The lowest point of a drawn wheel touches the level road within the tyre's deflection and the camber.
         assert np.abs(centre[:, 2] - shape["radius"]).max() < 0.06
         # It rolls: its angle is the way over its radius, but for slip and the turns of the lane change.
-        way = np.hypot(np.diff(centre[:, 0]), np.diff(centre[:, 1])).sum()
+        distance = np.hypot(np.diff(centre[:, 0]), np.diff(centre[:, 1])).sum()
         angle = drawn["columns"][drawn["scene"]["frames"][f"wheel {wheel}"]["angle"]]
-        assert (angle[-1] - angle[0]) * shape["radius"] == pytest.approx(way, rel=0.1)
+        assert (angle[-1] - angle[0]) * shape["radius"] == pytest.approx(distance, rel=0.1)
 
 
 @pytest.mark.slow  # two pages are drawn by the processor

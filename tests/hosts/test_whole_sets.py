@@ -53,13 +53,13 @@ def test_another_value_replaces(variables: Variables, tmp_path: Path) -> None:
 
 def test_a_manoeuvre_is_driven_as_without_it(variables: Variables, prototype_fmu: Path, tmp_path: Path) -> None:
     whole = whole_set(variables, tmp_path / "whole.ssv")
-    found = []
+    results = []
     for name, more in (("without", []), ("with", ["--parameters", str(whole)])):
         out = ["--stop-time", "0.5", "--out", str(tmp_path / name)]
         assert run([str(prototype_fmu), "-m", "step_steer", *out, *more]) == 0
-        found.append(read_csv(next((tmp_path / name).glob("*.csv"))))
-    assert found[0]["speed"][0] > 20.0
-    assert all(np.array_equal(found[0][name], found[1][name]) for name in found[0].dtype.names)
+        results.append(read_csv(next((tmp_path / name).glob("*.csv"))))
+    assert results[0]["speed"][0] > 20.0
+    assert all(np.array_equal(results[0][name], results[1][name]) for name in results[0].dtype.names)
 
 
 def test_the_catalogue_takes_it_and_refuses_another_start(
@@ -76,11 +76,11 @@ def test_the_catalogue_takes_it_and_refuses_another_start(
 @pytest.mark.slow
 def test_the_simulator_keeps_its_world_and_place(variables: Variables, prototype_fmu: Path, tmp_path: Path) -> None:
     whole = whole_set(variables, tmp_path / "whole.ssv")
-    found = []
+    results = []
     for more in ([], ["--parameters", str(whole)]):
-        record = tmp_path / f"{len(found)}.json"
+        record = tmp_path / f"{len(results)}.json"
         arguments = [str(prototype_fmu), "--headless", "--world", "kerb", "--stop-time", "0.1", "--json", str(record)]
         assert simulator([*arguments, *more]) == 0
-        found.append(json.loads(record.read_text())["settings"])
-    assert found[0] == found[1]
-    assert any(entry["name"] == "road.file" for entry in found[1])
+        results.append(json.loads(record.read_text())["settings"])
+    assert results[0] == results[1]
+    assert any(entry["name"] == "road.file" for entry in results[1])

@@ -91,15 +91,15 @@ def readers(tree: ast.AST) -> Iterator[str]:
 
 @pytest.mark.slow
 def test_files_are_opened_by_the_doors_alone() -> None:
-    found, used = [], set[str]()
+    results, used = [], set[str]()
     for room in ROOMS:
         for file in sorted((ROOT / room).rglob("*.py")):
             place = file.relative_to(ROOT).as_posix()
             for name in readers(ast.parse(file.read_text(encoding="utf-8"))):
                 used |= {place}
                 if place not in DOORS and place not in OWN and (place, name) not in BEHIND:
-                    found.append(f"{place}: {name}")
-    assert not found, "read through a door of this list, or say why it is behind one:\n" + "\n".join(found)
+                    results.append(f"{place}: {name}")
+    assert not results, "read through a door of this list, or say why it is behind one:\n" + "\n".join(results)
     assert sorted({*DOORS, *OWN, *(place for place, _ in BEHIND)} - used) == []
 
 

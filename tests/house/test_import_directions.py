@@ -92,19 +92,19 @@ def calls(texts: Mapping[str, str], prefix: str = "ali3_") -> dict[str, dict[str
 
 def wrong_in_kernel(texts: Mapping[str, str]) -> list[str]:
     """Sentences about files without a room, includes of nothing, includes and calls against the order, and circles."""
-    found = [f"{file} lies in no room" for file in texts if layer(file) < 0]
+    results = [f"{file} lies in no room" for file in texts if layer(file) < 0]
     graph = includes(texts)
     for file, names in graph.items():
         for name in names:
             if name not in texts and name != PUBLIC:
-                found.append(f"{file} includes {name}, which is not there")
+                results.append(f"{file} includes {name}, which is not there")
             elif layer(name) < layer(file):
-                found.append(f"{file} includes {name}: against the order of the rooms")
+                results.append(f"{file} includes {name}: against the order of the rooms")
     for file, names in calls(texts).items():
-        found += [
+        results += [
             f"{file} calls {n}: against the order of the rooms" for n, f in names.items() if layer(f) < layer(file)
         ]
-    return found + circles(graph)
+    return results + circles(graph)
 
 
 def circles(graph: Mapping[str, Iterable[str]]) -> list[str]:
@@ -124,7 +124,7 @@ def test_the_kernel_includes_in_one_direction():
 
 
 @pytest.mark.parametrize(
-    ("file", "line", "said"),
+    ("file", "line", "message"),
     [
         ("algebra/fronts.c", '#include "../rows/constraints.h"', "against the order"),
         ("elements/tyre.c", '#include "../instance.h"\n  # include "../api/run.h"', "api/run.h, which is not there"),
@@ -135,10 +135,10 @@ def test_the_kernel_includes_in_one_direction():
         ("more.c", "", "more.c lies in no room"),
     ],
 )
-def test_a_direction_turned_round_is_seen(file, line, said):
+def test_a_direction_turned_round_is_seen(file, line, message):
     texts = sources(KERNEL)
     texts[file] = f"{texts.get(file, '')}\n{line}\n"
-    assert any(said in sentence for sentence in wrong_in_kernel(texts))
+    assert any(message in sentence for sentence in wrong_in_kernel(texts))
 
 
 def test_every_header_of_the_kernel_includes_what_it_uses(tmp_path):

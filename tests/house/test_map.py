@@ -13,13 +13,13 @@ NO_ROOMS = {"bundle"}  # built
 
 def rooms() -> set[str]:
     """Folders with sources."""
-    found = set(ALONE)
+    result = set(ALONE)
     for parent in PARENTS:
         for folder in (ROOT / parent).iterdir():
             if folder.is_dir() and folder.name not in NO_ROOMS and not folder.name.startswith(("_", ".")):
                 sources = (f for suffix in SOURCES for f in folder.rglob(f"*{suffix}"))
-                found |= {f"{parent}/{folder.name}"} if any(sources) else set()
-    return found
+                result |= {f"{parent}/{folder.name}"} if any(sources) else set()
+    return result
 
 
 def test_the_map_is_complete() -> None:

@@ -60,10 +60,10 @@ def tyre(**factors: float) -> Told:
     def told(folder: Path) -> list[str]:
         text = (ROOT / "mbs/vehicle/cars/saloon/tyre.tir").read_text(encoding="utf-8")
         for key, factor in factors.items():
-            text, found = re.subn(
+            text, result = re.subn(
                 rf"(?m)^({key} *= *)(\S+)", lambda m, factor=factor: f"{m[1]}{factor * float(m[2]):.9g}", text
             )
-            assert found == 1
+            assert result == 1
         file = folder / "t.tir"
         file.write_text(text, encoding="utf-8")
         read = read_tyre(file)
@@ -168,10 +168,10 @@ PLANTED: dict[str, tuple[Told, str]] = {
 
 
 @pytest.mark.slow
-def test_each_is_told_with_its_cause(tmp_path: Path) -> None:
+def test_each_is_reported_with_its_cause(tmp_path: Path) -> None:
     wrong = {}
-    for kind, (told, words) in PLANTED.items():
-        lines = told(tmp_path)
-        if not any(words in line for line in lines):
+    for kind, (reported, message) in PLANTED.items():
+        lines = reported(tmp_path)
+        if not any(message in line for line in lines):
             wrong[kind] = lines
     assert wrong == {}

@@ -30,9 +30,9 @@ class Row:
 
     def columns(self) -> list[int]:
         """Coordinates that appear."""
-        found = set(self.lin) | {i for pair in (*self.quad, *self.rates) for i in pair}
-        found |= {i for a in self.angle for i in a[:2] if i >= 0} | {i for g in self.guided for i in g[2:4] if i >= 0}
-        return sorted(found | ({self.theta} if self.theta is not None else set()))
+        result = set(self.lin) | {i for pair in (*self.quad, *self.rates) for i in pair}
+        result |= {i for a in self.angle for i in a[:2] if i >= 0} | {i for g in self.guided for i in g[2:4] if i >= 0}
+        return sorted(result | ({self.theta} if self.theta is not None else set()))
 
 
 @dataclass

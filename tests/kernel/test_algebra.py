@@ -162,8 +162,8 @@ def test_an_angle_between_two_moving_vectors_has_all_its_derivatives() -> None:
     instance.set_q(q)
     second = np.array([(jacobian(q + d * e) - jacobian(q - d * e)) / (2 * d) for e in np.eye(5)])
     plain = np.reshape(instance.tangent(h, np.zeros(1)), (5, 5))
-    found = (np.reshape(instance.tangent(h, lam), (5, 5)) - plain) / (c * lam[0])
-    np.testing.assert_allclose(found, second, atol=1e-3)  # beside the penalty, 1e7 times as large
+    actual = (np.reshape(instance.tangent(h, lam), (5, 5)) - plain) / (c * lam[0])
+    np.testing.assert_allclose(actual, second, atol=1e-3)  # beside the penalty, 1e7 times as large
 
 
 def chain(n: int, groups: list[int]) -> SystemBuilder:

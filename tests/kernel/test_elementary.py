@@ -32,13 +32,13 @@ def functions(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Callable[..
     library = folder / build.library_name(build.host_target())
     build.compile_c([source], build.host_target(), library, include=(build.HERE / "src",), what="the test")
     loaded = ctypes.CDLL(str(library))
-    made: dict[str, Callable[..., float]] = {}
+    results: dict[str, Callable[..., float]] = {}
     for name in (*_ONE, *_BOTH, "atan2"):
         function = getattr(loaded, f"show_{name}")
         function.restype = ctypes.c_double
         function.argtypes = [ctypes.c_double] * (2 if name == "atan2" else 1)
-        made[name] = function
-    return made
+        results[name] = function
+    return results
 
 
 def distance(value: float, expected: float) -> float:

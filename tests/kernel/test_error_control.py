@@ -46,13 +46,13 @@ def run(
 @pytest.mark.parametrize("method", METHODS)
 def test_a_run_in_parts_is_the_run(method: str) -> None:
     times = np.linspace(0.0, 2.0, 41)[1:]
-    found = []
+    results = []
     for most in (1, 3, 10**6):
         instance, fields = start(four_bar(), METHODS[method]), control()
-        found.append((*run(instance, fields, times, most), np.frombuffer(instance.save(), np.uint8)))
+        results.append((*run(instance, fields, times, most), np.frombuffer(instance.save(), np.uint8)))
         assert instance.time == 2.0
-    for other in found[1:]:
-        for one, same in zip(found[0], other, strict=True):
+    for other in results[1:]:
+        for one, same in zip(results[0], other, strict=True):
             assert one.tobytes() == same.tobytes()
 
 
@@ -106,7 +106,7 @@ def test_errors_add_up_to_the_tolerance() -> None:
         assert fields.forced_error == 0.0
 
 
-def test_the_error_of_a_tolerance_that_cannot_be_kept_is_told() -> None:
+def test_the_error_of_a_tolerance_that_cannot_be_kept_is_reported() -> None:
     """Steps of index three are not made shorter than a part of the time scale: there they err by too much."""
     fields = control(1e-16)
     start(pendulum()).control_run(fields, None, 2.0, 50, np.empty(0), None, None, 0)

@@ -35,17 +35,17 @@ def bits(register: int) -> tuple[bytes, ...]:
     instance = under(register, Instance, under(register, LoadedSystem, everything().to_bytes()))
     under(register, instance.initialise)
     under(register, instance.run, 0.01, 20)
-    found = [under(register, instance.save)]
-    seen = set()
+    results = [under(register, instance.save)]
+    visited = set()
 
     def inputs(t: float, after: bool, values: Any) -> None:
-        seen.add(control())
+        visited.add(control())
         values[0] = 0.1
 
     under(register, instance.set_input_function, inputs)
     under(register, instance.run, 0.01, 5)
-    assert seen == {register}
-    return (*found, under(register, instance.save))
+    assert visited == {register}
+    return (*results, under(register, instance.save))
 
 
 def test_the_bits_do_not_depend_on_the_caller() -> None:

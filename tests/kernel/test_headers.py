@@ -19,8 +19,8 @@ from mbs.settings.settings import METHODS, Settings
 
 
 def test_the_python_side_is_what_the_headers_say():
-    there = {f.name: f.read_text(encoding="utf-8") for f in read_headers.HEADER.glob("*.py") if f.stem != "__init__"}
-    assert read_headers.header() == there, "run: python mbs/kernel/read_headers.py"
+    present = {f.name: f.read_text(encoding="utf-8") for f in read_headers.HEADER.glob("*.py") if f.stem != "__init__"}
+    assert read_headers.header() == present, "run: python mbs/kernel/read_headers.py"
     assert read_headers.entries() == read_headers.ENTRIES.read_text(encoding="utf-8")
 
 
@@ -116,10 +116,10 @@ def test_a_header_that_cannot_be_read_is_refused(monkeypatch, tmp_path, text, wh
 
 def test_pragmas_of_clang_are_read_by_clang_alone():
     """Others warn of them, and warnings are errors in the kernel with checks (tests/sanitize.py)."""
-    found = []
+    results = []
     for file in sorted((build.HERE / "src").rglob("*.[ch]")):
         lines = file.read_text(encoding="utf-8").splitlines()
         for before, line in itertools.pairwise(lines):
             if line.lstrip().startswith("#pragma clang") and "__clang__" not in before:
-                found.append(f"{file.name}: {line}")
-    assert not found
+                results.append(f"{file.name}: {line}")
+    assert not results

@@ -131,10 +131,10 @@ def test_flexible_cars_have_the_bits_of_single_runs(width: int) -> None:
             alone, ended = compare(many, single, together, h, 30)
             statuses |= ended
             reports = [s.instance.report() for s in single]
-            made = int(sum(r["halvings"] + r["divisions"] for r in reports))
-            halved += made
+            result = int(sum(r["halvings"] + r["divisions"] for r in reports))
+            halved += result
             if halvings > 0:
-                assert alone <= DAMPED * len(single) + made
+                assert alone <= DAMPED * len(single) + result
     assert halved > 0
     assert statuses > {Status.OK}
 

@@ -266,7 +266,7 @@ def test_fronts_of_impossible_size_are_refused_without_asking_for_memory() -> No
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    ("changes", "message"),
     [
         ({"ported_ptr": [0, 1, 3, 4]}, "'ported_ptr' runs from 0 to 4 instead of 0 to 3"),
         ({"ported_ptr": [0] * 7, "ported_row": [], "ported_val": []}, "6 coordinates without ports"),
@@ -287,18 +287,18 @@ def test_fronts_of_impossible_size_are_refused_without_asking_for_memory() -> No
         ({"ported_force_val": []}, "'ported_force_val' has 0 items instead of 1"),
     ],
 )
-def test_a_map_of_ports_that_points_elsewhere_is_refused(changes: dict[str, list[float]], said: str) -> None:
+def test_a_map_of_ports_that_points_elsewhere_is_refused(changes: dict[str, list[float]], message: str) -> None:
     good = {"ported_ptr": [0, 1, 3], "ported_row": [0, 1, 2], "ported_val": [1.0] * 3, "ported_const": [0.0] * 5}
     good |= {"ported_lam_ptr": [0, 1, 2], "ported_lam_row": [0, 1], "ported_lam_val": [1.0] * 2}
     good |= {"ported_force_ptr": [0, 0, 0, 1], "ported_force_col": [0], "ported_force_val": [1.0]}
     arrays = sleigh().arrays()
     assert (len(arrays["q0"]), len(arrays["row_const"])) == (5, 3)
     LoadedSystem(pack(arrays | good))
-    assert said in refused(pack(arrays | good | changes))
+    assert message in refused(pack(arrays | good | changes))
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    ("changes", "message"),
     [
         ({"row_const": [-0.5, 0.1, 0.0]}, "velocity row 1 also has a condition on positions"),
         ({"quad_ptr": [0, 1, 2, 2]}, "velocity row 1 also has a condition on positions"),
@@ -328,19 +328,19 @@ def test_a_map_of_ports_that_points_elsewhere_is_refused(changes: dict[str, list
         ({"velocity_h": [1.0] * 5}, "'velocity_h' has 5 items instead of 6"),
     ],
 )
-def test_a_velocity_row_that_is_more_or_less_is_refused(changes: dict[str, list[float]], said: str) -> None:
-    assert said in refused(pack(sleigh().arrays() | changes))
+def test_a_velocity_row_that_is_more_or_less_is_refused(changes: dict[str, list[float]], message: str) -> None:
+    assert message in refused(pack(sleigh().arrays() | changes))
 
 
 def test_a_wheel_on_a_table_that_is_not_named_is_refused() -> None:
     """Its signals are dependents, for which the mass matrix has no rows to look into."""
     arrays = dict(compile(prototype_car.build(fidelity=10)).arrays) | {"meta": b""}
     assert min(arrays["axis_table"]) >= 0
-    said = "a wheel whose axis has no table is on a lookup-table body"
+    reported = "a wheel whose axis has no table is on a lookup-table body"
     for k in range(len(arrays["axis_table"])):
         table = np.array(arrays["axis_table"])
         table[k] = -1
-        assert said in refused(pack(arrays | {"axis_table": table}))
+        assert reported in refused(pack(arrays | {"axis_table": table}))
 
 
 @pytest.mark.slow

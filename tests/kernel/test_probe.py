@@ -22,10 +22,10 @@ def test_element_states_step_from_those_that_are_given() -> None:
     forces = {}
     for stuck in (0.0, 2e-3, -4e-3):
         given = [stuck, *own[1:]]
-        after, found = instance.element_step(q, qd, given, 1e-3)
-        forces[stuck] = max(found, key=abs)
+        after, actual = instance.element_step(q, qd, given, 1e-3)
+        forces[stuck] = max(actual, key=abs)
         if stuck == 0.0:
-            assert (list(after), list(found)) == (list(own), list(force))
+            assert (list(after), list(actual)) == (list(own), list(force))
     assert forces[0.0] == pytest.approx(0.0, abs=1e-9)
     assert abs(forces[2e-3]) == pytest.approx(1000.0 * 2e-3, rel=1e-6)
     assert forces[-4e-3] == pytest.approx(-2.0 * forces[2e-3], rel=1e-6)

@@ -21,12 +21,12 @@ def test_rates_of_sensors() -> None:
     instance.run(H, 100)
     instance.set_settings(tolerance_r=1e-13, tolerance_phi=1e-12)
     before = instance.save()
-    found, chosen = rates_of(instance)
+    actual, chosen = rates_of(instance)
     assert instance.save() == before
     slopes = slopes_of(instance)
     names = [s["name"] for s, k in zip(system.meta["sensors"], chosen, strict=True) if k]
     assert {"chassis.x", "chassis.yaw", "chassis.qw", "chassis.vx", "speed", "wheel_FL.steer"} <= set(names)
     assert not {"chassis.ax", "wheel_FL.Fz", "solver.iterations"} & set(names)
-    assert np.allclose(found[chosen], slopes[chosen], rtol=RATE_ERROR, atol=RATE_ERROR)
-    assert np.max(np.abs(found[chosen])) > 1.0
-    assert np.all(found[~chosen] == 0.0)
+    assert np.allclose(actual[chosen], slopes[chosen], rtol=RATE_ERROR, atol=RATE_ERROR)
+    assert np.max(np.abs(actual[chosen])) > 1.0
+    assert np.all(actual[~chosen] == 0.0)

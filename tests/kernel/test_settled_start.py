@@ -84,12 +84,12 @@ def test_place_heading_and_velocity_are_held(car: mbs.System, of: Callable[[Inst
 
 
 def test_it_is_the_same_wherever_the_car_stands(car: mbs.System, of: Callable[[Instance], dict[str, float]]) -> None:
-    here, there = (
+    here, present = (
         of(started(car, 1.0, *place, SPEED, 0.4, 0.5, steering=STEERING, brake=0.2))
         for place in ((0.0, 0.0, 0.0, 0.0), (300.0, -200.0, 0.0, 2.5))
     )
     for name in OF_BODY:
-        assert there[name] == pytest.approx(here[name], rel=1e-6, abs=1e-8), name
+        assert present[name] == pytest.approx(here[name], rel=1e-6, abs=1e-8), name
 
 
 def test_it_stays_at_first(car: mbs.System, of: Callable[[Instance], dict[str, float]]) -> None:
@@ -126,7 +126,7 @@ def test_no_time_changes_nothing(car: mbs.System) -> None:
 @pytest.mark.parametrize(
     ("duration", "h"), [(-1.0, H), (math.nan, H), (10.1, H), (1.0, 0.0), (1.0, -H), (1.0, math.nan), (10.0, 1e-9)]
 )
-def test_what_it_refuses(car: mbs.System, duration: float, h: float) -> None:
+def test_invalid_values_are_refused(car: mbs.System, duration: float, h: float) -> None:
     instance = started(car, 0.0, 0.0, 0.0, 0.0, 0.0, SPEED)
     with pytest.raises(KernelError, match="argument"):
         instance.settle(duration, h)

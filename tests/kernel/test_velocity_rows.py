@@ -118,10 +118,10 @@ def test_a_step_solves_the_trapezoidal_rule_with_the_rows_at_its_end() -> None:
         J = np.array([b.gradient(row, q) for row in b.rows])
         return np.concatenate([b.mass @ qdd + J.T @ lam - push, [b.value(b.rows[0], q)], J[1:] @ qd])
 
-    found = root(open_equations, np.concatenate([qdd0, np.zeros(3)]), tol=1e-13)
+    actual = root(open_equations, np.concatenate([qdd0, np.zeros(3)]), tol=1e-13)
     instance.step(h)
-    np.testing.assert_allclose(instance.get_state()[2], found.x[:5], atol=1e-8)
-    np.testing.assert_allclose(np.array(instance.get_state()[3]) * b.arrays()["row_scale"], found.x[5:], atol=1e-8)
+    np.testing.assert_allclose(instance.get_state()[2], actual.x[:5], atol=1e-8)
+    np.testing.assert_allclose(np.array(instance.get_state()[3]) * b.arrays()["row_scale"], actual.x[5:], atol=1e-8)
 
 
 def test_a_step_of_energy_momentum_has_the_exact_derivative_of_its_rows() -> None:

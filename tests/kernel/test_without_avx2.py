@@ -24,15 +24,15 @@ DRIVEN = {0: "ali3p", 1: "ali3p", 2: "energy_momentum"}  # fidelity and method
 
 def states() -> bytes:
     """Saved states of a car that steers over an edge, one after the other."""
-    found = b""
+    result = b""
     for fidelity, method in DRIVEN.items():
         system = mbs.compile(load("prototype").model(KerbRoad(1.0, 0.05, 0.05, "after", 1.0), fidelity=fidelity))
         settings = mbs.Settings(method=method)
         car = mbs.Simulation(system, settings=settings, inputs={"steering": 0.3}, pose=mbs.Pose(speed=15.0))
         for _ in range(STEPS):
             car.step(0.01)
-        found += car.save()
-    return found
+        result += car.save()
+    return result
 
 
 @pytest.mark.slow

@@ -48,7 +48,7 @@ def _sensors(m, rod, tip):
 
 def _solve(acceleration, start, t):
     """Angle, rate and acceleration (n,) at times (n,)."""
-    found = solve_ivp(
+    solution = solve_ivp(
         lambda time, x: [x[1], acceleration(time, *x)],
         (0.0, float(t[-1])),
         start,
@@ -58,7 +58,7 @@ def _solve(acceleration, start, t):
         atol=1e-14,
         max_step=0.01,
     ).y
-    return found[0], found[1], np.array([acceleration(*x) for x in zip(t, *found, strict=True)])
+    return solution[0], solution[1], np.array([acceleration(*x) for x in zip(t, *solution, strict=True)])
 
 
 def _along(angle, rate, turn, length):

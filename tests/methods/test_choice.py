@@ -44,7 +44,7 @@ TREE = "rigid bodies that revolute and prismatic joints"
 
 
 @pytest.mark.parametrize(
-    ("method", "model", "words"),
+    ("method", "model", "message"),
     [
         ("energy_momentum_4", swing(1.0), BACKWARDS),
         ("energy_momentum_4", hinge(0.1), BACKWARDS),
@@ -57,10 +57,10 @@ TREE = "rigid bodies that revolute and prismatic joints"
         ("semi_recursive", sleigh(0.0), "joint"),
     ],
 )
-def test_a_model_that_a_method_cannot_step_is_refused_and_stays(method, model, words):
+def test_a_model_that_a_method_cannot_step_is_refused_and_stays(method, model, message):
     simulation = Simulation(compile(model), settings=Settings(method=method))
     before = simulation.save()
-    with pytest.raises(SimulationError, match=words):
+    with pytest.raises(SimulationError, match=message):
         simulation.step(0.01)
     assert simulation.save() == before
 
@@ -71,15 +71,15 @@ def test_generalised_alpha_damps_a_stiff_oscillation_and_the_trapezoidal_rule_do
     m.torsional_spring_damper("spring", mass.point(None).components[0], stiffness=1e8, free_angle=1.0)
     m.sense_energy("energy", "total")
     system, h = compile(m), 0.01  # 100 rad of phase a step
-    left = {}
+    remaining = {}
     for rho in (0.0, 0.5, 0.9):
         run = simulate(
             system, 0.5, h, settings=Settings(method="ali3p_generalised_alpha", rho_infinity=rho), estimate_error=False
         )
-        left[rho] = run["energy"][-1] / run["energy"][0]
+        remaining[rho] = run["energy"][-1] / run["energy"][0]
     kept = simulate(system, 0.5, h, estimate_error=False)["energy"]
-    assert left[0.0] < 1e-6
-    assert left[0.0] < left[0.5] < left[0.9] < 0.1
+    assert remaining[0.0] < 1e-6
+    assert remaining[0.0] < remaining[0.5] < remaining[0.9] < 0.1
     assert kept[-1] > 0.5 * kept[0]
     assert np.all(np.isfinite(kept))
 

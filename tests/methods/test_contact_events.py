@@ -31,17 +31,19 @@ def exact(gap: float, t: Array) -> Array:
         beyond = abs(y[0]) - gap
         return np.array([y[1], -4e3 * np.sign(y[0]) * max(beyond, 0.0)])
 
-    found = solve_ivp(rates, (0.0, SPAN), [0.0, 1.0], t_eval=t, method="DOP853", rtol=1e-10, atol=1e-11, max_step=2e-3)
-    return np.asarray(1.0 + found.y[0])
+    solution = solve_ivp(
+        rates, (0.0, SPAN), [0.0, 1.0], t_eval=t, method="DOP853", rtol=1e-10, atol=1e-11, max_step=2e-3
+    )
+    return np.asarray(1.0 + solution.y[0])
 
 
 def errors(system: mbs.System, gap: float, settings: mbs.Settings | None = None) -> Array:
-    found = []
+    results = []
     for h in STEPS:
         every = round(STEPS[0] / h)
         run = mbs.simulate(system, SPAN, h, every=every, settings=settings, estimate_error=False, progress=False)
-        found.append(float(np.abs(run["x"] - exact(gap, run.t)).max()))
-    return np.array(found)
+        results.append(float(np.abs(run["x"] - exact(gap, run.t)).max()))
+    return np.array(results)
 
 
 def orders(found: Array) -> Array:
@@ -51,12 +53,12 @@ def orders(found: Array) -> Array:
 @pytest.mark.slow
 def test_every_impact_keeps_order_two_where_whole_steps_have_it_on_the_mean_only() -> None:
     whole = mbs.Settings(max_halvings=0)
-    located, left = [], []
+    located, remaining = [], []
     for gap in GAPS:
         system = between_stops(float(gap))
         located.append(errors(system, float(gap)))
-        left.append(errors(system, float(gap), whole))
-    kept, lost = orders(np.array(located))[:, 1:], orders(np.array(left))[:, 1:]
+        remaining.append(errors(system, float(gap), whole))
+    kept, lost = orders(np.array(located))[:, 1:], orders(np.array(remaining))[:, 1:]
     assert np.median(kept) > 1.8
     assert np.quantile(kept, 0.25) > 1.7
     assert np.ptp(kept) < 0.5 * np.ptp(lost)

@@ -27,9 +27,9 @@ def load_error(h: float, settings: mbs.Settings | None = None) -> tuple[float, m
 @pytest.mark.parametrize("h", [0.005, 0.01])
 def test_loads_behind_an_edge_are_right_where_whole_steps_are_not(h: float) -> None:
     whole, undivided = load_error(h, NEVER)
-    found, divided = load_error(h)
+    result, divided = load_error(h)
     assert whole > 2.0 * accuracy.LOAD_BOUND
-    assert found < accuracy.LOAD_BOUND
+    assert result < accuracy.LOAD_BOUND
     assert (undivided.divisions, divided.halvings) == (0, 0)
     assert 0 < divided.divisions < 0.15 * divided.steps
     assert divided.iterations < 1.1 * undivided.iterations
@@ -38,10 +38,10 @@ def test_loads_behind_an_edge_are_right_where_whole_steps_are_not(h: float) -> N
 def test_a_drive_without_edges_keeps_its_bits() -> None:
     manoeuvre = replace(manoeuvres.load("slalom", CAR), stop_time=2.0)
     system = manoeuvres.system_of("slalom", CAR)
-    found, whole = (manoeuvres.run_on(system, manoeuvre, STEP, settings=s) for s in (None, NEVER))
-    assert found.report is not None
-    assert found.report.divisions == 0
-    assert all((found[name] == whole[name]).all() for name in trajectories.SENSORS)
+    actual, whole = (manoeuvres.run_on(system, manoeuvre, STEP, settings=s) for s in (None, NEVER))
+    assert actual.report is not None
+    assert actual.report.divisions == 0
+    assert all((actual[name] == whole[name]).all() for name in trajectories.SENSORS)
 
 
 def test_the_largest_force_is_that_of_tyres_and_springs() -> None:

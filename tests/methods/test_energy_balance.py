@@ -72,7 +72,7 @@ def test_the_balance_in_python_is_that_of_the_kernel():
 
 def test_what_the_tolerance_leaves_open_is_no_violation_of_the_balance():
     """Beside a pendulum, of which 1.6 J are lost in long steps, 1000 t hang, whose weight does 9.8 J over 1e-6 m."""
-    found = []
+    results = []
     for weight in (1e-3, 1e6):
         m = pendulum_model()
         beside = m.body("weight", mass=weight, com=(9.0, -1.0), inertia=weight)
@@ -80,8 +80,8 @@ def test_what_the_tolerance_leaves_open_is_no_violation_of_the_balance():
         report = simulate(compile(m), 2.0, 0.2, settings=Settings(tolerance_r=1e-6), **UNCHECKED).report
         assert abs(report.energy_error) > 1.5
         assert report.energy_balance > 2.0 * WRONG_ERROR
-        found.append((report.balance, report.energy_floor > abs(report.energy_error)))
-    assert found == [(Balance.WRONG, False), (Balance.KEPT, True)]
+        results.append((report.balance, report.energy_floor > abs(report.energy_error)))
+    assert results == [(Balance.WRONG, False), (Balance.KEPT, True)]
 
 
 def test_an_open_balance_decides_by_methods_whose_constraint_forces_tell_and_where_nothing_is_driven():
@@ -89,12 +89,12 @@ def test_an_open_balance_decides_by_methods_whose_constraint_forces_tell_and_whe
     assert simulation.report.balance == Balance.KEPT
     with pytest.warns(AccuracyWarning, match="J of work"):
         simulation.step(0.2, 10)
-    said = {}
+    reported = {}
     for method in METHODS:
         simulation.change_settings(Settings(method=method))
-        said[method] = simulation.report.balance
+        reported[method] = simulation.report.balance
     decide = {"ali3p", "ali3p_generalised_alpha"}
-    assert said == {method: Balance.WRONG if method in decide else Balance.OPEN for method in METHODS}
+    assert reported == {method: Balance.WRONG if method in decide else Balance.OPEN for method in METHODS}
     driven = simulate(compile(driven_crank()), 2.0, 1.0 / 90.0, **UNCHECKED)
     assert driven.report.energy_balance > 2.0 * WRONG_ERROR
     assert driven.report.balance == Balance.OPEN

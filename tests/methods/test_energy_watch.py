@@ -80,7 +80,7 @@ def test_nothing_is_projected_so_nothing_is_watched():
     assert t.report.energy_error == 0.0
 
 
-def test_an_infinite_motion_is_said_in_words():
+def test_an_infinite_motion_is_reported_in_words():
     def jolt(t):
         return 0.0 if t < 0.1 else 1e300
 
@@ -90,9 +90,9 @@ def test_an_infinite_motion_is_said_in_words():
     with pytest.raises(SimulationError, match="became infinite") as refused:
         simulate(compile(m), 1.0, 0.02, {"push": jolt}, progress=False)
     assert refused.value.status == Status.NOT_FINITE
-    words = str(refused.value).lower().replace("infinite", "")
-    assert "nan" not in words
-    assert "inf" not in words
+    message = str(refused.value).lower().replace("infinite", "")
+    assert "nan" not in message
+    assert "inf" not in message
 
 
 def crank_slider(h, max_halvings=8):
@@ -152,9 +152,9 @@ def test_what_a_guide_gives_is_no_error():
     Where the work of drives counts with the multipliers after the projection of the acceleration it falls with the
     square: 0.35 and 0.09 J in place of 0.01 and 0.002 J.
     """
-    asked = {"target": lambda t: (1.0 if t > 0.5 else 0.0) + 0.5 * np.sin(9.0 * t)}
+    requested = {"target": lambda t: (1.0 if t > 0.5 else 0.0) + 0.5 * np.sin(9.0 * t)}
     reports = [
-        simulate(compile(rotor()), 2.0, h, asked, progress=False, estimate_error=False).report for h in (4e-3, 2e-3)
+        simulate(compile(rotor()), 2.0, h, requested, progress=False, estimate_error=False).report for h in (4e-3, 2e-3)
     ]
     assert reports[0].kinetic_peak > 20.0
     assert abs(reports[0].energy_error) < 1e-3 * reports[0].kinetic_peak
@@ -173,7 +173,7 @@ def test_the_work_of_a_guide_is_the_change_of_the_energy_where_inputs_jump():
     that steps end with, which know nothing of the next jump, leave an error of the first order, and a force that is
     straight between them 1e-3 of the work.
     """
-    system, left = watched_rotor(), []
+    system, remaining = watched_rotor(), []
     for parts in (4, 8):
         simulation = Simulation(system)
         start = simulation.sensors
@@ -182,11 +182,11 @@ def test_the_work_of_a_guide_is_the_change_of_the_energy_where_inputs_jump():
             simulation.step(8e-3 / parts, parts)
         end = simulation.sensors
         change = end["energy"] - start["energy"]
-        left.append(change - end["guides"])
-        assert left[-1] == pytest.approx(simulation.instance.report()["energy_error"], abs=1e-5 * change)
+        remaining.append(change - end["guides"])
+        assert remaining[-1] == pytest.approx(simulation.instance.report()["energy_error"], abs=1e-5 * change)
     assert change > 0.3
-    assert abs(left[0]) < 1e-3 * change
-    assert abs(left[0]) > 3.5 * abs(left[1])
+    assert abs(remaining[0]) < 1e-3 * change
+    assert abs(remaining[0]) > 3.5 * abs(remaining[1])
 
 
 SQUARE = ((0.0, 0.1, 0.1, 0.3, 0.3, 0.5, 0.5, 0.8), (0.0, 0.0, 0.5, 0.5, -0.5, -0.5, 0.5, 0.5))
@@ -205,14 +205,14 @@ def test_the_work_of_a_guide_under_a_square_wave_is_the_energy_of_its_wheel(meth
 
 @pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "energy_momentum"])
 def test_each_method_sums_up_the_work_of_a_guide(method):
-    left = []
+    remaining = []
     for h in (4e-3, 2e-3):
-        asked = {"target": lambda t: 0.5 * np.sin(9.0 * t)}
-        run = simulate(watched_rotor(), 0.8, h, asked, method=method, progress=False, estimate_error=False)
-        left.append(np.ptp(run["energy"] - run["guides"]))
+        requested = {"target": lambda t: 0.5 * np.sin(9.0 * t)}
+        run = simulate(watched_rotor(), 0.8, h, requested, method=method, progress=False, estimate_error=False)
+        remaining.append(np.ptp(run["energy"] - run["guides"]))
         assert np.ptp(run["guides"]) > 1.0
-    assert left[0] < 0.03 * np.ptp(run["guides"])
-    assert left[0] > 3.0 * left[1]
+    assert remaining[0] < 0.03 * np.ptp(run["guides"])
+    assert remaining[0] > 3.0 * remaining[1]
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum"])
@@ -281,7 +281,7 @@ def sprung(damping=0.0, pushed=False):
     return compile(m)
 
 
-def test_a_swing_of_the_energy_is_told_from_a_drift():
+def test_a_swing_of_the_energy_is_reported_from_a_drift():
     swings = simulate(sprung(), 400.0, 0.2, progress=False, estimate_error=False)
     assert swings.report.free_states == 2001
     assert swings.report.energy_growth == 0.0

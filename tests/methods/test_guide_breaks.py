@@ -34,7 +34,7 @@ def carried(motion: PPoly | tuple[Array, Array], name: str = "carried") -> mbs.S
 
 def exact(motion: PPoly, t: Array) -> Array:
     """Of the mass at the times t: x'' = W^2 (s - x), by pieces of s of degree two up to the next break."""
-    found, x, v = np.zeros(len(t)), 0.0, 0.0
+    results, x, v = np.zeros(len(t)), 0.0, 0.0
     ends = [*motion.x[motion.x < SPAN], 2.0 * SPAN]
     for k, (begin, end) in enumerate(itertools.pairwise(ends)):
         c = motion.c[:, k] if k < motion.c.shape[1] else np.array([float(motion(motion.x[-1]))])
@@ -47,9 +47,9 @@ def exact(motion: PPoly, t: Array) -> Array:
             return swing + a[0] * s**2 + a[1] * s + a[2] - 2.0 * a[0] / W**2, rate + 2.0 * a[0] * s + a[1]
 
         here = (t >= begin) & (t < end)
-        found[here] = at(t[here] - begin)[0]
+        results[here] = at(t[here] - begin)[0]
         x, v = (float(value) for value in at(np.array(end - begin)))
-    return 1.0 + found
+    return 1.0 + results
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "ali3p_generalised_alpha"])

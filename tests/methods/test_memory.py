@@ -58,7 +58,7 @@ def test_a_state_s_bytes_depend_on_no_earlier_step_of_another_method(after: str)
             assert other.save() == instance.save(), before
 
 
-def test_nor_on_the_states_of_elements_two_steps_ago() -> None:
+def test_saved_states_do_not_depend_on_element_states_two_steps_ago() -> None:
     instance = started(prototype_car.build(), "energy_momentum", 7)
     other = twin(prototype_car.build(), instance.save())
     instance.step(H)

@@ -56,10 +56,10 @@ def exact(name, system):
     """Sensors at the end by minimum-norm accelerations under DOP853."""
     mechanism = Mechanism(system)
     rates = Lagrange(mechanism, minimum_norm=True).rates
-    found = solve_ivp(
+    solution = solve_ivp(
         lambda t, x: rates(float(t), x), (0.0, END[name]), mechanism.start, method="DOP853", rtol=1e-13, atol=1e-15
     )
-    return mechanism.positions(found.y[: mechanism.nq, -1:].T, SENSORS[name])[0]
+    return mechanism.positions(solution.y[: mechanism.nq, -1:].T, SENSORS[name])[0]
 
 
 def error(system, names, end, h, method, expected):
@@ -70,13 +70,13 @@ def error(system, names, end, h, method, expected):
 def test_the_governor_gets_better_with_every_halving_of_the_step():
     _, height, spin, *_ = reduced_governor(1.0)
     system = compile(flyball.build())
-    found = [
+    results = [
         error(system, ("slider.position.z", "shaft.rate"), 1.0, h, "radau_5", (height, spin))[0]
         for h in (0.02, 0.01, 0.005, 0.0025, 0.00125)
     ]
-    assert (np.diff(found) < 0.0).all(), found
-    assert found[2] < 3e-10
-    assert found[4] < 3e-12  # a tolerance in metres alone left 4e-8
+    assert (np.diff(results) < 0.0).all(), results
+    assert results[2] < 3e-10
+    assert results[4] < 3e-12  # a tolerance in metres alone left 4e-8
 
 
 @pytest.mark.slow
@@ -93,9 +93,9 @@ def test_the_governor_gets_better_with_every_halving_of_the_step():
 def test_the_order_of_the_default_tolerances_down_to_small_steps(name, method, steps, least):
     system = compile(BUILD[name].build())
     expected = exact(name, system)
-    found = [error(system, SENSORS[name], END[name], h, method, expected)[0] for h in steps]
-    assert np.polyfit(np.log(steps), np.log(found), 1)[0] > least, found
-    assert found[-1] < found[-2]
+    results = [error(system, SENSORS[name], END[name], h, method, expected)[0] for h in steps]
+    assert np.polyfit(np.log(steps), np.log(results), 1)[0] > least, results
+    assert results[-1] < results[-2]
 
 
 def test_the_tolerances_stay_upper_bounds():
@@ -114,12 +114,12 @@ def test_a_singular_position_is_crossed_with_the_order_of_radau():
     """Where the old tangent stalls short of what the method needs, one more is made."""
     system = compile(double_four_bar.build())
     reference = simulate(system, 1.0, 0.0015625, settings=Settings(method="radau_5", tolerance_r=1e-13))
-    found = [
+    results = [
         abs(simulate(system, 1.0, h, method="radau_5")["B0.position.x"][-1] - reference["B0.position.x"][-1])
         for h in (0.0125, 0.00625, 0.003125)
     ]
-    assert found[2] < 2e-11
-    assert found[0] > 20.0 * found[1] > 400.0 * found[2]
+    assert results[2] < 2e-11
+    assert results[0] > 20.0 * results[1] > 400.0 * results[2]
 
 
 def test_a_step_of_order_four_is_five_midpoint_steps():
@@ -130,5 +130,5 @@ def test_a_step_of_order_four_is_five_midpoint_steps():
     z = 0.5j * omega * h * np.array([outer, outer, 1.0 - 4.0 * outer, outer, outer])
     value = (0.3 + 0.4j / omega) * np.prod((1.0 + z) / (1.0 - z))  # x - i v / omega goes as exp(i omega t)
     simulation.step(h)
-    found = simulation.sensors
-    assert (found["x"], -found["v"] / omega) == pytest.approx((value.real, value.imag), abs=1e-11)
+    actual = simulation.sensors
+    assert (actual["x"], -actual["v"] / omega) == pytest.approx((value.real, value.imag), abs=1e-11)

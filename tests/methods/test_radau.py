@@ -46,8 +46,8 @@ def test_velocities_without_projection_are_of_order_three():
     """Hairer, Lubich, Roche 1989: of index three, positions 2s - 1, velocities s."""
     system, steps = compile(flyball.build()), (0.02, 0.0125, 0.01, 0.008)
     loose = Settings(method=NAME, tolerance_r=1e-13, tolerance_phi=1e-13, project=False)
-    found, _ = order(system, ["shaft.rate"], 0.4, steps, loose)
-    assert 2.7 < found < 3.3
+    result, _ = order(system, ["shaft.rate"], 0.4, steps, loose)
+    assert 2.7 < result < 3.3
 
 
 def test_a_damped_oscillator_has_the_motion_and_the_energy_of_the_closed_form():
@@ -113,9 +113,9 @@ def test_a_redundant_row_costs_no_more_than_others():
 
 def test_inputs_go_straight_between_the_ends_of_a_step():
     inputs, system = {"torque": (np.array([0.0, 0.5, 1.0]), np.array([0.0, 8.0, -4.0]))}, crank_with_a_motor()
-    found = simulate(system, 1.0, 0.02, inputs, TIGHT)
+    run = simulate(system, 1.0, 0.02, inputs, TIGHT)
     expected = simulate(system, 1.0, 0.02, inputs, method="runge_kutta_8")
-    np.testing.assert_allclose(found["angle"], expected["angle"], atol=1e-7)
+    np.testing.assert_allclose(run["angle"], expected["angle"], atol=1e-7)
 
 
 def test_accelerations_and_joint_forces_are_those_of_the_state():

@@ -97,17 +97,17 @@ def test_a_start_just_within_them_is_not():
     Simulation(compile(prototype_car.build()), pose=Pose(x=0.9 * FARTHEST))
 
 
-def test_of_many_rows_the_one_that_is_open_most_is_told():
+def test_of_many_rows_the_one_that_is_open_most_is_reported():
     system = compile(spatial_chain.build())
     simulation = Simulation(system)
-    found = set()
+    result = set()
     for _ in range(5):
         simulation.step(0.01)
         state, report = simulation.state, simulation.instance.report()
         rows = np.abs(simulation.instance.evaluate(state.q, state.qd)["phi"]) * system.arrays["row_measure"]
         assert (report["worst_row"], report["violation"]) == (np.argmax(rows), np.max(rows))
-        found.add(report["worst_row"])
-    assert len(found) > 1
+        result.add(report["worst_row"])
+    assert len(result) > 1
 
 
 def test_a_closed_row_is_not_the_reason():

@@ -44,12 +44,12 @@ def sensed(run, names):
 def errors(name, method, steps):
     """Largest error over all steps of a run, by quantity, for each number of steps."""
     mechanism, system = case(name)
-    found = {}
+    results = {}
     for n in steps:
         run = simulate(system, mechanism.end, mechanism.end / n, mechanism.inputs, method=method)
         for quantity, expected in mechanism.exact(run.t).items():
-            found.setdefault(quantity, []).append(np.abs(sensed(run, QUANTITIES[quantity]) - expected).max())
-    return found
+            results.setdefault(quantity, []).append(np.abs(sensed(run, QUANTITIES[quantity]) - expected).max())
+    return results
 
 
 def test_the_page_has_every_method_and_quantity():
@@ -83,8 +83,8 @@ def test_forces_stay_right_where_the_step_changes(method, bound):
         expected = mechanism.exact(np.linspace(0.0, simulation.time, 3))
         values = simulation.sensors
         for quantity in ("joint force", "drive torque"):
-            found = [values[s] for s in QUANTITIES[quantity]]
-            assert np.abs(found - expected[quantity][-1]).max() < bound, (h, quantity)
+            results = [values[s] for s in QUANTITIES[quantity]]
+            assert np.abs(results - expected[quantity][-1]).max() < bound, (h, quantity)
 
 
 @pytest.mark.parametrize("method", ["energy_momentum", "energy_momentum_4"])
@@ -136,8 +136,8 @@ def test_inputs_jump_where_a_step_begins(method):
         assert sensed(run, names)[k] == pytest.approx(value, abs=tolerance)  # the value before the jump
     stepped = rod(lambda t: 8.0 if t > 0.3 else 0.0).exact(np.linspace(0.0, 0.6, 31))
     for quantity, value in stepped.items():
-        found = sensed(run, QUANTITIES[quantity])[-1]
-        assert found == pytest.approx(value[-1], abs=tolerance if method != "runge_kutta_8" else 1e-6), quantity
+        actual = sensed(run, QUANTITIES[quantity])[-1]
+        assert actual == pytest.approx(value[-1], abs=tolerance if method != "runge_kutta_8" else 1e-6), quantity
 
 
 @pytest.mark.parametrize("method", METHODS)

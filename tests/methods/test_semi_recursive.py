@@ -54,8 +54,8 @@ def test_accelerations_at_random_states_are_those_of_the_natural_equations(model
         expected = np.array(natural.sensors()[:])
         scale = np.abs(expected[accelerations]).max()
         assert scale > 0.1
-        for found in (seen[0], np.array(instance.sensors()[:])):
-            np.testing.assert_allclose(found[of_motion], expected[of_motion], rtol=0.0, atol=ROUND_OFF * scale)
+        for actual in (seen[0], np.array(instance.sensors()[:])):
+            np.testing.assert_allclose(actual[of_motion], expected[of_motion], rtol=0.0, atol=ROUND_OFF * scale)
 
 
 @pytest.mark.parametrize("method", SEMI)
@@ -65,10 +65,10 @@ def test_springs_dampers_inputs_a_slide_and_a_weld_agree_with_the_natural_method
     assert list(system.arrays["tree_slides"]).count(1) == 1
     assert len(system.arrays["tree_parent"]) == 4  # the welded bodies are one
     inputs = {"push": lambda t: 1.0 + np.sin(3.0 * t)}
-    found = simulate(system, 1.0, 0.002, inputs, tight(method), every=100)
+    run = simulate(system, 1.0, 0.002, inputs, tight(method), every=100)
     expected = simulate(system, 1.0, 0.002, inputs, tight("runge_kutta_8"), every=100)
     for name in names:
-        np.testing.assert_allclose(found[name], expected[name], atol=SAME_RULE if method == SEMI[0] else 1e-7)
+        np.testing.assert_allclose(run[name], expected[name], atol=SAME_RULE if method == SEMI[0] else 1e-7)
     assert np.ptp(expected["tail.x"]) > 0.1
 
 

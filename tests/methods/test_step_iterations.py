@@ -68,9 +68,9 @@ def test_all_parts_of_a_step_share_its_limit(rough):
 @pytest.mark.parametrize("limit", [2, 3, 5])
 def test_no_step_makes_more_iterations_and_none_fails(rough, limit):
     instance = started(rough, step_iterations=limit)
-    made = stepped(instance, 600)
+    result = stepped(instance, 600)
     report = instance.report()
-    assert made.max() == limit
+    assert result.max() == limit
     assert report["failures"] == report["halvings"] == 0
     assert report["capped"] > 0
     assert 0.0 < report["capped_residual"] < 0.05
@@ -94,10 +94,10 @@ def test_the_work_of_a_step_is_bounded(rough, limit):
     for _ in range(400):
         instance.run(H, 1)
         after = instance.report()
-        made = {name: after[name] - before[name] for name in names}
-        assert made["factorizations"] <= made["iterations"] <= limit
-        assert made["solves"] <= limit + 2 * SWEEPS
-        most = {name: max(most[name], made[name]) for name in names}
+        result = {name: after[name] - before[name] for name in names}
+        assert result["factorizations"] <= result["iterations"] <= limit
+        assert result["solves"] <= limit + 2 * SWEEPS
+        most = {name: max(most[name], result[name]) for name in names}
         before = after
     assert most["iterations"] == limit
     assert most["solves"] > limit
@@ -114,10 +114,10 @@ def test_what_is_left_bounds_how_far_the_positions_are_off(rough):
         limited.run(H, 1)
         exact.run(H, 1)
         off = np.abs(np.array(limited.get_state()[0]) - np.array(exact.get_state()[0])).max()
-        left = limited.report()["capped_residual"]
-        if left > max(before, 1e-6):
+        remaining = limited.report()["capped_residual"]
+        if remaining > max(before, 1e-6):
             apart += 1
-            assert off < 1.5 * left
+            assert off < 1.5 * remaining
     assert apart > 10
 
 
@@ -195,9 +195,9 @@ def test_parts_of_a_step_that_only_look_at_branches_are_not_made():
     loaded = LoadedSystem(mbs.compile(double_four_bar.build()).to_bytes())
     free, limited = Instance(loaded), Instance(loaded)
     free.initialise()
-    made = stepped(free, 100, 0.02)
+    result = stepped(free, 100, 0.02)
     assert free.report()["halvings"] == 0
-    limited.set_settings(step_iterations=int(made.max()))
+    limited.set_settings(step_iterations=int(result.max()))
     limited.initialise()
     stepped(limited, 100, 0.02)
     assert list(map(list, limited.get_state())) == list(map(list, free.get_state()))

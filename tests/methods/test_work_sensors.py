@@ -101,11 +101,11 @@ def test_the_balance_of_a_damped_swing_closes_by_the_order_of_the_method(method)
     if method == "energy_momentum":
         assert coarse < 1e-8 * lost
     elif method == "ali3p":
-        told = [r.report.energy_error for r in runs]
+        reported = [r.report.energy_error for r in runs]
         assert coarse / fine == pytest.approx(4.0, rel=0.2)
-        left = [abs(opened(r) - error) for r, error in zip(runs, told, strict=True)]
-        assert left[0] / left[1] > 6.0  # what the error of the energy does not name is of third order
-        assert left[1] < 0.04 * fine
+        remaining = [abs(opened(r) - error) for r, error in zip(runs, reported, strict=True)]
+        assert remaining[0] / remaining[1] > 6.0  # what the error of the energy does not name is of third order
+        assert remaining[1] < 0.04 * fine
     else:
         assert coarse / fine > 0.6 * 2.0 ** ORDERS.get(method, 2)
 
@@ -214,7 +214,7 @@ def test_the_work_of_a_held_steering_by_energy_momentum():
     assert np.abs(work("energy_momentum", 2e-3) - fine).max() < 0.015 * np.abs(fine).max()
 
 
-def test_what_is_refused():
+def test_invalid_values_are_refused():
     m = swing(0.0)
     kinds = "'heat'; it must be kinetic, gravity, elastic, total, work, nonconservative, by inputs or with guides"
     with pytest.raises(ModelError, match=kinds):

@@ -107,13 +107,13 @@ def test_a_ratio_that_a_parameter_writes_is_fixed_and_needs_a_coordinate_of_its_
         Simulation(system).set_parameter("ratio", 4.0)
     with pytest.raises(SimulationError, match="a parameter writes the ratio of armature 'rotor'"):
         simulate(system, 0.1, 0.01, method="semi_recursive", progress=False)
-    for name, value, words in (
+    for name, value, message in (
         ("par_fixed", [0], "parameter 0 writes the ratio of an armature and is not fixed"),
         ("armature_inertia", [1e3], "the inertia of armature 0 is not in that of its coordinate"),
         ("armature_col", [99], "armature_col"),
         ("armature_ratio", [-3.0], "the ratio of an armature must be a number above 0"),
     ):
-        with pytest.raises(KernelError, match=words):
+        with pytest.raises(KernelError, match=message):
             Simulation(System({**system.arrays, name: value}, system.meta))
 
 

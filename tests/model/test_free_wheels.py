@@ -12,11 +12,11 @@ NAMES = pytest.mark.parametrize("name", WHEELS)
 
 
 def check(name, turn, steps, method="ali3p"):
-    found = measure(name, turn, steps, method)
-    assert found["energy"] < 1e-3 * (turn / 0.5) ** 4 + 1e-9, found
-    assert found["slip"] < 1e-11, found
-    assert found["late"] < alone_late(turn), found
-    return found
+    result = measure(name, turn, steps, method)
+    assert result["energy"] < 1e-3 * (turn / 0.5) ** 4 + 1e-9, result
+    assert result["slip"] < 1e-11, result
+    assert result["late"] < alone_late(turn), result
+    return result
 
 
 @NAMES
@@ -34,9 +34,9 @@ def test_wheels_keep_energy_for_a_hundred_thousand_steps():
 
 @pytest.mark.parametrize("turn", [0.6, 3.0])
 def test_steps_in_which_wheels_turn_far_are_halved_or_refused(turn):
-    found = measure("pair, ratio -3", turn, 100)
-    assert found["energy"] < 1e-3
-    assert found["halvings"] >= 100
+    result = measure("pair, ratio -3", turn, 100)
+    assert result["energy"] < 1e-3
+    assert result["halvings"] >= 100
     system = mbs.compile(WHEELS["armature"](turn / 0.01).model)
     with pytest.raises(mbs.SimulationError, match=r"turns by more than 0\.52 rad .* a step of 0\.00\d+ s follows it"):
         mbs.simulate(system, 1.0, 0.01, settings=mbs.Settings(max_halvings=0), progress=False)

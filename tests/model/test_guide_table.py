@@ -96,7 +96,7 @@ def test_a_straight_table_is_a_gain():
 
 
 @pytest.mark.parametrize(
-    ("table", "said"),
+    ("table", "message"),
     [
         ([(0.0, 0.0)], "has 1 rows; it needs two at least"),
         ([(0.0, 0.0), (0.0, 1.0)], "goes from 0 to 0 in its first column; it must rise"),
@@ -104,8 +104,8 @@ def test_a_straight_table_is_a_gain():
         ([0.0, 1.0], "[tT]he table of guide 'rack'"),
     ],
 )
-def test_what_is_no_table_is_refused(table, said):
-    with pytest.raises(ModelError, match=said.replace("(", r"\(")):
+def test_an_invalid_table_is_refused(table, message):
+    with pytest.raises(ModelError, match=message.replace("(", r"\(")):
         lever(table=table)
 
 

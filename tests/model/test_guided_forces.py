@@ -35,9 +35,9 @@ def test_both_inputs_add_up_and_full_travel_is_the_end():
         simulation.set_input("share", share)
         simulation.set_input("angle", angle)
         t = simulation.run(simulation.time + 1.0, 0.01)
-        asked = GAINS[0] * share + GAINS[1] * angle
-        assert t["s"][-1] == pytest.approx(np.clip(asked, *LIMITS), abs=1e-9)
-        assert t["excess"][-1] == pytest.approx(2.0 * (asked - np.clip(asked, *LIMITS)), abs=1e-12)
+        requested = GAINS[0] * share + GAINS[1] * angle
+        assert t["s"][-1] == pytest.approx(np.clip(requested, *LIMITS), abs=1e-9)
+        assert t["excess"][-1] == pytest.approx(2.0 * (requested - np.clip(requested, *LIMITS)), abs=1e-12)
 
 
 def test_with_the_second_input_at_nought_it_is_a_guide_of_one_input_to_the_last_bit():

@@ -97,8 +97,8 @@ def test_the_force_of_a_wire_that_turns(method):
     a, w, e = (turn(run.t, k) for k in range(3))
     across = 0.7 * (place * e + 2.0 * speed * w + G * np.cos(a))
     expected = across * np.array([-np.sin(a), np.cos(a)])
-    found = np.array([run["force.x"], run["force.y"]])
-    assert np.abs(found - expected).max() < bound(method, np.abs(expected).max())
+    values = np.array([run["force.x"], run["force.y"]])
+    assert np.abs(values - expected).max() < bound(method, np.abs(expected).max())
 
 
 # --- moments ---
@@ -146,13 +146,13 @@ def test_a_cantilever_hangs_from_its_wall():
         m.sense_joint(f"wall.{c}", "wall", c, "moment", point=(0.0, 0.0, 0.0))
         m.sense_joint(f"centre.{c}", "seam", c, "moment")
         m.sense_joint(f"force.{c}", "wall", c)
-    found = Simulation(compile(m)).sensors
+    simulation = Simulation(compile(m)).sensors
     seam = -np.cross((0.4, 0.3, 0.0), (0.0, 0.0, -2.0 * G))
     wall = -np.cross((0.5, 0.0, 0.0), (0.0, 0.0, -3.0 * G)) - np.cross((1.4, 0.3, 0.0), (0.0, 0.0, -2.0 * G))
-    np.testing.assert_allclose([found[f"seam.{c}"] for c in "xyz"], seam, atol=1e-8)
-    np.testing.assert_allclose([found[f"wall.{c}"] for c in "xyz"], wall, atol=1e-8)
-    np.testing.assert_allclose([found[f"centre.{c}"] for c in "xyz"], 0.0, atol=1e-8)
-    np.testing.assert_allclose([found[f"force.{c}"] for c in "xyz"], [0.0, 0.0, 5.0 * G], atol=1e-8)
+    np.testing.assert_allclose([simulation[f"seam.{c}"] for c in "xyz"], seam, atol=1e-8)
+    np.testing.assert_allclose([simulation[f"wall.{c}"] for c in "xyz"], wall, atol=1e-8)
+    np.testing.assert_allclose([simulation[f"centre.{c}"] for c in "xyz"], 0.0, atol=1e-8)
+    np.testing.assert_allclose([simulation[f"force.{c}"] for c in "xyz"], [0.0, 0.0, 5.0 * G], atol=1e-8)
 
 
 @pytest.mark.parametrize("method", [*NATURAL, *TREE])
@@ -278,10 +278,10 @@ def multipliers(m, equilibrium=False):
     simulation = Simulation(system)
     if equilibrium:
         simulation.static_equilibrium()
-    found = {}
+    results = {}
     for row, scale, lam in zip(system.meta["rows"], system.arrays["row_scale"], simulation.state.lam, strict=True):
-        found.setdefault(row["name"], []).append(scale * lam)
-    return found
+        results.setdefault(row["name"], []).append(scale * lam)
+    return results
 
 
 def test_the_raw_multipliers_have_the_signs_that_the_state_documents():
@@ -346,7 +346,7 @@ def test_a_moment_sensor_changes_no_motion():
         ),
     ],
 )
-def test_what_cannot_be_read_says_what_can(act, sentence):
+def test_an_unreadable_file_is_refused_with_the_formats_that_can_be_read(act, sentence):
     m = Model("words")
     a, b, c, d = (m.body(n, mass=1.0, com=(k, 0, 0), inertia=(1, 1, 1)) for k, n in enumerate("abcd"))
     m.spherical("ball", m.ground, a, point=(0, 0, 0))

@@ -29,8 +29,8 @@ def test_an_offset_lets_one_number_share_out():
     system = compile(balance())
     for share in (0.6, 0.3):
         expected = simulate(compile(balance(share, offset=False)), t_end=1.0, h=0.01)["y"]
-        found = Simulation(system, parameters={"share": share}).run(1.0, 0.01)["y"]
-        assert list(found) == pytest.approx(list(expected), rel=0, abs=1e-12)
+        simulation = Simulation(system, parameters={"share": share}).run(1.0, 0.01)["y"]
+        assert list(simulation) == pytest.approx(list(expected), rel=0, abs=1e-12)
     other = Simulation(system, parameters={"share": 0.3}).run(1.0, 0.01)["y"]
     assert abs(other[-1] - Simulation(system).run(1.0, 0.01)["y"][-1]) > 0.01
 

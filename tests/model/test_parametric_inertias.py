@@ -15,10 +15,10 @@ NAMES = {"mass": (), "com": ("com_x", "com_y", "com_z"), "inertia": ("xx", "xy",
 
 def flat(data):
     """By the names of the reals."""
-    found = {"mass": data["mass"]}
+    results = {"mass": data["mass"]}
     for field in ("com", "inertia"):
-        found |= {n: v for n, v in zip(NAMES[field], np.ravel(data[field]), strict=True) if n}
-    return found
+        results |= {n: v for n, v in zip(NAMES[field], np.ravel(data[field]), strict=True) if n}
+    return results
 
 
 def thrown(data, written):

@@ -63,15 +63,15 @@ def started(model, method, way, values):
 
 @pytest.mark.parametrize("method", METHOD_TABLE)
 def test_every_method_moves_a_payload_as_a_mass_of_the_body(method):
-    found = {
+    actual = {
         way: started(pendulum(way), method, way, {"load.mass": 1.5}).run(2.0, 0.005)
         for way in ("parameter", "payload", "own")
     }
-    np.testing.assert_array_equal(table_of(found["parameter"]), table_of(found["payload"]))  # bit for bit
-    tolerance = ROUGH.get(method, SAME) * max(1.0, np.abs(found["own"]["hinge.y"]).max())
-    np.testing.assert_allclose(table_of(found["parameter"]), table_of(found["own"]), rtol=0, atol=tolerance)
+    np.testing.assert_array_equal(table_of(actual["parameter"]), table_of(actual["payload"]))  # bit for bit
+    tolerance = ROUGH.get(method, SAME) * max(1.0, np.abs(actual["own"]["hinge.y"]).max())
+    np.testing.assert_allclose(table_of(actual["parameter"]), table_of(actual["own"]), rtol=0, atol=tolerance)
     without = started(pendulum("parameter"), method, "parameter", {}).run(2.0, 0.005)
-    assert np.abs(without["x"] - found["parameter"]["x"]).max() > 0.01
+    assert np.abs(without["x"] - actual["parameter"]["x"]).max() > 0.01
 
 
 def test_the_swing_of_a_pendulum_with_a_payload():
@@ -299,7 +299,7 @@ def test_a_state_carries_its_payloads():
     assert one.save() == other.save()
 
 
-def test_what_payloads_refuse():
+def test_invalid_payloads_are_refused():
     m = pendulum("parameter")
     rod = m.bodies[0]
     with pytest.raises(ModelError, match="The payload 'a' sits on the ground, which does not move"):
@@ -323,7 +323,7 @@ def test_what_payloads_refuse():
 
 
 @pytest.mark.parametrize(
-    ("array", "index", "value", "said"),
+    ("array", "index", "value", "message"),
     [
         ("payload_mass", 0, -1.0, "mass of a payload"),
         ("payload_signal", 0, 10_000, "payload_signal"),
@@ -333,8 +333,8 @@ def test_what_payloads_refuse():
         ("tree_payload_body", 0, 0, "tree_payload_body"),
     ],
 )
-def test_the_loader_refuses_wrong_payloads(array, index, value, said):
-    with pytest.raises(KernelError, match=said):
+def test_the_loader_refuses_wrong_payloads(array, index, value, message):
+    with pytest.raises(KernelError, match=message):
         LoadedSystem(altered(compile(pendulum("parameter")), **{array: put(index, value)}))
 
 

@@ -45,11 +45,11 @@ def outputs(simulation):
 
 
 def test_forces_at_the_ports_are_those_of_joint_and_spring():
-    found = outputs(Simulation(compile(beam())))
+    actual = outputs(Simulation(compile(beam())))
     weight = MASS * GRAVITY
-    np.testing.assert_allclose(found[:6], [0, 0, 2 * weight / 3, 0, 0, weight / 3], rtol=0, atol=1e-6)
-    np.testing.assert_allclose(found[6:9], [0, 0, GRAVITY], rtol=0, atol=1e-6)  # s = A'(rdd - g)
-    np.testing.assert_allclose(found[9:], 0.0, atol=1e-6)
+    np.testing.assert_allclose(actual[:6], [0, 0, 2 * weight / 3, 0, 0, weight / 3], rtol=0, atol=1e-6)
+    np.testing.assert_allclose(actual[6:9], [0, 0, GRAVITY], rtol=0, atol=1e-6)  # s = A'(rdd - g)
+    np.testing.assert_allclose(actual[9:], 0.0, atol=1e-6)
 
 
 def test_motion_enters_in_body_axes():
@@ -57,19 +57,19 @@ def test_motion_enters_in_body_axes():
     m.initial_velocity(m.bodies[0], (0.0, 0.0, -0.5), (0.0, 0.5, 0.0))
     simulation = Simulation(compile(m))
     simulation.step(1e-3, 300)
-    found = outputs(simulation)
-    W = found[9:].reshape(3, 3)
+    actual = outputs(simulation)
+    W = actual[9:].reshape(3, 3)
     arm = np.subtract(RIGHT, LEFT)
     # the ball joint rests: s is -g in body axes, and W carries the acceleration of the other end
     assert (W @ arm)[2] == pytest.approx(simulation.sensors["az"], rel=1e-6)
-    assert np.linalg.norm(found[6:9]) == pytest.approx(GRAVITY, rel=1e-6)
+    assert np.linalg.norm(actual[6:9]) == pytest.approx(GRAVITY, rel=1e-6)
     assert np.abs(W).max() > 0.1
     # Newton: forces at the ports in body axes balance the specific acceleration of the centre of mass
-    total = found[:3] + found[3:6]
-    np.testing.assert_allclose(total, MASS * (found[6:9] + W @ np.array([1.0, 0.0, 0.0])), rtol=0, atol=1e-5)
+    total = actual[:3] + actual[3:6]
+    np.testing.assert_allclose(total, MASS * (actual[6:9] + W @ np.array([1.0, 0.0, 0.0])), rtol=0, atol=1e-5)
 
 
-def test_what_ports_refuse():
+def test_invalid_values_at_ports_are_refused():
     m = Model("m")
     body = m.body("b", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
     with pytest.raises(ModelError, match="Ports belong to a rigid body in space, not to 'ground'"):

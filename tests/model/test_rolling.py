@@ -30,7 +30,7 @@ def with_spin(centre_z=0.5):
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    ("changes", "message"),
     [
         ({"radius": 0.0}, "The radius of rolling joint 'rim' is 0"),
         ({"radius": -0.5}, "The radius of rolling joint 'rim' is -0.5"),
@@ -53,11 +53,11 @@ def with_spin(centre_z=0.5):
         ({"level": float("inf")}, "The level of rolling joint 'rim'"),
     ],
 )
-def test_a_wheel_that_cannot_roll_is_refused_with_the_reason(changes, said):
+def test_a_wheel_that_cannot_roll_is_refused_with_the_reason(changes, message):
     m, body = disc()
     with pytest.raises(ModelError) as refusal:
         m.rolling("rim", body, **(GOOD | changes))
-    assert said in str(refusal.value)
+    assert message in str(refusal.value)
 
 
 def test_bodies_that_are_no_wheels_are_refused():

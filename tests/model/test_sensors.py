@@ -64,10 +64,10 @@ def test_quaternion_after_nearly_half_a_turn(axis):
         m.sense_rotation(c, ball, c)
     t = Simulation(compile(m)).run(1.0, 0.001)
     x, y, z, w = Rotation.from_rotvec(turn).as_quat()
-    found = np.array([t[c] for c in "wxyz"])
-    assert found[:, -1] == pytest.approx([w, x, y, z], abs=1e-5)
-    np.testing.assert_allclose(np.sum(found**2, axis=0), 1.0, rtol=0, atol=EXACT)
-    assert np.abs(np.diff(found)).max() < 0.01  # no jump where another part becomes the largest
+    values = np.array([t[c] for c in "wxyz"])
+    assert values[:, -1] == pytest.approx([w, x, y, z], abs=1e-5)
+    np.testing.assert_allclose(np.sum(values**2, axis=0), 1.0, rtol=0, atol=EXACT)
+    assert np.abs(np.diff(values)).max() < 0.01  # no jump where another part becomes the largest
 
 
 def test_a_direction_of_motion_is_given_from_a_tenth_of_a_metre_per_second():

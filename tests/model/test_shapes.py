@@ -152,10 +152,10 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("kind", "given", "words"), REFUSED)
-def test_refused_shapes(kind, given, words):
+@pytest.mark.parametrize(("kind", "given", "message"), REFUSED)
+def test_refused_shapes(kind, given, message):
     m, arm = model()
-    with pytest.raises(mbs.ModelError, match=words.replace("(", r"\(")):
+    with pytest.raises(mbs.ModelError, match=message.replace("(", r"\(")):
         m.shape(arm, kind, **given)
     assert m.shapes == []
 

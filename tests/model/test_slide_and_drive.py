@@ -76,15 +76,15 @@ def test_a_point_that_two_guides_lead_around_a_circle():
 
 
 @pytest.mark.parametrize(
-    ("directions", "said"),
+    ("directions", "message"),
     [
         (((1.0, 0.0), (0.1, 1.0)), "are not at right angles"),
         (((1.0, 0.0),), "shape"),
         ((1.0, 0.0), "shape"),
     ],
 )
-def test_directions_that_do_not_fit_the_guides_are_refused(directions, said):
-    with pytest.raises(ModelError, match=said):
+def test_directions_that_do_not_fit_the_guides_are_refused(directions, message):
+    with pytest.raises(ModelError, match=message):
         crank(directions=directions)
 
 
@@ -106,8 +106,8 @@ def test_a_filtered_guide_is_that_of_a_critically_damped_filter():
         simulation.set_input("u", held)
         simulation.step(h)
         state = solve_ivp(rates, (0.0, h), state, "DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
-        found = [simulation.sensors[f"order {order}"] for order in range(3)]
-        np.testing.assert_allclose(found, [*state, rates(h, state)[1]], rtol=1e-8, atol=1e-10)
+        actual = [simulation.sensors[f"order {order}"] for order in range(3)]
+        np.testing.assert_allclose(actual, [*state, rates(h, state)[1]], rtol=1e-8, atol=1e-10)
     assert abs(state[1]) > 0.1
 
 

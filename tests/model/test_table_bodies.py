@@ -69,10 +69,10 @@ def test_steps_converge_with_the_order_of_their_method() -> None:
     last = [exact[n][-1] for n in WATCHED[:6]]
     errors = []
     for h in (0.01, 0.005, 0.0025):
-        found = simulate(system, 0.5, h, method="ali3p")
-        errors.append(float(np.abs(np.array([found[n][-1] for n in WATCHED[:6]]) - last).max()))
-        assert found.report is not None
-        assert found.report.mean_iterations < 3.5
+        run = simulate(system, 0.5, h, method="ali3p")
+        errors.append(float(np.abs(np.array([run[n][-1] for n in WATCHED[:6]]) - last).max()))
+        assert run.report is not None
+        assert run.report.mean_iterations < 3.5
     assert [np.log2(a / b) for a, b in pairwise(errors)] == pytest.approx([2.0, 2.0], abs=0.2)
 
 
@@ -150,8 +150,8 @@ def test_the_tangent_is_that_of_differences(system: Callable[[], System]) -> Non
         return np.array(instance.evaluate(at.tolist(), still.tolist(), [], 0.0)["force"])
 
     K = np.array([(force(q - d) - force(q + d)) / (2.0 * shift) for d in shift * np.eye(len(q))])
-    found = (long - short) / (0.25 * (0.2**2 - 0.1**2))
-    assert np.abs(found - 0.5 * (K + K.T)).max() < 1e-6 * np.abs(K).max()
+    results = (long - short) / (0.25 * (0.2**2 - 0.1**2))
+    assert np.abs(results - 0.5 * (K + K.T)).max() < 1e-6 * np.abs(K).max()
 
 
 def test_sums_by_vectors_and_numbers_are_those_of_the_whole() -> None:
@@ -189,9 +189,9 @@ def test_rates_of_sensors_are_those_of_the_run() -> None:
     instance.set_settings(tolerance_r=1e-13, tolerance_phi=1e-12)
     instance.initialise()
     instance.run(0.002, 50)
-    found, chosen = rates_of(instance)
+    actual, chosen = rates_of(instance)
     assert chosen.sum() > 20
-    assert np.allclose(found[chosen], slopes_of(instance)[chosen], rtol=RATE_ERROR, atol=RATE_ERROR)
+    assert np.allclose(actual[chosen], slopes_of(instance)[chosen], rtol=RATE_ERROR, atol=RATE_ERROR)
 
 
 def wrong(**changed: Any) -> None:
@@ -254,8 +254,8 @@ def test_a_step_from_far_beyond_a_table_is_refused() -> None:
         simulation.step(0.001)
     assert error.value.status == Status.BEYOND_TABLE
     assert 0.25 < simulation.state.q[3] < 0.252
-    said = "a coordinate has left the range of its table. 's' is 0.25"
-    assert said in str(error.value)
+    reported = "a coordinate has left the range of its table. 's' is 0.25"
+    assert reported in str(error.value)
     assert "its table goes from -0.2 to 0.2" in str(error.value)
 
 

@@ -58,11 +58,11 @@ def test_a_gear_train_has_the_reduced_inertia(method, ratio):
 def test_relative_coordinates_refuse_a_gear_or_obey_it(method):
     m, _ = gear_train(3.0)
     try:
-        found = run(m, method, {"torque": 0.15})["angle.1"][-1]
+        result = run(m, method, {"torque": 0.15})["angle.1"][-1]
     except mbs.SimulationError as refusal:
-        found = str(refusal)
+        result = str(refusal)
     acceleration = 0.15 / (0.02 + 0.3 / 9.0)
-    assert "this method needs" in found if isinstance(found, str) else abs(found - 0.4 - 0.5 * acceleration) < 1e-5
+    assert "this method needs" in result if isinstance(result, str) else abs(result - 0.4 - 0.5 * acceleration) < 1e-5
 
 
 @pytest.mark.parametrize("method", STEPPERS)
@@ -351,7 +351,7 @@ def test_a_screw_without_pitch_is_refused():
 
 
 @pytest.mark.parametrize("free", [False, True])
-def test_a_ring_of_gears_that_cannot_turn_is_told(free):
+def test_a_ring_of_gears_that_cannot_turn_is_reported(free):
     """Three wheels of which each turns its neighbours the other way, also beside a wheel that turns."""
 
     def ring(ratios, rate=0.0):
@@ -371,8 +371,10 @@ def test_a_ring_of_gears_that_cannot_turn_is_told(free):
 
     locked = run(ring((-1.0, -1.0, -1.0)), "ali3p", {"torque": 1.0}, t_end=0.1)
     assert abs(locked["angle"][-1]) < 1e-12
-    told = "The gears 'gear 0', 'gear 1', 'gear 2' form a ring that is locked: 'angle 2' would have to turn -1 times"
-    assert [text for text in locked.notices if text.startswith(told)]
+    reported = (
+        "The gears 'gear 0', 'gear 1', 'gear 2' form a ring that is locked: 'angle 2' would have to turn -1 times"
+    )
+    assert [text for text in locked.notices if text.startswith(reported)]
     with pytest.raises(ModelError, match="form a ring that is locked" if free else "is locked"):
         compile(ring((-1.0, -1.0, -1.0), 2.0))
     turning = run(ring((-2.0, -3.0, 1.0 / 6.0)), "ali3p", {"torque": 1.0}, t_end=0.1)
@@ -380,8 +382,8 @@ def test_a_ring_of_gears_that_cannot_turn_is_told(free):
     assert not turning.notices
 
 
-@pytest.mark.parametrize(("ratio", "beside", "told"), [(-1.0, True, True), (-1.0, False, True), (1.0, True, False)])
-def test_a_ring_of_racks_that_cannot_move_is_told(ratio, beside, told):
+@pytest.mark.parametrize(("ratio", "beside", "reported"), [(-1.0, True, True), (-1.0, False, True), (1.0, True, False)])
+def test_a_ring_of_racks_that_cannot_move_is_reported(ratio, beside, reported):
     """Two pinions on one rack, which a gear turns against each other, also beside a wheel that turns."""
     m = at_rest("racks")
     angles = []
@@ -395,10 +397,12 @@ def test_a_ring_of_racks_that_cannot_move_is_told(ratio, beside, told):
         m.rack(f"rack {k}", angles[k], rack, carrier=m.ground, axis=(1, 0), radius=0.1)
     m.gear("gear", angles[0], angles[1], ratio=ratio)
     notices = run(m, "ali3p", {}, t_end=0.1).notices
-    words = (
+    message = (
         "Parts that cannot move, as their joints leave them no freedom: 'wheel 0', 'angle 0', 'wheel 1', 'angle 1', "
     )
-    assert [text.startswith(words + "'rack'." if beside else "Nothing moves") for text in notices] == [True] * told
+    assert [text.startswith(message + "'rack'." if beside else "Nothing moves") for text in notices] == [
+        True
+    ] * reported
 
 
 def test_parts_at_a_dead_centre_are_not_told_to_be_locked():

@@ -52,8 +52,8 @@ def test_help_shows_the_function_as_the_method(name: str) -> None:
 def test_a_joint_is_added_by_the_method_and_not_by_the_function() -> None:
     m = Model("plane", dimension=2)
     rod = m.body("rod", mass=1.0, com=(0.5, 0.0), inertia=0.1)
-    made = inspect.unwrap(JointVocabulary.revolute)(m, "other", m.ground, rod, point=(0.0, 0.0))
-    assert made.name == "other"
+    result = inspect.unwrap(JointVocabulary.revolute)(m, "other", m.ground, rod, point=(0.0, 0.0))
+    assert result.name == "other"
     assert m.joints == []
     joint = m.revolute("pin", m.ground, rod, point=(0.0, 0.0))
     assert m.joints == [joint]
@@ -66,10 +66,10 @@ def test_type_checkers_know_the_arguments_and_the_result(tmp_path: Path) -> None
     api = pytest.importorskip("mypy.api")
     script = tmp_path / "typed.py"
     script.write_text(TYPES, encoding="utf-8")
-    said, _, _ = api.run([str(script), "--config-file", str(ROOT / "pyproject.toml")])
-    found = re.findall(r"typed\.py:(\d+): error: .*\[([\w-]+)\]", said)
+    reported, _, _ = api.run([str(script), "--config-file", str(ROOT / "pyproject.toml")])
+    matches = re.findall(r"typed\.py:(\d+): error: .*\[([\w-]+)\]", reported)
     lines = TYPES.splitlines()
-    assert {lines[int(n) - 1].split("# ")[-1]: code for n, code in found} == {
+    assert {lines[int(n) - 1].split("# ")[-1]: code for n, code in matches} == {
         "missing": "call-arg",
         "by position": "call-arg",
         "no number": "arg-type",

@@ -42,9 +42,9 @@ class TestFile:
 @cache
 def test_files(root: Path) -> list[TestFile]:
     """Files of tests in Python and JavaScript."""
-    found = [*(root / "tests").rglob("test_*.py"), *(root / "viewer" / "page").glob("test/*.test.js")]
+    results = [*(root / "tests").rglob("test_*.py"), *(root / "viewer" / "page").glob("test/*.test.js")]
     files = []
-    for path in sorted(found):
+    for path in sorted(results):
         name, text = path.relative_to(root).as_posix(), path.read_text(encoding="utf-8")
         if not name.startswith(LEFT_OUT):
             files.append(TestFile(name, frozenset(re.findall(r"\w+", text)), text))

@@ -56,11 +56,13 @@ class Sampled:
                 if path != home and path.suffix in operators.alike(home.suffix):
                     places |= {(path, k): points for k, points in self._places(path, root).items()}
         best = max(places.values(), default=0)
-        found = [place for place, points in places.items() if points == best]
-        if best < ENOUGH or len(found) != 1:
-            what = "the line is no longer in the code" if best < ENOUGH else f"the line fits {len(found)} places alike"
+        results = [place for place, points in places.items() if points == best]
+        if best < ENOUGH or len(results) != 1:
+            what = (
+                "the line is no longer in the code" if best < ENOUGH else f"the line fits {len(results)} places alike"
+            )
             raise ValueError(f"gone, look at it by hand: {self}: {what}")
-        return found[0]
+        return results[0]
 
     def _places(self, path: Path, root: Path) -> dict[int, int]:
         """Points of all places of a file that have the line: 7 where nothing has changed."""
@@ -113,8 +115,8 @@ def position(text: str, k: int) -> int:
 
 def sources(root: Path = ROOT) -> list[Path]:
     """Files that are mutated, in the order of their paths."""
-    found = (path for folder in SOURCES for path in (root / folder).rglob("*") if path.suffix in SUFFIXES)
-    return sorted(path for path in found if not NOT_MUTATED & set(path.relative_to(root).parts))
+    results = (path for folder in SOURCES for path in (root / folder).rglob("*") if path.suffix in SUFFIXES)
+    return sorted(path for path in results if not NOT_MUTATED & set(path.relative_to(root).parts))
 
 
 def draw(number: int, seed: int, root: Path = ROOT) -> list[Iterator[Sampled]]:
@@ -130,11 +132,11 @@ def draw(number: int, seed: int, root: Path = ROOT) -> list[Iterator[Sampled]]:
         rooms.setdefault(path.parent, []).append(path)
     weights = [math.sqrt(sum(path.stat().st_size for path in files)) for files in rooms.values()]
     start, total = random.Random(seed).random(), sum(weights)
-    drawn, ends, seen = [], 0.0, set[Sampled]()
+    drawn, ends, visited = [], 0.0, set[Sampled]()
     for files, weight in zip(rooms.values(), weights, strict=True):
         first, ends = math.ceil(ends - start), ends + number * weight / total
         last = min(math.ceil(ends - start), number)
-        drawn += [_stream(files, random.Random(f"{seed} {k}"), root, seen) for k in range(first, last)]
+        drawn += [_stream(files, random.Random(f"{seed} {k}"), root, visited) for k in range(first, last)]
     random.Random(seed).shuffle(drawn)  # what is known of a run that was stopped is a sample too
     return drawn
 

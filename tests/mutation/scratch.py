@@ -98,9 +98,9 @@ def compiles(root: Path, changed: Path) -> None:
             raise RuntimeError(result.stderr)
 
 
-def build_and_test(root: Path, batches: Sequence[Batch], changed: Path | None, words: Path, notes: Path) -> None:
+def build_and_test(root: Path, batches: Sequence[Batch], changed: Path | None, message: Path, notes: Path) -> None:
     """In a process of its own: what is said goes to a file, the outcome is the exit code."""
-    with words.open("w") as stream:
+    with message.open("w") as stream:
         os.dup2(stream.fileno(), 1)
         os.dup2(stream.fileno(), 2)
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # for which tests/conftest.py writes all the same
@@ -162,27 +162,27 @@ class Scratch:
 
     def run(self, batches: Sequence[Batch], changed: Path | None = None, limit: float = LIMIT) -> Verdict:
         """What the tests say of the copy as it is, within a limit of CPU time; `changed` is compiled before."""
-        words, notes = self.root.with_suffix(".txt"), self.root.with_suffix(".notes")
+        message, notes = self.root.with_suffix(".txt"), self.root.with_suffix(".notes")
         notes.unlink(missing_ok=True)
-        process = self._context.Process(target=build_and_test, args=(self.root, batches, changed, words, notes))
+        process = self._context.Process(target=build_and_test, args=(self.root, batches, changed, message, notes))
         process.start()
         seconds = _wait(process.pid, process.is_alive, limit)
         over = process.is_alive()
         process.kill()
         process.join()
         shutil.rmtree(self.root.with_suffix(".tmp"), ignore_errors=True)
-        said = words.read_text(errors="replace").strip().splitlines() or [""]
+        reported = message.read_text(errors="replace").strip().splitlines() or [""]
         noted = [json.loads(line) for line in notes.read_text().splitlines()] if notes.is_file() else []
         _, test, since = noted[-1] if noted else ("", "", 0.0)
         if over:
             return Verdict(SURVIVED, f"no end within {seconds:.0f} s of CPU", test, seconds, seconds - since)
         if process.exitcode == NOT_BUILT:
-            return Verdict(BROKEN, "\n".join(said))
+            return Verdict(BROKEN, "\n".join(reported))
         if process.exitcode == 0:
             count = sum(note[0] == "at" for note in noted)
-            why = f"{count} tests pass" if count else said[-1]
+            why = f"{count} tests pass" if count else reported[-1]
             return Verdict(SURVIVED if count or not batches else BROKEN, why, "", seconds)
-        why = next((line for line in said if line.startswith(("FAILED ", "ERROR "))), said[-1])
+        why = next((line for line in reported if line.startswith(("FAILED ", "ERROR "))), reported[-1])
         return Verdict(KILLED if test else BROKEN, why, test, seconds)
 
     def attempt(self, mutant: Applied, batches: Sequence[Batch], limit: float = LIMIT, build: bool = True) -> Verdict:
@@ -211,18 +211,18 @@ class Scratch:
 def _wait(pid: int | None, alive: Callable[[], bool], limit: float) -> float:
     """CPU time of a process and all that it started, when it ends, is over the limit or stands still; none is left."""
     used, before, moved = 0.0, 0.0, time.monotonic()
-    seen: set[psutil.Process] = set()
+    visited: set[psutil.Process] = set()
     while alive() and used < limit and time.monotonic() - moved < STILL:
         time.sleep(PAUSE)
         now = 0.0
         with suppress(psutil.Error):
             tree = [psutil.Process(pid), *psutil.Process(pid).children(recursive=True)]
-            seen.update(tree)
+            visited.update(tree)
             now = sum(sum(process.cpu_times()[:4]) for process in tree)
         used = max(used, now)
         if used > before + 0.5:
             before, moved = used, time.monotonic()
-    for process in seen:
+    for process in visited:
         if process.pid != pid:
             with suppress(psutil.Error):
                 process.kill()

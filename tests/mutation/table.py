@@ -39,11 +39,11 @@ class Mutant:
 
         Raises `ValueError` where the text is not there exactly once.
         """
-        found = [(path, path.read_text(encoding="utf-8")) for path in files_named(self.file, root)]
-        count = sum(content.count(self.original) for _, content in found)
+        results = [(path, path.read_text(encoding="utf-8")) for path in files_named(self.file, root)]
+        count = sum(content.count(self.original) for _, content in results)
         if count != 1:
             raise ValueError(f"{self.file} has the text {self.original!r} {count} times; it must be there once")
-        path, content = next((path, content) for path, content in found if self.original in content)
+        path, content = next((path, content) for path, content in results if self.original in content)
         return path, content.replace(self.original, self.changed)
 
 
@@ -56,12 +56,12 @@ def files_named(name: str, root: Path = ROOT) -> list[Path]:
 @functools.cache
 def _sources(root: Path) -> dict[str, list[Path]]:
     """All sources by the last part of their path: mutants change what is in them, not which there are."""
-    found: dict[str, list[Path]] = {}
+    results: dict[str, list[Path]] = {}
     for folder in SOURCES:
         for path in sorted((root / folder).rglob("*.*")):
             if path.suffix in SUFFIXES:
-                found.setdefault(path.name, []).append(path)
-    return found
+                results.setdefault(path.name, []).append(path)
+    return results
 
 
 def read_table(path: Path) -> list[Mutant]:

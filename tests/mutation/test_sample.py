@@ -65,8 +65,8 @@ def test_an_operator_changes_this_and_nothing_else(suffix, source, operator, exp
 
 
 def test_constants_change_by_one_or_by_a_factor() -> None:
-    made = [float(text.removeprefix("x=")) for _, text in texts("x = 1", ".py")]
-    assert made == [2.0, 0.0]
+    result = [float(text.removeprefix("x=")) for _, text in texts("x = 1", ".py")]
+    assert result == [2.0, 0.0]
     assert texts("x = 0.0", ".py") == [("constant", "x=1.0")]
     ((_, text),) = texts("double x = 3e-4;", ".c")
     assert 1.005 < float(text.removeprefix("doublex=").removesuffix(";")) / 3e-4 < 2.1
@@ -110,15 +110,15 @@ def test_a_mutant_is_found_where_its_file_was_moved_and_its_lines_wrapped(tree: 
     (tree / "mbs/room/area.py").unlink()
     (tree / "viewer").mkdir()
     (tree / "viewer/shape.py").write_text(SHIFTED, encoding="utf-8")
-    found = [mutant.apply(tree) for mutant in comparison]
-    assert {path for path, _ in found} == {tree / "viewer/shape.py"}
+    actual = [mutant.apply(tree) for mutant in comparison]
+    assert {path for path, _ in actual} == {tree / "viewer/shape.py"}
     expected = [SHIFTED.replace(*pair) for pair in ((" in ", " not in "), (") < 2", ") <= 2"), ("< 2", "> 2"))]
-    assert sorted(content for _, content in found) == sorted(expected)
+    assert sorted(content for _, content in actual) == sorted(expected)
     with pytest.raises(ValueError, match=r"gone, look at it by hand: .*SEEN\.add\(of, per\).*no longer in the code"):
         swapped.apply(tree)
 
 
-def test_a_line_that_stands_twice_is_told_apart_by_its_function_or_told(tree: Path) -> None:
+def test_a_line_that_stands_twice_is_reported_apart_by_its_function_or_told(tree: Path) -> None:
     (mutant,) = (m for m in mutants_in(tree, "order") if m.line.strip().startswith("return"))
     assert mutant.apply(tree)[0] == tree / "mbs/room/area.py"
     moved = replace(mutant, file="mbs/room/gone.py")

@@ -87,9 +87,9 @@ def test_every_step_is_that_of_the_paper(scene, update, h):
     system, settings = compile(SCENES[scene]()), SETTINGS[update]
     simulation = Simulation(system, settings=settings)
     for n in range(STEPS):
-        before, made = simulation.state, stepped(simulation, h)
+        before, result = simulation.state, stepped(simulation, h)
         assert simulation.report.halvings == 0
-        expected = oracle_step(system, before, settings, h, made)
+        expected = oracle_step(system, before, settings, h, result)
         assert agrees(simulation.state, expected, settings, h), f"step {n}"
     assert relative(simulation.state.q, system.arrays["q0"]) > 0.1  # it has moved
 
@@ -100,9 +100,9 @@ def test_the_comparison_tells_variants_apart(scene, change):
     system, settings, h = compile(SCENES[scene]()), SETTINGS["linearised"], 0.03
     simulation = Simulation(system, settings=settings)
     simulation.step(h, n=20)
-    before, made = simulation.state, stepped(simulation, h)
-    assert agrees(simulation.state, oracle_step(system, before, settings, h, made), settings, h)
-    variant = oracle_step(system, before, replace(settings, **change), h, made)
+    before, result = simulation.state, stepped(simulation, h)
+    assert agrees(simulation.state, oracle_step(system, before, settings, h, result), settings, h)
+    variant = oracle_step(system, before, replace(settings, **change), h, result)
     assert not agrees(simulation.state, variant, settings, h)
 
 
@@ -110,6 +110,6 @@ def test_without_projections_the_step_is_that_of_the_paper_too():
     system, settings, h = compile(double_four_bar.build()), replace(SETTINGS["linearised"], project=False), 0.01
     simulation = Simulation(system, settings=settings)
     for _ in range(30):
-        before, made = simulation.state, stepped(simulation, h)
-        expected = oracle_step(system, before, settings, h, made)
+        before, result = simulation.state, stepped(simulation, h)
+        expected = oracle_step(system, before, settings, h, result)
         assert agrees(simulation.state, expected, settings, h)

@@ -24,8 +24,8 @@ def open_crg(folder: Path, spacing: float) -> GridRoad:
     """A half round of 2 inches across the road, as obstacle courses have it."""
     crg = pytest.importorskip("pyopencrg")
     x = spacing * np.arange(round(6.0 / spacing) + 1)
-    made = crg.CrgRoad(np.repeat(halfround(x, 0.0508)[:, None], 3, axis=1), spacing, np.array([-2.0, 0.0, 2.0]))
-    made.save(folder / "a.crg", "KRBI")
+    road = crg.CrgRoad(np.repeat(halfround(x, 0.0508)[:, None], 3, axis=1), spacing, np.array([-2.0, 0.0, 2.0]))
+    road.save(folder / "a.crg", "KRBI")
     return read_road(folder / "a.crg")
 
 
@@ -72,7 +72,7 @@ def test_peak_loads_are_those_of_a_dense_search(tmp_path: Path, made, spacing: f
     assert run["load"].max() == pytest.approx(expected, rel=2e-3)
 
 
-def test_a_face_that_the_contact_cannot_follow_is_told_from_every_origin(tmp_path: Path) -> None:
+def test_a_face_that_the_contact_cannot_follow_is_reported_from_every_origin(tmp_path: Path) -> None:
     """With place, radius and spacing, where the road file is written."""
     crg = pytest.importorskip("pyopencrg")
     heights = np.where(np.arange(101) * 0.1 > 5.0, 0.5, 0.0)
@@ -81,8 +81,8 @@ def test_a_face_that_the_contact_cannot_follow_is_told_from_every_origin(tmp_pat
     )
     saved(tmp_path / "a.ply", *sheet(10.0, 2.0, lambda x, y: np.clip(10.0 * (x - 5.0), 0.0, 0.5), 0.05))
     for name in ("a.crg", "a.ply"):
-        with pytest.warns(RoadWarning) as told:
+        with pytest.warns(RoadWarning) as caught:
             write_road(read_road(tmp_path / name), tmp_path / "a.road")
-        sentence = str(told[-1].message)
+        sentence = str(caught[-1].message)
         assert "at x = 5 m, y = -1 m a face of 0.5 m rises within 0.1 m (points 0.1 by " in sentence, name
         assert "a wheel of 0.3 m radius does not climb it" in sentence

@@ -248,9 +248,9 @@ def test_the_command(tmp_path, capsys):
     road, picture = tmp_path / "a.road", tmp_path / "a.png"
     given = ["road", str(tmp_path / "a.csv"), str(road), "--frictions", "0.6", "--picture", str(picture)]
     assert main(given) == 0
-    said = capsys.readouterr().out
-    assert "grid of 2 x 3 points\nx: 5 to 7 m, every 2 m\ny: -1 to 1 m, every 1 m\n" in said
-    assert {"from", "lowest", "highest", "1.2", "0.5", "least", "0.6"} <= set(said.replace(",", " ").split())
+    output = capsys.readouterr().out
+    assert "grid of 2 x 3 points\nx: 5 to 7 m, every 2 m\ny: -1 to 1 m, every 1 m\n" in output
+    assert {"from", "lowest", "highest", "1.2", "0.5", "least", "0.6"} <= set(output.replace(",", " ").split())
     assert np.array_equal(RoadFile(road).read().heights, HEIGHTS)
     assert picture.read_bytes().startswith(b"\x89PNG")
     assert main(["road", str(road)]) == 0

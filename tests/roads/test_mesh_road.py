@@ -48,11 +48,11 @@ def test_heights_of_random_triangles_are_those_of_an_independent_interpolation()
     x, y = 0.1 * np.arange(201), 0.1 * np.arange(201)
     lowest, highest = triangle_heights(np.column_stack([flat, z])[drawn.simplices], x, y)
     expected = LinearNDInterpolator(drawn, z)(*np.meshgrid(x, y, indexing="ij"))
-    there = np.isfinite(expected) & np.isfinite(highest)
-    assert there.mean() > 0.95
+    finite = np.isfinite(expected) & np.isfinite(highest)
+    assert finite.mean() > 0.95
     assert (np.isfinite(expected) != np.isfinite(highest)).mean() < 0.003  # on the outline
     for found in (lowest, highest):
-        assert np.abs(found - expected)[there].max() < 1e-6
+        assert np.abs(found - expected)[finite].max() < 1e-6
 
 
 @pytest.mark.parametrize("suffix", ["stl", "ply", "obj", "off", "glb"])
@@ -83,7 +83,7 @@ def test_the_difference_falls_with_the_spacing(tmp_path: Path) -> None:
     assert level.spacing == pytest.approx((20.0 / 67, 4.0 / 14))  # both borders are met
 
 
-def test_an_upright_face_is_no_overhang_and_is_told(tmp_path: Path) -> None:
+def test_an_upright_face_is_no_overhang_and_is_reported(tmp_path: Path) -> None:
     """A kerb drawn with its upright face, on which points of the grid lie."""
     low, high = sheet(5.0, 4.0, lambda x, y: 0.0), sheet(5.0, 4.0, lambda x, y: 0.12)
     points = np.concatenate([low[0], high[0] + [5.0, 0.0, 0.0]])
@@ -103,9 +103,9 @@ def test_beside_the_mesh_its_border_goes_on(tmp_path: Path) -> None:
     radius = 20.0 + points[:, 1]
     ring = np.stack([radius * np.cos(points[:, 0]), radius * np.sin(points[:, 0]), 0.1 * points[:, 1]], -1)
     file = saved(tmp_path / "a.ply", ring, triangles)
-    with pytest.warns(RoadWarning) as told:
+    with pytest.warns(RoadWarning) as caught:
         road = read_road(file, spacing=(0.25, 0.25))
-    gap, off = (str(warning.message) for warning in told)
+    gap, off = (str(warning.message) for warning in caught)
     assert re.search(r"has a gap of 9\d\d m2 .* what the road goes round", gap)
     assert "by 21.9 mm at most" in off
     assert np.isfinite(road.heights).all()
@@ -114,7 +114,7 @@ def test_beside_the_mesh_its_border_goes_on(tmp_path: Path) -> None:
     assert road.rms < 2e-3
 
 
-def test_pieces_that_lie_apart_are_told(tmp_path: Path) -> None:
+def test_pieces_that_lie_apart_are_reported(tmp_path: Path) -> None:
     """A step within a road of one piece is not."""
     points, triangles = sheet(20.0, 6.0, hills)
     both = np.concatenate([points, points[:, :] * [0.5, 0.5, 1.0] + [40.0, 1.0, 0.0]])
@@ -192,11 +192,11 @@ def test_the_place_of_the_largest_difference_moves_with_the_grid(tmp_path: Path)
     """Also in the warning."""
     file = saved(tmp_path / "a.ply", *sheet(20.0, 4.0, lambda x, y: 0.5 * np.clip(x - 7.03, 0.0, 3.1), 0.1))
     with pytest.warns(RoadWarning, match=r"at most, at x = 7 m, y"):
-        there = read_road(file, spacing=(0.4, 0.4))
+        present = read_road(file, spacing=(0.4, 0.4))
     with pytest.warns(RoadWarning, match=r"at most, at x = 107 m, y"):
         moved = read_road(file, spacing=(0.4, 0.4), origin=(100.0, 20.0))
-    assert np.subtract(moved.place, there.place) == pytest.approx((100.0, 22.0))
-    assert (moved.largest, tuple(moved.origin)) == (there.largest, (100.0, 20.0))
+    assert np.subtract(moved.place, present.place) == pytest.approx((100.0, 22.0))
+    assert (moved.largest, tuple(moved.origin)) == (present.largest, (100.0, 20.0))
 
 
 @pytest.mark.parametrize(("scale", "up", "order"), [(0.001, "z", (0, 1, 2)), (1.0, "y", (0, 2, 1))])
@@ -205,14 +205,16 @@ def test_a_description_says_unit_and_axis(tmp_path: Path, scale: float, up: str,
     if up == "y":
         points[:, 2] *= -1.0
     saved(tmp_path / "a.ply", points, triangles)
-    said = f'kind = "grid"\nheights = "a.ply"\nscale = {scale}\nup = "{up}"\nspacing = [0.5, 0.5]\norigin = [10, 20]\n'
-    (tmp_path / "a.toml").write_text(said)
+    reported = (
+        f'kind = "grid"\nheights = "a.ply"\nscale = {scale}\nup = "{up}"\nspacing = [0.5, 0.5]\norigin = [10, 20]\n'
+    )
+    (tmp_path / "a.toml").write_text(reported)
     road = read_road(tmp_path / "a.toml")
     x, y = np.meshgrid(0.5 * np.arange(81), -4.0 + 0.5 * np.arange(17), indexing="ij")
     assert np.allclose(road.heights, hills(x, y), atol=2e-6)
     assert tuple(road.origin) == (10.0, 20.0)
     (tmp_path / "z.csv").write_text("0,0\n0,0\n")
-    (tmp_path / "a.toml").write_text(said.replace("a.ply", "z.csv"))
+    (tmp_path / "a.toml").write_text(reported.replace("a.ply", "z.csv"))
     with pytest.raises(RoadFileError, match=r"z\.csv is not a mesh, which scale is of"):
         read_road(tmp_path / "a.toml")
 

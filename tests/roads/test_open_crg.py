@@ -38,10 +38,10 @@ def test_a_straight_road_has_the_points_of_its_file() -> None:
     stored = np.array(
         [[np.nan if "miss" in row[k : k + 10] else float(row[k : k + 10]) for k in range(0, 70, 10)] for row in rows]
     )
-    there = np.isfinite(stored)
-    assert np.allclose(arrays(road)[0][there], stored[there], atol=1e-12)
+    finite = np.isfinite(stored)
+    assert np.allclose(arrays(road)[0][finite], stored[finite], atol=1e-12)
     assert np.array_equal(road.heights[7, [0, 6]], stored[7, [1, 5]])
-    assert (~there).sum() == 3
+    assert (~finite).sum() == 3
 
 
 @pytest.mark.parametrize("name", ["handmade_circle", "handmade_curved_banked_sloped", "handmade_straight_minimalist"])
@@ -54,10 +54,10 @@ def test_heights_are_those_of_a_second_reader(name: str, tmp_path: Path) -> None
     pycrg = pytest.importorskip("pycrg")
     logging.getLogger("pycrg").setLevel(logging.CRITICAL)
     content = (DATA / f"{name}.crg").read_bytes()
-    said = content.replace(INCREMENTS, INCREMENTS + b"LONG_SECTION_V_RIGHT = -1.5\n")
+    reported = content.replace(INCREMENTS, INCREMENTS + b"LONG_SECTION_V_RIGHT = -1.5\n")
     road = read_road(DATA / f"{name}.crg", spacing=(0.1, 0.1))
     rng = np.random.default_rng(1)
-    with pycrg.RoadSurface.open(written(tmp_path, said)) as second:
+    with pycrg.RoadSurface.open(written(tmp_path, reported)) as second:
         u, v = rng.uniform(0.0, second.u_range()[1], 4000), rng.uniform(-1.5, 1.5, 4000)
         x, y = second.uv_to_xy_many(u, v)
         off = np.abs(grid_heights(road, road.heights, np.stack([x, y], -1)) - second.uv_to_z_many(u, v))
@@ -66,13 +66,13 @@ def test_heights_are_those_of_a_second_reader(name: str, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("spacing", [0.1, 0.3, 0.7])
-def test_no_place_is_farther_off_than_is_told(spacing: float) -> None:
+def test_no_place_is_farther_off_than_is_reported(spacing: float) -> None:
     """A dense comparison by another reader's way along the road; beside it the heights of the border go on."""
     crg = pytest.importorskip("pyopencrg")
     road = read_road(DATA / "handmade_curved_banked_sloped.crg", spacing=(spacing, spacing))
-    made = crg.read(str(DATA / "handmade_curved_banked_sloped.crg"), apply_mods=True)
-    u, v = (a.ravel() for a in np.meshgrid(np.linspace(made.u[0], made.u[-1], 1501), np.linspace(-1.5, 1.5, 301)))
-    off = np.abs(grid_heights(road, road.heights, np.stack(made.uv_to_xy(u, v), -1)) - made.uv_to_z(u, v))
+    result = crg.read(str(DATA / "handmade_curved_banked_sloped.crg"), apply_mods=True)
+    u, v = (a.ravel() for a in np.meshgrid(np.linspace(result.u[0], result.u[-1], 1501), np.linspace(-1.5, 1.5, 301)))
+    off = np.abs(grid_heights(road, road.heights, np.stack(result.uv_to_xy(u, v), -1)) - result.uv_to_z(u, v))
     assert 0.9 * road.largest < off.max() < road.largest * (1.0 + 1e-3) + 1e-6
 
 
@@ -85,14 +85,14 @@ def test_a_long_road_is_known_near_itself_and_goes_on_beside(tmp_path: Path) -> 
     made.mods = {}
     made.save(tmp_path / "a.crg", "KDBI")
     road = read_road(tmp_path / "a.crg", spacing=(0.5, 0.5))
-    asked = []
+    requested = []
     x, y = (o + d * np.arange(n) for o, d, n in zip(road.origin, road.spacing, np.shape(road.heights), strict=True))
     for places in zip(x[::7], y[:: max(len(y) // len(x[::7]), 1)], strict=False):
         u, v = made.xy_to_uv(*(np.array([p]) for p in places))
-        asked.append((abs(v[0]), made.uv_to_z(np.clip(u, 0.0, 300.0), np.clip(v, -2.0, 2.0))[0], places))
-    heights = grid_heights(road, road.heights, np.array([p for *_, p in asked]))
-    near = np.array([v for v, *_ in asked]) < 8.0
-    exact = np.array([z for _, z, _ in asked])
+        requested.append((abs(v[0]), made.uv_to_z(np.clip(u, 0.0, 300.0), np.clip(v, -2.0, 2.0))[0], places))
+    heights = grid_heights(road, road.heights, np.array([p for *_, p in requested]))
+    near = np.array([v for v, *_ in requested]) < 8.0
+    exact = np.array([z for _, z, _ in requested])
     assert near.any()
     assert not near.all()
     assert np.abs(heights - exact)[near].max() < 1e-9
@@ -122,7 +122,7 @@ def test_a_file_of_our_own_comes_back(tmp_path: Path) -> None:
         assert road.spacing == pytest.approx((0.5, 0.5), rel=0.02)  # the most, from border to border
 
 
-def test_a_large_difference_is_told() -> None:
+def test_a_large_difference_is_reported() -> None:
     with pytest.warns(
         RoadWarning, match=r"points 0.9979 by 0.8417 m apart differs from .*sloped\.crg by 20.5 mm at most, at x ="
     ):

@@ -84,8 +84,8 @@ def test_a_washboard_moves_a_quarter_car_as_the_linear_one(tmp_path):
     run = mbs.simulate(quarter_car(RoadFile(tmp_path / "a.road")), 9.0, 0.001, progress=False)
     road = -1j * AMPLITUDE  # sin, which starts at x = 8 m, two waves from 0
     for name, expected in zip(("wheel", "body"), linear_quarter_car(), strict=True):
-        found = response(run[f"{name}.z"], run[f"{name}.x"]) / road
-        assert abs(found - expected) < 0.002 * abs(expected), name
+        result = response(run[f"{name}.z"], run[f"{name}.x"]) / road
+        assert abs(result - expected) < 0.002 * abs(expected), name
         assert abs(expected) > 0.2
     assert run["load"].min() > 1000.0
 

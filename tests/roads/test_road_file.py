@@ -67,7 +67,7 @@ def run(system, path, t_end=1.0, speed=12.0, **parameters):
         rough(64, 32, frictions=False),
     ],
 )
-def test_what_is_written_is_read_again(tmp_path, given):
+def test_written_files_are_read_back(tmp_path, given):
     path = tmp_path / "a.road"
     write_road(given, path)
     again = read_road(path)
@@ -208,11 +208,13 @@ def test_a_file_that_is_cut_while_a_run_is_checked_leaves_its_error_unknown(tmp_
         times.append(t)
         return 0.3
 
-    words = r"The error of the run is not known: in a refined run with steps of 0\.00\d+ s .* Of the road its part from"
+    message = (
+        r"The error of the run is not known: in a refined run with steps of 0\.00\d+ s .* Of the road its part from"
+    )
     road, start = {"road.file": path}, mbs.Pose(speed=20.0)
-    with pytest.warns(mbs.AccuracyWarning, match=words) as told:
+    with pytest.warns(mbs.AccuracyWarning, match=message) as caught:
         run = mbs.simulate(car, 3.0, H, {"throttle": throttle}, None, road, pose=start, estimate_error=True)
-    assert not any("not to be trusted" in str(line.message) for line in told)
+    assert not any("not to be trusted" in str(line.message) for line in caught)
     assert run.t[-1] == pytest.approx(3.0)
 
 
@@ -378,7 +380,7 @@ def test_a_cut_or_lengthened_file_is_refused(car, road, size):
         run(car, road)
 
 
-def test_what_is_no_file_is_refused(tmp_path, car):
+def test_a_path_that_is_no_file_is_refused(tmp_path, car):
     for path, sentence in (
         (tmp_path / "nothing.road", "there is no such file"),
         (tmp_path, "not a regular file|may not be read"),

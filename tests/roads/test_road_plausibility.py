@@ -35,7 +35,7 @@ def test_roads_of_the_package_have_nothing_odd() -> None:
 
 
 @pytest.mark.parametrize(
-    ("road", "words"),
+    ("road", "message"),
     [
         (waves(factor=1000.0), "mm in place of m in heights"),
         (waves(spacing=500.0), "mm in place of m in coordinates or"),
@@ -44,10 +44,10 @@ def test_roads_of_the_package_have_nothing_odd() -> None:
         (GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((9, 9)), 1.9), "friction is 1.9"),
     ],
 )
-def test_a_road_in_another_unit(road: GridRoad, words: str) -> None:
+def test_a_road_in_another_unit(road: GridRoad, message: str) -> None:
     (sentence,) = road_plausibility("odd.csv", road).warnings()[:1]
     assert sentence.startswith("odd.csv: ")
-    assert words in sentence
+    assert message in sentence
 
 
 def with_wall(road: GridRoad, height: float) -> GridRoad:
@@ -62,7 +62,7 @@ def with_hole(road: GridRoad, value: float) -> GridRoad:
     return replace(road, heights=z)
 
 
-def test_a_wall_is_told_without_a_cause() -> None:
+def test_a_wall_is_reported_without_a_cause() -> None:
     """Heights in another unit would be steep everywhere."""
     (sentence,) = road_plausibility("wall.csv", with_wall(waves(), 2.5)).warnings()
     assert "rise from point to point" in sentence
@@ -82,7 +82,7 @@ def test_a_road_drawn_with_few_heights_has_no_coarse_number_type() -> None:
 
 
 @pytest.mark.parametrize(
-    ("origin", "spacing", "words"),
+    ("origin", "spacing", "message"),
     [
         ((500.0, -5.0), 0.5, "distance of the start from the road is 500 m"),
         ((4.5e5, 5.4e6), 0.5, "coordinates of a map"),
@@ -90,10 +90,10 @@ def test_a_road_drawn_with_few_heights_has_no_coarse_number_type() -> None:
         ((-5.0, 300.0), 0.5, "is 300 m"),
     ],
 )
-def test_a_start_beside_its_road(origin: tuple[float, float], spacing: float, words: str) -> None:
+def test_a_start_beside_its_road(origin: tuple[float, float], spacing: float, message: str) -> None:
     place = Place(origin, (spacing, spacing), (101, 21))
     (sentence,) = start_plausibility("far.road", place, (0.0, 0.0)).warnings()
-    assert words in sentence
+    assert message in sentence
     inside = start_plausibility("far.road", place, (origin[0] + spacing, origin[1] + spacing))
     assert "start" not in " ".join(inside.warnings())
 
@@ -164,23 +164,23 @@ ODD_THINGS = {
 
 
 @pytest.mark.parametrize("case", ODD_THINGS)
-def test_what_stands_as_nothing_does_is_told(case: str) -> None:
-    more, words = ODD_THINGS[case]
+def test_implausible_worlds_are_reported(case: str) -> None:
+    more, message = ODD_THINGS[case]
     plain = {"kind": "world", "name": "w", "bounds": [-5.0, -10.0, 50.0, 10.0], "courses": [STRAIGHT]}
     (sentence,) = world_plausibility("w.toml", WorldDescription.model_validate(plain | more)).warnings()
-    assert words in sentence
+    assert message in sentence
 
 
 @pytest.mark.parametrize("case", THINGS)
 def test_what_is_in_no_world_is_named(case: str) -> None:
-    more, words = THINGS[case]
+    more, message = THINGS[case]
     bounds = [-5.0, -10.0, 50.0, 10.0]
     world = WorldDescription.model_validate({"kind": "world", "name": "w", "bounds": bounds} | more)
     (sentence,) = world_plausibility("w.toml", world).warnings()
-    assert words in sentence
+    assert message in sentence
 
 
-def test_what_is_there_is_not_told() -> None:
+def test_a_plausible_world_has_no_warning() -> None:
     world = WorldDescription.model_validate(
         {"kind": "world", "name": "w", "bounds": [-5.0, -10.0, 50.0, 10.0], "obstacles": [KERB]}
     )

@@ -42,9 +42,9 @@ def described(folder, roughness: str, seed: int = 3):
 def test_the_density_lies_within_the_bounds_of_the_class(tmp_path, roughness: str) -> None:
     """In every octave; of one profile, as a measuring car sees it, the straight line through the octaves."""
     heights = np.asarray(described(tmp_path, roughness).heights)[80:-80]
-    n, found, _ = density(heights)
+    n, result, _ = density(heights)
     low, high = BOUNDS[roughness]
-    reduced = found * (np.maximum(n, 1e-9) / 0.1)[:, None] ** 2  # Gd(n0), if it falls with the square
+    reduced = result * (np.maximum(n, 1e-9) / 0.1)[:, None] ** 2  # Gd(n0), if it falls with the square
     bands = [(n >= c / np.sqrt(2.0)) & (n < c * np.sqrt(2.0)) for c in CENTRES]
     in_bands = np.array([reduced[band].mean(axis=0) for band in bands])
     assert np.all((low < in_bands.mean(axis=1)) & (in_bands.mean(axis=1) < high))
@@ -56,12 +56,12 @@ def test_the_density_lies_within_the_bounds_of_the_class(tmp_path, roughness: st
 
 def test_near_its_end_the_density_is_that_of_waves_in_all_directions() -> None:
     """The integral of A (n^2 + m^2)^-1.5 over |m| < sqrt(N^2 - n^2) is the whole one times sqrt(1 - (n/N)^2)."""
-    n, found, _ = density(rough_heights(2000, 2000, SPACING, ISO_8608["B"], 7))
+    n, actual, _ = density(rough_heights(2000, 2000, SPACING, ISO_8608["B"], 7))
     for low, high in ((0.05, 0.2), (0.2, 0.8), (0.9, 1.1), (1.9, 2.1), (2.4, 2.6)):
         band = (n > low) & (n < high)
         line = ISO_8608["B"] * (0.1 / n[band]) ** 2
         share = np.sqrt(1.0 - (n[band] / HIGHEST) ** 2).mean()
-        assert (found[band].mean(axis=1) / line).mean() == pytest.approx(share, rel=0.04), (low, high)
+        assert (actual[band].mean(axis=1) / line).mean() == pytest.approx(share, rel=0.04), (low, high)
 
 
 def test_the_coherence_of_two_tracks_is_that_of_an_isotropic_surface() -> None:
@@ -89,10 +89,10 @@ def test_the_same_seed_gives_the_same_bytes(tmp_path) -> None:
 def test_a_long_road_is_computed_on_a_strip(tmp_path) -> None:
     """2 km: the other side holds the longest wave; the density is that of a square."""
     heights = rough_heights(8000, 8, 0.25, ISO_8608["D"], 1)
-    n, found, _ = density(heights)
+    n, result, _ = density(heights)
     n = n * SPACING / 0.25
     band = (n > 0.05) & (n < 0.5)
-    reduced = (found * 0.25 / SPACING)[band] * (n[band, None] / 0.1) ** 2
+    reduced = (result * 0.25 / SPACING)[band] * (n[band, None] / 0.1) ** 2
     assert reduced.mean() == pytest.approx(ISO_8608["D"], rel=0.1)
 
 

@@ -26,13 +26,13 @@ def face(height: float, spacing: float) -> GridRoad:
     return GridRoad((0.0, -1.0), (spacing, 0.5), np.repeat(heights[:, None], 5, axis=1))
 
 
-@pytest.mark.parametrize(("height", "told"), [(0.12, False), (0.28, False), (0.32, True), (100.0, True)])
+@pytest.mark.parametrize(("height", "reported"), [(0.12, False), (0.28, False), (0.32, True), (100.0, True)])
 @pytest.mark.parametrize("spacing", [0.02, 0.05, 0.2])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_face_that_is_higher_than_the_radius(spacing: float, height: float, told: bool, sign: float) -> None:
+def test_a_face_that_is_higher_than_the_radius(spacing: float, height: float, reported: bool, sign: float) -> None:
     sentence = steep_face(face(sign * height, spacing), "face.road")
-    assert bool(sentence) == told
-    if told:
+    assert bool(sentence) == reported
+    if reported:
         place, rise, run = re.findall(
             r"x = ([\d.]+) m, y = -1 m a face of ([\d.]+) m rises within ([\d.]+) m", sentence
         )[0]
@@ -48,13 +48,13 @@ def test_a_ramp_is_no_face() -> None:
         assert not steep_face(GridRoad((0.0, 0.0), (spacing, 1.0), np.repeat(z[:, None], 3, axis=1)), "")
 
 
-def test_a_face_across_is_told_too() -> None:
+def test_a_face_across_is_reported_too() -> None:
     across = face(0.5, 0.2)
     turned = GridRoad(across.origin[::-1], across.spacing[::-1], np.asarray(across.heights).T)
     assert "at x = -1 m, y = 5 m" in steep_face(turned, "")
 
 
-def test_a_larger_wheel_is_told_later() -> None:
+def test_a_larger_wheel_is_reported_later() -> None:
     assert "0.3 m radius" in steep_face(face(0.35, 0.2), "", 0.3)
     assert not steep_face(face(0.35, 0.2), "", 0.4)
 
@@ -88,7 +88,7 @@ def without_ground_contact(name: str) -> Car:
     return car.model_copy(update={"chassis": car.chassis.model_copy(update={"ground_contact": None})})
 
 
-def test_who_drives_into_a_wall_is_refused_with_the_place() -> None:
+def test_a_car_that_drives_into_a_wall_is_refused_with_the_position() -> None:
     """A car that stands beside it, or stops at it, is not. Its body touches nothing: it would meet the wall first."""
     x = np.arange(-10.0, 40.0, 0.2)
     wall = GridRoad((-10.0, -10.0), (0.2, 5.0), np.repeat(np.where(x > 10.1, 1.0, 0.0)[:, None], 5, axis=1), 0.9)
@@ -98,18 +98,18 @@ def test_who_drives_into_a_wall_is_refused_with_the_place() -> None:
     assert slow["chassis.x"][-1] < 10.0
     with pytest.raises(mbs.SimulationError) as refused:
         mbs.simulate(car, 1.0, 0.002, pose=mbs.Pose(speed=30.0), estimate_error=False, progress=False)
-    told = re.search(
+    reported = re.search(
         r"'tyre F[LR]': at x = (\S+) m, y = (\S+) m the centre of a wheel of 0.311 m radius", str(refused.value)
     )
-    assert told is not None
-    assert 10.0 < float(told[1]) < 10.3
-    assert abs(abs(float(told[2])) - 0.7375) < 0.02
+    assert reported is not None
+    assert 10.0 < float(reported[1]) < 10.3
+    assert abs(abs(float(reported[2])) - 0.7375) < 0.02
     assert "whose points are 0.2 by 5 m apart" in str(refused.value)
     assert refused.value.status == Status.WHEEL_IN_ROAD
 
 
 @pytest.mark.slow
-def test_told_where_the_road_is_made_and_where_a_car_is_built(
+def test_reported_where_the_road_is_made_and_where_a_car_is_built(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     road, file = face(0.5, 0.2), tmp_path / "face.road"
@@ -125,8 +125,8 @@ def test_told_where_the_road_is_made_and_where_a_car_is_built(
     np.savetxt(tmp_path / "face.csv", np.asarray(road.heights), delimiter=",")
     arguments = [str(tmp_path / "face.csv"), str(tmp_path / "made.road"), "--spacing", "0.2", "0.5"]
     assert road_command.main(arguments) == 0
-    assert "warning: " in (said := capsys.readouterr().err)
-    assert "a face of 0.5 m" in said
+    assert "warning: " in (errors := capsys.readouterr().err)
+    assert "a face of 0.5 m" in errors
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         car.model(KerbRoad(5.0, 0.12))

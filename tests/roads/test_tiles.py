@@ -64,6 +64,6 @@ def test_kept_cells_are_those_of_the_grid_in_memory(lib, tmp_path):
     memory = Grid(70, 70, 0.0, 0.0, 0.25, 0.25, heights.ctypes.data, frictions.ctypes.data, None)
     x, y = (np.repeat(rng.uniform(0.0, 1.2, (2, 200)), 4, axis=1) + 4.0 * rng.integers(0, 5, (2, 800))).clip(-1.0, 17.0)
     with from_file(tmp_path / "a.road") as at:
-        found = np.array([at(x, y) for _ in range(2)])
+        values = np.array([at(x, y) for _ in range(2)])
     one = [lib.ali3_grid_at(ctypes.byref(memory), float(a), float(b)) for a, b in zip(x, y, strict=True)]
-    assert np.array_equal(found, [[[s.height for s in one], [s.friction for s in one]]] * 2)
+    assert np.array_equal(values, [[[s.height for s in one], [s.friction for s in one]]] * 2)

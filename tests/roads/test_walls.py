@@ -38,9 +38,9 @@ def driven(car, tmp_path, height, run, speed, h=0.002):
     return found, [str(w.message) for w in caught if w.category is RoadWarning]
 
 
-def test_a_wall_is_told_with_time_place_and_size(car, tmp_path):
-    run, told = driven(car, tmp_path, *LOW, 15.0)
-    (line,) = told
+def test_a_wall_is_reported_with_time_place_and_size(car, tmp_path):
+    run, reported = driven(car, tmp_path, *LOW, 15.0)
+    (line,) = reported
     assert max(run[f"wheel_{w}.Fz"].max() for w in ("FL", "FR")) > 8e4
     assert run.report.rim_x == pytest.approx(EDGE, abs=0.4)
     assert line.startswith(f"At {run.report.rim_time:.4g} s a wheel at x = {run.report.rim_x:.4g} m")
@@ -49,8 +49,8 @@ def test_a_wall_is_told_with_time_place_and_size(car, tmp_path):
 
 
 def test_a_wall_that_the_body_meets_first_stops_it(car, tmp_path):
-    run, told = driven(car, tmp_path, 1.0, 0.3, 15.0)
-    assert told == []
+    run, reported = driven(car, tmp_path, 1.0, 0.3, 15.0)
+    assert reported == []
     assert EDGE - 2.0 < run["chassis.x"].max() < EDGE
     assert run["chassis.ground_force"].max() > 8e4
 
@@ -68,13 +68,13 @@ def test_a_simulation_that_is_stepped_tells_it_once(car, tmp_path):
 
 
 def test_a_step_that_wheels_climb_is_not(car, tmp_path):
-    run, told = driven(car, tmp_path, 0.08, 0.1, 10.0)
-    assert told == []
+    run, reported = driven(car, tmp_path, 0.08, 0.1, 10.0)
+    assert reported == []
     assert run.report.rim_pressed == 0.0
     assert run["chassis.z"].max() > run["chassis.z"][0] + 0.02
 
 
-def test_a_variant_of_many_that_meets_a_wall_is_told_with_its_number(car, tmp_path):
+def test_a_variant_of_many_that_meets_a_wall_is_reported_with_its_number(car, tmp_path):
     """The hatchback with two ratios of its drive, which have masses of their own, in lanes; bits as alone."""
     file = tmp_path / "wall.road"
     with pytest.warns(RoadWarning, match="a face of"):
@@ -85,7 +85,7 @@ def test_a_variant_of_many_that_meets_a_wall_is_told_with_its_number(car, tmp_pa
     ]
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        found = mbs.simulate_many(car, variants, 0.6, 0.002, progress=False)
+        result = mbs.simulate_many(car, variants, 0.6, 0.002, progress=False)
     (line,) = [str(w.message) for w in caught if "pressed in" in str(w.message)]
     assert line.startswith("Variant 0: At 0.5")
     for k, variant in enumerate(variants):
@@ -94,4 +94,4 @@ def test_a_variant_of_many_that_meets_a_wall_is_told_with_its_number(car, tmp_pa
             alone = mbs.simulate(
                 car, 0.6, 0.002, parameters=variant.parameters, pose=variant.pose, estimate_error=False, progress=False
             )
-        assert all(np.array_equal(alone[name], found.trajectories[k][name]) for name in ("chassis.x", "wheel_FL.Fz"))
+        assert all(np.array_equal(alone[name], result.trajectories[k][name]) for name in ("chassis.x", "wheel_FL.Fz"))

@@ -36,8 +36,8 @@ def test_it_is_stable_by_itself_between_the_published_speeds(rolling):
 
 
 def test_the_eigenvalues_at_five_metres_a_second_are_the_published_ones(rolling):
-    found = sorted(np.linalg.eigvals(rolling.matrix(5.0)), key=lambda v: (v.real, -v.imag))
-    np.testing.assert_allclose(found, AT_FIVE, atol=DIFFERENCES)
+    actual = sorted(np.linalg.eigvals(rolling.matrix(5.0)), key=lambda v: (v.real, -v.imag))
+    np.testing.assert_allclose(actual, AT_FIVE, atol=DIFFERENCES)
 
 
 def test_at_rest_it_falls_over(rolling):
@@ -47,8 +47,8 @@ def test_at_rest_it_falls_over(rolling):
 def test_the_system_has_the_published_eigenvalues():
     model = mbs.linearise(mbs.Simulation(mbs.compile(bicycle.build(5.0, 0.0))))
     assert (model.degrees_of_freedom, len(model.A)) == (7, 10)  # seven places, three velocities
-    found = sorted(eigenvalues(5.0), key=lambda v: (v.real, -v.imag))
-    np.testing.assert_allclose(found, AT_FIVE, atol=PRINTED)
+    actual = sorted(eigenvalues(5.0), key=lambda v: (v.real, -v.imag))
+    np.testing.assert_allclose(actual, AT_FIVE, atol=PRINTED)
 
 
 @pytest.mark.slow
@@ -72,9 +72,9 @@ def test_in_time_a_small_lean_dies_out_between_the_speeds_only(speed, grows):
 )
 def test_the_run_at_4_6_metres_a_second_is_that_of_rolling_outside_the_kernel(method, h, error):
     run = mbs.simulate(system_of("bicycle"), 5.0, h, method=method, every=round(0.1 / h))
-    found = np.column_stack([run[name] for name in references.BICYCLE])
+    values = np.column_stack([run[name] for name in references.BICYCLE])
     expected = exact_of("bicycle")
-    assert np.abs(found - expected).max() < error
+    assert np.abs(values - expected).max() < error
     assert np.ptp(expected, axis=0).min() > 0.15  # it leans and steers
     # lean rate 0.5 rad/s to the right: it steers to the right, rights itself and has taken up most of the lean's energy
     assert run["lean"].max() > 0.09

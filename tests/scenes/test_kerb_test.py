@@ -31,9 +31,9 @@ def run(fidelity, divided=True):
 @pytest.mark.slow
 def test_the_guide_follows_the_speed_of_the_test():
     _, t = run(3)
-    way = t["chassis.x"] - t["chassis.x"][0]
-    np.testing.assert_allclose(way, kerb_test.distance(t.t), rtol=0, atol=0.02)  # the reference point pitches
-    assert way[-1] == pytest.approx(14.5, abs=1e-3)  # m, project data
+    distance = t["chassis.x"] - t["chassis.x"][0]
+    np.testing.assert_allclose(distance, kerb_test.distance(t.t), rtol=0, atol=0.02)  # the reference point pitches
+    assert distance[-1] == pytest.approx(14.5, abs=1e-3)  # m, project data
     d = 1e-5
     times = np.linspace(5.01, 9.99, 50)
     slope = (kerb_test.distance(times + d) - kerb_test.distance(times - d)) / (2 * d)

@@ -21,8 +21,8 @@ def test_published_positions(system):
     trajectory = simulate(system, 10.0, h)
     for t, place in PUBLISHED.items():
         k = round(t / h)
-        found = trajectory["bob.position.x"][k], trajectory["bob.position.y"][k]
-        np.testing.assert_allclose(found, place, atol=2e-5)
+        actual = trajectory["bob.position.x"][k], trajectory["bob.position.y"][k]
+        np.testing.assert_allclose(actual, place, atol=2e-5)
     assert np.ptp(trajectory["energy.total"]) < 5e-5  # J, the benchmark's limit at a coarser step
 
 

@@ -192,8 +192,8 @@ def test_wild_driving():
 @pytest.mark.parametrize("h", [0.002, 0.01])
 @pytest.mark.parametrize("road", list(ROADS))
 def test_wild_driving_longer(road, h):
-    found = [_judge(_wild(road, 0, h, 100 + seed, 12.0)) for seed in range(15)]
-    assert any(rolled for rolled, _ in found)
+    results = [_judge(_wild(road, 0, h, 100 + seed, 12.0)) for seed in range(15)]
+    assert any(rolled for rolled, _ in results)
 
 
 @pytest.mark.filterwarnings("ignore:.*the rim is pressed in:mbs.RoadWarning")  # a kerb of 0.5 m at speed

@@ -23,8 +23,8 @@ def symmetric_modes(system):
     model = linearise(Simulation(system, parameters=NEUTRAL), side=1)  # the engine drags forwards only
     assert model.degrees_of_freedom == 14
     roll = model.coordinates.index("chassis.bz")
-    found = [m for m in model.oscillating_modes() if m.frequency_hz < 9.0 and abs(m.shape[roll]) < SYMMETRIC]
-    return [(m.frequency_hz, m.damping_ratio) for m in found]
+    results = [m for m in model.oscillating_modes() if m.frequency_hz < 9.0 and abs(m.shape[roll]) < SYMMETRIC]
+    return [(m.frequency_hz, m.damping_ratio) for m in results]
 
 
 def test_ride_and_wheel_hop(monkeypatch):

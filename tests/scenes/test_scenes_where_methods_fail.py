@@ -146,10 +146,10 @@ def test_the_pendulum_keeps_its_energy_and_rod_over_a_thousand_seconds(h):
 def test_classical_methods_follow_the_pendulum_which_is_never_singular(method):
     end = 0.3 if method == "velocity transformation" else 2.0  # its coordinate has a dead point on the way
     names = ("bob.position.x", "bob.position.y")
-    found = run(compile(pendulum.build()), end, 0.001, method, names)
-    assert (found.status, found.reason) == ("finished", "")
+    actual = run(compile(pendulum.build()), end, 0.001, method, names)
+    assert (actual.status, actual.reason) == ("finished", "")
     tolerance = 1e-2 if method == "penalty" else 1e-6
-    np.testing.assert_allclose(found.positions, references.pendulum(found.t), atol=tolerance)
+    np.testing.assert_allclose(actual.positions, references.pendulum(actual.t), atol=tolerance)
 
 
 @pytest.mark.slow

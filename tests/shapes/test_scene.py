@@ -208,9 +208,9 @@ def test_roads(road, expected):
     m.contact_point("foot", brick, (0, 0, 1.0), road=m.road(road), contact=ContactPoints.for_mass(1.0))
     scene = mbs.compile(m).scene
     check_scene(scene)
-    (found,) = scene["roads"]
+    (actual,) = scene["roads"]
     for key, value in expected.items():
-        assert found[key] == pytest.approx(value) if key in ("normal", "heights") else found[key] == value
+        assert actual[key] == pytest.approx(value) if key in ("normal", "heights") else actual[key] == value
 
 
 def test_a_beam_that_bends_is_drawn_where_its_nodes_are():
@@ -237,7 +237,7 @@ def test_none_hides_the_beams_of_a_flexible_body():
     assert shapes_of(scene, kind="sphere", frame="part 1")
 
 
-def test_a_rod_whose_end_slides_is_said_to_be_missing():
+def test_a_rod_whose_end_slides_is_reported_to_be_missing():
     m = mbs.Model("rack", dimension=2)
     arm = m.body("arm", mass=1.0, com=(1.0, 0.5), inertia=0.1)
     m.revolute("pin", m.ground, arm, point=(1.0, 0.0))

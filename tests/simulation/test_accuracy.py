@@ -23,15 +23,15 @@ QUIET = {"progress": False}
 @pytest.fixture
 def starts(monkeypatch):
     """Keyword arguments of every Simulation that is made."""
-    made = []
+    results = []
     original = Simulation.__init__
 
     def note(self, system, **more):
-        made.append(more)
+        results.append(more)
         original(self, system, **more)
 
     monkeypatch.setattr(Simulation, "__init__", note)
-    return made
+    return results
 
 
 def oscillator():
@@ -356,7 +356,7 @@ def test_the_kinds_of_error_are_public():
     assert {"Accuracy", "AccuracyWarning"} <= set(mbs.__all__)
 
 
-def test_wheel_loads_of_a_car_that_is_too_fast_for_its_step_are_told():
+def test_wheel_loads_of_a_car_that_is_too_fast_for_its_step_are_reported():
     """Down a kerb of 12 cm at 30 m/s: 5.5 % off at 20 ms against steps of 0.2 ms, right at 2 ms."""
     system = compile(prototype_car.build())
 
@@ -365,8 +365,8 @@ def test_wheel_loads_of_a_car_that_is_too_fast_for_its_step_are_told():
 
     edge = {"road.kerb_x": 4.0, "road.kerb_height": 0.12}
     with pytest.warns(AccuracyWarning, match=r"off by about [56]\.?\d? % .*wheel_"):
-        told = run(0.02, 1.3)
-    assert told.accuracy.error == pytest.approx(0.055, rel=0.15)
+        reported = run(0.02, 1.3)
+    assert reported.accuracy.error == pytest.approx(0.055, rel=0.15)
     assert run(0.002, 1.3).accuracy.message == ""
     level = simulate(system, 1.3, 0.01, pose=Pose(speed=20.0), parameters={"road.kerb_x": 200.0})
     assert level.accuracy.check_cost == 0.0

@@ -42,7 +42,7 @@ def test_animate_takes_ghosts_names_and_options(run):
     assert "long, short" in repr(named)
 
 
-def test_what_animate_refuses(run):
+def test_animate_refuses_invalid_arguments(run):
     with pytest.raises(mbs.ArgumentTypeError, match="Trajectory"):
         mbs.animate(mbs.compile(pendulum.build()))
     with pytest.raises(ValueError, match="2 names for 1 runs"):
@@ -68,10 +68,10 @@ def test_no_browser_is_a_sentence(run, monkeypatch):
     monkeypatch.setattr(viewer.drawer, "open_in_browser", lambda path: False)
     with pytest.raises(BrowserError, match=r"the page is .*animation\.html"):
         mbs.animate(run).show()
-    seen = []
-    monkeypatch.setattr(viewer.drawer, "open_in_browser", lambda path: seen.append(path) or True)
-    assert mbs.animate(run).show() == seen[0]
-    assert seen[0].is_file()
+    recorded = []
+    monkeypatch.setattr(viewer.drawer, "open_in_browser", lambda path: recorded.append(path) or True)
+    assert mbs.animate(run).show() == recorded[0]
+    assert recorded[0].is_file()
 
 
 def test_in_a_notebook_a_run_shows_itself(run, monkeypatch):
@@ -96,7 +96,7 @@ def test_gltf_of_a_run(run, tmp_path):
     assert "bob" in [node.name for node in file.nodes]
 
 
-def test_thinned_poses_are_said(monkeypatch):
+def test_thinned_poses_are_reported(monkeypatch):
     monkeypatch.setattr(poses_module, "MOST_SAMPLES", 200)
     run = mbs.simulate(mbs.compile(pendulum.build()), 3.0, 0.005)
     recording = run.recording()
@@ -116,12 +116,12 @@ def test_a_file_with_poses_is_drawn_like_the_run(scene, tmp_path):
     for body in run.poses.bodies:
         np.testing.assert_array_equal(read.poses.position(body), run.poses.position(body))
         np.testing.assert_array_equal(read.poses.quaternion(body), run.poses.quaternion(body))
-    (found,) = mbs.animate(read, scene=system).recordings
+    (actual,) = mbs.animate(read, scene=system).recordings
     expected = run.recording()
-    assert found.missing == []
-    assert found.columns.keys() == expected.columns.keys()
+    assert actual.missing == []
+    assert actual.columns.keys() == expected.columns.keys()
     for name, values in expected.columns.items():
-        np.testing.assert_array_equal(found.columns[name], values)
+        np.testing.assert_array_equal(actual.columns[name], values)
 
 
 def test_a_file_without_poses_is_as_before(run, tmp_path):

@@ -56,7 +56,7 @@ def test_the_difference_is_that_of_the_steps_that_were_made() -> None:
     assert difference_from(known, "ali3p", 0.1) == pytest.approx(0.0066 * (2.5**2 - 1.0))
 
 
-def test_an_error_that_falls_slowly_is_told() -> None:
+def test_an_error_that_falls_slowly_is_reported() -> None:
     """A four-bar with a pendulum, 5.9 % off: half and a quarter of the step differ from it by 2.7 and 4.1 %."""
     system, span = drawn("four-bar", 3, 29)
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about (5\.[5-9]|6) %"):
@@ -201,20 +201,20 @@ def test_steps_of_high_order_may_be_longer_where_nothing_abrupt_can_happen(syste
 
 
 @pytest.mark.parametrize("method", ["radau_5", "runge_kutta_8"])
-def test_impacts_in_long_steps_of_high_order_are_told(method: str) -> None:
+def test_impacts_in_long_steps_of_high_order_are_reported(method: str) -> None:
     """By chance, in closed form: h w of 1.8 to 4, so that an impact lasts one step or two."""
     wrong = silent = false = 0
     for number in range(60):
         rng = np.random.default_rng([2, number])
         h, steps = 0.01, int(rng.integers(15, 101))
         w, gap = float(rng.uniform(1.8, 4.0)) / h, float(rng.uniform(0.1, 0.8)) * steps * h
-        with warnings.catch_warnings(record=True) as told:
+        with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             run = mbs.simulate(ball(w * w, gap, wall=1e3), steps * h, h, method=method, progress=False)
         truth = place(w * w, gap, run.t)
         off = np.abs(run["x"] - truth).max() / np.ptp(truth)
-        wrong, silent = wrong + (off > 0.05), silent + (off > 0.051 and not told)
-        false += bool(off < 0.045 and told)
+        wrong, silent = wrong + (off > 0.05), silent + (off > 0.051 and not caught)
+        false += bool(off < 0.045 and caught)
     assert wrong > 8
     assert silent == 0
     assert false <= 1

@@ -12,7 +12,7 @@ T = np.linspace(0.0, 1.0, 101)
 
 
 @pytest.mark.parametrize("beside", ["", "a resting centre", "a resting centre alone"])
-def test_a_body_that_tumbles_beside_a_sensor_at_rest_is_told(beside: str) -> None:
+def test_a_body_that_tumbles_beside_a_sensor_at_rest_is_reported(beside: str) -> None:
     """About its middle axis, 0.1 s steps: rates are off by their range; the resting centre silenced that."""
     m = mbs.Model("tumbling body", gravity=(0.0, 0.0, 0.0))
     body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=np.diag([0.1, 0.2, 0.3]))
@@ -71,8 +71,8 @@ def test_rates_are_judged_where_no_place_moves_by_itself() -> None:
     assert set(compared_in(still, candidates, 1.0, stands=True)) == set()
     other = values | {"rate": np.cos(8.0 * T)}
     for moved, units in ((0.0, {"m", "rad/s"}), (1e-3, {"m"})):
-        found, gaps, sizes = differences(values, other | {"x": (1.0 + moved) * values["x"]}, candidates, None, 1.0)
-        assert set(found) == units
+        actual, gaps, sizes = differences(values, other | {"x": (1.0 + moved) * values["x"]}, candidates, None, 1.0)
+        assert set(actual) == units
         assert set(gaps) == set(sizes)
 
 
@@ -110,15 +110,15 @@ def test_forces_are_compared_at_their_samples_and_what_is_not_known_nowhere() ->
     both = {"x": PLACE, "load": Compared("N", load=True)}
     fine = {"x": 1.0 * np.arange(6.0), "load": 10.0 + np.arange(6.0)}
     coarse = {"x": fine["x"] + np.array([0.0, 0.1, np.nan, 0.0, 0.0, 9.0]), "load": fine["load"] + np.arange(6.0)}
-    found = Comparison(both, 1.0)
-    found.add(fine, {name: values[:5] for name, values in coarse.items()}, [0, 3])
-    assert found.gaps == pytest.approx({"x": 0.1, "load": 3.0})
-    assert found.sizes() == pytest.approx({"x": 5.0, "load": 15.0})
-    found.widen({"x": 0.5, "load": 2.0})
-    assert found.gaps == pytest.approx({"x": 0.5, "load": 3.0})
+    comparison = Comparison(both, 1.0)
+    comparison.add(fine, {name: values[:5] for name, values in coarse.items()}, [0, 3])
+    assert comparison.gaps == pytest.approx({"x": 0.1, "load": 3.0})
+    assert comparison.sizes() == pytest.approx({"x": 5.0, "load": 15.0})
+    comparison.widen({"x": 0.5, "load": 2.0})
+    assert comparison.gaps == pytest.approx({"x": 0.5, "load": 3.0})
 
 
-def test_a_pendulum_that_turns_over_is_told_by_the_angle_of_its_body() -> None:
+def test_a_pendulum_that_turns_over_is_reported_by_the_angle_of_its_body() -> None:
     m = mbs.Model("pendulum", dimension=2)
     rod = m.body("rod", mass=1.0, com=(0.0, -1.0), inertia=0.1)
     m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
@@ -134,10 +134,10 @@ def test_a_pendulum_that_turns_over_is_told_by_the_angle_of_its_body() -> None:
 
 def test_errors_are_held_against_the_largest_range_in_the_unit() -> None:
     values = {"large": 1000.0 + 10.0 * np.sin(9.0 * T), "small": 1e-3 * T, "load": 5.0 + T, "rest": 0.0 * T}
-    found = sizes_of(
+    actual = sizes_of(
         values, {"large": PLACE, "small": PLACE, "load": Compared("N", load=True), "rest": RATE}, length=1.0
     )
-    assert found == pytest.approx({"large": 20.0, "small": 20.0, "load": 6.0}, rel=1e-3)
+    assert actual == pytest.approx({"large": 20.0, "small": 20.0, "load": 6.0}, rel=1e-3)
 
 
 def test_a_small_turn_counts_where_nothing_else_moves() -> None:

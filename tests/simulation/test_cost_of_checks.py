@@ -34,7 +34,7 @@ def swing() -> mbs.System:
         pytest.param(3, 96, 100, "runge_kutta_8", id="15 % off, twice the step agrees within 5 %"),
     ],
 )
-def test_chains_that_were_silent_are_told(seed: int, number: int, steps: int, method: str) -> None:
+def test_chains_that_were_silent_are_reported(seed: int, number: int, steps: int, method: str) -> None:
     system, span = drawn("chain", seed, number)
     with pytest.warns(mbs.AccuracyWarning, match="off by"):
         mbs.simulate(system, span, span / steps, every=steps // 50, method=method, progress=False)
@@ -125,18 +125,18 @@ def test_no_16th_of_the_step_follows_where_an_eighth_tells() -> None:
     assert run.accuracy.check_cost == 14.0
 
 
-def test_what_repeats_may_cost_is_kept_and_what_is_not_judged_is_said() -> None:
+def test_what_repeats_may_cost_is_kept_and_what_is_not_judged_is_reported() -> None:
     system, span = machine(97)
 
     def judged(most: float | None) -> mbs.Trajectory:
         return mbs.simulate(system, span, span / 250, every=5, progress=False, estimate_error=most)
 
-    for most, spent, said in ((1.0, 0.4, "there is no estimate"), (10.0, 6.4, "is 3.9 % of the largest range")):
-        with pytest.warns(mbs.AccuracyWarning, match=f"not checked: .* budget of {most:g} runs .*{said}") as told:
+    for most, spent, reported in ((1.0, 0.4, "there is no estimate"), (10.0, 6.4, "is 3.9 % of the largest range")):
+        with pytest.warns(mbs.AccuracyWarning, match=f"not checked: .* budget of {most:g} runs .*{reported}") as caught:
             run = judged(most)
         assert run.accuracy is not None
         assert run.accuracy.check_cost == pytest.approx(spent)
-        needed = float(str(told[0].message).split("estimate_error=")[1].split(")")[0])
+        needed = float(str(caught[0].message).split("estimate_error=")[1].split(")")[0])
         enough, free = judged(needed).accuracy, judged(None).accuracy
         assert enough == free
         assert enough is not None

@@ -20,11 +20,11 @@ def test_a_steady_motion_has_the_multipliers_of_its_eigenvalues():
     simulation = Simulation(compile(m), settings=Settings(method="radau_5"))
     before = simulation.save()
     period = 2.0 * np.pi / rate
-    found = floquet(simulation, period, 0.01).multipliers
+    actual = floquet(simulation, period, 0.01).multipliers
     expected = [np.exp(mode.eigenvalue * period) for mode in linearise(simulation).oscillating_modes()]
     assert len(expected) == 1
-    assert np.abs(found - expected[0]).min() < 1e-4
-    assert np.sum(np.abs(found - 1.0) < 1e-3) == 2  # a later start, a turned plane
+    assert np.abs(actual - expected[0]).min() < 1e-4
+    assert np.sum(np.abs(actual - 1.0) < 1e-3) == 2  # a later start, a turned plane
     assert simulation.save() == before
 
 
@@ -42,7 +42,7 @@ def test_a_shaken_pendulum_has_the_multipliers_of_its_reduced_equation(amplitude
     m.drive("shaker", pivot.point()[1], m.guide_time("height", shape, unit="m"))
     m.distance("rod", pivot, bob)
     simulation = Simulation(compile(m), settings=Settings(method="radau_5"))
-    found = floquet(simulation, period, period / 100)
+    actual = floquet(simulation, period, period / 100)
 
     second = shape.derivative(2)
 
@@ -51,8 +51,8 @@ def test_a_shaken_pendulum_has_the_multipliers_of_its_reduced_equation(amplitude
 
     ends = [solve_ivp(rate, (0.0, period), x, rtol=1e-11, atol=1e-13, max_step=0.01).y[:, -1] for x in np.eye(2)]
     expected = np.linalg.eigvals(np.array(ends).T)
-    np.testing.assert_allclose(sorted(np.abs(found.multipliers)), sorted(np.abs(expected)), rtol=1e-4)
-    assert (np.abs(found.multipliers).max() > 1.01) == (amplitude > 0.1)
+    np.testing.assert_allclose(sorted(np.abs(actual.multipliers)), sorted(np.abs(expected)), rtol=1e-4)
+    assert (np.abs(actual.multipliers).max() > 1.01) == (amplitude > 0.1)
 
 
 def _quintic(t, amplitude, omega):

@@ -104,9 +104,9 @@ def test_a_push_that_begins_and_ends_within_steps(lasting: float, method: str, b
 
 
 def by_many(system: mbs.System, inputs: dict[str, Any]) -> mbs.Trajectory:
-    found = mbs.simulate_many(system, [mbs.Variant(inputs=inputs)], SPAN, H, progress=False).trajectories[0]
-    assert found is not None
-    return found
+    result = mbs.simulate_many(system, [mbs.Variant(inputs=inputs)], SPAN, H, progress=False).trajectories[0]
+    assert result is not None
+    return result
 
 
 RUNS: dict[str, Callable[[mbs.System, dict[str, Any]], mbs.Trajectory]] = {
@@ -158,16 +158,16 @@ def test_a_jump_of_a_function_counts_from_its_time_on(way: str) -> None:
 
 
 def test_a_function_is_asked_ahead_once_for_all_runs_to_a_tolerance() -> None:
-    asked = []
+    requested = []
 
     def push(t: float) -> float:
-        asked.append(t)
+        requested.append(t)
         return 50.0 * (t > 0.305)
 
     run = mbs.simulate(sledge(800.0), SPAN, inputs={"push": push}, tolerance=1e-3, progress=False)
     assert run.control is not None
     assert run.control.runs > 2
-    assert asked.count(SPAN / 16_000.0) == 1
+    assert requested.count(SPAN / 16_000.0) == 1
 
 
 def test_a_function_that_fails_is_looked_at_until_then() -> None:
@@ -223,10 +223,10 @@ def test_a_smooth_function_parts_no_step() -> None:
 
 def test_a_pulse_in_a_long_run_is_met_with_little_memory() -> None:
     """Samples are kept for a part of the run; a jump at the border of two parts is found once."""
-    asked, h = [0], 1e-3
+    requested, h = [0], 1e-3
 
     def pulse(t: float) -> float:
-        asked[0] += 1
+        requested[0] += 1
         return float(9.0003 <= t < 9.0004) + float(t > 4096 * h) + 2.0 * float(t >= 8192 * h)
 
     tracemalloc.start()
@@ -235,7 +235,7 @@ def test_a_pulse_in_a_long_run_is_met_with_little_memory() -> None:
     tracemalloc.stop()
     assert times == pytest.approx([9.0003, 9.0004], abs=1e-9)
     assert [before for before, _ in jumps] == pytest.approx([4.096, 8.192, 9.0003, 9.0004], abs=1e-8)
-    assert asked[0] < 17.5 * 20_000
+    assert requested[0] < 17.5 * 20_000
     assert most < 32 * 16 * 20_000  # of all samples at once 13 numbers each are kept
     assert len(function_breaks(lambda t: np.sin(t) + 1e-3 * pulse(t), 0.0, 20.0, h)[0]) == 0
 

@@ -48,9 +48,9 @@ def test_two_masses_have_the_eigenvalues_of_their_matrices(damping):
     A = np.block([[np.zeros((2, 2)), np.eye(2)], [-K / MASS, -C / MASS]])
     expected = sorted((s for s in np.linalg.eigvals(A) if s.imag >= 0.0), key=abs)
     model = linearise(Simulation(two_masses((k1, k2), damping)))
-    found = [mode.eigenvalue for mode in model.modes]
-    assert len(found) >= 2
-    np.testing.assert_allclose(found, expected, rtol=RELATIVE, atol=RELATIVE)
+    actual = [mode.eigenvalue for mode in model.modes]
+    assert len(actual) >= 2
+    np.testing.assert_allclose(actual, expected, rtol=RELATIVE, atol=RELATIVE)
     for mode in model.oscillating_modes():
         s = mode.eigenvalue
         assert mode.frequency_hz == pytest.approx(abs(s) / (2 * np.pi))

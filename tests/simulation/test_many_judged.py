@@ -14,7 +14,7 @@ Told = Counter[tuple[type[Warning], str]]
 
 def told_by_each(system: mbs.System, variants: list[mbs.Variant], t_end: float, h: float, every: int) -> list[Told]:
     """Warnings of the runs made one by one."""
-    found = []
+    results = []
     for variant in variants:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -22,19 +22,19 @@ def told_by_each(system: mbs.System, variants: list[mbs.Variant], t_end: float, 
                 system, t_end, h, variant.inputs, parameters=variant.parameters, pose=variant.pose, every=every,
                 progress=False,
             )  # fmt: skip
-        found.append(Counter((w.category, str(w.message)) for w in caught))
-    return found
+        results.append(Counter((w.category, str(w.message)) for w in caught))
+    return results
 
 
 def told_together(system: mbs.System, variants: list[mbs.Variant], t_end: float, h: float, every: int) -> list[Told]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         mbs.simulate_many(system, variants, t_end, h, every=every, progress=False)
-    found: list[Told] = [Counter() for _ in variants]
+    results: list[Told] = [Counter() for _ in variants]
     for w in caught:
         number, _, text = str(w.message).removeprefix("Variant ").partition(": ")
-        found[int(number)][w.category, text] += 1
-    return found
+        results[int(number)][w.category, text] += 1
+    return results
 
 
 @pytest.mark.slow
@@ -51,7 +51,7 @@ def test_cars_over_kerbs_and_falls() -> None:
     each = told_by_each(system, variants, 1.0, 0.02, 10)
     assert told_together(system, variants, 1.0, 0.02, 10) == each
     assert each[0] == Counter()
-    assert sum(bool(told) for told in each) > 0
+    assert sum(bool(reported) for reported in each) > 0
 
 
 def test_a_mechanism_that_swings_too_fast() -> None:
@@ -59,7 +59,7 @@ def test_a_mechanism_that_swings_too_fast() -> None:
     variants = [mbs.Variant(), mbs.Variant()]
     each = told_by_each(system, variants, 3.0, 0.05, 1)
     assert told_together(system, variants, 3.0, 0.05, 1) == each
-    assert any(kind is mbs.AccuracyWarning for told in each for kind, _ in told)
+    assert any(kind is mbs.AccuracyWarning for reported in each for kind, _ in reported)
 
 
 def test_without_checks_nothing_is_repeated_and_true_is_refused() -> None:

@@ -88,11 +88,11 @@ def test_a_failed_run_tells_why_and_leaves_the_others() -> None:
     assert runs.alone[2] >= 1
 
 
-def test_a_wrong_run_is_told() -> None:
+def test_a_wrong_run_is_reported() -> None:
     """Steps of 0.1 s violate the energy balance of the double four-bar, in the single run too."""
     four_bar = compile(double_four_bar.build())
-    words = r"Variant 0: The result is off by .* Constraint forces and projections did"
-    with pytest.warns(AccuracyWarning, match=words):
+    message = r"Variant 0: The result is off by .* Constraint forces and projections did"
+    with pytest.warns(AccuracyWarning, match=message):
         simulate_many(four_bar, [Variant()], 10.0, 0.1, progress=False)
 
 
@@ -109,7 +109,7 @@ def test_no_variants_are_no_runs() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "message"),
     [
         ({"settings": Settings(method="radau_5")}, "'radau_5'; it must be 'ali3p'"),
         ({"lanes": 3}, "lanes = 3; it must be 2, 4 or 8"),
@@ -121,9 +121,9 @@ def test_no_variants_are_no_runs() -> None:
         ({"variants": [Variant(), Variant(inputs={"steering": ([0.0, 1.0], [0.0, 5.0])})]}, "Variant 1: Input 'steer"),
     ],
 )
-def test_bad_arguments_are_refused(arguments: dict[str, object], words: str) -> None:
+def test_bad_arguments_are_refused(arguments: dict[str, object], message: str) -> None:
     given = {"variants": [Variant()], "t_end": 1.0, "h": 0.01} | arguments
-    with pytest.raises(ValueError, match=re.escape(words)):
+    with pytest.raises(ValueError, match=re.escape(message)):
         simulate_many(system(), **given)  # type: ignore[arg-type]
 
 
@@ -134,14 +134,14 @@ def test_a_variant_is_a_variant() -> None:
         simulate_many(system(), None, 1.0, 0.01)  # type: ignore[arg-type]
 
 
-def test_a_value_with_which_no_car_works_is_told_with_the_number_of_its_variant() -> None:
+def test_a_value_with_which_no_car_works_is_reported_with_the_number_of_its_variant() -> None:
     """And each of them once, whatever their order in groups."""
     variants = [Variant(), Variant({"front.tyre.stiffness": 1.2e6}), Variant({"front.tyre.stiffness": 1.3e6})]
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         simulate_many(system(), variants, 0.02, 0.002, lanes=2, progress=False)
-    told = [str(w.message) for w in caught if w.category is ParameterWarning]
-    assert [line.partition(", outside")[0] for line in told] == [
+    reported = [str(w.message) for w in caught if w.category is ParameterWarning]
+    assert [line.partition(", outside")[0] for line in reported] == [
         f"Variant {k}: Parameter 'front.tyre.stiffness' is set to 1.{k + 1}e+06 N/m" for k in (1, 2)
     ]
 

@@ -26,11 +26,11 @@ def test_a_peak_that_one_run_has_alone_is_seen(at: float) -> None:
     """Between two of the 51 instants; also where it is of a few samples, and where it is a load that drops."""
     rows = instants(N)
     for width in (2.0, 5.0):
-        there, flat = landing(at, width), landing(at, width, 0.0)
-        assert np.abs(there - flat)[rows].max() < SMALL
-        for one, other in ((there, flat), (flat, there), (2000.0 - there, 2000.0 - flat)):
+        present, flat = landing(at, width), landing(at, width, 0.0)
+        assert np.abs(present - flat)[rows].max() < SMALL
+        for one, other in ((present, flat), (flat, present), (2000.0 - present, 2000.0 - flat)):
             assert missed_load(one, other) > 0.75 * PEAK
-        assert missed_load(there, landing(at, width, 0.7 * PEAK)) == pytest.approx(0.3 * PEAK, rel=0.2)
+        assert missed_load(present, landing(at, width, 0.7 * PEAK)) == pytest.approx(0.3 * PEAK, rel=0.2)
 
 
 def test_a_landing_that_comes_late_is_not() -> None:
@@ -52,7 +52,7 @@ def test_a_short_record_is_compared_at_all_its_samples() -> None:
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5.[67] %"):
         run = drive.run(h=0.02)
     load = "spring_RR.force"
-    size = max(np.abs(fine[n]).max() for n, what in compared_sensors(drive.system).items() if what.load)
+    size = max(np.abs(fine[n]).max() for n, sensor in compared_sensors(drive.system).items() if sensor.load)
     gaps = np.abs(run[load] - fine[load]) / size
     assert gaps.max() > 0.05
     assert gaps[np.linspace(0, len(gaps) - 1, 51).round().astype(int)].max() < 0.03
@@ -80,24 +80,24 @@ def _stream(seed: int, number: int) -> np.random.Generator:
 def test_a_drop_in_a_long_run(monkeypatch: pytest.MonkeyPatch) -> None:
     """50 s in which the car lands once: from 0.3 m on its floor, whose force is 26 % off at 10 ms; from 0.1 m not."""
     system = mbs.compile(prototype_car.build())
-    names = [n for n, what in compared_sensors(system).items() if what.load]
+    names = [n for n, sensor in compared_sensors(system).items() if sensor.load]
 
     def run(height: float) -> tuple[float, list[str]]:
         """Largest error of a peak over the largest load, and what is said."""
         pose = mbs.Pose(z=height)
         fine = mbs.simulate(system, 1.0, 2.5e-4, pose=pose, progress=False, estimate_error=False)
-        with warnings.catch_warnings(record=True) as said:
+        with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             found = mbs.simulate(system, 50.0, 0.01, pose=pose, progress=False)
         peaks = {n: np.abs(fine[n]).max() for n in names}
         off = max(abs(np.abs(found[n]).max() - peak) for n, peak in peaks.items())
-        return off / max(peaks.values()), [str(w.message) for w in said if w.category is mbs.AccuracyWarning]
+        return off / max(peaks.values()), [str(w.message) for w in caught if w.category is mbs.AccuracyWarning]
 
-    error, said = run(0.3)
+    error, caught = run(0.3)
     assert error > 0.2
-    assert "% of the largest range" in said[0]
-    error, said = run(0.1)
+    assert "% of the largest range" in caught[0]
+    error, caught = run(0.1)
     assert error < 0.05
-    assert said == []
+    assert caught == []
     monkeypatch.setattr(comparison, "missed_load", lambda one, other: 0.0)
     assert run(0.3)[1] == []

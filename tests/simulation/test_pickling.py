@@ -41,10 +41,10 @@ def test_a_pickled_system_is_its_file_and_can_be_placed(car: System) -> None:
 def test_a_process_gives_the_run_back(car: System) -> None:
     here = driven(car)
     with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
-        there = pool.submit(driven, car).result()
-    assert list(there) == [name for name in here if not name.startswith(("stress.", "bending_moment."))]
-    for name in there:
-        np.testing.assert_array_equal(there[name], here[name], name)
+        present = pool.submit(driven, car).result()
+    assert list(present) == [name for name in here if not name.startswith(("stress.", "bending_moment."))]
+    for name in present:
+        np.testing.assert_array_equal(present[name], here[name], name)
 
 
 def test_what_a_run_leaves_out_is_pickled_where_it_was_read(car: System) -> None:

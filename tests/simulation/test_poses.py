@@ -35,19 +35,19 @@ def test_a_point_of_the_body_is_where_its_pose_puts_it(dimension):
     run = mbs.simulate(mbs.compile(swinging(dimension)), 2.0, 0.01)
     com, tip = {2: ((0.5, 0.0, 0.0), (1.0, 0.3, 0.0)), 3: ((0.5, 0.1, 0.2), (1.0, 0.3, -0.2))}[dimension]
     R = matrices(run.poses.quaternion("rod"))
-    found = run.poses.position("rod") + R @ (np.array(tip) - np.array(com))
+    actual = run.poses.position("rod") + R @ (np.array(tip) - np.array(com))
     expected = np.column_stack([run[f"tip.{c}"] for c in "xyz"[:dimension]])
     assert np.ptp(expected, axis=0).min() > 0.1
-    np.testing.assert_allclose(found[:, :dimension], expected, atol=1e-9)
+    np.testing.assert_allclose(actual[:, :dimension], expected, atol=1e-9)
     np.testing.assert_array_equal(run.poses.t, run.t)
 
 
 def test_quaternions_are_those_of_the_sensors():
     run = mbs.simulate(mbs.compile(swinging()), 3.0, 0.01)
-    found = np.column_stack([run.poses[f"rod.q{part}"] for part in "wxyz"])
+    values = np.column_stack([run.poses[f"rod.q{part}"] for part in "wxyz"])
     expected = np.column_stack([run[f"rod.q{part}"] for part in "wxyz"])
-    assert found[:, 0].min() >= 0.0
-    np.testing.assert_allclose(np.abs(np.sum(found * expected, axis=1)), 1.0, atol=1e-9)
+    assert values[:, 0].min() >= 0.0
+    np.testing.assert_allclose(np.abs(np.sum(values * expected, axis=1)), 1.0, atol=1e-9)
 
 
 def test_a_planar_body_turns_about_z_with_the_sign_of_its_angle():
@@ -73,9 +73,9 @@ def test_the_hand_of_the_puma():
     R, p = puma.frames(puma.START_DEG)[-1]
     hand, last = p + R @ puma.HAND_POINT, model.bodies[-1]
     poses = run.poses
-    found = poses.position(last.name) + matrices(poses.quaternion(last.name)) @ (hand - last.com)
+    actual = poses.position(last.name) + matrices(poses.quaternion(last.name)) @ (hand - last.com)
     expected = np.column_stack([run[f"hand.position.{c}"] for c in "xyz"])
-    np.testing.assert_allclose(found, expected, atol=1e-9)
+    np.testing.assert_allclose(actual, expected, atol=1e-9)
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "runge_kutta_8", "semi_recursive_4", "radau_5"])

@@ -33,21 +33,21 @@ def by(**units: float) -> Accuracy:
 def test_the_limit_of_repeats_gives_the_error(order: float) -> None:
     """By Richardson: with the order that is taken to the last digit, with others but for what the orders differ by."""
     run, coarse, fine = (repeat(h, order) for h in (1.0, 0.25, 0.125))
-    found = extrapolated(by(N=0.2), [run, coarse, fine], dict.fromkeys("ab", Compared("N", load=True)), None, 1.0)
-    left = 0.125**order - (0.25**order - 0.125**order) / 3.0
+    actual = extrapolated(by(N=0.2), [run, coarse, fine], dict.fromkeys("ab", Compared("N", load=True)), None, 1.0)
+    remaining = 0.125**order - (0.25**order - 0.125**order) / 3.0
     true = float(np.abs(run["a"] - FORCE).max())
-    assert abs(left) < (1e-15 if order == 2.0 else 0.084)
-    assert found.sensors["a"] == pytest.approx(true * (1.0 - left), rel=1e-12)
-    assert found.units["N"] == pytest.approx(found.sensors["a"] / np.abs(FORCE).max(), rel=2e-3)
+    assert abs(remaining) < (1e-15 if order == 2.0 else 0.084)
+    assert actual.sensors["a"] == pytest.approx(true * (1.0 - remaining), rel=1e-12)
+    assert actual.units["N"] == pytest.approx(actual.sensors["a"] / np.abs(FORCE).max(), rel=2e-3)
 
 
 def test_the_limit_of_an_angle_that_turns_over_lies_on_the_smaller_arc() -> None:
     """Of two refined runs one is before the jump from pi to -pi at a sample, and the other is behind it."""
     angle, turn = Compared("rad", place=True, wrapped=True), 2.0 * np.pi * T - 0.005
     run, coarse, fine = ({"a": (turn + off + np.pi) % (2.0 * np.pi) - np.pi} for off in (0.16, 0.01, 0.0025))
-    found = extrapolated(by(rad=0.2), [run, coarse, fine], {"a": angle}, None, 1.0)
-    assert found.sensors["a"] == pytest.approx(0.16, rel=1e-9)
-    assert found.units["rad"] == pytest.approx(0.16 / (2.0 * np.pi), rel=1e-9)
+    actual = extrapolated(by(rad=0.2), [run, coarse, fine], {"a": angle}, None, 1.0)
+    assert actual.sensors["a"] == pytest.approx(0.16, rel=1e-9)
+    assert actual.units["rad"] == pytest.approx(0.16 / (2.0 * np.pi), rel=1e-9)
 
 
 @pytest.mark.parametrize(("near", "finest"), [(2, 4), (4, 8), (8, 16), (4, 5), (2, 7)])
@@ -62,7 +62,7 @@ def test_the_order_of_three_runs_is_seen(order: float, near: int, finest: int) -
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0])
-def test_a_tried_step_is_off_by_what_is_told_of_it(order: float) -> None:
+def test_a_tried_step_is_off_by_what_is_reported_of_it(order: float) -> None:
     """Of errors of order one an 8th of 6 % was told as 0.4 %, what half of it and both differ by."""
     system, last = oscillator(), 0
 
@@ -80,12 +80,12 @@ def test_a_tried_step_is_off_by_what_is_told_of_it(order: float) -> None:
     assert off == pytest.approx(true, rel=0.05)
 
 
-@pytest.mark.parametrize("told", [0.017, 0.045, 0.055, 0.09])
-def test_a_verdict_is_open_where_the_repeats_differ_by_more_than_it_is_clear(told: float) -> None:
-    clear = abs(told - WRONG_ERROR)
-    assert unsure(by(N=told, m=0.001), {"N": 1.01 * clear, "m": 0.0})
-    assert not unsure(by(N=told, m=0.001), {"N": 0.99 * clear, "m": 0.0})
-    assert unsure(by(N=told, m=0.04), {"N": 0.99 * clear, "m": 0.02}) == (told < WRONG_ERROR)
+@pytest.mark.parametrize("reported", [0.017, 0.045, 0.055, 0.09])
+def test_a_verdict_is_open_where_the_repeats_differ_by_more_than_it_is_clear(reported: float) -> None:
+    clear = abs(reported - WRONG_ERROR)
+    assert unsure(by(N=reported, m=0.001), {"N": 1.01 * clear, "m": 0.0})
+    assert not unsure(by(N=reported, m=0.001), {"N": 0.99 * clear, "m": 0.0})
+    assert unsure(by(N=reported, m=0.04), {"N": 0.99 * clear, "m": 0.02}) == (reported < WRONG_ERROR)
 
 
 def oscillator(x: float = 0.0) -> mbs.System:
@@ -101,13 +101,13 @@ def oscillator(x: float = 0.0) -> mbs.System:
 
 def test_what_moves_is_judged_wherever_it_lies() -> None:
     """A range below 1e-4 of the coordinates was taken for rest: 87 % off at x = 1000 m, without a word."""
-    told = []
+    reported = []
     for x in (0.0, 1e3, 1e5):
         with pytest.warns(mbs.AccuracyWarning, match="off by at least 81 %"):
             run = mbs.simulate(oscillator(x), 2.0, 0.02, progress=False)
         assert run.accuracy is not None
-        told.append(run.accuracy.error)
-    assert told == pytest.approx([told[0]] * 3, rel=1e-6)
+        reported.append(run.accuracy.error)
+    assert reported == pytest.approx([reported[0]] * 3, rel=1e-6)
 
 
 @pytest.mark.parametrize(("length", "mass"), [(1.0, 1.0), (1e-3, 1e-9), (1e-6, 1e-12)])
@@ -137,9 +137,9 @@ def test_a_finer_run_that_is_refused_is_not_passed_over() -> None:
         tried.clear()
         return RefinedRuns(system, march(0.01, 1, lambda _: None, False, 0), march, 0.01, 1, lambda _: None)
 
-    found = repeats().verdict()
+    actual = repeats().verdict()
     assert tried == [1, 2, 4]
-    assert found.compared_step == pytest.approx(0.0025)
+    assert actual.compared_step == pytest.approx(0.0025)
     refused.add(4)
     with pytest.raises(mbs.SimulationError, match="did not converge"):
         repeats().verdict()
@@ -155,14 +155,14 @@ def test_what_runs_that_come_no_nearer_differ_by_counts() -> None:
         return run, []
 
     refined = RefinedRuns(system, march(0.01, 1, lambda _: None, False, 0), march, 0.01, 1, lambda _: None)
-    found = refined.verdict()
+    actual = refined.verdict()
     assert not shares
-    assert found.error == pytest.approx(0.05, rel=0.05)
-    assert found.sensors["y"] == pytest.approx(found.units["m"] * np.ptp(refined.run[0]["y"]), rel=0.05)
+    assert actual.error == pytest.approx(0.05, rel=0.05)
+    assert actual.sensors["y"] == pytest.approx(actual.units["m"] * np.ptp(refined.run[0]["y"]), rel=0.05)
 
 
-@pytest.mark.parametrize(("finer", "told"), [(True, False), (False, True)])
-def test_an_open_balance_is_told_where_that_of_the_refined_run_is_open_too(finer: bool, told: bool) -> None:
+@pytest.mark.parametrize(("finer", "reported"), [(True, False), (False, True)])
+def test_an_open_balance_is_reported_where_that_of_the_refined_run_is_open_too(finer: bool, reported: bool) -> None:
     """13 % at 3 % off by steps of 0.13 s, which half of them close: where they cannot, both may be off alike."""
     system, h = system_of("double_four_bar"), 0.8 / 6
 
@@ -176,8 +176,8 @@ def test_an_open_balance_is_told_where_that_of_the_refined_run_is_open_too(finer
     known = check(RefinedRuns(system, run, march, h, 1, lambda _: None), always=False)
     assert known is not None
     assert known.energy_balance == pytest.approx(0.13, abs=0.01)
-    assert ("J of work" in known.message) == told
-    assert ("J of work" in known.notice) != told
+    assert ("J of work" in known.message) == reported
+    assert ("J of work" in known.notice) != reported
     assert known.error == pytest.approx(0.031 if finer else 0.0, abs=1e-3)
 
 
@@ -193,7 +193,7 @@ def test_an_energy_that_jumps_in_a_right_run_is_a_notice_of_it(many: bool) -> No
     )
     assert other is not None
     for made in (run, other):
-        (told,) = [text for text in made.notices if "J of work, 7.8 %" in text]
-        assert told.endswith(RIGHT)
-        assert told in str(made)
+        (notices,) = [text for text in made.notices if "J of work, 7.8 %" in text]
+        assert notices.endswith(RIGHT)
+        assert notices in str(made)
     assert other.notices == run.notices

@@ -91,12 +91,12 @@ def test_a_parameter_set_back_starts_as_the_file_does(cars: dict[float, System])
     system = cars[12360.0]
     number = [p["name"] for p in system.meta["parameters"]].index("front.stiffness")
     instance = Instance(LoadedSystem(system.to_bytes()))
-    found = []
+    results = []
     for k in (12360.0, 20000.0, 12360.0):
         instance.set_parameter(number, k)
         instance.initialise(0.0)
-        found.append(list(instance.get_state()[0]))
-    assert found[0] == found[2] != found[1]
+        results.append(list(instance.get_state()[0]))
+    assert results[0] == results[2] != results[1]
 
 
 def test_a_parameter_set_in_motion_moves_nothing(cars: dict[float, System]) -> None:

@@ -32,8 +32,8 @@ def pushed_mass() -> mbs.System:
 def error_of(scene: str, run: mbs.Trajectory) -> float:
     """Largest error of the output point over the run, in parts of the model's length."""
     assert run.control is not None
-    found = np.column_stack([run[s] for s in CASES[scene].sensors])
-    return float(np.linalg.norm(found - exact_of(scene), axis=1).max()) / run.control.length
+    values = np.column_stack([run[s] for s in CASES[scene].sensors])
+    return float(np.linalg.norm(values - exact_of(scene), axis=1).max()) / run.control.length
 
 
 def run_of(scene: str, tolerance: float, method: str | None = None) -> mbs.Trajectory:
@@ -89,8 +89,8 @@ def test_runs_that_are_far_apart_say_nothing_of_the_finer_one() -> None:
     for c in "xy":
         m.sense_position(f"tip.{c}", last, x, c)
     system, runs = mbs.compile(m), []
-    for tolerance, told in ((1e-2, pytest.warns(AccuracyWarning, match="estimated as")), (1e-7, nullcontext())):
-        with told:
+    for tolerance, caught in ((1e-2, pytest.warns(AccuracyWarning, match="estimated as")), (1e-7, nullcontext())):
+        with caught:
             runs.append(
                 mbs.simulate(
                     system, 10.0, tolerance=tolerance, method="runge_kutta_8", times=np.linspace(0.0, 10.0, 51)
@@ -164,8 +164,8 @@ def test_the_record_between_steps_keeps_the_order(method: str, order: int) -> No
     for tolerance in tolerances:
         run = mbs.simulate(system_of("pendulum"), 2.0, tolerance=tolerance, times=times, method=method)
         assert run.control is not None
-        found = np.column_stack([run["bob.position.x"], run["bob.position.y"]])
-        errors.append(np.linalg.norm(found - exact, axis=1).max())
+        values = np.column_stack([run["bob.position.x"], run["bob.position.y"]])
+        errors.append(np.linalg.norm(values - exact, axis=1).max())
         forces.append(np.abs(run["rod.tension"] - tension).max() / (3.0 * 9.81))
         assert run.control.steps < 601 or order == 2  # so that most of the record lies between steps
     for tolerance, error, force in zip(tolerances, errors, forces, strict=True):
@@ -257,7 +257,7 @@ def test_a_tolerance_that_is_none_is_one_sentence(tolerance: object) -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "words"),
+    ("given", "message"),
     [
         ({"times": [0.2, 0.1]}, "ascend"),
         ({"times": [0.2, 3.0]}, "between 0 and 1 s"),
@@ -268,8 +268,8 @@ def test_a_tolerance_that_is_none_is_one_sentence(tolerance: object) -> None:
         ({"method": "fast"}, "fast"),
     ],
 )
-def test_bad_records_are_refused(given: dict[str, object], words: str) -> None:
-    with pytest.raises(ValueError, match=words):
+def test_bad_records_are_refused(given: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         mbs.simulate(**({"system": system_of("pendulum"), "t_end": 1.0, "tolerance": 1e-3} | given))  # type: ignore[arg-type]
 
 
@@ -366,7 +366,7 @@ def test_runs_of_the_longest_steps_only_still_tell_an_error(method: str) -> None
     assert 0.0 < error <= 10.0 * run.control.error
 
 
-def test_what_stands_still_has_no_error_to_tell() -> None:
+def test_a_model_at_rest_has_no_error_to_report() -> None:
     m = mbs.Model("rest", dimension=2, gravity=(0.0, 0.0))
     m.sense_position("x", m.body("block", mass=1.0, com=(0.0, 0.0), inertia=0.1), (0.0, 0.0), "x")
     run = mbs.simulate(mbs.compile(m), 1.0, tolerance=1e-3)

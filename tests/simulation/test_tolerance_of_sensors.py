@@ -26,13 +26,13 @@ def fall_off(run: mbs.Trajectory) -> float:
     return float(np.abs(run["y"] - 9.81 / 2e4 * (np.cos(np.sqrt(2e4) * run.t) - 1.0)).max())
 
 
-def test_a_tolerance_of_a_drawing_that_hides_the_motion_is_told() -> None:
+def test_a_tolerance_of_a_drawing_that_hides_the_motion_is_reported() -> None:
     system = spring_of_a_large_drawing()
-    with pytest.warns(AccuracyWarning, match=r"moves farthest moves 0\.00098.* is 11 % of that") as told:
+    with pytest.warns(AccuracyWarning, match=r"moves farthest moves 0\.00098.* is 11 % of that") as caught:
         coarse = mbs.simulate(system, 1.0, tolerance=1e-2, progress=False)
-    assert told[0].filename == __file__
+    assert caught[0].filename == __file__
     assert fall_off(coarse) > 0.1 * np.ptp(coarse["y"])
-    named = float(str(told[0].message).rsplit("tolerance=", 1)[1].rstrip("."))
+    named = float(str(caught[0].message).rsplit("tolerance=", 1)[1].rstrip("."))
     assert fall_off(mbs.simulate(system, 1.0, tolerance=named, progress=False)) < 0.01 * np.ptp(coarse["y"])
 
 
@@ -48,11 +48,11 @@ def test_a_tolerance_may_be_that_of_a_sensor(most: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("tolerance", "said"),
+    ("tolerance", "message"),
     [({}, "names no sensor"), ({"x": 1.0}, "computes no such sensor"), ({"y": 0.0}, "must be a number above 0")],
 )
-def test_a_tolerance_of_sensors_that_cannot_be_is_refused(tolerance: dict[str, float], said: str) -> None:
-    with pytest.raises(ValueError, match=said):
+def test_a_tolerance_of_sensors_that_cannot_be_is_refused(tolerance: dict[str, float], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         mbs.simulate(spring_of_a_large_drawing(), 1.0, tolerance=tolerance)
 
 

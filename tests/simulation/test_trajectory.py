@@ -22,7 +22,7 @@ def test_it_maps_names_to_arrays_with_units(trajectory):
     assert len(trajectory) == 3
 
 
-def test_an_unknown_name_is_told_with_the_known_ones(trajectory):
+def test_an_unknown_name_is_reported_with_the_known_ones(trajectory):
     with pytest.raises(KeyError, match=r"no sensor 'bob.y'; did you mean 'bob.x'\?"):
         trajectory["bob.y"]
     with pytest.raises(KeyError, match=r"no sensor 'speed'; the trajectory has: bob.x, wheel\[1\], load, energy\."):

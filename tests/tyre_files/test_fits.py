@@ -58,18 +58,18 @@ def force_of(tyre: Tyre | MagicTyre, load: float, kappa: float, tangent: float) 
 
 @pytest.mark.parametrize("q", [0.5, 1.0, 2.0])
 def test_the_magic_formula_of_a_tmeasy_tyre_has_its_forces_within_the_errors_told(q: float) -> None:
-    made, errors = magic_of_tmeasy(TYRE)
+    result, errors = magic_of_tmeasy(TYRE)
     load = q * TYRE.nominal_load
     assert errors["longitudinal"] < 0.17
     assert errors["lateral"] < 0.03
     peaks = [q * TYRE.reference_friction * 0.85 * TYRE.nominal_load] * 2
     for kappa in (-0.3, -0.05, 0.02, 0.1, 0.6):
-        difference = force_of(made, load, kappa, 0.0)[0] - force_of(TYRE, load, kappa, 0.0)[0]
+        difference = force_of(result, load, kappa, 0.0)[0] - force_of(TYRE, load, kappa, 0.0)[0]
         assert abs(difference) < (errors["longitudinal"] + 0.005) * peaks[0] * 1.2
     for tangent in (0.02, 0.08, 0.3):
-        difference = force_of(made, load, 0.0, tangent)[1] - force_of(TYRE, load, 0.0, tangent)[1]
+        difference = force_of(result, load, 0.0, tangent)[1] - force_of(TYRE, load, 0.0, tangent)[1]
         assert abs(difference) < (errors["lateral"] + 0.005) * peaks[1] * 1.2
-    assert made.coefficients["PKX1"] * made.nominal_load == pytest.approx(TYRE.longitudinal.slope[0], rel=0.1)
+    assert result.coefficients["PKX1"] * result.nominal_load == pytest.approx(TYRE.longitudinal.slope[0], rel=0.1)
 
 
 @pytest.mark.parametrize("file", FILES, ids=ids)
@@ -77,20 +77,20 @@ def test_tmeasy_of_a_file_is_a_tyre_that_has_its_forces_within_the_errors_told(f
     bare = replace(magic(file), combination="none")
     shifts = ("PHX1", "PHX2", "PVX1", "PVX2", "PEX4", "PHY1", "PHY2", "PVY1", "PVY2", "PEY3", "LMUV", "RVY1", "RVY2")
     bare = replace(bare, coefficients={**bare.coefficients, **dict.fromkeys(shifts, 0.0)})
-    made, errors = tmeasy_of_magic(bare)
+    result, errors = tmeasy_of_magic(bare)
     c = {"QSY1": 0.0, "LMY": 1.0, "Q_RE0": 1.0} | bare.coefficients
-    assert (made.radius, made.rolling_resistance) == (bare.radius * c["Q_RE0"], c["QSY1"] * c["LMY"])
+    assert (result.radius, result.rolling_resistance) == (bare.radius * c["Q_RE0"], c["QSY1"] * c["LMY"])
     assert errors["lateral"] < 0.12
     if file.stem == "HMMWV_Pac02Tire":  # its longitudinal slip stiffness fades to nothing by PKX2: no curve of TMeasy
         assert errors["longitudinal"] > 0.3
         return
     assert errors["longitudinal"] < 0.22
-    load = made.nominal_load
+    load = result.nominal_load
     for kappa in (-0.3, -0.03, 0.1):
-        one, two = (force_of(tyre, load, kappa, 0.0)[0] for tyre in (bare, made))
+        one, two = (force_of(tyre, load, kappa, 0.0)[0] for tyre in (bare, result))
         assert abs(one - two) < (errors["longitudinal"] + 0.02) * 1.3 * load
     for tangent in (0.02, 0.1, 0.3):
-        one, two = (force_of(tyre, load, 0.0, tangent)[1] for tyre in (bare, made))
+        one, two = (force_of(tyre, load, 0.0, tangent)[1] for tyre in (bare, result))
         assert abs(one - two) < (errors["lateral"] + 0.02) * 1.3 * load
 
 
@@ -155,7 +155,7 @@ def _rolling(tyre: MagicTyre, kappa: float, tangent: float) -> tuple[Element, fl
     return element_of(tyre, 1.0), u[2], 20.0, ud[6], 20.0 * tangent
 
 
-def test_what_cannot_be_written_or_made_is_said(tmp_path: Path) -> None:
+def test_files_that_cannot_be_written_or_made_are_reported(tmp_path: Path) -> None:
     tyre = magic(FILES[0])
     for change in ({"mirrored": True}, {"signs": "sae"}, {"pressure": 0.1}):
         with pytest.raises(ValueError, match="ISO axes, not mirrored, and at its nominal pressure"):
@@ -178,7 +178,7 @@ def test_what_cannot_be_written_or_made_is_said(tmp_path: Path) -> None:
 
 def test_slip_angles_of_the_fit_are_those_of_the_formula() -> None:
     """Up to 5.2 the formula has the angle, from 6.1 on its tangent: 0.5 rad are 9 % apart."""
-    made, _ = magic_of_tmeasy(TYRE)
-    assert force_of(made, 1500.0, 0.0, 0.5)[1] == pytest.approx(
-        force_of(replace(made, version="MF61"), 1500.0, 0.0, atan(0.5))[1], rel=2e-2
+    result, _ = magic_of_tmeasy(TYRE)
+    assert force_of(result, 1500.0, 0.0, 0.5)[1] == pytest.approx(
+        force_of(replace(result, version="MF61"), 1500.0, 0.0, atan(0.5))[1], rel=2e-2
     )

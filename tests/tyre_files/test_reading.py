@@ -31,11 +31,11 @@ def changed(folder: Path, *changes: tuple[str, str], of: Path = OWN) -> Path:
 
 
 def test_versions_sides_and_ways_to_combine() -> None:
-    found = {}
+    results = {}
     for file in sorted(DATA.rglob("*.tir")):
         f = read_tyre(file)
-        found[file.stem] = (f.values["version"], f.side, f.values["combination"])
-    assert found == {
+        results[file.stem] = (f.values["version"], f.side, f.values["combination"])
+    assert results == {
         "assumed_52": ("MF52", "left", "weighting"),
         "assumed_61": ("MF61", "left", "weighting"),
         "assumed_62": ("MF62", "left", "weighting"),
@@ -210,7 +210,7 @@ def test_signs_that_do_not_fit_are_refused(tmp_path: Path) -> None:
         (("FREFF", "FREFF = 50"), "DREFF atan(BREFF) + FREFF is 50.4; under FNOMIN"),
     ],
 )
-def test_what_cannot_be_is_refused_with_a_sentence(tmp_path: Path, change: tuple[str, str], sentence: str) -> None:
+def test_impossible_values_are_refused_in_one_sentence(tmp_path: Path, change: tuple[str, str], sentence: str) -> None:
     text = OWN.read_text()
     old, new = change
     assert re.search(rf"(?m)^{re.escape(old)}( .*)?$", text), old
@@ -251,7 +251,7 @@ def test_comments_and_words_in_latin_1_are_read(tmp_path: Path) -> None:
 def test_a_cut_or_altered_file_is_a_tyre_or_a_sentence(tmp_path: Path) -> None:
     """No other error, and what is read can be evaluated."""
     rng, data, read = random.Random(5), SEDAN.read_bytes(), 0
-    told: set[bool] = set()
+    reported: set[bool] = set()
     for k in range(400):
         if k % 2:
             content = data[: rng.randrange(len(data))]
@@ -262,15 +262,15 @@ def test_a_cut_or_altered_file_is_a_tyre_or_a_sentence(tmp_path: Path) -> None:
         try:
             tyre = read_tyre(written(tmp_path, bytes(content))).tyre()
         except TyreFileError as error:
-            told.add("tyre.tir" in str(error))
+            reported.add("tyre.tir" in str(error))
             continue
         read += 1
         assert element_of(tyre).check() is None
-    assert told == {True}
+    assert reported == {True}
     assert 20 < read < 380
 
 
-def test_a_side_that_is_not_known_is_said(tmp_path: Path) -> None:
+def test_a_side_that_is_not_known_is_reported(tmp_path: Path) -> None:
     f = read_tyre(changed(tmp_path, ("TYRESIDE", "TYRESIDE = 'UNKNOWN'")))
     assert f.notes == ("TYRESIDE is 'unknown': coefficients of a left tyre are assumed, and a right one is mirrored.",)
     assert f.side == "left"
@@ -288,7 +288,7 @@ def test_a_negative_use_mode_mirrors(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("mode", ["5", "15", "99"])
-def test_a_use_mode_that_is_not_4_is_said(tmp_path: Path, mode: str) -> None:
+def test_a_use_mode_that_is_not_4_is_reported(tmp_path: Path, mode: str) -> None:
     (note,) = read_tyre(changed(tmp_path, ("USE_MODE", f"USE_MODE = {mode}"))).notes
     assert note == f"USE_MODE is {mode}; slips are combined as by 4, without turn slip."
 
@@ -298,7 +298,7 @@ def test_a_range_without_width_is_refused(tmp_path: Path) -> None:
         read_tyre(changed(tmp_path, ("ALPMIN", "ALPMIN = -1e-3"), ("ALPMAX", "ALPMAX = 1e-3")))
 
 
-def test_ranges_that_the_tyre_leaves_are_said(tmp_path: Path) -> None:
+def test_ranges_that_the_tyre_leaves_are_reported(tmp_path: Path) -> None:
     (note,) = read_tyre(changed(tmp_path, ("FZMAX", "FZMAX = 2000"))).notes
     assert note == "FZMAX is 2000 N, below FNOMIN, 3000 N; above FZMAX the forces stay."
     f = read_tyre(changed(tmp_path, ("NOMPRES", "NOMPRES = 220000\nPRESMIN = 1.9e5\nPRESMAX = 2.2e5")))
@@ -309,12 +309,12 @@ def test_ranges_that_the_tyre_leaves_are_said(tmp_path: Path) -> None:
     assert f.tyre(pressure=2.1e5).pressure == pytest.approx(21.0 / 22.0 - 1.0)
 
 
-def test_what_the_vertical_force_has_besides_is_said(tmp_path: Path) -> None:
+def test_what_the_vertical_force_has_besides_is_reported(tmp_path: Path) -> None:
     (note,) = read_tyre(changed(tmp_path, ("USE_MODE", "USE_MODE = 14\nQ_CAM2 = 1.5"))).notes
     assert note == "Q_CAM2 is not used: horizontal forces and camber do not change the vertical stiffness."
 
 
-def test_pac2002_with_a_newer_fittyp_is_said(tmp_path: Path) -> None:
+def test_pac2002_with_a_newer_fittyp_is_reported(tmp_path: Path) -> None:
     text = SEDAN.read_bytes().replace(b"[MODEL]", b"[MODEL]\nFITTYP = 61")
     f = read_tyre(written(tmp_path, text))
     assert f.notes[0] == "FITTYP is 61 and PROPERTY_FILE_FORMAT PAC2002; the equations are those of PAC2002."

@@ -56,8 +56,8 @@ ODD: dict[str, tuple[Factors, str]] = {
 
 @pytest.mark.parametrize("version", ["52", "61", "62"])
 @pytest.mark.parametrize("case", ODD)
-def test_what_is_odd_is_told(case: str, version: str, tmp_path: Path) -> None:
-    factors, words = ODD[case]
+def test_implausible_values_are_reported(case: str, version: str, tmp_path: Path) -> None:
+    factors, message = ODD[case]
     text = (Path(__file__).with_name("data") / f"assumed_{version}.tir").read_text(encoding="utf-8")
     for key, factor in factors.items():
         line = re.compile(rf"^({key}\s*=\s*)([^\s$]+)", re.MULTILINE)
@@ -67,8 +67,8 @@ def test_what_is_odd_is_told(case: str, version: str, tmp_path: Path) -> None:
     file = tmp_path / "odd.tir"
     file.write_text(text, encoding="utf-8")
     lines = lines_of(file)
-    assert any(words in line for line in lines), lines
-    assert len(lines) == 1 or not words.startswith(("per", "degrees", "percent", "kilograms")), lines
+    assert any(message in line for line in lines), lines
+    assert len(lines) == 1 or not message.startswith(("per", "degrees", "percent", "kilograms")), lines
 
 
 def test_no_cause_is_named_that_leaves_what_shares_its_key(tmp_path: Path) -> None:

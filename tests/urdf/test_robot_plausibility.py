@@ -99,7 +99,7 @@ SIDES = {
 
 @pytest.mark.parametrize("case", SIDES)
 def test_a_side_is_the_image_of_the_other(case: str, tmp_path: Path) -> None:
-    change, words = SIDES[case]
+    change, message = SIDES[case]
     text = '<robot name="r"><link name="base"/>'
     for k, side in enumerate(("FL", "FR", "left_mid", "right_mid", "RL", "RR")):
         sign = -1.0 if k % 2 else 1.0
@@ -111,8 +111,8 @@ def test_a_side_is_the_image_of_the_other(case: str, tmp_path: Path) -> None:
         warnings.simplefilter("always", UrdfWarning)
         read_urdf(file)
     lines = [str(w.message) for w in caught]
-    assert len(lines) == len(words)
-    assert all(word in line and "'FL_leg' and 'FR_leg'" in line for word, line in zip(words, lines, strict=True))
+    assert len(lines) == len(message)
+    assert all(word in line and "'FL_leg' and 'FR_leg'" in line for word, line in zip(message, lines, strict=True))
 
 
 PENDULUM = """
@@ -127,7 +127,7 @@ OWN = """<link name="{name}"><inertial><origin xyz="0 0 {centre}"/><mass value="
 
 
 @pytest.mark.parametrize(
-    ("rail", "floating", "inertias", "words"),
+    ("rail", "floating", "inertias", "message"),
     [
         ("fixed", False, (1.0, 0.01, 0.001), []),  # nothing turns it
         ("prismatic", False, (1.0, 0.01, 0.001), []),
@@ -137,7 +137,7 @@ OWN = """<link name="{name}"><inertial><origin xyz="0 0 {centre}"/><mass value="
     ],
 )
 def test_inertias_are_judged_where_they_have_an_effect(
-    rail: str, floating: bool, inertias: tuple[float, ...], words: list[str], tmp_path: Path
+    rail: str, floating: bool, inertias: tuple[float, ...], message: list[str], tmp_path: Path
 ) -> None:
     links = {
         f"link_{name}": OWN.format(name=name, centre=centre, i=inertia, last=inertia)
@@ -149,8 +149,8 @@ def test_inertias_are_judged_where_they_have_an_effect(
         warnings.simplefilter("always", UrdfWarning)
         read_urdf(file, floating=floating)
     lines = [str(w.message) for w in caught if "usual is" in str(w.message)]
-    assert len(lines) == len(words)
-    assert all(word in line for word, line in zip(words, lines, strict=True)), lines
+    assert len(lines) == len(message)
+    assert all(word in line for word, line in zip(message, lines, strict=True)), lines
 
 
 def test_corrected_inertias_are_one_sentence(tmp_path: Path) -> None:
@@ -169,10 +169,10 @@ def test_public_robots_have_nothing_odd(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ROBOTS)
 @pytest.mark.parametrize("case", ODD)
-def test_what_is_odd_is_told(name: str, case: str, tmp_path: Path) -> None:
-    change, words = ODD[case]
+def test_implausible_values_are_reported(name: str, case: str, tmp_path: Path) -> None:
+    change, message = ODD[case]
     lines = told(name, change, tmp_path)
-    assert any(words in line for line in lines), lines
+    assert any(message in line for line in lines), lines
 
 
 WRONG = {
@@ -190,11 +190,11 @@ WRONG = {
 
 
 @pytest.mark.parametrize("case", WRONG)
-def test_what_is_malformed_is_an_error_with_its_line(case: str, tmp_path: Path) -> None:
-    change, words = WRONG[case]
+def test_a_malformed_line_is_an_error_with_its_number(case: str, tmp_path: Path) -> None:
+    change, message = WRONG[case]
     with pytest.raises(ModelError, match=r"robot\.urdf, line \d+: .*") as error:
         told("ur5", change, tmp_path)
-    assert re.search(words, str(error.value)), error.value
+    assert re.search(message, str(error.value)), error.value
 
 
 def test_the_summary_has_the_mass(tmp_path: Path) -> None:

@@ -41,8 +41,8 @@ def test_torques_are_those_of_the_inverse_dynamics_of_pinocchio(name: str, tmp_p
         }
         robot = read_urdf(file, guides=guides)
         now = mbs.Simulation(mbs.compile(robot.model)).sensors
-        found = np.array([now[f"{joint}.torque"] for joint in guides])
-        assert np.abs(found - torques).max() < 1e-9 * np.abs(torques).max()
+        values = np.array([now[f"{joint}.torque"] for joint in guides])
+        assert np.abs(values - torques).max() < 1e-9 * np.abs(torques).max()
         assert [now[f"{joint}.angle"] for joint in guides] == pytest.approx(state[0])
         assert [now[f"{joint}.rate"] for joint in guides] == pytest.approx(state[1])
 
@@ -124,15 +124,15 @@ def test_a_joint_that_follows_another_moves_and_loads_it(leader: str, follower: 
         read_urdf(file, at={"follow": 0.0})
 
 
-def test_damping_turns_and_what_is_left_out_is_told(tmp_path: Path) -> None:
+def test_damping_turns_and_what_is_left_out_is_reported(tmp_path: Path) -> None:
     """A rod about its vertical axis loses its rate as exp(-c t / I)."""
     dynamics = '<dynamics damping="0.5" friction="0.1"/>'
     text = '<link name="a"/>' + LINK.format("b", 1.0) + JOINT.format("turn", "continuous", "a", "b", dynamics)
     text += LINK.format("c", 1.0) + JOINT.format("slide", "prismatic", "b", "c", '<dynamics damping="0.3"/>')
     file = tmp_path / "damped.urdf"
     file.write_text(f'<robot name="damped">{text.replace("0.6 0 0.8", "0 0 1")}</robot>', encoding="utf-8")
-    words = "without friction of 'turn', 0.1; damping of 'slide', 0.3 N s/m"
-    with pytest.warns(UrdfWarning, match=words):
+    message = "without friction of 'turn', 0.1; damping of 'slide', 0.3 N s/m"
+    with pytest.warns(UrdfWarning, match=message):
         robot = read_urdf(file)
     robot.model.initial_rate(robot.angles["turn"], 2.0)
     s = mbs.Simulation(mbs.compile(robot.model), inputs={"slide.force": 9.81})
@@ -142,7 +142,7 @@ def test_damping_turns_and_what_is_left_out_is_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "message"),
     [
         (LINK.format("b", 1.0) + JOINT.format("j", "planar", "a", "b", ""), "the joint 'j' is planar"),
         (LINK.format("b", 0.0) + JOINT.format("j", "revolute", "a", "b", ""), "the link 'b', and what is fixed to it"),
@@ -183,15 +183,15 @@ def test_damping_turns_and_what_is_left_out_is_told(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_what_is_no_robot_is_one_sentence(text: str, words: str, tmp_path: Path) -> None:
+def test_an_invalid_robot_is_refused_in_one_sentence(text: str, message: str, tmp_path: Path) -> None:
     file = tmp_path / "robot.urdf"
     file.write_text(f'<robot name="r"><link name="a"/>{text}</robot>', encoding="utf-8")
-    with pytest.raises(ModelError, match=words):
+    with pytest.raises(ModelError, match=message):
         read_urdf(file)
 
 
 @pytest.mark.parametrize("text", ["", "no robot", "<robot name='r'>", "<robot name='r'></robot>", "<a/>"])
-def test_what_is_no_urdf_file_is_one_sentence(text: str, tmp_path: Path) -> None:
+def test_an_invalid_urdf_file_is_refused_in_one_sentence(text: str, tmp_path: Path) -> None:
     file = tmp_path / "robot.urdf"
     file.write_text(text, encoding="utf-8")
     with pytest.raises(ModelError, match=r"robot\.urdf"):
@@ -210,7 +210,7 @@ def test_a_file_that_is_cut_is_no_smaller_robot(part: float, tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "words"),
+    ("old", "new", "message"),
     [
         (r"<inertia .*/>", "", "The inertia of the link 'link_1' must be numbers of shape .3, 3., not None"),
         (
@@ -230,10 +230,10 @@ def test_a_file_that_is_cut_is_no_smaller_robot(part: float, tmp_path: Path) -> 
         ),
     ],
 )
-def test_a_value_that_is_none_is_one_sentence(old: str, new: str, words: str, tmp_path: Path) -> None:
+def test_a_value_that_is_none_is_one_sentence(old: str, new: str, message: str, tmp_path: Path) -> None:
     file = write_urdf([ROD], tmp_path / "rod.urdf")
     file.write_text(re.sub(old, new, file.read_text(encoding="utf-8")), encoding="utf-8")
-    with pytest.raises(ModelError, match=words):
+    with pytest.raises(ModelError, match=message):
         read_urdf(file)
 
 
@@ -320,7 +320,7 @@ def test_hinges_that_meet_with_links_without_mass_are_one_joint(
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "message"),
     [
         (hinge("b", "l1", "arm", "0 0 1", "0.1 0 0"), "the axes of 'a', 'b' do not meet in one point"),
         (hinge("b", "l1", "arm", "0 0 1"), "the axes of 'a', 'b' depend on each other as drawn"),
@@ -328,11 +328,11 @@ def test_hinges_that_meet_with_links_without_mass_are_one_joint(
         (hinge("b", "l1", "arm", "0 1 0").replace("</joint>", '<mimic joint="a"/></joint>'), "'b' follows another one"),
     ],
 )
-def test_other_links_without_mass_are_refused_with_the_reason(text: str, words: str, tmp_path: Path) -> None:
+def test_other_links_without_mass_are_refused_with_the_reason(text: str, message: str, tmp_path: Path) -> None:
     file = tmp_path / "crossed.urdf"
     text = '<link name="base"/><link name="l1"/>' + BAR + hinge("a", "base", "l1", "0 0 1") + text
     file.write_text(f'<robot name="crossed">{text}</robot>', encoding="utf-8")
-    with pytest.raises(ModelError, match=f"crossed.urdf: the link 'l1'.*{words}.*Give it a small mass"):
+    with pytest.raises(ModelError, match=f"crossed.urdf: the link 'l1'.*{message}.*Give it a small mass"):
         read_urdf(file)
 
 

@@ -37,8 +37,8 @@ def tables(data, path=()):
 
 def numbers(name):
     """Key path and value of every number in a car's file."""
-    found = leaves(load(name)._data)
-    return {path: float(v) for path, v in found if isinstance(v, (int, float)) and path != "schema"}
+    result = leaves(load(name)._data)
+    return {path: float(v) for path, v in result if isinstance(v, (int, float)) and path != "schema"}
 
 
 def new_with(name, paths, names):

@@ -22,13 +22,13 @@ def loads_of_fmu(waves: Waves, speed: float, lead: float = 1.0) -> tuple[float, 
     place, names = "road_ahead" if lead else "contact", [f"wheel_{w}.Fz" for w in WHEELS]
     with Fmu(car_fmu(waves.car, "road")) as fmu:
         fmu.initialise({"initial.speed": speed, "ports.road_lead": lead, "throttle": 0.3})
-        asked = fmu.getter([f"wheel_{w}.{place}_{c}" for w in WHEELS for c in "xy"])
+        requested = fmu.getter([f"wheel_{w}.{place}_{c}" for w in WHEELS for c in "xy"])
         give = fmu.setter(["steering", *(f"wheel_{w}.road_{n}" for w in WHEELS for n in ANSWER)])
         read, loads = fmu.getter(names), []
         for k in range(COUNT):
             steering = float(0.05 * np.sin(2.0 * STEP * k))
             row = [steering]
-            for x, y in np.reshape(asked(), (4, 2)).tolist():
+            for x, y in np.reshape(requested(), (4, 2)).tolist():
                 size = float(np.hypot(1.0, waves.slope(x)))
                 row += [x, y, waves.height(x), -waves.slope(x) / size, 0.0, 1.0 / size, FRICTION]
             give(row)
@@ -36,9 +36,9 @@ def loads_of_fmu(waves: Waves, speed: float, lead: float = 1.0) -> tuple[float, 
             one.set_input("steering", steering)
             one.step(STEP)
             loads.append([[one.sensors[n] for n in names], read()])
-        told = list(fmu.messages)
+        messages = list(fmu.messages)
     fz = np.array(loads)
-    return float(np.sqrt(np.mean((fz[:, 0] - fz[:, 1]) ** 2)) / fz[:, 0].mean()), told
+    return float(np.sqrt(np.mean((fz[:, 0] - fz[:, 1]) ** 2)) / fz[:, 0].mean()), messages
 
 
 if __name__ == "__main__":

@@ -69,12 +69,12 @@ def drive(
     coming = None
     for k in range(round(time / step)):
         now = loop.sensors
-        told = [tyre.wrench(now, step if k else 0.0) for tyre in tyres]
-        found = np.array([each for each, _ in told])
+        reported = [tyre.wrench(now, step if k else 0.0) for tyre in tyres]
+        found = np.array([each for each, _ in reported])
         wrench, coming = found if not late or coming is None else coming, found
         rate = np.zeros_like(wrench) if last is None or not slopes else (wrench - last) / step
         last = wrench
-        loads.append([[closed.sensors[f"wheel_{w}.Fz"], load] for w, (_, load) in zip(WHEELS, told, strict=True)])
+        loads.append([[closed.sensors[f"wheel_{w}.Fz"], load] for w, (_, load) in zip(WHEELS, reported, strict=True)])
         for s in (closed, loop):
             s.set_input("steering", steer * np.sin(5.0 * s.time))
             for pedal, value in (pedals or {}).items():
@@ -117,10 +117,10 @@ def print_limits() -> None:
         for late in (False, True):
             for slopes in (False, True):
                 h = longest(make(), 5.0, slopes=slopes, late=late)
-                found = [drive(part * h, 5.0, make=make, slopes=slopes, late=late, time=1.0)[2] for part in parts]
+                results = [drive(part * h, 5.0, make=make, slopes=slopes, late=late, time=1.0)[2] for part in parts]
                 forces = ("along derivatives" if slopes else "held") + (", at once" if late else "")
                 name = "prototype" if make is rigid else make.__name__
-                cells = " | ".join(f"{100.0 * deviation:.2g}" for deviation in found)
+                cells = " | ".join(f"{100.0 * deviation:.2g}" for deviation in results)
                 print(f"| {name} | {forces} | {1e3 * h:.2g} | {cells} |", flush=True)
 
 

@@ -51,8 +51,8 @@ def test_kinematics_at_the_drawing_are_what_the_file_sets(car):
 def test_the_table_has_the_right_wheel_where_it_is_set_otherwise(car):
     shown = {line[0]: line[1:3] for line in rows(kinematics(car, points=5))}
     for angle in ("toe", "camber"):
-        asked = [ANGLES[f"{axle}.alignment.{angle}_right"] for axle in ("front", "rear")]
-        assert shown[f"{angle} angle, right wheel"] == tuple(shown_number(math.degrees(a)) for a in asked)
+        requested = [ANGLES[f"{axle}.alignment.{angle}_right"] for axle in ("front", "rear")]
+        assert shown[f"{angle} angle, right wheel"] == tuple(shown_number(math.degrees(a)) for a in requested)
     alike = {line[0] for line in rows(kinematics(load("saloon"), points=5))}
     assert "toe angle" in alike
     assert "toe angle, right wheel" not in alike

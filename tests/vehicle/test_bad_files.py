@@ -19,15 +19,15 @@ SWEPT = quick(("prototype", "hatchback", "commonroad_320i"), CAR_NAMES, "proof")
 def refused(changes, name=FIRST, lines=1):
     """The sentences for a car with other values."""
     before = load(name).model_dump()
-    with pytest.raises(CarFileError) as told:
+    with pytest.raises(CarFileError) as refusal:
         load(name).changed(changes)
-    found = sentences(told.value, f"car '{name}': ")
-    assert len(found) == lines or lines is None, found
+    result = sentences(refusal.value, f"car '{name}': ")
+    assert len(result) == lines or lines is None, result
     assert load(name).model_dump() == before
-    return [line.removeprefix(f"car '{name}': ") for line in found]
+    return [line.removeprefix(f"car '{name}': ") for line in result]
 
 
-def test_keys_of_another_kind_are_told_as_such():
+def test_keys_of_another_kind_are_reported_as_such():
     lines = refused(
         {"steering.kind": "column"} | {f"steering.{key}": 1.0 for key in ("rack_mass", "trail")}, lines=None
     )
@@ -47,7 +47,7 @@ def test_a_drive_that_gives_nothing_is_a_drive():
 @pytest.mark.parametrize("every", [False, pytest.param(True, marks=pytest.mark.proof)])
 @pytest.mark.parametrize("name", CAR_NAMES)
 @pytest.mark.parametrize("factor", [1000.0, 0.001])
-def test_each_number_in_a_unit_wrong_by_1000_is_told(name, factor, every):
+def test_each_number_in_a_unit_wrong_by_1000_is_reported(name, factor, every):
     """Each number of each car, or each in the first car that has it: its range is that of its name."""
     silent = set()
     values = numbers(name)
@@ -198,9 +198,9 @@ GEOMETRY = {  # what cannot move or has no direction, and what the sentence says
 
 
 @pytest.mark.parametrize("case", GEOMETRY)
-def test_what_cannot_be_a_car(case):
-    changes, words = GEOMETRY[case]
-    assert any(words in line for line in refused(changes, lines=None)), refused(changes, lines=None)
+def test_invalid_cars_are_refused(case):
+    changes, message = GEOMETRY[case]
+    assert any(message in line for line in refused(changes, lines=None)), refused(changes, lines=None)
 
 
 ODD = {
@@ -232,10 +232,10 @@ ODD = {
 
 
 @pytest.mark.parametrize("case", ODD)
-def test_what_is_odd_is_told_and_made(case):
-    changes, words = ODD[case]
+def test_implausible_values_are_reported_and_built(case):
+    changes, message = ODD[case]
     lines = told(changes, "prototype")
-    assert (lines == []) if words is None else any(words in line for line in lines)
+    assert (lines == []) if message is None else any(message in line for line in lines)
     assert load("prototype").changed(changes).name == "prototype"
 
 
@@ -275,13 +275,13 @@ TEXTS = {
 
 @pytest.mark.parametrize("case", TEXTS)
 def test_files_that_are_no_car_file(case, tmp_path):
-    content, words = TEXTS[case]
+    content, message = TEXTS[case]
     file = tmp_path / "car.toml"
     file.write_bytes(content)
     for door in (file, str(file), tmp_path):
         with pytest.raises(CarFileError) as error:
             load(door)
-        assert any(words in line for line in sentences(error.value, str(file))), str(error.value)
+        assert any(message in line for line in sentences(error.value, str(file))), str(error.value)
 
 
 def test_a_file_with_a_byte_order_mark_is_read(copied):
@@ -368,8 +368,8 @@ def test_the_same_through_every_door(changes, copied, capsys):
     before, head, after = file.read_text(encoding="utf-8").partition(f"[{table}]\n")
     rest = [text for text in after.split("\n") if text.partition("#")[0].partition("=")[0].strip() != key]
     if key in after:  # the first of that name stands in this table
-        found = next(k for k, text in enumerate(after.split("\n")) if text.startswith(f"{key} ="))
-        rest = [text for k, text in enumerate(after.split("\n")) if k != found]
+        result = next(k for k, text in enumerate(after.split("\n")) if text.startswith(f"{key} ="))
+        rest = [text for k, text in enumerate(after.split("\n")) if k != result]
     file.write_text(f"{before}{head}{key} = {value}\n" + "\n".join(rest), encoding="utf-8")
     with pytest.raises(CarFileError) as error:
         load(file)

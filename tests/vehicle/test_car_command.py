@@ -39,17 +39,17 @@ def test_it_prints_what_a_car_is(name, capsys):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "message"),
     [
         (["car", "protoype"], "There is no car 'protoype': no file protoype; did you mean 'prototype'?"),
         (["car", "protoype", "x"], "There is no car 'protoype' to copy; did you mean 'prototype'?"),
         (["car", "/nowhere"], "There is no car '/nowhere'"),
     ],
 )
-def test_a_car_that_is_not_there(arguments, words, capsys, tmp_path, monkeypatch):
+def test_a_car_that_is_not_there(arguments, message, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main(arguments) == 2
-    assert capsys.readouterr().err.startswith(f"error: {words}")
+    assert capsys.readouterr().err.startswith(f"error: {message}")
     assert list(tmp_path.iterdir()) == []
 
 

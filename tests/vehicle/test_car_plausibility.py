@@ -70,10 +70,10 @@ PLANTED: dict[str, tuple[str, Callable[[], dict[str, Any]], str]] = {
 
 
 @pytest.mark.parametrize("case", PLANTED)
-def test_a_mistake_of_a_car_is_told(case: str) -> None:
-    name, changes, words = PLANTED[case]
+def test_a_mistake_of_a_car_is_reported(case: str) -> None:
+    name, changes, message = PLANTED[case]
     lines = told(changes(), name)
-    assert any(words in line for line in lines), lines
+    assert any(message in line for line in lines), lines
 
 
 @pytest.mark.parametrize("name", car_names())
@@ -104,28 +104,28 @@ def test_the_command_shows_and_writes_the_table(tmp_path: Path, capsys: pytest.C
 def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    found: list[CarContent] = []
+    results: list[CarContent] = []
 
     def counted(model: Model, car: CarContent) -> Rest:
-        found.append(car)
+        results.append(car)
         return settled(model, car)
 
     monkeypatch.setattr(built_car, "settled", counted)
-    told = {}
+    reported = {}
     for ports in ({}, {"ports.tyre": "hub"}):
         car = load("hatchback").changed(ports)
-        found.clear()
-        told[len(ports)] = [
+        results.clear()
+        reported[len(ports)] = [
             summary(car),
             car.summary(),
             [plausibility.to_json() for plausibility in car.plausibility()],
         ]
-        assert len(found) == 1, "its rest is found once for all of them"
-    assert told[1] == told[0]
+        assert len(results) == 1, "its rest is found once for all of them"
+    assert reported[1] == reported[0]
 
 
 @pytest.mark.parametrize(
-    ("curve", "field", "factor", "words"),
+    ("curve", "field", "factor", "message"),
     [
         ("lateral", "slope", 1.0 / DEG, "per degree in place of per slip in lateral.slope"),
         ("longitudinal", "slope", 0.01, "per percent in place of per slip in longitudinal.slope"),
@@ -133,12 +133,12 @@ def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
         ("lateral", "max_force", 0.2, "lateral.max_force = "),
     ],
 )
-def test_a_mistake_of_tmeasy_is_told(curve: str, field: str, factor: float, words: str) -> None:
+def test_a_mistake_of_tmeasy_is_reported(curve: str, field: str, factor: float, message: str) -> None:
     t = load("hatchback").front.tyre.tyre()
     fields = [field, "slide_slip"] if field == "max_slip" else [field]
-    made = {f: tuple(factor * v for v in getattr(getattr(t, curve), f)) for f in fields}
-    lines = tmeasy_plausibility("t", replace(t, **{curve: replace(getattr(t, curve), **made)})).warnings()
-    assert any(words in line for line in lines), lines
+    result = {f: tuple(factor * v for v in getattr(getattr(t, curve), f)) for f in fields}
+    lines = tmeasy_plausibility("t", replace(t, **{curve: replace(getattr(t, curve), **result)})).warnings()
+    assert any(message in line for line in lines), lines
 
 
 def test_a_mistake_is_named_only_where_undoing_it_mends() -> None:
@@ -146,8 +146,8 @@ def test_a_mistake_is_named_only_where_undoing_it_mends() -> None:
     values = [Value(length, 5e3, {"a": 5e3}, "first"), Value(length, 2.0, {"b": 2.0}, "second")]
 
     def plausibility(undone: list[float] | None) -> Plausibility:
-        made = None if undone is None else [replace(v, value=x) for v, x in zip(values, undone, strict=True)]
-        return Plausibility("f", values, [Mistake("mm in place of m", frozenset({"a"}), lambda: made)], "")
+        result = None if undone is None else [replace(v, value=x) for v, x in zip(values, undone, strict=True)]
+        return Plausibility("f", values, [Mistake("mm in place of m", frozenset({"a"}), lambda: result)], "")
 
     assert "mm in place of m would explain it: without that it is 5 m" in plausibility([5.0, 2.0]).warnings()[0]
     for undone in (None, [500.0, 2.0], [5.0, 200.0]):  # none, not enough, another one outside

@@ -41,12 +41,12 @@ SMOOTH = ("step_steer_given_throttle", "slalom", "steady_cornering", "double_lan
 @cache  # two tests ask for some
 def error(car, name, h, since=0.0):
     t, values, length = trajectories.read(name, car)
-    found = manoeuvres.run(name, h, car=car, every=round(manoeuvres.sampling(name, car) / h))
-    np.testing.assert_allclose(found.t, t, rtol=0, atol=1e-6)
-    assert found.report.failures == 0
+    result = manoeuvres.run(name, h, car=car, every=round(manoeuvres.sampling(name, car) / h))
+    np.testing.assert_allclose(result.t, t, rtol=0, atol=1e-6)
+    assert result.report.failures == 0
     late = t >= since
-    values, found = ({s: run[s][late] for s in trajectories.SENSORS} for run in (values, found))
-    return trajectories.path_error(found, values), trajectories.load_error(found, values), length
+    values, result = ({s: run[s][late] for s in trajectories.SENSORS} for run in (values, result))
+    return trajectories.path_error(result, values), trajectories.load_error(result, values), length
 
 
 @pytest.mark.parametrize("car", BOUNDS)

@@ -87,21 +87,21 @@ def test_an_fmu_with_a_changed_parameter_is_a_car_rebuilt(name: str, tmp_path: P
         if p["name"].startswith(begin)
     }
     left = [name for name in left if name not in body or name in values]
-    count, found = len(left), list[Change]()
+    count, actual = len(left), list[Change]()
     for manoeuvre in MANOEUVRES.values():
         known = {i["name"] for i in system.meta["inputs"]}
         inputs = {n: at for n, at in manoeuvre["inputs"].items() if n in known}
         plan = {**manoeuvre, "inputs": inputs}
-        found += changes(system, rebuilt(car), names=left, fmu=fmu, values=values, **plan)
-        left = [c.name for c in found if not any(d.effect for d in found if d.name == c.name)]
+        actual += changes(system, rebuilt(car), names=left, fmu=fmu, values=values, **plan)
+        left = [c.name for c in actual if not any(d.effect for d in actual if d.name == c.name)]
         left = list(dict.fromkeys(left))
     plan = MANOEUVRES["bend"]
     moved = changes(system, rebuilt(car), names=list(body), fmu=fmu, values=body, same=NEAR, **plan)
     assert {c.name: (c.difference, c.fmu) for c in moved if c.difference > NEAR or c.fmu != 0.0} == {}
     assert {c.name for c in moved} == set(body)
     assert min(c.effect for c in moved) > 100.0 * NEAR
-    assert {c.name: c.difference for c in found if c.difference > SAME} == {}
-    assert {c.name: c.fmu for c in found if c.fmu != 0.0} == {}
+    assert {c.name: c.difference for c in actual if c.difference > SAME} == {}
+    assert {c.name: c.fmu for c in actual if c.fmu != 0.0} == {}
     hidden = {"road.kerb_height"} if car.aerodynamics.drag_area else {"road.kerb_height", "aerodynamics.air_density"}
     assert set(left) <= hidden, "no manoeuvre shows them"
-    assert len({c.name for c in found}) == count
+    assert len({c.name for c in actual}) == count

@@ -164,8 +164,8 @@ def test_the_other_way_of_steering_is_not_heard():
     np.testing.assert_allclose(both["chassis.y"], held["chassis.y"], atol=1e-9)
     np.testing.assert_allclose(both["steering_wheel_torque"], held["steering_wheel_torque"], atol=1e-6)
     free = run(system(), 2.0, by_torque=1, throttle=0.12, steering_torque=1.0)
-    asked = run(system(), 2.0, by_torque=1, throttle=0.12, steering_torque=1.0, steering=0.5)
-    np.testing.assert_allclose(asked["chassis.y"], free["chassis.y"], atol=1e-9)
+    requested = run(system(), 2.0, by_torque=1, throttle=0.12, steering_torque=1.0, steering=0.5)
+    np.testing.assert_allclose(requested["chassis.y"], free["chassis.y"], atol=1e-9)
 
 
 def test_a_car_with_a_frame_and_a_column_is_rigid_only():

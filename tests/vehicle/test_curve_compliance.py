@@ -89,7 +89,7 @@ def on_rig(car: Car, axle: str, forces: dict[str, float]) -> dict[str, dict[str,
 def test_a_rig_finds_the_compliances_of_the_file(axle: str, content: dict[str, Any], folder: Path) -> None:
     """Each force moves what its number says and nothing else; camber is that of its signs on both sides."""
     stiff, soft = (compliant(content, folder, **{axle: STEER | more}) for more in ({}, ALL))
-    for forces, asked in (
+    for forces, requested in (
         ({"Fy": 100.0}, {"y": 100.0 * LATERAL, "inclination": -100.0 * CAMBER}),
         ({"Fx": 100.0}, {"x": 100.0 * FORWARD}),
         ({"Mz": 10.0}, {}),
@@ -98,7 +98,7 @@ def test_a_rig_finds_the_compliances_of_the_file(axle: str, content: dict[str, A
         assert len(before) == 2
         for wheel, values in before.items():
             for name, value in values.items():
-                expected = asked.get(name, 0.0)
+                expected = requested.get(name, 0.0)
                 assert after[wheel][name] - value == pytest.approx(expected, rel=1e-4, abs=2e-7), (wheel, name, forces)
 
 

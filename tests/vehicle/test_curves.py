@@ -46,11 +46,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def content(folder: Path) -> dict[str, dict[str, Any]]:
     """Contents of car files, with their tables in folders of their names."""
-    found = {}
+    results = {}
     for name in CARS:
         (folder / name).mkdir()
-        found[name] = curved_content(linked(name), folder / name)
-    return found
+        results[name] = curved_content(linked(name), folder / name)
+    return results
 
 
 def drive(system: System, seconds: float = 1.5) -> Any:
@@ -147,7 +147,7 @@ def test_columns_in_other_units_names_and_of_both_wheels_are_the_same_car(conten
     contact = contact - car.rear.wheel.centre[2] / up[2] * leaning[:, :2]
     i = int(np.argmin(np.abs(columns["wheel_travel"])))
     deg = np.degrees
-    made = {
+    result = {
         "wheel_travel [mm]": 1e3 * columns["wheel_travel"],
         "wheelbase_change [mm]": -1e3 * (contact[:, 0] - contact[i, 0]),
         "contact_centre_y_left [mm]": 1e3 * contact[:, 1],
@@ -164,8 +164,8 @@ def test_columns_in_other_units_names_and_of_both_wheels_are_the_same_car(conten
         "anti_roll_bar_angle_right [rad]": columns["anti_roll_bar_angle"],
         "remark [1]": np.zeros(len(toe)),
     }
-    made["wheelbase_change_right [mm]"] = made["wheelbase_change [mm]"]
-    written(copied, list(made), np.array(list(made.values())).T)
+    result["wheelbase_change_right [mm]"] = result["wheelbase_change [mm]"]
+    written(copied, list(result), np.array(list(result.values())).T)
     chassis = content["saloon"]["chassis"] | {"products": [0.0, 0.0, 0.0]}
     with pytest.warns(CarWarning, match="not used are the columns remark"):
         second = car_from(content["saloon"] | {"chassis": chassis}, copied, "second", warn=True)
@@ -181,9 +181,9 @@ def test_uneven_points_are_a_smooth_curve_and_two_sweeps_of_a_rack_are_added(con
     written(copied, heading, np.delete(rows, [3, 8, 15], axis=0))
     uneven = car_from(content["saloon"], copied, "second").rear.suspension
     one, other = (c.of(Side("rear", "left", 1.0)) for c in (before.rear.suspension, uneven))
-    for values, found in ((one.centres, other.centres), (one.rotations, other.rotations)):
+    for values, actual in ((one.centres, other.centres), (one.rotations, other.rotations)):
         smooth = CubicSpline(before.rear.suspension.table.travel, values)(uneven.table.travel)
-        np.testing.assert_allclose(found, smooth, atol=2e-6)
+        np.testing.assert_allclose(actual, smooth, atol=2e-6)
     heading, rows = rows_of(copied / "front.csv")
     cross = rows[(np.abs(rows[:, 0]) < 1e-9) | (np.abs(rows[:, 1]) < 1e-9)]
     written(copied, heading, cross)
@@ -246,7 +246,9 @@ def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None
     refused(r"values of wheel_travel twice, and no .*: rack_travel", [heading[k] for k in alone], rows[:, alone])
 
 
-def test_wheels_that_the_rack_turns_by_another_angle_than_the_file_says_are_told(content: dict, copied: Path) -> None:
+def test_wheels_that_the_rack_turns_by_another_angle_than_the_file_says_are_reported(
+    content: dict, copied: Path
+) -> None:
     """As a table in degrees under headings in radians."""
     data = copy.deepcopy(content["saloon"])
     car = car_from(data, copied, "x")
@@ -254,9 +256,9 @@ def test_wheels_that_the_rack_turns_by_another_angle_than_the_file_says_are_told
     suspension, centre = car.front.suspension, car.front.wheel.centre
     assert not [*suspension.steering_oddities(car.steering, centre)]
     data["steering"]["front_wheel_angle_max"] = 0.9
-    (said,) = suspension.steering_oddities(car_from(data, copied, "x").steering, centre)
-    assert "front_wheel_angle_max is 0.9 rad, but at full travel of the rack, 0.07 m, the wheels of front" in said
-    assert said.endswith("(front.csv) are turned by 0.6 rad; are the units of its headings right?")
+    (reported,) = suspension.steering_oddities(car_from(data, copied, "x").steering, centre)
+    assert "front_wheel_angle_max is 0.9 rad, but at full travel of the rack, 0.07 m, the wheels of front" in reported
+    assert reported.endswith("(front.csv) are turned by 0.6 rad; are the units of its headings right?")
 
 
 def test_a_row_of_both_wheels_is_one_place_of_the_axle(content: dict, folder: Path, tmp_path: Path) -> None:
@@ -373,8 +375,8 @@ def test_every_table_of_a_truck_is_read_again(truck: Car, tmp_path: Path) -> Non
         own = getattr(curved, axle).suspension.of(Side(axle, "left", 1.0))
         middle = int(np.argmin(np.abs(own.second)))
         for k, c in enumerate("xy"):
-            found = CubicSpline(own.travel, own.centres[:, middle, k])(parallel["wheel_travel_left"])
-            np.testing.assert_allclose(found, parallel[f"wheel_centre_{c}_left"], atol=1e-5)
+            spline = CubicSpline(own.travel, own.centres[:, middle, k])(parallel["wheel_travel_left"])
+            np.testing.assert_allclose(spline, parallel[f"wheel_centre_{c}_left"], atol=1e-5)
         table = read_curves(tmp_path / "out", f"{axle}_parallel.csv", "key", size)
         assert table.both
 
@@ -413,29 +415,29 @@ def test_the_axle_with_links_has_its_curves_where_the_other_has_none(
     notes = [line for line in capsys.readouterr().err.splitlines() if f"{tabled}.suspension.kind is 'curves'" in line]
     assert len(notes) == 1
     motions = ["opposite", "parallel", "single", *(["steer"] if other == "front" else []), "table"]
-    made = sorted(file.name for file in (tmp_path / "out").glob("*.csv"))
-    assert made == [f"{other}_{motion}.csv" for motion in motions]
+    result = sorted(file.name for file in (tmp_path / "out").glob("*.csv"))
+    assert result == [f"{other}_{motion}.csv" for motion in motions]
     half = car_from(curved_content(whole, tmp_path, (tabled,)), tmp_path, "half")
-    found, full = (kinematics(car, points=5) for car in (half, whole))
-    assert not found.drawn(tabled)
-    assert found.drawn(other) == pytest.approx(full.drawn(other), rel=1e-9)
+    actual, full = (kinematics(car, points=5) for car in (half, whole))
+    assert not actual.drawn(tabled)
+    assert actual.drawn(other) == pytest.approx(full.drawn(other), rel=1e-9)
     gives = compliance(half).values
     assert [*gives] == [other]
     assert gives[other] == pytest.approx(compliance(whole, 0).values[other], rel=1e-6)
 
 
 @pytest.mark.parametrize(
-    ("points", "said"),
+    ("points", "message"),
     [
         ({"inner": [-2.58, 0.61, 0.20]}, r"points\.outer is 0\.01 m from .*points\.inner; it must be 0\.05 m or more"),
         ({"inner": [-2.33, 0.62, 0.20], "second_inner": [-2.7, 0.62, 0.2]}, "is 0 m from the axis of both inner ends"),
         ({"inner": [-2.58, -0.3, 0.2]}, r"points\.inner has y = -0\.3 m; points are given for the left side"),
     ],
 )
-def test_a_link_that_is_none_is_a_sentence(points: dict, said: str, content: dict, copied: Path) -> None:
+def test_a_link_that_is_none_is_a_sentence(points: dict, message: str, content: dict, copied: Path) -> None:
     data = copy.deepcopy(content["saloon"])
     data["rear"]["suspension"]["bodies"]["links"]["lower_wishbone"]["points"] = {"outer": [-2.58, 0.62, 0.20]} | points
-    with pytest.raises(CarFileError, match=said):
+    with pytest.raises(CarFileError, match=message):
         car_from(data, copied, "x")
 
 

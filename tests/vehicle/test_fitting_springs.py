@@ -27,13 +27,13 @@ def said_of(car: Car, lengths: dict[str, float]) -> tuple[str, Car | None]:
     data = copy.deepcopy(car._data)
     for axle, length in lengths.items():
         data[axle]["spring"]["free_length"] = length
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", CarWarning)
         try:
             made = checked_car(type(car), data, car.folder, "car", warn=True)
         except CarFileError as error:
             return str(error), None
-    return "\n".join(str(entry.message) for entry in told), made
+    return "\n".join(str(entry.message) for entry in caught), made
 
 
 @pytest.mark.parametrize("case", quick(("longer",), CASES))
@@ -41,17 +41,17 @@ def test_with_the_free_length_that_is_given_the_car_stands_as_drawn(case: str) -
     name, changes = CASES[case]
     car = load(name)
     drawn = {axle: getattr(car, axle).spring.free_length for axle in changes}
-    said, _ = said_of(car, {axle: drawn[axle] + change for axle, change in changes.items()})
-    assert said.count("a car is drawn in its equilibrium: with ") == len(changes)
+    reported, _ = said_of(car, {axle: drawn[axle] + change for axle, change in changes.items()})
+    assert reported.count("a car is drawn in its equilibrium: with ") == len(changes)
     given = {
-        axle: float(value) for axle, value in re.findall(r"with (\w+)\.spring\.free_length = ([\d.]+) it is", said)
+        axle: float(value) for axle, value in re.findall(r"with (\w+)\.spring\.free_length = ([\d.]+) it is", reported)
     }
     assert given.keys() == changes.keys()
-    again, made = said_of(car, given)
+    again, result = said_of(car, given)
     assert "equilibrium" not in again
-    assert made is not None
-    model = made.empty()
-    made.reported(model)
+    assert result is not None
+    model = result.empty()
+    result.reported(model)
     model.look()
     at_rest = StandingSystem(compiled(model)).sensors
     for axle in changes:

@@ -64,7 +64,7 @@ CASES = {  # table, what is replaced by what, words of the sentence
 
 @pytest.mark.parametrize("case", CASES)
 def test_a_table_that_is_wrong(case, copied):
-    table, before, after, words = CASES[case]
+    table, before, after, message = CASES[case]
     file = copied()
     path = file.parent / table
     if not before:
@@ -76,24 +76,24 @@ def test_a_table_that_is_wrong(case, copied):
     with pytest.raises(CarFileError) as error:
         load(file)
     (line,) = sentences(error.value, str(file))
-    assert words in line, line
+    assert message in line, line
 
 
 @pytest.mark.parametrize(
-    ("content", "words"),
+    ("content", "message"),
     [
         (b"\xff\xfe", "is not text in UTF-8"),
         (b"", "contains no values"),
         (b"joint,x,y,z\n", "has no lines under its titles"),
     ],
 )
-def test_a_table_that_is_none(content, words, copied):
+def test_a_table_that_is_none(content, message, copied):
     file = copied()
     (file.parent / "joints.csv").write_bytes(content)
     with pytest.raises(CarFileError) as error:
         load(file)
     (line,) = sentences(error.value, str(file))
-    assert words in line
+    assert message in line
 
 
 @pytest.mark.parametrize("name", ["../joints.csv", "/etc/passwd", "a/../../b.csv", "..\\joints.csv", "", "a\\b"])
@@ -113,7 +113,7 @@ def test_a_table_that_is_a_link_elsewhere_is_refused(copied, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("changes", "words"),
+    ("changes", "message"),
     [
         ({"chassis.frame.reference": "XXc"}, "chassis.frame.reference names 'XXc'; the frame has no such joint."),
         ({"chassis.reference": [-1.0, 0.0, 0.16]}, "where the frame has no joint; the nearest is S1c, 0.1 m away."),
@@ -127,7 +127,7 @@ def test_a_table_that_is_a_link_elsewhere_is_refused(copied, tmp_path):
         ),
     ],
 )
-def test_a_frame_that_names_what_is_not_there(changes, words):
+def test_a_frame_that_names_what_is_not_there(changes, message):
     with pytest.raises(CarFileError) as error:
         load("prototype").changed(changes)
-    assert words in "\n".join(sentences(error.value, "car 'prototype': "))
+    assert message in "\n".join(sentences(error.value, "car 'prototype': "))

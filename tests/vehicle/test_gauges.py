@@ -75,9 +75,9 @@ def test_a_single_gauge_reads_pull_and_bending_of_the_fibre_that_it_is_named_by(
     across = np.array(WAYS[way]) - along * (along @ WAYS[way])
     if np.linalg.norm(across) < 0.3:
         return
-    found = stresses(direction, 0.3, bridge="quarter", fibre=way)
+    actual = stresses(direction, 0.3, bridge="quarter", fibre=way)
     fibre = across / np.linalg.norm(across)
-    assert found["stress"] == pytest.approx(closed_form(direction, 0.3, fibre), rel=ROUND_OFF)
+    assert actual["stress"] == pytest.approx(closed_form(direction, 0.3, fibre), rel=ROUND_OFF)
     both = stresses(direction, 0.3, fibre=way)
     bending = closed_form(direction, 0.3, fibre) - closed_form(direction, 0.3, -fibre)
     assert both["stress"] == pytest.approx(bending, rel=ROUND_OFF)
@@ -94,8 +94,8 @@ def test_an_angle_turns_right_handed_about_the_tube_from_its_highest_or_foremost
     first /= np.linalg.norm(first)
     a = np.radians(angle)
     fibre = np.cos(a) * first + np.sin(a) * np.cross(along, first)
-    found = stresses(direction, 0.6, bridge="quarter", fibre=angle)["stress"]
-    assert found == pytest.approx(closed_form(direction, 0.6, fibre), rel=ROUND_OFF)
+    actual = stresses(direction, 0.6, bridge="quarter", fibre=angle)["stress"]
+    assert actual == pytest.approx(closed_form(direction, 0.6, fibre), rel=ROUND_OFF)
 
 
 def test_axial_and_torsion_bridges_read_pull_and_twist_alone():

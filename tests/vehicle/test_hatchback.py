@@ -21,12 +21,12 @@ def at_rest():
 def masses():
     """Masses of the car with its default payloads and where they are."""
     c = car()
-    found = [(c.chassis.mass, np.array(c.chassis.com))]
-    found += [(p.mass, np.array(p.point)) for p in c.payload.values()]
+    results = [(c.chassis.mass, np.array(c.chassis.com))]
+    results += [(p.mass, np.array(p.point)) for p in c.payload.values()]
     for part, axle in [*((p, None) for p in parts_of(c)), (None, c.front), (None, c.rear)]:
         mass, place = (part.mass, part.com) if axle is None else (axle.wheel.mass, axle.wheel.centre)
-        found += [(mass, np.array(place) * (1.0, sign, 1.0)) for sign in (1.0, -1.0)]
-    return found
+        results += [(mass, np.array(place) * (1.0, sign, 1.0)) for sign in (1.0, -1.0)]
+    return results
 
 
 def test_the_masses_of_the_file_are_the_car_as_it_says():

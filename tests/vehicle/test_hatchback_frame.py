@@ -57,11 +57,11 @@ def test_the_frame_is_the_rigid_chassis_in_mass_centre_and_inertia() -> None:
 
 
 def test_it_is_as_stiff_as_bodies_of_the_class() -> None:
-    found = stiffness(car())
-    assert found.joints == ("STL", "DTL")
-    assert 12e3 < found.torsion < 25e3
-    assert found.torsion == pytest.approx(24.7e3, abs=50.0)
-    np.testing.assert_allclose(found.frequencies, [27.6, 28.3, 38.9, 40.9], rtol=0, atol=0.06)
+    actual = stiffness(car())
+    assert actual.joints == ("STL", "DTL")
+    assert 12e3 < actual.torsion < 25e3
+    assert actual.torsion == pytest.approx(24.7e3, abs=50.0)
+    np.testing.assert_allclose(actual.frequencies, [27.6, 28.3, 38.9, 40.9], rtol=0, atol=0.06)
 
 
 def test_a_finer_mesh_has_the_same_frequencies() -> None:
@@ -136,9 +136,9 @@ def test_the_energy_of_the_car_is_that_of_its_works_and_the_frame_only_loses() -
     """Damping of the frame is no work of the list; it is a small part of what the tyres and dampers take."""
     run = Simulation(system(3)).run(3.0, 0.001, inputs={"throttle": 0.6, "steering": 0.2})
     works = sum(run[f"energy.{name}"] for name in ("drive", "brakes", "tyres", "dampers", "drag", "ground"))
-    left = run["energy.total"] - run["energy.total"][0] - works
+    remaining = run["energy.total"] - run["energy.total"][0] - works
     assert run["energy.drive"][-1] > 2e4
-    assert np.abs(left).max() < 2e-3 * run["energy.drive"][-1]
+    assert np.abs(remaining).max() < 2e-3 * run["energy.drive"][-1]
 
 
 @pytest.mark.parametrize(("fidelity", "tolerance"), [(1, 8e-3), (2, 3e-4), (3, 3e-4)])
@@ -168,33 +168,33 @@ def test_the_scene_gives_the_gauges_of_every_fidelity(fidelity: int, tolerance: 
         up = beam.material.rho * beam.section.area * 9.81 * axes[:, 2]
         moment = 0.5 * gauge.xi * (1.0 - gauge.xi) * length**2 * (y * up[1] + z * up[2])
         carried = moment * np.hypot(*gauge.fibre) / beam.section.Iy
-        found = axial + bending - carried if gauge.name in ("SG5", "SG6") else 2.0 * (bending - carried)
+        actual = axial + bending - carried if gauge.name in ("SG5", "SG6") else 2.0 * (bending - carried)
         expected = run[f"stress.{gauge.name}"]
         largest = np.abs(expected).max()
         assert largest > 1e6
-        np.testing.assert_allclose(found, expected, rtol=0, atol=tolerance * largest, err_msg=gauge.name)
+        np.testing.assert_allclose(actual, expected, rtol=0, atol=tolerance * largest, err_msg=gauge.name)
     assert stress(part, eta[:1]).max() < part["stress"]["range"] < part["stress"]["limit"]  # of the standing car
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("change", "words"),
+    ("change", "message"),
     [
         ({"front.suspension.points.strut_top": [-0.045, 0.545, 0.83]}, "where the frame has no joint"),
         ({"chassis.mass": 1050.0, "vehicle.mass": 1185.0}, r"chassis\.mass is 1050 kg, but the frame"),
     ],
 )
 def test_a_hatchback_that_its_frame_does_not_fit_is_rigid_as_without_a_frame(
-    change: dict[str, Any], words: str
+    change: dict[str, Any], message: str
 ) -> None:
     """It says why; a file of the user's is loaded with a warning."""
     changed = car().changed(change)
     assert list(changed.fidelities()) == [Fidelity.RIGID]
-    with pytest.raises(ModelError, match=rf"has fidelity 0 only: its frame does not fit it\. .*{words}"):
+    with pytest.raises(ModelError, match=rf"has fidelity 0 only: its frame does not fit it\. .*{message}"):
         changed.model(fidelity=1)
     names = [sensor.name for sensor in changed.model().sensors]
     assert not [name for name in names if name.startswith("stress.")]
-    with pytest.raises(CarFileError, match=words):
+    with pytest.raises(CarFileError, match=message):
         car().changed({**change, "chassis.frame.or_rigid": False})
 
 

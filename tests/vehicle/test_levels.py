@@ -58,16 +58,16 @@ def test_rows_are_errors_and_cost(saloon):
 
 def test_levels_take_turns_and_the_least_time_counts(saloon, monkeypatch):
     seconds = iter((9.0, 2.0, 3.0, 8.0))  # a busy machine in the first run of one and in the second of the other
-    made = []
+    results = []
 
     def step_time(system, *args, **kwargs):
-        made.append(system)
+        results.append(system)
         return next(seconds)
 
     monkeypatch.setattr("mbs.vehicle.levels.measure.step_time", step_time)
     rows = measure(saloon, [Drive("roll", 0.1, {}, speed=5.0)], steps=(0.01,), repeats=2)
     table, rigid = saloon[Fidelity.TABLE], saloon[Fidelity.RIGID]
-    assert made == [table, rigid, table, rigid]
+    assert results == [table, rigid, table, rigid]
     assert [row["us_per_step"] for row in rows] == pytest.approx([3e5, 2e5])
 
 
@@ -75,13 +75,13 @@ def test_errors_are_those_of_their_definitions():
     t = np.linspace(0.0, 1.0, 5)
     names = ("chassis.x", "chassis.y", "chassis.z", *(f"wheel_{w}.Fz" for w in ("FL", "FR", "RL", "RR")))
     reference = dict.fromkeys(names, 100.0 * t)
-    found = {name: values.copy() for name, values in reference.items()}
-    found["chassis.x"][2] += 3.0
-    found["chassis.y"][2] -= 4.0
-    found["wheel_RL.Fz"][4] += 10.0
-    assert path_error(found, reference) == pytest.approx(5.0)
-    assert load_error(found, reference) == pytest.approx(0.1)
-    assert error_of_change(found, {n: v + 50.0 for n, v in reference.items()}, ["wheel_RL.Fz"]) == pytest.approx(0.5)
+    actual = {name: values.copy() for name, values in reference.items()}
+    actual["chassis.x"][2] += 3.0
+    actual["chassis.y"][2] -= 4.0
+    actual["wheel_RL.Fz"][4] += 10.0
+    assert path_error(actual, reference) == pytest.approx(5.0)
+    assert load_error(actual, reference) == pytest.approx(0.1)
+    assert error_of_change(actual, {n: v + 50.0 for n, v in reference.items()}, ["wheel_RL.Fz"]) == pytest.approx(0.5)
 
 
 def rows_of(*lines: tuple[str, str, float, float | None, float | None]) -> list[dict[str, object]]:
@@ -99,8 +99,8 @@ def test_it_chooses_what_meets_all_tolerances_in_all_drives():
     both = cheapest(rows, {"path": 0.01, "load": 0.03})
     assert (both.fidelity, both.errors, both.ms_per_second) == (Fidelity.RIGID, {"path": 0.002, "load": 0.02}, 4.0)
     assert [c.fidelity for c in levels(rows, ["load"])] == [Fidelity.TABLE, Fidelity.RIGID]  # one run failed
-    said = "path right to 0.0015 and load right to 0.025; the best is path 0.002 and load 0.02 away"
-    with pytest.raises(ValueError, match=re.escape(said)):
+    reported = "path right to 0.0015 and load right to 0.025; the best is path 0.002 and load 0.02 away"
+    with pytest.raises(ValueError, match=re.escape(reported)):
         cheapest(rows, {"path": 0.0015, "load": 0.025})
 
 
@@ -116,27 +116,27 @@ def drive_file(tmp_path):
 
 
 def test_the_command_names_the_cheapest_for_a_drive_of_ones_own(tmp_path, capsys):
-    made = tmp_path / "levels.json"
+    result = tmp_path / "levels.json"
     given = ["car", "saloon", "--cheapest", f"drive={drive_file(tmp_path)}", "speed=10"]
-    assert main([*given, "loads=5", "--json", str(made)]) == 0
+    assert main([*given, "loads=5", "--json", str(result)]) == 0
     printed = capsys.readouterr().out
     assert "saloon: errors against fidelity 0 with steps of 0.5 ms, the largest of: turn" in printed
     assert "Cheapest within 1 % of the way and 5 % of the wheel loads: fidelity " in printed
-    content = json.loads(made.read_text())
+    content = json.loads(result.read_text())
     assert content["reference"] == {"fidelity": 0, "h_s": 0.0005}
     assert content["tolerances"] == {"path": 0.01, "load": pytest.approx(0.05)}
     assert content["cheapest"]["fidelity"] in (0, 10)
     assert {row["manoeuvre"] for row in content["rows"]} == {"turn"}
     assert main([*given, "path=1e-9"]) == 2
-    said = capsys.readouterr()
-    assert said.err.splitlines()[-1].startswith(
+    captured = capsys.readouterr()
+    assert captured.err.splitlines()[-1].startswith(
         "error: No level is within 1e-09 % of the way and 3 % of the wheel loads; the nearest is fidelity "
     )
-    assert "\n 10 table" in said.out  # the table is there all the same
+    assert "\n 10 table" in captured.out  # the table is there all the same
 
 
 @pytest.mark.parametrize(
-    ("given", "said"),
+    ("given", "message"),
     [
         (["--cheapest", "path=0"], "path of --cheapest is 0; it is in percent and must be positive."),
         (["--cheapest", "path=nan"], "path of --cheapest: the value is nan"),
@@ -155,23 +155,23 @@ def test_the_command_names_the_cheapest_for_a_drive_of_ones_own(tmp_path, capsys
         (["--cheapest", "drive=none.csv"], "none.csv"),
     ],
 )
-def test_what_it_refuses(given, said, capsys):
+def test_invalid_values_are_refused(given, message, capsys):
     assert main(["car", "saloon", *given]) == 2
-    assert said in capsys.readouterr().err
+    assert message in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("time,stering\n0,0\n1,0\n", "the car has no input 'stering'; it has brake, steering"),
         ("steering\n0\n", "has no column 'time'"),
         ("time,steering\n1,0\n2,0\n", "times go from 1 to 2 s"),
     ],
 )
-def test_tables_that_are_no_drive(text, said, tmp_path):
+def test_tables_that_are_no_drive(text, message, tmp_path):
     file = tmp_path / "drive.csv"
     file.write_text(text)
-    with pytest.raises(FileError, match=re.escape(said)):
+    with pytest.raises(FileError, match=re.escape(message)):
         read_drive(file, 0.0, ["steering", "brake"])
 
 

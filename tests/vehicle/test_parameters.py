@@ -94,13 +94,13 @@ def rebuilt(name, values):
 def differing(name, some, others, same=SAME):
     """Outputs that differ between runs by more than a part `same` of 1 or of their largest value."""
     outputs = [s["name"] for s in system(name).meta["sensors"] if not s["name"].startswith("solver.")]
-    found = set()
+    result = set()
     for one, other_one in zip(some, others, strict=True):
         for output in outputs:
             largest = np.abs(one[output] - other_one[output]).max()
             if not largest <= same * max(1.0, np.abs(other_one[output]).max()):
-                found.add(output)
-    return found
+                result.add(output)
+    return result
 
 
 def told(car):
@@ -132,14 +132,14 @@ def wrong_parameters(name, groups):
 @cache
 def kinds(name):
     """Of each parameter that changes a run: the template of its axle, its table's type and keys, and its own key."""
-    car, found = load(name), {}
+    car, results = load(name), {}
     sections = {s._path: s for s in sections_of(car) if s._path}
     for path in told(car):
         table = max((p for p in sections if path.startswith(f"{p}.")), key=len)
         suspension = getattr(sections.get(path.partition(".")[0]), "suspension", None)
         keys = frozenset(sections[table].model_fields_set)
-        found[path] = (type(suspension), type(sections[table]), keys, path.removeprefix(table))
-    return found
+        results[path] = (type(suspension), type(sections[table]), keys, path.removeprefix(table))
+    return results
 
 
 def without_assistance(car):

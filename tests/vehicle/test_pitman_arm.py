@@ -174,8 +174,8 @@ def test_torque_at_the_arm_is_the_work_of_the_tie_rods():
 
 
 def test_kinematics_has_the_angles_of_the_standing_car():
-    found = kinematics(SKEWED, points=9)
-    c = found.curves["front", "steer"].columns
+    result = kinematics(SKEWED, points=9)
+    c = result.curves["front", "steer"].columns
     np.testing.assert_allclose(c["steering_wheel_angle"], 21.0 * c["steering_arm_angle"], rtol=1e-14, atol=0)
     assert "rack_travel" not in c
     assert c["mean_steer_angle"][-1] > 0.4
@@ -305,15 +305,15 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("change", REFUSED)
-def test_what_is_no_linkage_is_refused(change):
-    values, said = REFUSED[change]
+def test_an_invalid_linkage_is_refused(change):
+    values, reported = REFUSED[change]
     with pytest.raises(CarFileError) as error:
         CAR.changed({"steering": ARM | values})
-    assert said in str(error.value)
+    assert reported in str(error.value)
     assert str(error.value).count("\n") == 0
 
 
-def test_what_needs_a_rack_is_refused():
+def test_features_that_need_a_rack_are_refused():
     with pytest.raises(
         CarFileError, match=r"pitman_arm'; a rack_by_angle has the port rack_position.* pitman_arm none"
     ):

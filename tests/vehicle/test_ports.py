@@ -126,11 +126,11 @@ def test_the_work_that_moves_the_rack_is_booked(ports: dict[str, str], name: str
     all the same, and what they leave open of the change of the energy is below 1e-5 of the largest work. The work of a
     held demand is the step's own force times the travel: 0.0145, 0.0034 and 0.0008 J off in 1, 2 and 4 parts.
     """
-    works, left, own = {}, {}, {}
+    works, remaining, own = {}, {}, {}
     for parts in (1, 4, 16):
-        of_all, left[parts], own[parts] = open_and_own(simulation(rigid, **ports), name, amplitude, parts)
+        of_all, remaining[parts], own[parts] = open_and_own(simulation(rigid, **ports), name, amplitude, parts)
         works[parts] = of_all[book]
-        assert abs(left[parts] - own[parts]) < 1e-5 / parts * max(map(abs, of_all.values()))
+        assert abs(remaining[parts] - own[parts]) < 1e-5 / parts * max(map(abs, of_all.values()))
     assert works[16] > 1.0
     assert abs(works[4] - works[16]) < 4e-3
     assert abs(works[1] - works[16]) < 2e-2
@@ -156,8 +156,8 @@ def test_the_reaction_of_hub_motors_is_on_the_carriers() -> None:
         relieved.append(sign * (forces["hub_motors"] - forces["half_shafts"]))
     points = hatchback()._data["rear"]["suspension"]["points"]
     pivot, lower, upper = (np.array(points[name]) for name in ("pivot", "spring_lower", "spring_upper"))
-    way = (upper - lower) / np.linalg.norm(upper - lower)
-    lever = np.cross(lower - pivot, way)[1]
+    distance = (upper - lower) / np.linalg.norm(upper - lower)
+    lever = np.cross(lower - pivot, distance)[1]
     assert lever == pytest.approx(0.33, rel=0.01)
     assert lever * np.mean(relieved) == pytest.approx(torque, rel=0.03)
 
@@ -199,8 +199,8 @@ def test_the_pedal_tells_the_pressure_that_gives_its_torque() -> None:
 
 def test_a_torque_that_is_asked_for_tells_the_pressure_that_it_takes() -> None:
     """Of brakes as those of the car file, whose sides differ here: both cars brake alike."""
-    made = {"brakes.side": 0.1, "ports.full_pressure": 8e6}
-    cars = [hatchback().changed(made | {"ports.brakes": kind}) for kind in ("torque", "pressure")]
+    result = {"brakes.side": 0.1, "ports.full_pressure": 8e6}
+    cars = [hatchback().changed(result | {"ports.brakes": kind}) for kind in ("torque", "pressure")]
     torque, pressure = (mbs.Simulation(mbs.compile(car.model()), pose=mbs.Pose(speed=10.0)) for car in cars)
     for k, w in enumerate(WHEELS):
         torque.set_input(f"wheel_{w}.brake_torque_demand", 100.0 + 50.0 * k)
@@ -209,9 +209,9 @@ def test_a_torque_that_is_asked_for_tells_the_pressure_that_it_takes() -> None:
         pressure.set_input(f"wheel_{w}.brake_pressure", torque.sensors[f"used.wheel_{w}.brake_pressure"])
     pressure.step(STEP, 50)
     for w in WHEELS:
-        told = torque.sensors[f"wheel_{w}.brake_torque"]
-        assert told < -90.0
-        assert pressure.sensors[f"wheel_{w}.brake_torque"] == pytest.approx(told, rel=1e-9)
+        reported = torque.sensors[f"wheel_{w}.brake_torque"]
+        assert reported < -90.0
+        assert pressure.sensors[f"wheel_{w}.brake_torque"] == pytest.approx(reported, rel=1e-9)
 
 
 def test_outputs_of_loops_alone_leave_a_car_as_it_is() -> None:

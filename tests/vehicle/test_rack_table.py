@@ -52,10 +52,10 @@ def test_a_straight_table_is_the_constant_ratio():
     straight = [[k * 60.0, k * 42.0 / 6.0] for k in range(11)]
     car = CAR.changed({KEY: straight})
     assert car.steering.wheel_angle_max == pytest.approx(CAR.steering.wheel_angle_max, rel=1e-14)
-    found, usual = kinematics(car, points=5), kinematics(CAR, points=5)
+    results, usual = kinematics(car, points=5), kinematics(CAR, points=5)
     for name, values in usual.curves["front", "steer"].columns.items():
         np.testing.assert_allclose(
-            found.curves["front", "steer"].columns[name], values, rtol=1e-12, atol=1e-12, err_msg=name
+            results.curves["front", "steer"].columns[name], values, rtol=1e-12, atol=1e-12, err_msg=name
         )
     a, b = run(car), run(CAR)
     for name in ("chassis.y", "steering_rack", "steering_wheel_angle", "steering_wheel_speed", "wheel_FL.steer"):
@@ -161,22 +161,22 @@ def test_an_fmu_of_the_file_steers_by_it(tmp_path):
     shutil.copytree(CARS / "prototype", folder)
     text = (folder / "car.toml").read_text(encoding="utf-8")
     text = re.sub(r"\n\[chassis\.frame\b.*?(?=\n\[(?!chassis\.frame))", "\n", text, flags=re.DOTALL)
-    asked = f"rack_by_wheel_angle = {ROWS}"
-    text, count = re.subn(r"rack_per_turn = 0\.042", asked, text)
+    requested = f"rack_by_wheel_angle = {ROWS}"
+    text, count = re.subn(r"rack_per_turn = 0\.042", requested, text)
     assert count == 1
     (folder / "car.toml").write_text(text.replace('name = "prototype"', 'name = "quick"'), encoding="utf-8")
     given = [str(folder), "--out", str(tmp_path), "--kind", "native", "--platforms", fmpy.platform]
     assert build_fmu.main(given) == 0
     names = ["steering_rack", "steering_wheel_angle", "steering_wheel_speed", "steering_wheel_torque"]
-    seen = []
+    recorded = []
     with Fmu(tmp_path / "Quick.fmu") as fmu:
         fmu.initialise({})
         steer, read = fmu.setter(["steering", "throttle"]), fmu.getter([*names, "steering_rack_force"])
         for k in range(100):
             steer([0.5 * math.sin(0.05 * k), 0.3])
             fmu.step(0.01 * k, 0.01)
-            seen.append(read())
-    rack, angle, speed, torque, force = np.transpose(seen)
+            recorded.append(read())
+    rack, angle, speed, torque, force = np.transpose(recorded)
     assert np.ptp(angle) > 3.0
     np.testing.assert_allclose(CAR.rack_direction * rack, CURVE(angle), rtol=0, atol=1e-14)
     np.testing.assert_allclose(
@@ -188,7 +188,7 @@ def test_an_fmu_of_the_file_steers_by_it(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("rows", "said"),
+    ("rows", "message"),
     [
         ([[0.0, 0.0]], "has 1 rows; it must have two or more"),
         ([[0.0, 1.0], [420.0, 66.0]], "is [0.0, 1.0]; the first row must be [0, 0]"),
@@ -202,18 +202,18 @@ def test_an_fmu_of_the_file_steers_by_it(tmp_path):
         ([[0.0, 0.0], [420.0, 0.066, 1.0]], "steering.rack_by_wheel_angle.1"),
     ],
 )
-def test_what_is_no_table_is_said(rows, said):
+def test_an_invalid_table_is_reported(rows, message):
     with pytest.raises(CarFileError) as refusal:
         CAR.changed({KEY: rows})
-    assert said in str(refusal.value)
+    assert message in str(refusal.value)
 
 
 def test_the_travel_per_turn_may_be_left_out():
-    asked = {**CAR.steering.model_dump(exclude={"rack_per_turn"}), "rack_by_wheel_angle": ROWS}
-    assert RackByAngle.model_validate(asked).rack_per_turn == pytest.approx(PER_TURN, rel=1e-14)
+    requested = {**CAR.steering.model_dump(exclude={"rack_per_turn"}), "rack_by_wheel_angle": ROWS}
+    assert RackByAngle.model_validate(requested).rack_per_turn == pytest.approx(PER_TURN, rel=1e-14)
     for rows in ([[0.0, 0.0]], [[0.0, 0.0], [0.0, 6.0]], [[0.0, 0.0], [60.0, "6"]], [[0.0, 0.0], [60.0]], 7):
         with pytest.raises(ValidationError, match="rack_per_turn"):
-            RackByAngle.model_validate(asked | {"rack_by_wheel_angle": rows})
+            RackByAngle.model_validate(requested | {"rack_by_wheel_angle": rows})
 
 
 def test_a_port_that_asks_for_the_rack_has_no_table():

@@ -43,8 +43,8 @@ def changed_files(draw):
     name = draw(st.sampled_from(car_names()))
     data = copy.deepcopy(load(name)._data)
     for _ in range(draw(st.integers(1, 4))):
-        found = list(places(data))
-        where, key = found[draw(st.integers(0, len(found) - 1))]
+        result = list(places(data))
+        where, key = result[draw(st.integers(0, len(result) - 1))]
         kind = draw(st.sampled_from(("scale", "scale", "scale", "odd", "delete", "rename", "swap", "copy")))
         value = where[key]
         if kind == "scale":
@@ -58,11 +58,11 @@ def changed_files(draw):
             other_name = draw(st.sampled_from((key[:-1], key + "s", key.upper(), "front", "kind", "ä", key + ".x")))
             where[other_name] = where.pop(key)
         else:
-            other, there = found[draw(st.integers(0, len(found) - 1))]
+            other, present = result[draw(st.integers(0, len(result) - 1))]
             if kind == "swap":
-                where[key], other[there] = copy.deepcopy(other[there]), copy.deepcopy(value)
+                where[key], other[present] = copy.deepcopy(other[present]), copy.deepcopy(value)
             else:
-                other[there] = copy.deepcopy(value)
+                other[present] = copy.deepcopy(value)
     return name, data
 
 

@@ -59,15 +59,15 @@ def drive(step: float, order: str, lead: float, speed: float = SPEED, waves: Wav
     """Deviations of the car at ports from the closed one over 1 s, asked `lead` communication steps ahead."""
     systems = closed(waves), at_ports(waves.car)
     one, other = (mbs.Simulation(system, pose=mbs.Pose(speed=speed)) for system in systems)
-    asked: dict[str, tuple[float, float]] = {}
+    requested: dict[str, tuple[float, float]] = {}
     loads, start = [], other.sensors
     for _ in range(round(1.0 / step)):
         now = other.sensors
         for w in WHEELS:
             here = np.array([now[f"wheel_{w}.contact_{c}"] for c in "xy"])
             ahead = here + lead * step * np.array([now[f"wheel_{w}.earth_v{c}"] for c in "xy"])
-            answer(other, waves, w, *(ahead if order == "in turn" else asked.get(w, here)))
-            asked[w] = tuple(ahead)
+            answer(other, waves, w, *(ahead if order == "in turn" else requested.get(w, here)))
+            requested[w] = tuple(ahead)
         for s in (one, other):
             s.set_input("steering", 0.05 * np.sin(2.0 * s.time))
             s.set_input("throttle", 0.3)
@@ -106,10 +106,10 @@ def test_answers_for_the_end_of_the_step_that_they_hold_in_are_the_best(
     order: str, lead: float, speed: float, within: float
 ) -> None:
     """At 25 m/s the waves are near the hop of the wheels: answers for its start are 2.2 % off (decision 91)."""
-    before, asked = drive(0.002, order, lead - 1.0, speed), drive(0.002, order, lead, speed)
-    assert asked["load"] < within
-    assert asked["load"] < 0.35 * before["load"]
-    assert asked["path"] < 5e-4
+    before, requested = drive(0.002, order, lead - 1.0, speed), drive(0.002, order, lead, speed)
+    assert requested["load"] < within
+    assert requested["load"] < 0.35 * before["load"]
+    assert requested["path"] < 5e-4
 
 
 def test_what_the_answers_lift_is_booked_apart_from_the_tyres() -> None:

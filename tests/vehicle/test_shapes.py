@@ -25,8 +25,8 @@ def scene(car: str, body: str = "") -> dict[str, Any]:
 
 
 def named(car: str, name: str) -> dict[str, Any]:
-    (found,) = [shape for shape in scene(car)["shapes"] if shape.get("name") == name]
-    return found
+    (results,) = [shape for shape in scene(car)["shapes"] if shape.get("name") == name]
+    return results
 
 
 def drawn(car: str, anchors: list[Any]) -> np.ndarray:
@@ -82,10 +82,10 @@ def test_a_car_whose_mass_lies_high_is_high_and_has_the_outline_of_a_van(name: s
 
 @pytest.mark.parametrize("car", [name for name in car_names() if load(name).linked])
 def test_rods_springs_and_wheels_are_at_the_hard_points(car: str) -> None:
-    made = load(car)
+    result = load(car)
     near = 5e-3 if car == "ferrari_250_lm" else 3e-4  # its driver sits on the right: it rests tilted
-    for axle in (made.front, made.rear):
-        side = "F" if axle is made.front else "R"
+    for axle in (result.front, result.rear):
+        side = "F" if axle is result.front else "R"
         points = dict(axle.suspension.points)
         for w, mirror in ((f"{side}L", [1.0, 1.0, 1.0]), (f"{side}R", [1.0, -1.0, 1.0])):
             rod = next((stem for stem in ("tie_rod", "toe_link") if f"{stem}_outer" in points), None)

@@ -25,8 +25,8 @@ TUBULAR = prototype_car.car().frame_section.tubular(prototype_car.car().folder)
 
 @pytest.fixture(scope="module")
 def part() -> dict[str, Any]:
-    (found,) = json.loads(json.dumps(prototype_car.car().flexible_parts))
-    return dict(found)
+    (record,) = json.loads(json.dumps(prototype_car.car().flexible_parts))
+    return dict(record)
 
 
 def kerb_run(fidelity: int) -> Trajectory:
@@ -43,11 +43,11 @@ def kerb_run(fidelity: int) -> Trajectory:
 
 def gauge(part: dict[str, Any], eta: np.ndarray, name: str) -> np.ndarray:
     """Half-bridge on top of a tube, from the bending stresses at both ends of its element, straight between them."""
-    (found,) = [g for g in TUBULAR.strain_gauges(TUBULAR.frame()[1]) if g.name == name]
-    y, z = np.array(found.fibre) / np.hypot(*found.fibre)
-    _, about_y, about_z = np.moveaxis(rows_of_stress(part, eta)[:, found.element], -1, 0)
+    (results,) = [g for g in TUBULAR.strain_gauges(TUBULAR.frame()[1]) if g.name == name]
+    y, z = np.array(results.fibre) / np.hypot(*results.fibre)
+    _, about_y, about_z = np.moveaxis(rows_of_stress(part, eta)[:, results.element], -1, 0)
     ends = z * about_y - y * about_z
-    return np.asarray(2.0 * ((1.0 - found.xi) * ends[:, 0] + found.xi * ends[:, 1]))
+    return np.asarray(2.0 * ((1.0 - results.xi) * ends[:, 0] + results.xi * ends[:, 1]))
 
 
 @pytest.mark.slow
@@ -70,8 +70,8 @@ def test_the_scene_gives_the_engines_nodes_tubes_and_gauges_of_the_kerb_test(
     in_the_earth = turned(run, "chassis", moved)
     for node in NODES:
         expected = np.column_stack([run[f"node.{node}.{c}"] for c in "xyz"])
-        found = in_the_earth[:, part["names"].index(node)]
-        np.testing.assert_allclose(found, expected, rtol=0, atol=PLACE, err_msg=node)
+        actual = in_the_earth[:, part["names"].index(node)]
+        np.testing.assert_allclose(actual, expected, rtol=0, atol=PLACE, err_msg=node)
         undeformed = turned(run, "chassis", np.array(part["nodes"])[None, part["names"].index(node)])
         assert np.abs(undeformed[:, 0] - expected).max() > 1e-4, "the node moves against the frame"
     for name in ("SG1", "SG2", "SG3", "SG4"):
@@ -118,12 +118,12 @@ def test_the_gauges_of_a_car_stand_where_its_file_has_them(part: dict[str, Any])
     """Nodes of the part and the place between them against the tube that the file names."""
     assert [g["name"] for g in part["gauges"]] == list(TUBULAR.section.gauges) == ["SG1", "SG2", "SG3", "SG4"]
     joints, shift = TUBULAR.joint_places(), prototype_car.car().vehicle.reference_point
-    for found in part["gauges"]:
-        given = TUBULAR.section.gauges[found["name"]]
+    for actual in part["gauges"]:
+        given = TUBULAR.section.gauges[actual["name"]]
         start, end = (joints[joint] for joint in given.tube)
-        at, to = (np.array(part["nodes"][k]) + shift for k in found["nodes"])
-        np.testing.assert_allclose(at + found["along"] * (to - at), start + given.place * (end - start), atol=1e-6)
-        assert found["value"] == f"stress.{found['name']}"
+        at, to = (np.array(part["nodes"][k]) + shift for k in actual["nodes"])
+        np.testing.assert_allclose(at + actual["along"] * (to - at), start + given.place * (end - start), atol=1e-6)
+        assert actual["value"] == f"stress.{actual['name']}"
 
 
 def test_a_car_without_a_frame_has_no_flexible_part() -> None:

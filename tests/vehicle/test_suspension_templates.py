@@ -40,9 +40,9 @@ def stiffer_by(axle, rate, more):
 
 def test_the_loops_of_a_car_move_as_drawn():
     """So a car that only stands is compiled without the search for overconstrained loops."""
-    found = {name: corrected_joints(load(name).model()) for name in car_names()}
-    assert len(found) > 5
-    assert not any(found.values()), found
+    results = {name: corrected_joints(load(name).model()) for name in car_names()}
+    assert len(results) > 5
+    assert not any(results.values()), results
 
 
 def test_macpherson_in_bump():

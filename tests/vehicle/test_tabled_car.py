@@ -69,12 +69,12 @@ def _off(name: str, axle: str) -> tuple[float, float]:
         values = {f"spring compression {axle[0].upper()}L": left, f"spring compression {axle[0].upper()}R": right}
         for part in linkage.model.bodies:
             (tabled,) = (t for t in m.tabled if isinstance(t, TabledBody) and t.name == part.name)
-            found = tabled.table.value(*(values.get(c.name, rack) for c in tabled.parameters))
+            result = tabled.table.value(*(values.get(c.name, rack) for c in tabled.parameters))
             rows = [linkage.full(part.start + k) for k in range(12)]
             exact = np.array([row @ q + constant for row, constant in rows])
             exact[:3] -= tabled.base.com
-            place = max(place, float(np.abs(found - exact)[:3].max()))
-            turn = max(turn, float(np.abs(found - exact)[3:].max()))
+            place = max(place, float(np.abs(result - exact)[:3].max()))
+            turn = max(turn, float(np.abs(result - exact)[3:].max()))
     return place, turn
 
 
@@ -136,13 +136,13 @@ def test_its_wheels_are_drawn_where_those_of_the_car_with_links_are(name: str) -
 def test_wheels_of_a_car_by_curves_are_drawn_from_the_outputs_of_its_fmu() -> None:
     (system,) = build_car("commonroad_escort", fidelity=0).systems.values()
     assert lost_frames(system) == []
-    found = geometry(system, variable_table(system.meta, pose=False, step_size=0.01), "Name", "what it is")
-    assert found is not None
+    actual = geometry(system, variable_table(system.meta, pose=False, step_size=0.01), "Name", "what it is")
+    assert actual is not None
     for wheel in WHEELS:
-        frame = found["frames"][f"wheel {wheel}"]
+        frame = actual["frames"][f"wheel {wheel}"]
         assert frame["angle"] == f"wheel_{wheel}.angle"
-        assert found["frames"][frame["parent"]]["position"] == [f"wheel_{wheel}.{c}" for c in "xyz"]
-    assert found["missing"] == []
+        assert actual["frames"][frame["parent"]]["position"] == [f"wheel_{wheel}.{c}" for c in "xyz"]
+    assert actual["missing"] == []
 
 
 def test_stresses_are_refused_and_a_rack_with_mass_is_a_sentence() -> None:

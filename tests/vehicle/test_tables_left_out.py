@@ -50,8 +50,8 @@ def without(name, path):
     del table[last]
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        found = car_from(data, car.folder, "x", warn=True)
-    return found, [sentences(warning.message, "x: ") for warning in caught]
+        result = car_from(data, car.folder, "x", warn=True)
+    return result, [sentences(warning.message, "x: ") for warning in caught]
 
 
 @pytest.mark.parametrize(("name", "path"), TABLES)
@@ -78,14 +78,14 @@ def test_without_points_that_touch_the_ground_there_is_no_work_of_it():
 
 
 @pytest.mark.parametrize("name", quick(("commonroad_320i", "hatchback"), car_names(), "proof"))
-def test_without_stops_it_is_told_how_far_the_links_follow(name, tmp_path):
+def test_without_stops_it_is_reported_how_far_the_links_follow(name, tmp_path):
     file = copy_car(name, tmp_path / "car")[0].parent / "car.toml"
     text = file.read_text(encoding="utf-8")
     file.write_text(re.sub(r"\[(front|rear)\.stops\]\n(?:.+\n)+", "", text), encoding="utf-8")
     with pytest.warns(CarWarning) as caught:
         car = load(file)
-    told = [str(warning.message) for warning in caught if "stops" in str(warning.message)]
-    for axle, line in zip(("front", "rear"), told, strict=True):
+    reported = [str(warning.message) for warning in caught if "stops" in str(warning.message)]
+    for axle, line in zip(("front", "rear"), reported, strict=True):
         assert f"car.toml: {axle}.stops is missing" in line
         if not getattr(car, axle).suspension.linked:
             assert "goes from -0.130 to +0.130 m of wheel travel" in line
@@ -101,7 +101,7 @@ def test_without_stops_it_is_told_how_far_the_links_follow(name, tmp_path):
 
 
 @pytest.mark.parametrize("name", quick(("prototype",), ("prototype", "ferrari_250_lm")))
-def test_without_a_stop_of_the_steering_it_is_told_how_far_the_links_follow(name, tmp_path):
+def test_without_a_stop_of_the_steering_it_is_reported_how_far_the_links_follow(name, tmp_path):
     file = copy_car(name, tmp_path / "car")[0].parent / "car.toml"
     text = file.read_text(encoding="utf-8")
     file.write_text(re.sub(r"\[front.suspension.steering_stop\]\n(?:.+\n)+", "", text), encoding="utf-8")

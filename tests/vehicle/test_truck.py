@@ -66,10 +66,12 @@ def test_a_truck_of_10_t_moves_as_the_car_that_it_is_similar_to():
     this alone is told besides.
     """
     car = load("hatchback")
-    with pytest.warns(CarWarning) as told:
+    with pytest.warns(CarWarning) as caught:
         truck = larger_car(car)
     others = [
-        text for text in (str(w.message) for w in told) if " track is 2.3" not in text and "is 0.3063 1/deg" not in text
+        text
+        for text in (str(w.message) for w in caught)
+        if " track is 2.3" not in text and "is 0.3063 1/deg" not in text
     ]
     assert len(others) == 1
     assert "frame" in others[0]

@@ -104,13 +104,13 @@ def test_scaling_factors_are_parameters_that_change_the_tyre(car):
 
 def test_friction_and_radii_of_the_section_are_those_of_the_tyre(car):
     tyre = car.front.tyre
-    made = tyre.tyre("left")
+    result = tyre.tyre("left")
     assert (tyre.radius, tyre.bottoming_radius, tyre.nominal_load) == (0.31075 * 1.001, 0.2005, 3000.0)
     deflection = tyre.radius - car.front.wheel.centre[2]
     rolling = tyre.rolling_radius(tyre.radius - deflection)
-    assert rolling == pytest.approx(rolling_radius(made, 0.0, deflection), rel=1e-14)
+    assert rolling == pytest.approx(rolling_radius(result, 0.0, deflection), rel=1e-14)
     assert 0.2 * deflection < tyre.radius - rolling < deflection
-    assert made.stiffness < tyre.stiffness < 1.3 * made.stiffness
+    assert result.stiffness < tyre.stiffness < 1.3 * result.stiffness
     of_pressure = 1.0 - 0.096 / 22.0 + 0.065 / 22.0**2  # at 230 kPa, nominal 220
     assert tyre.friction[0] == pytest.approx(1.13 * 0.98 * (1.0 + 0.08 / 1.13 * (1.0 - 1.0 / 1.02)) * of_pressure)
 
@@ -125,7 +125,7 @@ def test_friction_and_radii_of_the_section_are_those_of_the_tyre(car):
         ("lmuy = 0.0\n", "", "front.tyre.lmuy is 0"),
     ],
 )
-def test_what_cannot_be_is_a_sentence(tmp_path, more, text, sentence):
+def test_impossible_values_are_refused_in_one_sentence(tmp_path, more, text, sentence):
     folder = folder_with(tmp_path / "car", more=more)
     if text is None:
         (folder / "tyre.tir").unlink()
@@ -140,12 +140,12 @@ def test_what_the_file_lacks_is_a_warning(tmp_path):
     text = (DATA / "assumed_61.tir").read_text()
     folder = folder_with(tmp_path / "car")
     (folder / "tyre.tir").write_text(re.sub(r"(?m)^QHZ[34] = .*\n", "", text))
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         load(folder)
     assert any(
         issubclass(w.category, CarWarning) and "front.tyre.file (tyre.tir): it lacks QHZ3, QHZ4" in str(w.message)
-        for w in told
+        for w in caught
     )
 
 

@@ -157,12 +157,12 @@ def test_the_angle_times_the_rolling_radius_is_the_way(car: str) -> None:
     idle = {"selector": lambda t: 0.0}
     run = mbs.simulate(system(car), 5.0, 0.005, idle, pose=Pose(speed=10.0), progress=False)
     for w in ("FL", "FR"):
-        way = run[f"wheel_{w}.x"][-1] - run[f"wheel_{w}.x"][0]
+        distance = run[f"wheel_{w}.x"][-1] - run[f"wheel_{w}.x"][0]
         radius = (2.0 * one.front.tyre.radius + np.mean(one.front.tyre.radius - run[f"wheel_{w}.deflection"])) / 3.0
-        assert way > 40.0
+        assert distance > 40.0
         slip = np.mean(run[f"wheel_{w}.slip"])
         assert -1e-3 < slip < -2e-4, "rolling resistance"
-        assert run[f"wheel_{w}.angle"][-1] * radius == pytest.approx(way * (1.0 + slip), rel=5e-5)
+        assert run[f"wheel_{w}.angle"][-1] * radius == pytest.approx(distance * (1.0 + slip), rel=5e-5)
 
 
 @pytest.mark.slow

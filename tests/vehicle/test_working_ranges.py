@@ -31,13 +31,13 @@ system = cache(lambda name: compile(load(name).model()))
 
 
 @pytest.mark.parametrize("name", [n for n in car_names() if load(n).front.tyre.kind == "tmeasy"])
-def test_they_are_told_before_the_start_and_after_it(name):
+def test_they_are_reported_before_the_start_and_after_it(name):
     simulation, ranges = Simulation(system(name)), working_ranges(load(name))
     missing = []
     for path, values in BAD.items():
         low, high = ranges[path]
         for value in (v for v in values if not low <= v <= high):
-            words = f"'{path}' is set to {value:g}"
+            message = f"'{path}' is set to {value:g}"
             for act in (
                 lambda path=path, value=value: simulation.set_parameter(path, value),
                 lambda path=path, value=value: Simulation(system(name), parameters={path: value}),
@@ -45,10 +45,10 @@ def test_they_are_told_before_the_start_and_after_it(name):
                 with warnings.catch_warnings(record=True) as caught:
                     warnings.simplefilter("always")
                     act()
-                told = [str(w.message) for w in caught if w.category is ParameterWarning and w.filename == __file__]
+                reported = [str(w.message) for w in caught if w.category is ParameterWarning and w.filename == __file__]
                 range_told = f"outside the range in which such models work, {low:.4g} to {high:.4g}"
-                if not any(words in line and range_told in line for line in told):
-                    missing.append((words, told))
+                if not any(message in line and range_told in line for line in reported):
+                    missing.append((message, reported))
     assert missing == []
     assert all(ranges[path][0] <= load(name).values()[path] <= ranges[path][1] for path in BAD)
 
@@ -77,24 +77,24 @@ def test_a_spring_by_a_table_has_the_ranges_of_its_law():
 
 def test_air_at_the_end_of_its_range_brakes_with_the_weight_and_lifts_an_axle():
     """Against the System's own forces, at the speed that the ranges are for."""
-    ranges, made = working_ranges(load("hatchback")), system("hatchback")
-    at_rest = Simulation(made, pose=Pose(speed=0.0)).sensors
+    ranges, result = working_ranges(load("hatchback")), system("hatchback")
+    at_rest = Simulation(result, pose=Pose(speed=0.0)).sensors
     loads = {side: at_rest[f"wheel_{side}L.Fz"] + at_rest[f"wheel_{side}R.Fz"] for side in "FR"}
     drag = {"aerodynamics.drag_area": ranges["aerodynamics.drag_area"][1]}
-    run = simulate(made, 0.05, 0.001, {"throttle": 0.05}, None, drag, pose=Pose(speed=FAST), estimate_error=False)
+    run = simulate(result, 0.05, 0.001, {"throttle": 0.05}, None, drag, pose=Pose(speed=FAST), estimate_error=False)
     assert np.polyfit(run.t, run["chassis.vx"], 1)[0] == pytest.approx(-9.81, rel=0.1)
     for axle, side in (("front", "F"), ("rear", "R")):
         lift = {f"aerodynamics.lift_area_{axle}": ranges[f"aerodynamics.lift_area_{axle}"][1]}
-        run = simulate(made, 1.0, 0.001, {"throttle": 0.3}, None, lift, pose=Pose(speed=FAST), estimate_error=False)
+        run = simulate(result, 1.0, 0.001, {"throttle": 0.3}, None, lift, pose=Pose(speed=FAST), estimate_error=False)
         assert (run[f"wheel_{side}L.Fz"] + run[f"wheel_{side}R.Fz"]).min() < 0.05 * loads[side]
 
 
 def test_a_centre_of_mass_at_the_end_of_its_range_leaves_each_axle_and_side_its_share():
     """Against the loads at rest."""
-    ranges, made = working_ranges(load("saloon")), system("saloon")
+    ranges, result = working_ranges(load("saloon")), system("saloon")
     for axis, left, share in (("x", "FL FR", 1.0 - SHARE), ("y", "FL RL", 0.5 + ASIDE)):
         for end in (0, 1):
-            at_rest = Simulation(made, parameters={f"chassis.com.{axis}": ranges[f"chassis.com.{axis}"][end]}).sensors
+            at_rest = Simulation(result, parameters={f"chassis.com.{axis}": ranges[f"chassis.com.{axis}"][end]}).sensors
             part = sum(at_rest[f"wheel_{w}.Fz"] for w in left.split()) / sum(at_rest[f"wheel_{w}.Fz"] for w in WHEELS)
             assert part == pytest.approx(share if end else 1.0 - share, abs=0.015)
 

@@ -35,9 +35,9 @@ def check_bar(page: Any, bar: str, width: int) -> None:
         Of the window, pixels.
     """
     page.set_viewport_size({"width": width, "height": 600})
-    found = page.evaluate(_MEASURED, bar)
-    assert found["width"] == width
-    assert found["count"] > 3
-    assert found["rows"] == 1
-    assert found["right"] <= width
-    assert found["cut"] == []
+    result = page.evaluate(_MEASURED, bar)
+    assert result["width"] == width
+    assert result["count"] > 3
+    assert result["rows"] == 1
+    assert result["right"] <= width
+    assert result["cut"] == []

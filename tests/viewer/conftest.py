@@ -84,10 +84,10 @@ def _page(chromium: Any) -> Iterator[Any]:
 @pytest.fixture
 def drawn(_page: Any) -> Iterator[DrawnPage]:
     """An empty page of 320 x 180 pixels; an error in its script fails the test."""
-    made = DrawnPage(_page)
-    yield made
-    made.page.evaluate("window.view?.dispose(); window.view = undefined;")
-    assert made.errors == []
+    page = DrawnPage(_page)
+    yield page
+    page.page.evaluate("window.view?.dispose(); window.view = undefined;")
+    assert page.errors == []
 
 
 @pytest.fixture(scope="session")

@@ -34,19 +34,19 @@ def content(path):
     """JSON and bytes of a file, read by hand."""
     data = path.read_bytes()
     if path.suffix == ".gltf":
-        made = json.loads(data)
-        return made, base64.b64decode(made["buffers"][0]["uri"].partition(",")[2])
+        record = json.loads(data)
+        return record, base64.b64decode(record["buffers"][0]["uri"].partition(",")[2])
     length = struct.unpack_from("<I", data, 12)[0]
     return json.loads(data[20 : 20 + length]), data[28 + length :]
 
 
 def accessor(path, index):
     made, raw = content(path)
-    found = made["accessors"][index]
-    kind = {5126: "<f4", 5125: "<u4", 5123: "<u2"}[found["componentType"]]
-    width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[found["type"]]
-    start = made["bufferViews"][found["bufferView"]].get("byteOffset", 0)
-    return np.frombuffer(raw, kind, found["count"] * width, start).reshape(-1, width).astype(float)
+    result = made["accessors"][index]
+    kind = {5126: "<f4", 5125: "<u4", 5123: "<u2"}[result["componentType"]]
+    width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[result["type"]]
+    start = made["bufferViews"][result["bufferView"]].get("byteOffset", 0)
+    return np.frombuffer(raw, kind, result["count"] * width, start).reshape(-1, width).astype(float)
 
 
 def world(path, times, name):
@@ -54,10 +54,10 @@ def world(path, times, name):
     answer = run_node("read_gltf.mjs", path, *times)[0]
     index = [str(k) for k, node in enumerate(content(path)[0]["nodes"]) if node["name"] == name]
     assert len(index) == 1
-    made = np.array([row[index[0]]["matrix"] for row in answer]).reshape(-1, 4, 4).transpose(0, 2, 1)
+    values = np.array([row[index[0]]["matrix"] for row in answer]).reshape(-1, 4, 4).transpose(0, 2, 1)
     turn = np.eye(4)
     turn[:3, :3] = TO_EARTH
-    return turn @ made
+    return turn @ values
 
 
 class Part(NamedTuple):
@@ -76,7 +76,7 @@ def parts_of(path):
     """The triangles of a file, read by hand."""
     made = content(path)[0]
     frames = {child: node["name"] for node in made["nodes"] for child in node.get("children", ())}
-    found = []
+    results = []
     for number, node in enumerate(made["nodes"]):
         for part in made["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
             kept, triangles = np.unique(accessor(path, part["indices"]).astype(int), return_inverse=True)
@@ -86,5 +86,5 @@ def parts_of(path):
             mesh = trimesh.Trimesh(points, triangles.reshape(-1, 3), process=False)
             look = made["materials"][part["material"]]
             normals = turn.apply(read["NORMAL"]) if "NORMAL" in read else None
-            found.append(Part(node["name"], frames.get(number, ""), look, mesh, normals))
-    return found
+            results.append(Part(node["name"], frames.get(number, ""), look, mesh, normals))
+    return results

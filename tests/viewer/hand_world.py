@@ -78,7 +78,7 @@ def scenery() -> list[dict[str, Any]]:
     """One of each kind and a row of some."""
     x = np.arange(-100.0, 181.0, 5.0)
     edge = [[[float(a), b, float(height(a, b))] for a in x] for b in (-6.0, 3.0, 0.0)]
-    found: list[dict[str, Any]] = [
+    results: list[dict[str, Any]] = [
         {"kind": "line", "points": edge[0], "width": 0.15, "colour": "white"},
         {"kind": "line", "points": edge[1], "width": 0.15, "colour": "yellow"},
         {"kind": "line", "points": edge[2], "width": 0.12, "colour": "white", "dash": [3.0, 6.0]},
@@ -89,12 +89,12 @@ def scenery() -> list[dict[str, Any]]:
         {"kind": "sign", "at": [42.0, -7.5, 0.0], "yaw": 0.0, "text": "double lane change ISO 3888", "height": 2.5},
         {"kind": "arrow", "at": [10.0, -3.0, 0.0], "yaw": 0.0, "length": 4.0},
     ]
-    found += [{"kind": "cone", "at": [a, -3.5, 0.0], "height": 0.5} for a in (14.0, 20.0, 26.0, 32.0)]
-    found += [{"kind": "post", "at": [a, -7.0, 0.0], "height": 1.0} for a in np.arange(-50.0, 60.0, 25.0).tolist()]
+    results += [{"kind": "cone", "at": [a, -3.5, 0.0], "height": 0.5} for a in (14.0, 20.0, 26.0, 32.0)]
+    results += [{"kind": "post", "at": [a, -7.0, 0.0], "height": 1.0} for a in np.arange(-50.0, 60.0, 25.0).tolist()]
     chance = np.random.default_rng(3)
     for seed in range(300):
         a, b = chance.uniform(-190, 190), chance.choice([-1.0, 1.0]) * chance.uniform(26, 120)
-        found.append(
+        results.append(
             {
                 "kind": "tree",
                 "at": [a, b, float(height(a, b))],
@@ -102,4 +102,4 @@ def scenery() -> list[dict[str, Any]]:
                 "seed": seed,
             }
         )
-    return found
+    return results

@@ -152,7 +152,7 @@ def axes_of_points(a: Vectors, b: Vectors, c: Vectors) -> Vectors:
 
 def from_matrices(rotation: Vectors) -> Vectors:
     """Unit quaternions of n rotation matrices; nan where a matrix is."""
-    found = np.full((len(rotation), 4), np.nan)
+    result = np.full((len(rotation), 4), np.nan)
     good = np.isfinite(rotation).all(axis=(1, 2))
-    found[good] = Rotation.from_matrix(rotation[good]).as_quat(scalar_first=True)
-    return found
+    result[good] = Rotation.from_matrix(rotation[good]).as_quat(scalar_first=True)
+    return result

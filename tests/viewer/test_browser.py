@@ -51,4 +51,4 @@ def test_a_secret_address_is_on_no_command_line_and_is_reached(
         finally:
             server.shutdown()
             thread.join()
-    assert unquote(next(asked for asked in Told.paths if "token" in asked)) == path
+    assert unquote(next(requested for requested in Told.paths if "token" in requested)) == path

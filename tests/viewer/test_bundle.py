@@ -83,17 +83,17 @@ def test_a_script_in_a_page_carries_its_licences_and_ends_no_element(page, tmp_p
     assert text.isascii()
     assert "</script" not in text.lower()
     assert "<!--" not in text
-    for words in ("three.js authors", "Leon Sorokin", "Permission is hereby granted"):
-        assert words in text
-        assert words in licences
+    for message in ("three.js authors", "Leon Sorokin", "Permission is hereby granted"):
+        assert message in text
+        assert message in licences
 
 
 def test_two_processes_at_once_build_it_once(page, tmp_path):
     out = tmp_path / "bundle"
     both = [start(page, out) for _ in range(2)]
-    said = [process.communicate()[1] for process in both]
+    output = [process.communicate()[1] for process in both]
     assert [process.returncode for process in both] == [0, 0]
-    assert sum(words.count("building") for words in said) == 1
+    assert sum(message.count("building") for message in output) == 1
     assert whole(out)
 
 
@@ -203,15 +203,15 @@ def test_a_wheel_carries_the_page_or_says_that_it_does_not(backend, tmp_path, bu
     (tmp_path / "viewer").mkdir()
     text = f'SCRIPT = "ali3-viewer.js"\nGLTF = "gltf.mjs"\nLICENCES = "LICENCES.txt"\ndef bundle():\n    {body}\n'
     (tmp_path / "viewer" / "bundle.py").write_text(text, encoding="utf-8")
-    said = []
-    app = SimpleNamespace(display_warning=said.append, display_info=lambda text: None)
+    reported = []
+    app = SimpleNamespace(display_warning=reported.append, display_info=lambda text: None)
     data = {"artifacts": []}
     backend.BuildHook._bundle(SimpleNamespace(root=str(tmp_path), app=app), data)
     if built:
         assert data["artifacts"] == [
             f"/viewer/bundle/{name}" for name in ("ali3-viewer.js", "gltf.mjs", "LICENCES.txt")
         ]
-        assert said == []
+        assert reported == []
     else:
         assert data["artifacts"] == []
-        assert said == ["this wheel carries no page that draws: npm could not fetch its packages"]
+        assert reported == ["this wheel carries no page that draws: npm could not fetch its packages"]

@@ -51,8 +51,8 @@ def middles_of(picture: NDArray[np.int64]) -> NDArray[np.float64]:
     """Column and row of the middle of each thing that is orange; white bands within a cone count as it."""
     mask = _orange(picture)
     labels, count = ndimage.label(ndimage.binary_dilation(mask, np.ones((3, 3)), 2))
-    found = ndimage.find_objects(np.where(mask, labels, 0), count)
-    return np.array([(0.5 * (x.start + x.stop), 0.5 * (y.start + y.stop)) for y, x in found], float).reshape(-1, 2)
+    result = ndimage.find_objects(np.where(mask, labels, 0), count)
+    return np.array([(0.5 * (x.start + x.stop), 0.5 * (y.start + y.stop)) for y, x in result], float).reshape(-1, 2)
 
 
 @pytest.mark.slow

@@ -139,11 +139,11 @@ def test_each_stress_has_a_colour_that_is_right_to_half_a_percent_of_the_scale(d
     """Sixty stresses of a tube from nothing to the end of the scale."""
     drawn.show(frame_of_two_beams(), at(0, 0, 0, q=0.0, on=1.0))
     drawn.ask("view.set({ stressMost: 8e7, deformation: 0 })")
-    told, seen = np.linspace(0.0, 8e7, 60), []
-    for stress in told:
+    reported, seen = np.linspace(0.0, 8e7, 60), []
+    for stress in reported:
         drawn.update(at(0, 0, 0, q=stress / 1e6, on=1.0))
         seen.append(stress_seen(colour(drawn, (0, 0.25, 0)), 8e7))
-    assert np.array(seen) == pytest.approx(told, abs=0.005 * 8e7)
+    assert np.array(seen) == pytest.approx(reported, abs=0.005 * 8e7)
 
 
 def test_the_root_of_a_beam_has_the_colour_of_the_closed_form(drawn):
@@ -184,10 +184,10 @@ def test_gauges_the_largest_stress_and_what_is_clicked_have_words(drawn):
     for point, name in zip(offset, ("gauge SG1", "most body"), strict=True):
         box = mark(f"[data-mark='{name}'] span").first.bounding_box()
         assert (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2) == pytest.approx(point, abs=1.0)
-    for place, words in ((-0.25, ["tube A to B", "40 MPa and 40 MPa"]), (0.25, ["tube B to C", "10 MPa and 10 MPa"])):
-        found = drawn.ask("([x, y]) => view.pick(x, y)", drawn.project((0, place, 0.5)))
-        assert found[:2] == words
-        assert mark("[data-mark=picked]").inner_text().split("\n") == found
+    for place, message in ((-0.25, ["tube A to B", "40 MPa and 40 MPa"]), (0.25, ["tube B to C", "10 MPa and 10 MPa"])):
+        actual = drawn.ask("([x, y]) => view.pick(x, y)", drawn.project((0, place, 0.5)))
+        assert actual[:2] == message
+        assert mark("[data-mark=picked]").inner_text().split("\n") == actual
     assert drawn.ask("view.pick(1, 1)") == []
     assert mark("[data-mark=picked]").count() == 0
     push = {"name": "push", "unit": "N", "vector": ["f", "f0", "f0"], "at": ["body", [0, 0, 0]]}
@@ -228,7 +228,7 @@ def test_words_lie_neither_over_each_other_nor_over_the_legend_and_end_within_th
         ({"q": 1.0}, "no numbers", "are not drawn where the column 'on' has no number."),
     ],
 )
-def test_stress_that_is_not_known_is_not_coloured_and_why_is_said(drawn, numbers, legend, sentence):
+def test_stress_that_is_not_known_is_not_coloured_and_why_is_reported(drawn, numbers, legend, sentence):
     drawn.show(frame_of_two_beams(), at(0, 0, 0, **numbers))
     assert drawn.page.locator("[data-legend=stress]").inner_text() == f"stress: {legend}"
     assert [m for m in drawn.ask("view.messages") if "stresses" in m] == [
@@ -286,9 +286,9 @@ def test_every_kind_of_thing_is_drawn_from_every_camera(drawn):
         pictures.append(drawn.picture())
         assert pictures[-1].std() > 5, camera
     assert all(np.abs(a - b).mean() > 1 for a, b in pairwise(pictures))
-    said = drawn.ask("() => { try { view.camera('drone'); } catch (error) { return error.message; } }")
-    assert "'drone'" in said
-    assert "chase" in said
+    reported = drawn.ask("() => { try { view.camera('drone'); } catch (error) { return error.message; } }")
+    assert "'drone'" in reported
+    assert "chase" in reported
 
 
 def test_a_ghost_is_seen_beside_the_run_and_goes(drawn):
@@ -326,7 +326,7 @@ def test_the_driver_does_not_look_through_a_ghost_about_his_eyes(drawn):
     assert np.abs(drawn.picture() - before).max() > 20
 
 
-def test_a_context_that_is_lost_is_said_and_given_back(drawn):
+def test_a_context_that_is_lost_is_reported_and_given_back(drawn):
     drawn.show(scene(shapes=[ball()]), at(0, 0, 0))
     before = drawn.picture()
     drawn.ask(

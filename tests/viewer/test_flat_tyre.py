@@ -69,7 +69,7 @@ def test_a_tyre_ends_at_the_road_however_the_wheel_has_turned(drawn: Any) -> Non
             **{f"on level road at {x}": flat[x] / 1.5 for x in near},
             **{f"on a slope at {x}": (sloped[x] - 0.1 * x) / 1.5 for x in near},
         }
-    assert {angle: {w: d for w, d in found.items() if abs(d) > PIXEL} for angle, found in off.items()} == {
+    assert {angle: {w: d for w, d in actual.items() if abs(d) > PIXEL} for angle, actual in off.items()} == {
         0.0: {},
         2.0: {},
     }
@@ -78,9 +78,9 @@ def test_a_tyre_ends_at_the_road_however_the_wheel_has_turned(drawn: Any) -> Non
 def lowest(drawn: Any) -> dict[float, float]:
     """Height of the lowest pixel of the wheel at some places along x, m."""
     picture = drawn.picture()
-    found = {}
+    results = {}
     for x in (-0.08, 0.0, 0.08, 0.2):
         column, zero = drawn.project((x, 0.0, 0.0))
         dark = np.flatnonzero(picture[:, round(column)].max(axis=1) < 170)
-        found[x] = (zero - (dark[-1] + 1)) * PIXEL
-    return found
+        results[x] = (zero - (dark[-1] + 1)) * PIXEL
+    return results

@@ -92,21 +92,21 @@ def test_the_validator_finds_what_is_wrong(corner, tmp_path):
 @pytest.mark.parametrize("name", ["chassis", "carrier", "arm", "wheel"])
 def test_another_reader_finds_the_poses_of_the_recording(corner, name):
     times = T[::8]
-    found = world(corner, times, name)
+    result = world(corner, times, name)
     position, rotation = moving_car.pose(name, times)
-    assert np.abs(found[:, :3, 3] - position).max() < 1e-5
-    assert np.abs(found[:, :3, :3] - rotation.as_matrix()).max() < 1e-5 if name != "wheel" else 1e-4
+    assert np.abs(result[:, :3, 3] - position).max() < 1e-5
+    assert np.abs(result[:, :3, :3] - rotation.as_matrix()).max() < 1e-5 if name != "wheel" else 1e-4
 
 
-def test_places_far_from_the_origin_are_relative_to_one_that_is_told(tmp_path):
+def test_places_far_from_the_origin_are_relative_to_one_that_is_reported(tmp_path):
     """At UTM coordinates single precision is 0.5 m; every node and every mesh on the ground is moved alike."""
     far, times = np.array([500_123.456, 5_400_123.4, 112.3]), T[::8]
-    made, near = moving_car.recording(T), tmp_path / "near.glb"
-    write_gltf(near, made, rate=240.0)
+    result, near = moving_car.recording(T), tmp_path / "near.glb"
+    write_gltf(near, result, rate=240.0)
     for name in ("chassis", "carrier"):
         for axis, by in zip("xyz", far, strict=True):
-            made.columns[f"{name}.{axis}"] = made.columns[f"{name}.{axis}"] + by
-    written = write_gltf(tmp_path / "far.glb", made, rate=240.0)
+            result.columns[f"{name}.{axis}"] = result.columns[f"{name}.{axis}"] + by
+    written = write_gltf(tmp_path / "far.glb", result, rate=240.0)
     held = content(written.path)[0]
     root = held["nodes"][held["scenes"][0]["nodes"][0]]
     assert root["extras"] == held["scenes"][0]["extras"]
@@ -127,9 +127,9 @@ def test_places_far_from_the_origin_are_relative_to_one_that_is_told(tmp_path):
 
 def test_a_wheel_that_turns_fast_turns_the_right_way_between_the_times(corner):
     times = T[:20] + 0.0037
-    found = world(corner, times, "wheel")
+    result = world(corner, times, "wheel")
     turn = moving_car.pose("wheel", times)[1].as_matrix()
-    assert np.abs(found[:, :3, :3] - turn).max() < 2e-3  # of the carrier's turn between its times
+    assert np.abs(result[:, :3, :3] - turn).max() < 2e-3  # of the carrier's turn between its times
     times = accessor(corner, rotation_sampler(corner, "wheel")["input"]).ravel()
     assert np.diff(times).max() * moving_car.SPIN < 1.501
 
@@ -153,23 +153,23 @@ def test_quaternions_are_unit_and_of_continuous_sign(corner, name):
 
 def test_a_spring_reaches_from_anchor_to_anchor(corner):
     times = T[::20]
-    found = world(corner, times, "spring")
+    result = world(corner, times, "spring")
     length = np.linalg.norm(
         moving_car.place("chassis", moving_car.TOP, T) - moving_car.place("carrier", moving_car.HUB, T), axis=1
     )
-    top, hub = (found @ [0.0, y, 0.0, 1.0] for y in (0.0, length[0]))
+    top, hub = (result @ [0.0, y, 0.0, 1.0] for y in (0.0, length[0]))
     assert np.abs(top[:, :3] - moving_car.place("chassis", moving_car.TOP, times)).max() < 1e-5
     assert np.abs(hub[:, :3] - moving_car.place("carrier", moving_car.HUB, times)).max() < 1e-5
     assert np.ptp(length) > 0.01
-    across = np.linalg.norm(found[:, :3, 0], axis=1)
+    across = np.linalg.norm(result[:, :3, 0], axis=1)
     assert np.abs(across - 1.0).max() < 1e-5  # only its length changes
 
 
 def test_a_coil_begins_at_its_seat_on_the_way_to_the_other_end(tmp_path):
-    made = moving_car.recording(T)
-    spring = next(shape for shape in made.scene["shapes"] if shape["kind"] == "spring")
+    result = moving_car.recording(T)
+    spring = next(shape for shape in result.scene["shapes"] if shape["kind"] == "spring")
     spring["seat"] = 0.1
-    write_gltf(tmp_path / "seat.glb", made)
+    write_gltf(tmp_path / "seat.glb", result)
     times = T[::20]
     top, hub = moving_car.place("chassis", moving_car.TOP, times), moving_car.place("carrier", moving_car.HUB, times)
     way = hub - top
@@ -220,8 +220,8 @@ def test_colours_are_those_of_the_largest_stress(tmp_path):
     colors = accessor(path, mesh["primitives"][0]["attributes"]["COLOR_0"])
     expected = viridis(stress[peak] / stress.max())
     for beam in range(3):
-        found = np.unique(colors[24 * beam : 24 * beam + 24].round(6), axis=0)
-        assert np.abs(found - np.unique(expected[beam].round(6), axis=0)).max() < 1e-5
+        result = np.unique(colors[24 * beam : 24 * beam + 24].round(6), axis=0)
+        assert np.abs(result - np.unique(expected[beam].round(6), axis=0)).max() < 1e-5
 
 
 def viridis(share):
@@ -232,7 +232,7 @@ def viridis(share):
     return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
 
 
-def test_what_thinning_costs_is_said(tmp_path):
+def test_the_error_of_thinning_is_reported(tmp_path):
     """A point at radius r that turns by a between two times is off by r (1 - cos(a/2)) between them."""
     t = np.arange(2001) / 1000.0
     turn = {
@@ -265,8 +265,8 @@ def test_slow_motion(tmp_path):
     assert slow.times == 301
     assert slow.position_error < 0.01 * fast.position_error
     assert "A second of the file is 0.01 s of the recording." in slow.notes
-    found = TO_EARTH.T @ world(path, [2.5], "crank")[0, :3, :3]  # of this scene y is up
-    assert np.arctan2(found[1, 0], found[0, 0]) == pytest.approx(40.0 * 0.025, abs=1e-5)
+    actual = TO_EARTH.T @ world(path, [2.5], "crank")[0, :3, :3]  # of this scene y is up
+    assert np.arctan2(actual[1, 0], actual[0, 0]) == pytest.approx(40.0 * 0.025, abs=1e-5)
 
 
 def test_a_million_times_are_thinned(tmp_path):
@@ -336,9 +336,9 @@ def test_frictions_of_a_grid_are_asphalt_wet_and_ice(tmp_path):
     frictions = np.repeat([[1.0, 1.0, 0.5, 0.5, 0.15, 0.15]], 3, axis=0)
     road = {"kind": "grid", "origin": [0, 0], "spacing": [2.0, 1.0], "shape": [3, 6]}
     road |= {"heights": floats(np.zeros(18)), "frictions": floats(frictions)}
-    found = road_of(tmp_path, road)
-    assert sum(mesh.area for mesh in found.values()) == pytest.approx(64.0 * 5.0)
-    ends = {name: (np.ptp(mesh.vertices[:, 0]), set(mesh.vertices[:, 1])) for name, mesh in found.items()}
+    actual = road_of(tmp_path, road)
+    assert sum(mesh.area for mesh in actual.values()) == pytest.approx(64.0 * 5.0)
+    ends = {name: (np.ptp(mesh.vertices[:, 0]), set(mesh.vertices[:, 1])) for name, mesh in actual.items()}
     assert ends["asphalt"][1] >= {0.0, 1.0}
     assert ends["wet"][1] >= {2.0, 3.0}
     assert ends["ice"][1] >= {4.0, 5.0}
@@ -358,8 +358,8 @@ def test_a_mesh_that_is_inside_out_is_turned(tmp_path):
         recording = hand_scenes.crank(T)
         recording.scene = scene | {"meshes": {"block": mesh}, "shapes": shapes}
         write_gltf(tmp_path / "block.glb", recording)
-        made = trimesh.load_scene(tmp_path / "block.glb").to_mesh()
-        assert made.volume == pytest.approx(6.0)
+        result = trimesh.load_scene(tmp_path / "block.glb").to_mesh()
+        assert result.volume == pytest.approx(6.0)
 
 
 def test_a_second_writing_gives_the_same_bytes(tmp_path):
@@ -378,7 +378,7 @@ def test_a_text_file_is_the_binary_one_with_its_numbers_in_the_text(corner, tmp_
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "message"),
     [
         ({"path": "a.obj"}, r"must end with \.glb or \.gltf\.$"),
         ({"rate": 0.0}, r"^The rate is 0\.0; it must be a number from 1 to 240\.$"),
@@ -393,10 +393,10 @@ def test_a_text_file_is_the_binary_one_with_its_numbers_in_the_text(corner, tmp_
         ),
     ],
 )
-def test_what_cannot_be_written_is_one_sentence(tmp_path, arguments, words):
+def test_a_file_that_cannot_be_written_is_refused_in_one_sentence(tmp_path, arguments, message):
     path = tmp_path / arguments.pop("path", "a.glb")
     recording = arguments.pop("recording", None) or hand_scenes.crank(T)
-    with pytest.raises(ViewerError, match=words):
+    with pytest.raises(ViewerError, match=message):
         write_gltf(path, recording, **arguments)
     assert not path.exists()
 
@@ -407,7 +407,7 @@ def test_a_folder_that_cannot_be_made(tmp_path):
         write_gltf(tmp_path / "file" / "a.glb", hand_scenes.crank(T))
 
 
-def test_what_is_not_drawn_is_said(tmp_path):
+def test_parts_that_are_not_drawn_are_reported(tmp_path):
     notes = " ".join(write_gltf(tmp_path / "a.glb", everything()).notes)
     assert "lower arm is not drawn" in notes
     assert "arrows" in notes

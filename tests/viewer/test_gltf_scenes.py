@@ -37,6 +37,6 @@ def test_a_scene_is_a_gltf_file(tmp_path, recorded, name):
         pose = poses.of(frame)
         for row, k in enumerate(looked):
             matrix = np.linalg.inv(root) @ np.array(answer[row][index[frame]]["matrix"]).reshape(4, 4).T
-            found = CORNERS @ matrix[:3, :3].T + matrix[:3, 3]
+            result = CORNERS @ matrix[:3, :3].T + matrix[:3, 3]
             exact = pose.position[k] + rotated(np.repeat(pose.quaternion[k : k + 1], 4, axis=0), CORNERS)
-            assert np.abs(found - exact).max() < 1e-5 * reach
+            assert np.abs(result - exact).max() < 1e-5 * reach

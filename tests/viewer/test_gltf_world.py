@@ -37,7 +37,7 @@ def written(tmp_path_factory):
 def geometry(path, name):
     """Earth meshes of a node, by material."""
     scene = trimesh.load_scene(path)
-    found = {}
+    results = {}
     for node in scene.graph.nodes_geometry:
         if node == name or node.startswith(f"{name}_"):
             matrix, key = scene.graph[node]
@@ -45,8 +45,8 @@ def geometry(path, name):
             mesh.remove_unreferenced_vertices()
             mesh.apply_transform(matrix)
             mesh.vertices = mesh.vertices @ TO_EARTH.T
-            found[mesh.visual.material.name, str(mesh.visual.material.baseColorFactor)] = mesh
-    return found
+            results[mesh.visual.material.name, str(mesh.visual.material.baseColorFactor)] = mesh
+    return results
 
 
 def parts(path, name):
@@ -58,11 +58,11 @@ def test_the_file_is_valid(written):
 
 
 def test_the_ground_has_its_heights_and_surfaces(written):
-    made = geometry(written.path, "terrain")
-    assert {"asphalt", "grass", "wet", "ice"} <= {name for name, _ in made}
+    result = geometry(written.path, "terrain")
+    assert {"asphalt", "grass", "wet", "ice"} <= {name for name, _ in result}
     stated = float(next(note for note in written.notes if "heights are up to" in note).split("up to ")[1].split()[0])
     seen = 0
-    for (name, _), mesh in made.items():
+    for (name, _), mesh in result.items():
         middles = mesh.triangles_center
         assert (mesh.face_normals[:, 2] > 0).all(), "it faces up"
         if name in LANES:
@@ -135,7 +135,7 @@ def test_paths_end_at_a_reset(tmp_path):
         assert band.vertices[:, 1].min() < -1.5 < 38.0 < band.vertices[:, 1].max()
 
 
-def test_what_is_left_out_is_said(written, tmp_path):
+def test_omitted_parts_are_reported(written, tmp_path):
     notes = " ".join(written.notes)
     assert "things of the scenery are left out" in notes
     assert "within 60 m of the way" in notes
@@ -143,7 +143,7 @@ def test_what_is_left_out_is_said(written, tmp_path):
     assert parts(bare.path, "cone") == parts(bare.path, "path") == []
 
 
-def test_what_stays_has_no_path(tmp_path):
+def test_a_car_at_rest_has_no_path(tmp_path):
     recording = run(scenery=[])
     recording.columns["body.x"] = 0.1 * np.sin(T)
     assert parts(write_gltf(tmp_path / "still.glb", recording).path, "path") == []

@@ -36,7 +36,7 @@ def facing(file: Path, scene: dict[str, Any], wheel: dict[str, Any]) -> list[tup
     own, carrier = wheel["frame"], scene["frames"][wheel["frame"]]["parent"]
     at = np.array(scene["frames"][own]["at"])
     out = np.sign(FramePoses(scene, columns, 1).of(own).position[0, 1])
-    found = []
+    results = []
     for part in parts_of(write_gltf(file, Recording(scene, np.zeros(1), columns), road=False).path):
         if part.frame not in (own, carrier):
             continue
@@ -46,12 +46,12 @@ def facing(file: Path, scene: dict[str, Any], wheel: dict[str, Any]) -> list[tup
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         size = np.linalg.norm(normals, axis=1)
         look = part.look["pbrMetallicRoughness"].get("baseColorFactor")
-        found += [
+        results += [
             (f"{part.look['name']} {look}", triangle)
             for triangle in corners[np.abs(normals[:, 2]) > FACING * np.maximum(size, 1e-15)]
             if np.abs(triangle[:, 2]).max() < wheel["width"]
         ]
-    return found
+    return results
 
 
 def too_near(surfaces: list[tuple[str, NDArray[np.float64]]], radius: float) -> set[tuple[str, str, int]]:
@@ -68,14 +68,14 @@ def too_near(surfaces: list[tuple[str, NDArray[np.float64]]], radius: float) -> 
             s, t = (dx * vy - dy * vx) / turn, (ux * dy - uy * dx) / turn
             if s >= 0.0 and t >= 0.0 and s + t <= 1.0:
                 along[k].append((a[2] + s * (b[2] - a[2]) + t * (c[2] - a[2]), bool(turn > 0.0), look))
-    found: dict[tuple[str, str], list[int]] = {}
+    results: dict[tuple[str, str], list[int]] = {}
     for hits in along:
         hits.sort()
         for low, high in pairwise(hits):
             if low[2] != high[2] and low[1] == high[1] and high[0] - low[0] < LEAST:
-                found.setdefault((low[2], high[2]), []).append(round(1e3 * high[0]))
+                results.setdefault((low[2], high[2]), []).append(round(1e3 * high[0]))
     assert sum(map(len, along)) > 2 * len(places), "lines meet the wheel"
-    return {(*pair, where) for pair, those in found.items() if len(those) > CROSSED for where in those}
+    return {(*pair, where) for pair, those in results.items() if len(those) > CROSSED for where in those}
 
 
 @pytest.mark.slow

@@ -248,10 +248,10 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
 
     opened.ask("player.set('pull', 5)")
     opened.ask("player.advance(300)")
-    told = opened.text("flag stopped 0")
-    assert told.startswith("Stopped at 0.")
-    assert "refused" in told
-    assert "step_size" in told
+    reported = opened.text("flag stopped 0")
+    assert reported.startswith("Stopped at 0.")
+    assert "refused" in reported
+    assert "step_size" in reported
     at = opened.ask("player.time")
     assert_same_bits(reach, opened.ask("player.csv()"), tmp_path)
     opened.page.locator('[data-a3="go back"]').click()
@@ -294,8 +294,8 @@ def test_an_fmu_that_cannot_begin_says_why_and_says_it_again_when_it_is_to_run(
     spoilt.write_text(re.sub(r'"wasm":"[^"]*"', f'"wasm":"{binary}"', text), encoding="utf-8")
     for file in (far, spoilt):
         opened = Page(chromium, file)
-        told = opened.text("flag problem")
-        assert told.startswith("The FMU could not be started: ")
+        reported = opened.text("flag problem")
+        assert reported.startswith("The FMU could not be started: ")
         assert opened.page.locator('[data-a3="flag problem"]').get_attribute("role") == "alert"
         assert opened.page.locator("canvas").count() > 0, "it is drawn as it was built"
         opened.close()
@@ -427,11 +427,11 @@ def test_slow_motion_a_machine_too_slow_a_hidden_page_and_levers(car: Path, chro
 
 @pytest.fixture(scope="module")
 def mechanisms(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    made = {}
+    results = {}
     for scene in ("double_four_bar", "puma"):
         name, systems, default = load_fidelities(scene)
-        made[scene] = build_fmu(systems[default], name, tmp_path_factory.mktemp(scene), PLATFORMS)
-    return made
+        results[scene] = build_fmu(systems[default], name, tmp_path_factory.mktemp(scene), PLATFORMS)
+    return results
 
 
 @pytest.mark.proof  # the car and `reach` have the same pages

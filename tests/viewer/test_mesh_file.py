@@ -141,7 +141,7 @@ def test_a_unit_that_does_not_fit_is_warned_about(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "content", "words"),
+    ("name", "content", "message"),
     [
         ("a.step", b"", r"is not read as a mesh; its suffix must be one of \.stl, \.obj, .*\.$"),
         ("a.stl", b"", "has no triangles"),
@@ -162,9 +162,9 @@ def test_a_unit_that_does_not_fit_is_warned_about(tmp_path):
         ("a.obj", b"v 0 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n", "none of its triangles has an area"),
     ],
 )
-def test_what_is_no_mesh_is_one_sentence(tmp_path, name, content, words):
+def test_an_invalid_mesh_is_refused_in_one_sentence(tmp_path, name, content, message):
     (tmp_path / name).write_bytes(content)
-    with pytest.raises(MeshError, match=words) as caught:
+    with pytest.raises(MeshError, match=message) as caught:
         read_mesh(tmp_path / name)
     assert name in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -174,8 +174,8 @@ def test_what_is_no_mesh_is_one_sentence(tmp_path, name, content, words):
 def test_what_a_reader_asks_for_while_it_reads(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "charset_normalizer", None)
     (tmp_path / "a.stl").write_bytes(stl()[:-70])
-    words = r'The package charset_normalizer is not installed; run: python -m pip install "ali3\[pictures\]"'
-    with pytest.raises(MeshError, match=words):
+    message = r'The package charset_normalizer is not installed; run: python -m pip install "ali3\[pictures\]"'
+    with pytest.raises(MeshError, match=message):
         read_mesh(tmp_path / "a.stl")
 
 

@@ -172,7 +172,7 @@ def test_options_that_are_none(options: dict[str, Any], sentence: str) -> None:
 
 
 @pytest.mark.parametrize("recordings", [[], [1], ["run"]])
-def test_what_is_no_recording(recordings: Any) -> None:
+def test_a_folder_without_a_recording_is_refused(recordings: Any) -> None:
     with pytest.raises(ViewerError, match="recording|Recording"):
         page_html(recordings)
 

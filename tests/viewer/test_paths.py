@@ -93,14 +93,14 @@ def test_the_path_lies_on_the_ground_where_the_run_has_been(seen: Opened) -> Non
 def test_nothing_is_drawn_from_one_epoch_to_the_next(opened: Callable[..., Opened]) -> None:
     """Along the circle for 2 s, then a reset to 3 m beside its beginning: no line where nobody drove."""
     t, after = T, T > 2.0
-    made = run("reset")
-    made.epoch = after.astype(float)
+    result = run("reset")
+    result.epoch = after.astype(float)
     since = np.where(after, t - 2.0, t)
     angle = SPEED * since / BEND
     aside = np.where(after, -3.0, 0.0)
-    made.columns |= {"body.x": BEND * np.sin(angle), "body.y": BEND * (1.0 - np.cos(angle)) + aside}
-    made.columns |= {"body.qw": np.cos(0.5 * angle), "body.qz": np.sin(0.5 * angle)}
-    page = opened(made, camera="top")
+    result.columns |= {"body.x": BEND * np.sin(angle), "body.y": BEND * (1.0 - np.cos(angle)) + aside}
+    result.columns |= {"body.qw": np.cos(0.5 * angle), "body.qz": np.sin(0.5 * angle)}
+    page = opened(result, camera="top")
     page.seek(2.0)
     assert yellow(page, way(1.87))
     held = [page("() => window.player.view.origin")]
@@ -127,17 +127,17 @@ FAR_KERB = {"kind": "profile", "stations": [-0.0005, 0.0005], "heights": [0.0, -
 @pytest.mark.parametrize("road", [{"kind": "flat"}, pytest.param(FAR_KERB, marks=pytest.mark.proof)])
 def test_the_path_is_seen_at_any_instant(opened: Callable[..., Opened], road: dict[str, Any]) -> None:
     """Near the eye, where the depth of large triangles is off by more than the path lies above them."""
-    made = run("straight", roads=[road], extent=3.8)
+    result = run("straight", roads=[road], extent=3.8)
     yaw = 0.03 * np.sin(5.0 * T)  # another camera at each instant
     values = {"x": 20.0 * T, "y": 0.0 * T, "z": 0.5 + 0.03 * np.sin(11.0 * T)}
     values |= {"qw": np.cos(0.5 * yaw), "qz": np.sin(0.5 * yaw)}
-    made.columns |= {f"body.{name}": column for name, column in values.items()}
-    page = opened(made, camera="chase")
-    seen = []
+    result.columns |= {f"body.{name}": column for name, column in values.items()}
+    page = opened(result, camera="chase")
+    recorded = []
     for t in np.arange(1.0, 3.0, 2.0 / 15.0):
         page.seek(float(t))
-        seen.append(yellow(page, [20.0 * t - 0.9, 0.0, 0.0]))
-    assert all(seen), seen
+        recorded.append(yellow(page, [20.0 * t - 0.9, 0.0, 0.0]))
+    assert all(recorded), recorded
 
 
 def test_the_path_goes_over_a_kerb_on_its_surface(opened: Callable[..., Opened]) -> None:
@@ -236,11 +236,11 @@ def test_the_camera_beside_the_track_looks_at_what_moves_past(seen: Opened) -> N
 
 def test_what_stays_where_it_is_has_no_path_and_no_camera_beside_it(opened: Callable[..., Opened]) -> None:
     page = opened(run("still", 1e-3 * T))
-    found = page("() => { const { has, cameras } = window.player; return [has.path, cameras.includes('trackside')]; }")
-    assert found == [False, False]
+    actual = page("() => { const { has, cameras } = window.player; return [has.path, cameras.includes('trackside')]; }")
+    assert actual == [False, False]
 
 
-def test_a_ghost_is_told_apart_by_its_colour_even_where_both_ran(opened: Callable[..., Opened]) -> None:
+def test_a_ghost_is_reported_apart_by_its_colour_even_where_both_ran(opened: Callable[..., Opened]) -> None:
     """The blue box has a ghost at its own place for 3 s; its path is the rim of the first one's."""
     ghost = run("two")
     ghost.columns["body.y"] += np.where(T > 3.0, 1.5, 0.0)
@@ -269,13 +269,13 @@ def test_a_ghost_where_the_run_is_leaves_its_picture_as_it_is(opened: Callable[.
     ghost = run("two")
     ghost.columns["body.y"] += np.where(T > 3.0, 1.5, 0.0)
     alone, both = opened(run("one"), camera="top"), opened(run("one"), ghost, camera="top")
-    seen = []
+    recorded = []
     for page in (alone, both):
         page.seek(2.0)
         x, y = page.place(way(2.0, 0.6))
-        seen.append(page.picture()[y - 4 : y + 5, x - 4 : x + 5].astype(int))
+        recorded.append(page.picture()[y - 4 : y + 5, x - 4 : x + 5].astype(int))
         page.seek(3.5)
-    assert abs(seen[0] - seen[1]).max() <= 2
+    assert abs(recorded[0] - recorded[1]).max() <= 2
     shown = "() => player.view.ghosts.map(ghost => [...ghost.carriers.values()].map(part => part.visible))"
     assert both(shown) == [[True, True]]
     both.seek(2.0)
@@ -313,12 +313,14 @@ def test_a_picture_of_two_runs_tells_whose_colour_is_whose(opened: Callable[...,
     """As pictures and films are made, without controls; a picture of one run has no names."""
     ghost = run("two")
     ghost.columns["body.y"] += 1.5
-    for runs, told in (([run("one"), ghost], True), ([run("one")], False)):
+    for runs, reported in (([run("one"), ghost], True), ([run("one")], False)):
         page = opened(*runs, camera="top", controls=False)
         page.seek(2.0)
         corner = page.picture()[:60, :30]
         for colour in (is_yellow, is_magenta):
-            assert np.count_nonzero(colour(*np.moveaxis(corner, 2, 0))) > 50 if told else not colour(*corner.T).any()
+            assert (
+                np.count_nonzero(colour(*np.moveaxis(corner, 2, 0))) > 50 if reported else not colour(*corner.T).any()
+            )
 
 
 def test_the_floor_lies_below_all_of_the_run_at_the_deformation_that_is_chosen(opened: Callable[..., Opened]) -> None:

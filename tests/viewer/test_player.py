@@ -137,13 +137,13 @@ def test_the_slider_the_keys_and_the_diagram_go_to_a_time(pair: Opened) -> None:
     box = pair.page.locator(".u-over").first.bounding_box()
     pair.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     assert pair("player.time") == pytest.approx(1.5, abs=0.02)
-    left = pair("document.querySelector('.a3-now').style.transform")
-    assert float(left.removeprefix("translateX(").removesuffix("px)")) == pytest.approx(box["width"] / 2, abs=2)
+    remaining = pair("document.querySelector('.a3-now').style.transform")
+    assert float(remaining.removeprefix("translateX(").removesuffix("px)")) == pytest.approx(box["width"] / 2, abs=2)
     shown = pair("document.querySelector('.a3-legend output').textContent")
     assert float(shown.removesuffix(" rad")) == pytest.approx(2.0 * pair("player.time"), abs=1e-3)
 
 
-def test_it_plays_in_time_and_stands_when_it_is_told(pair: Opened) -> None:
+def test_it_plays_in_time_and_stands_when_it_is_reported(pair: Opened) -> None:
     pair("player.seek(0)")
     pair("player.speed(0.2)")
     pair.page.keyboard.press(" ")
@@ -278,9 +278,9 @@ def test_it_fits_small_screens(opened: Callable[..., Opened]) -> None:
 def test_legends_lie_on_no_instrument(opened: Callable[..., Opened], side: bool) -> None:
     """Of a crank with numbers as those of a car."""
     numbers = dict.fromkeys(["speed", *(f"wheel_{w}.Fz" for w in ("FL", "FR", "RL", "RR"))], TIMES)
-    made = crank(TIMES)
+    result = crank(TIMES)
     page = opened(
-        Recording(made.scene, TIMES, {**made.columns, **numbers}), arrows=True, plots=["speed"] if side else []
+        Recording(result.scene, TIMES, {**result.columns, **numbers}), arrows=True, plots=["speed"] if side else []
     )
     for width, height in ((1280, 720), (800, 450), (390, 844), (844, 390), (900, 700)):
         page.page.set_viewport_size({"width": width, "height": height})
@@ -332,15 +332,15 @@ def test_a_result_without_columns_says_that_there_are_no_signals(opened: Callabl
     assert page.said == []
 
 
-def test_a_camera_that_is_not_there_is_told(opened: Callable[..., Opened]) -> None:
+def test_a_camera_that_is_not_there_is_reported(opened: Callable[..., Opened]) -> None:
     page = opened(crank(TIMES), camera="moon")
     assert "There is no camera 'moon'" in page.page.inner_text(".a3-notices")
     assert page.page.get_by_role("img", name="drawing of crank").count() == 1  # its own stands
 
 
-def test_what_cannot_be_drawn_is_one_sentence_in_place_of_an_empty_page(pair: Opened) -> None:
+def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page(pair: Opened) -> None:
     """Of another program: a flexible body without the numbers of its mode."""
-    said = pair(
+    reported = pair(
         """async () => {
           const data = JSON.parse(document.getElementById('data').textContent);
           const [scene] = data.scenes;
@@ -353,7 +353,7 @@ def test_what_cannot_be_drawn_is_one_sentence_in_place_of_an_empty_page(pair: Op
           return [made.problem, place.textContent];
         }"""
     )
-    assert said == ["modes of a flexible body has 0 numbers, not 3.", f"This page cannot be shown: {said[0]}"]
+    assert reported == ["modes of a flexible body has 0 numbers, not 3.", f"This page cannot be shown: {reported[0]}"]
 
 
 def test_without_webgl_there_is_one_sentence_and_the_diagrams(chromium: Any, tmp_path: Path) -> None:
@@ -373,14 +373,14 @@ def test_without_webgl_there_is_one_sentence_and_the_diagrams(chromium: Any, tmp
 def test_in_a_notebook_it_runs_in_its_frame(chromium: Any, tmp_path: Path) -> None:
     (tmp_path / "cell.html").write_text(f"<!DOCTYPE html><meta charset='utf-8'>{html_of(crank(TIMES), height=300)}")
     page = chromium.new_page(viewport={"width": 640, "height": 400})
-    said: list[str] = []
-    page.on("console", lambda message: said.append(message.text))
-    page.on("pageerror", lambda error: said.append(str(error)))
+    reported: list[str] = []
+    page.on("console", lambda message: reported.append(message.text))
+    page.on("pageerror", lambda error: reported.append(str(error)))
     page.goto((tmp_path / "cell.html").as_uri())
     frame = page.frames[1]
     wait_until(frame, "window.player !== undefined")
     assert frame.evaluate("async () => { await player.ready; await player.seek(1.5); return player.problem; }") == ""
     assert frame.evaluate("player.time") == 1.5
     frame.evaluate("player.pause()")
-    assert [line for line in said if "GL Driver" not in line] == []
+    assert [line for line in reported if "GL Driver" not in line] == []
     page.close()

@@ -24,13 +24,13 @@ def poses(recording):
 
 @pytest.mark.parametrize("name", FRAMES)
 def test_every_kind_of_frame_is_where_it_was(name):
-    found = poses(moving_car.recording(T)).of(name)
+    result = poses(moving_car.recording(T)).of(name)
     position, rotation = moving_car.pose(name, T)
-    assert np.abs(found.position - position).max() < 1e-12
-    assert (rotation.inv() * Rotation.from_quat(found.quaternion[:, [1, 2, 3, 0]])).magnitude().max() < 1e-7
-    assert found.shown.all()
+    assert np.abs(result.position - position).max() < 1e-12
+    assert (rotation.inv() * Rotation.from_quat(result.quaternion[:, [1, 2, 3, 0]])).magnitude().max() < 1e-7
+    assert result.shown.all()
     if name != "wheel":  # it turns by 15 rad between two times
-        assert np.einsum("ni,ni->n", found.quaternion[1:], found.quaternion[:-1]).min() > 0.9
+        assert np.einsum("ni,ni->n", result.quaternion[1:], result.quaternion[:-1]).min() > 0.9
 
 
 def test_the_page_has_the_same_poses():
@@ -61,11 +61,11 @@ def test_a_sliding_frame_moves_along_a_direction_of_its_parent():
     recording = moving_car.recording(T)
     way = 0.2 * np.sin(T)
     scene = recording.scene | {"frames": recording.scene["frames"] | {"rack": SLIDING}}
-    found = FramePoses(scene, recording.columns | {"rack": way}, len(T))
+    poses = FramePoses(scene, recording.columns | {"rack": way}, len(T))
     position, rotation = moving_car.pose("chassis", T)
     exact = position + rotation.apply(np.array([0.1, 0.2, 0.3]) + way[:, None] * [0.0, 0.6, 0.8])
-    assert np.abs(found.of("rack").position - exact).max() < 1e-12
-    assert np.abs(found.of("rack").quaternion - found.of("chassis").quaternion).max() < 1e-15
+    assert np.abs(poses.of("rack").position - exact).max() < 1e-12
+    assert np.abs(poses.of("rack").quaternion - poses.of("chassis").quaternion).max() < 1e-15
 
 
 def test_a_pose_without_numbers_is_the_one_before_it():
@@ -74,13 +74,13 @@ def test_a_pose_without_numbers_is_the_one_before_it():
     recording.columns["carrier.x"] = recording.columns["carrier.x"].copy()
     recording.columns["carrier.x"][gap] = np.nan
     recording.columns["carrier.x"][:3] = np.nan
-    found = poses(recording)
+    actual = poses(recording)
     for name in ("carrier", "wheel", "arm"):
-        shown = found.of(name).shown
+        shown = actual.of(name).shown
         assert np.flatnonzero(~shown).tolist() == [0, 1, 2, 20, 21, 22, 23, 24]
-        assert (found.of(name).position[gap] == found.of(name).position[19]).all()
-        assert (found.of(name).position[:3] == found.of(name).position[3]).all()
-    assert found.of("chassis").shown.all()
+        assert (actual.of(name).position[gap] == actual.of(name).position[19]).all()
+        assert (actual.of(name).position[:3] == actual.of(name).position[3]).all()
+    assert actual.of("chassis").shown.all()
 
 
 def test_an_angle_without_a_number_is_that_before_it():
@@ -97,5 +97,5 @@ def test_quaternions_of_matrices():
     rotations = Rotation.random(500, random_state=3)
     half_turns = Rotation.from_rotvec(np.pi * np.vstack([np.eye(3), [[0.6, 0.8, 0.0], [0.0, 0.6, -0.8]]]))
     for given in (rotations, half_turns, Rotation.identity(2)):
-        found = from_matrices(given.as_matrix())
-        assert (given.inv() * Rotation.from_quat(np.roll(found, -1, axis=1))).magnitude().max() < 1e-7
+        result = from_matrices(given.as_matrix())
+        assert (given.inv() * Rotation.from_quat(np.roll(result, -1, axis=1))).magnitude().max() < 1e-7

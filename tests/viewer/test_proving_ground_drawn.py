@@ -29,8 +29,8 @@ _ALL_MARKS = """() => {
 def proving_ground(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     folder = tmp_path_factory.mktemp("world")
     assert world_command.main(["--world", "proving_ground", "--out", str(folder)]) == 0
-    made: dict[str, Any] = json.loads((folder / "proving_ground.json").read_text(encoding="utf-8"))
-    return made
+    record: dict[str, Any] = json.loads((folder / "proving_ground.json").read_text(encoding="utf-8"))
+    return record
 
 
 @pytest.mark.slow

@@ -139,7 +139,7 @@ def test_axe_would_find_a_control_without_a_name(chromium: Any, tmp_path: Path) 
     file.write_text(text, encoding="utf-8")
     with dark_page(chromium) as page:
         open_file(page, file)
-        assert any(words.startswith("label: 1") for words in findings(page))
+        assert any(message.startswith("label: 1") for message in findings(page))
 
 
 @pytest.mark.slow
@@ -160,8 +160,8 @@ def test_figures_in_a_low_page_leave_the_middle_of_the_picture_free(live: Path, 
     with dark_page(chromium) as page:
         page.set_viewport_size({"width": 800, "height": 450})
         open_file(page, live)
-        words = "This machine does not keep up: 0.82 s of the run a second, 1 asked for."
-        page.evaluate("words => { player.notices.flag('problem', words, { bad: true }); player.tell(words); }", words)
+        message = "This machine does not keep up: 0.82 s of the run a second, 1 asked for."
+        page.evaluate("words => { player.notices.flag('problem', words, { bad: true }); player.tell(words); }", message)
         figures, picture, notices = (
             page.evaluate("part => document.querySelector(part).getBoundingClientRect().toJSON()", part)
             for part in (".a3-timing", "canvas", ".a3-notices")
@@ -243,8 +243,8 @@ def test_the_tree_of_the_browser_names_every_control(shown: Any) -> None:
     session.send("Accessibility.enable")
     nodes = [node for node in session.send("Accessibility.getFullAXTree")["nodes"] if not node["ignored"]]
     session.detach()
-    found = [(node["role"]["value"], node.get("name", {}).get("value", "").strip()) for node in nodes]
-    controls = [(role, name) for role, name in found if role in ROLES]
+    results = [(node["role"]["value"], node.get("name", {}).get("value", "").strip()) for node in nodes]
+    controls = [(role, name) for role, name in results if role in ROLES]
     assert {role for role, _ in controls} >= {"button", "slider", "combobox"}
     assert [role for role, name in controls if not name] == []
 

@@ -66,7 +66,7 @@ def test_what_the_columns_do_not_move_is_taken_out_with_all_that_stands_on_it() 
     assert why["body"] == why["spinning wheel"] == why["arm"] == "the result has no column 'body.y'"
 
 
-def test_a_result_without_poses_is_told_in_one_sentence() -> None:
+def test_a_result_without_poses_is_reported_in_one_sentence() -> None:
     recording = Recording(everything(), TIMES, {"speed": TIMES})
     assert recording.scene is None
     assert recording.missing == []
@@ -89,7 +89,7 @@ def test_one_column_takes_no_more_than_what_needs_it() -> None:
     assert names == ["lower arm", "spinning wheel", "deformation of frame", "arrow spring"]
 
 
-def test_a_column_without_any_number_is_missing_and_one_with_gaps_is_told() -> None:
+def test_a_column_without_any_number_is_missing_and_one_with_gaps_is_reported() -> None:
     gaps = np.where((TIMES > 0.5) & (TIMES < 1.0), np.nan, 1.0)
     recording = full(angle=np.full(21, np.nan), **{"body.x": gaps})
     assert {"name": "spinning wheel", "why": "the column 'angle' holds no number"} in recording.missing
@@ -99,7 +99,7 @@ def test_a_column_without_any_number_is_missing_and_one_with_gaps_is_told() -> N
     ]
 
 
-def test_columns_with_the_same_gaps_are_told_in_one_sentence() -> None:
+def test_columns_with_the_same_gaps_are_reported_in_one_sentence() -> None:
     gaps, others = (np.where(end < TIMES, np.nan, 1.0) for end in (0.5, 1.0))
     notes = full(**{"body.x": gaps, "body.y": gaps, "body.z": others}).notes
     assert [note.partition(" values")[0] for note in notes] == [
@@ -108,7 +108,7 @@ def test_columns_with_the_same_gaps_are_told_in_one_sentence() -> None:
     ]
 
 
-def test_numbers_that_no_picture_holds_are_told_and_not_drawn() -> None:
+def test_numbers_that_no_picture_holds_are_reported_and_not_drawn() -> None:
     recording = full(**{"body.x": np.where(TIMES > 1.0, 1e300, 1.0), "body.y": np.where(TIMES > 1.5, np.inf, 1.0)})
     assert np.array_equal(np.isfinite(recording.columns["body.x"]), TIMES <= 1.0)
     assert recording.notes[0] == "The column 'body.x' has 10 of 21 values beyond 1e+30."
@@ -176,10 +176,10 @@ def test_a_jump_is_kept_and_is_no_difference_from_the_record(reset: bool) -> Non
 def test_of_many_resets_the_last_pose_stands_until_the_next() -> None:
     """More than thinning keeps: nothing is said to be drawn from one epoch to another, but that it stands still."""
     t = np.linspace(0.0, 10.0, 20_001)
-    made = crank(t, 0.1)
-    made.columns["slider.x"] = made.columns["slider.x"] + 50.0 * (np.arange(len(t)) % 2)
-    made.epoch = np.arange(len(t)) // 1.0
-    shown = made.thinned(101)
+    result = crank(t, 0.1)
+    result.columns["slider.x"] = result.columns["slider.x"] + 50.0 * (np.arange(len(t)) % 2)
+    result.epoch = np.arange(len(t)) // 1.0
+    shown = result.thinned(101)
     assert len(shown.t) == len(shown.epoch) == 101
     assert "the place of 'slider' by up to 50 m" in shown.notes[0]
 
@@ -189,7 +189,7 @@ def test_epochs_that_are_none() -> None:
         Recording(None, TIMES, {}, epoch=np.ones(20))
 
 
-def test_a_turn_that_thinning_loses_is_said() -> None:
+def test_a_turn_that_thinning_loses_is_reported() -> None:
     shown = crank(np.linspace(0.0, 10.0, 20_001), 100.0).thinned(101)
     assert "the direction of 'crank' by up to" in shown.notes[0]
 

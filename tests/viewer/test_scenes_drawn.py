@@ -19,17 +19,17 @@ _SEEN = ("box", "sphere", "cylinder", "tube", "plate")
 
 def known_points(scene: dict[str, Any]) -> list[list[Any]]:
     """An anchor inside each shape, or two that it is the middle of."""
-    found = []
+    results = []
     for shape in scene["shapes"]:
         if shape["kind"] in ("box", "sphere"):
-            found.append([[shape["frame"], shape.get("at") or [0, 0, 0]]])
+            results.append([[shape["frame"], shape.get("at") or [0, 0, 0]]])
         elif shape["kind"] == "cylinder":
-            found.append([[shape["frame"], end] for end in shape["ends"]])
+            results.append([[shape["frame"], end] for end in shape["ends"]])
         elif shape["kind"] == "tube":
-            found.append(shape["points"][:2])
+            results.append(shape["points"][:2])
         else:
-            found.append(shape["points"][:3])
-    return found
+            results.append(shape["points"][:3])
+    return results
 
 
 def magenta(picture: np.ndarray) -> np.ndarray:

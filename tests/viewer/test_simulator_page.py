@@ -111,8 +111,8 @@ def test_what_is_true_of_the_run_stands_over_the_picture(program: Program) -> No
 
 
 @pytest.mark.slow
-def test_a_broken_wire_is_said_and_mended_and_a_world_that_comes_then_is_no_longer_missed(program: Program) -> None:
-    page, words = program.page, "The drawing of the world cannot be had"
+def test_a_broken_wire_is_reported_and_mended_and_a_world_that_comes_then_is_no_longer_missed(program: Program) -> None:
+    page, message = program.page, "The drawing of the world cannot be had"
     lost = "document.querySelector('[data-a3=\"flag lost\"]')?.textContent || ''"
     shown(program, 1.0, RUNNING)
     page.route("**/world*", lambda route: route.fulfill(status=500), times=1)
@@ -121,7 +121,7 @@ def test_a_broken_wire_is_said_and_mended_and_a_world_that_comes_then_is_no_long
         program.sockets[-1].close()
         assert "Trying again" in wait_until(page, lost)
         wait_until(page, f"player.cockpit !== window.before && !({lost})")
-        assert (words in program.text("events")) is missed
+        assert (message in program.text("events")) is missed
     assert len(program.sockets) == 3
     program.epoch = 2
     shown(program, 0.5, RUNNING)
@@ -264,9 +264,9 @@ def test_long_sentences_beside_open_panels_end_above_the_cluster(chromium: Any, 
 @pytest.fixture(scope="class")
 def _open_page(chromium: Any, lane_change: Recording) -> Iterator[Program]:
     context = chromium.new_context(viewport={"width": 640, "height": 360})
-    made = Program(context.new_page(), lane_change, world=WORLD)
-    made.open()
-    yield made
+    program = Program(context.new_page(), lane_change, world=WORLD)
+    program.open()
+    yield program
     context.close()
 
 
@@ -307,10 +307,10 @@ class TestOnePage:
             for r in shared.ask("[...document.querySelectorAll('.a3-tyres circle')].map(c => c.getAttribute('r'))")
         ]
         loads = np.array([forces[w][2] for w in wheels])
-        words = shared.ask("[...document.querySelectorAll('.a3-tyres text')].map(t => t.textContent)")
-        assert words[::2] == [f"{forces[w][2] / 1e3:.1f} kN" for w in wheels]
+        message = shared.ask("[...document.querySelectorAll('.a3-tyres text')].map(t => t.textContent)")
+        assert message[::2] == [f"{forces[w][2] / 1e3:.1f} kN" for w in wheels]
         slips = [100 * at(lane_change, f"wheel_{w}.slip", 5.0) for w in wheels]
-        assert [float(word.split()[0]) for word in words[1::2]] == pytest.approx(slips, abs=0.51)
+        assert [float(word.split()[0]) for word in message[1::2]] == pytest.approx(slips, abs=0.51)
         assert np.array(radii) / max(radii) == pytest.approx(np.sqrt(loads / loads.max()), abs=0.01)
 
     def test_an_arrow_of_a_tyre_points_where_the_force_does(self, shared: Program) -> None:
@@ -383,7 +383,7 @@ class TestOnePage:
     def test_maps_draw_their_ground_once_for_many_pictures_and_it_goes_along(self, shared: Program) -> None:
         """Pictures of the small map while the car goes 127 m, against those whose ground is drawn for each."""
         shown(shared, 3.0)  # the small map is there
-        made, apart = shared.ask("""(() => {
+        result, apart = shared.ask("""(() => {
           const map = player.cockpit.instruments.inset;
           const { plan } = map;
           const { scenery } = plan;
@@ -408,8 +408,8 @@ class TestOnePage:
           const share = (a, b) => a.filter((value, i) => Math.abs(value - b[i]) > 100).length / a.length;
           return [[once, made - once], Math.max(...kept.map((picture, k) => share(picture, fresh[k])))];
         })()""")
-        assert made[0] <= 3
-        assert made[1] == 31
+        assert result[0] <= 3
+        assert result[1] == 31
         assert apart < 0.01
 
     def test_a_rewind_is_not_driven_through(self, shared: Program, lane_change: Recording) -> None:
@@ -445,15 +445,15 @@ class TestOnePage:
         assert bars.count(bars[-1]) == 1  # the one beyond the deadline has a colour of its own
         assert "0.06 · 0.2 · 0.9 · 4 ms" in shared.text("report")
         assert "the step ran 1 · other programs ran 0 · the processor stood still 1" in shared.text("report")
-        words, tops = shared.ask("""() => {
+        message, tops = shared.ask("""() => {
           const all = name => [...document.querySelectorAll(`[data-a3="histogram"] ${name}`)];
           const number = (part, name) => Number(part.getAttribute(name));
           const texts = all("text").map(t => [t.textContent, number(t, "x"), number(t, "y")]);
           return [texts, all("rect").map(r => number(r, "y"))];
         }""")
-        marks = {text: y - 3 for text, x, y in words if x < 40}
+        marks = {text: y - 3 for text, x, y in message if x < 40}
         assert {"1", "10", "100", "1k", "steps"} == set(marks)
         for (_, count), top in zip(bins, tops, strict=True):  # both axes by powers of ten
             assert top == pytest.approx(marks["1"] + np.log10(count) / 3 * (marks["1k"] - marks["1"]), abs=0.01)
-        assert {"100 µs", "1 ms", "cost of a step; the step of 2 ms is dashed"} <= {text for text, *_ in words}
+        assert {"100 µs", "1 ms", "cost of a step; the step of 2 ms is dashed"} <= {text for text, *_ in message}
         shared.page.keyboard.press("g")

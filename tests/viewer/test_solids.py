@@ -38,13 +38,13 @@ SHAPES: dict[str, dict[str, Any]] = {
 
 def moving() -> dict[str, np.ndarray]:
     """The left frame goes up and down and rolls, all others stand; quaternions turn gently."""
-    made = {}
+    results = {}
     for name, place in PLACES.items():
         roll = Rotation.from_rotvec(np.outer(0.4 * np.sin(5.0 * T) * (name == "left"), [1.0, 0.2, 0.0]))
         values = np.array(place) + np.outer(0.1 * np.sin(7.0 * T) * (name == "left"), [0.0, 0.0, 1.0])
-        made |= {f"{name}.{a}": values[:, k] for k, a in enumerate("xyz")}
-        made |= {f"{name}.q{a}": roll.as_quat(scalar_first=True)[:, k] for k, a in enumerate("wxyz")}
-    return made
+        results |= {f"{name}.{a}": values[:, k] for k, a in enumerate("xyz")}
+        results |= {f"{name}.q{a}": roll.as_quat(scalar_first=True)[:, k] for k, a in enumerate("wxyz")}
+    return results
 
 
 def scene() -> dict[str, Any]:
@@ -104,12 +104,12 @@ def test_normals_are_unit_and_point_out(parts: list[Part]) -> None:
 def test_wheels_look_outwards(parts: list[Part]) -> None:
     """Brakes stand on the inner side of a rim, its nuts and spokes on the outer one."""
     for name, out in (("left wheel", 1.0), ("right wheel", -1.0)):
-        found = {p.look["name"]: p.mesh for p in named(parts, name) if p.frame == name.partition(" ")[0]}
-        middle = {look: mesh.bounds.mean(axis=0)[1] for look, mesh in found.items()}
+        actual = {p.look["name"]: p.mesh for p in named(parts, name) if p.frame == name.partition(" ")[0]}
+        middle = {look: mesh.bounds.mean(axis=0)[1] for look, mesh in actual.items()}
         assert middle["plastic"] * out > 0.0 > middle["steel"] * out
-        reach = np.hypot(*found["rubber"].vertices[:, [0, 2]].T).max()
+        reach = np.hypot(*actual["rubber"].vertices[:, [0, 2]].T).max()
         assert reach == pytest.approx(0.3, rel=1e-6)
-        assert np.ptp(found["rubber"].vertices[:, 1]) == pytest.approx(0.2, rel=0.01)
+        assert np.ptp(actual["rubber"].vertices[:, 1]) == pytest.approx(0.2, rel=0.01)
 
 
 def test_the_mark_of_a_steering_wheel_is_on_top(parts: list[Part]) -> None:
@@ -126,7 +126,7 @@ def ends_of(name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.mark.parametrize(("name", "tolerance"), [("tube", 1e-6), ("spring", 5e-4)])  # a wire has seven sides
-def test_what_lies_between_frames_reaches_from_end_to_end(
+def test_shapes_between_two_frames_reach_from_end_to_end(
     written: WrittenGltf, parts: list[Part], name: str, tolerance: float
 ) -> None:
     begin, end = ends_of(name)
@@ -147,11 +147,11 @@ def test_what_lies_between_frames_reaches_from_end_to_end(
 
 def test_balls_stand_in_the_frames_of_their_ends(parts: list[Part]) -> None:
     for name in ("tube", "damper"):
-        found = {part.frame: part.mesh.vertices.mean(axis=0) for part in named(parts, name) if part.frame != "shapes"}
+        actual = {part.frame: part.mesh.vertices.mean(axis=0) for part in named(parts, name) if part.frame != "shapes"}
         ends = SHAPES[name].get("ends") or SHAPES[name]["points"]
-        assert found.keys() == {"car", "left"}
+        assert actual.keys() == {"car", "left"}
         for frame, place in ends:
-            assert found[frame] == pytest.approx(place, abs=1e-6)
+            assert actual[frame] == pytest.approx(place, abs=1e-6)
 
 
 def test_rods_of_a_damper_keep_their_length(written: WrittenGltf, parts: list[Part]) -> None:
@@ -171,9 +171,9 @@ def test_a_plate_that_bends_keeps_its_form_and_says_so(written: WrittenGltf) -> 
     corners = np.stack([POSES.points(anchor) for anchor in MIXED], axis=1)
     apart = np.linalg.norm(corners[:, 2] - corners[:, 0], axis=1)
     least = 1000.0 * np.abs(apart - apart[0]).max()
-    told = float(note.split("off by ")[1].split()[0])
+    reported = float(note.split("off by ")[1].split()[0])
     assert note.startswith("The plate 'plate' changes its form; it keeps that of the start, ")
-    assert least < told < 1000.0
+    assert least < reported < 1000.0
 
 
 def test_places_far_away_are_of_double_precision(tmp_path: Path) -> None:
@@ -182,11 +182,11 @@ def test_places_far_away_are_of_double_precision(tmp_path: Path) -> None:
     boxes.append({"kind": "tube", "points": [["ground", far], ["ground", [*far[:2], 113.3]]], "radius": 0.1})
     by = dict(zip([".x", ".y", ".z"], far, strict=True))
     columns = {name: values + by.get(name[-2:], 0.0) for name, values in moving().items()}
-    made = write_gltf(tmp_path / "far.glb", Recording({**scene(), "shapes": boxes}, T, columns))
-    origin = content(made.path)[0]["scenes"][0]["extras"]["origin"]
-    found = [part.mesh.bounds.mean(axis=0) + origin for part in parts_of(made.path)]
+    result = write_gltf(tmp_path / "far.glb", Recording({**scene(), "shapes": boxes}, T, columns))
+    origin = content(result.path)[0]["scenes"][0]["extras"]["origin"]
+    results = [part.mesh.bounds.mean(axis=0) + origin for part in parts_of(result.path)]
     for middle in (far, [*far[:2], 112.8]):
-        assert min(np.abs(place - middle).max() for place in found) < 2e-5
+        assert min(np.abs(place - middle).max() for place in results) < 2e-5
 
 
 def test_a_program_that_fails_is_one_sentence(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

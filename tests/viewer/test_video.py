@@ -34,11 +34,11 @@ def frames_of(path):
         with av.open(path) as film:
             return [frame.to_ndarray(format="rgb24") for frame in film.decode(video=0)]
     with Image.open(path) as file:
-        made = []
+        results = []
         for k in range(file.n_frames):
             file.seek(k)
-            made.append(np.asarray(file.convert("RGB")))
-        return made
+            results.append(np.asarray(file.convert("RGB")))
+        return results
 
 
 def slider(picture):
@@ -52,23 +52,23 @@ def slider(picture):
 @pytest.mark.slow
 @pytest.mark.usefixtures("_drawn")
 @pytest.mark.parametrize("suffix", [".mp4", pytest.param(".webp", marks=pytest.mark.proof), ".gif"])
-def test_a_film_shows_the_motion(tmp_path, suffix):
+def test_a_film_shows_the_motion_of_the_recording(tmp_path, suffix):
     path = tmp_path / f"crank{suffix}"
-    told = []
-    written = write_mp4(path, hand_scenes.crank(T), size=SIZE, fps=4.0, speed=1.0, progress=told.append)
+    reported = []
+    written = write_mp4(path, hand_scenes.crank(T), size=SIZE, fps=4.0, speed=1.0, progress=reported.append)
     assert written.frames == 13
     assert written.duration == pytest.approx(13 / 4.0)
     assert written.size == path.stat().st_size
-    assert told == pytest.approx((np.arange(13) + 1) / 13)
+    assert reported == pytest.approx((np.arange(13) + 1) / 13)
     pictures = frames_of(path)
     assert len(pictures) == 13
     assert pictures[0].shape == (SIZE[1], SIZE[0], 3)
     a = 2.0 * np.arange(13) / 4.0
     x = 0.5 * np.cos(a) + np.sqrt(1.0 - (0.5 * np.sin(a)) ** 2)
-    found = np.array([slider(picture) for picture in pictures])
-    slope, start = np.polyfit(x, found, 1)
+    values = np.array([slider(picture) for picture in pictures])
+    slope, start = np.polyfit(x, values, 1)
     assert slope > 0.1
-    assert np.abs(found - (start + slope * x)).max() < 0.02
+    assert np.abs(values - (start + slope * x)).max() < 0.02
 
 
 @pytest.mark.slow
@@ -77,12 +77,12 @@ def test_slow_motion_of_a_part(tmp_path):
     path = tmp_path / "crank.webp"
     written = write_mp4(path, hand_scenes.crank(T), size=SIZE, fps=10, speed=0.1, begin=1.0, end=1.05, progress=False)
     assert written.frames == 6
-    found = np.array([slider(picture) for picture in frames_of(path)])
-    assert np.ptp(found) < 0.05
+    values = np.array([slider(picture) for picture in frames_of(path)])
+    assert np.ptp(values) < 0.05
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "message"),
     [
         ({"path": "a.avi"}, r"must end with \.mp4, \.webp or \.gif\.$"),
         ({"fps": 0}, r"^fps of the film is 0; it must be a number from 1 to 120\.$"),
@@ -98,11 +98,11 @@ def test_slow_motion_of_a_part(tmp_path):
         ({"recording": []}, r"^There is no recording to show\.$"),
     ],
 )
-def test_what_is_no_film_is_one_sentence(tmp_path, arguments, words):
+def test_invalid_film_settings_are_refused_in_one_sentence(tmp_path, arguments, message):
     path = tmp_path / arguments.pop("path", "a.mp4")
     recording = arguments.pop("recording", None)
     recording = hand_scenes.crank(T) if recording is None else recording
-    with pytest.raises(ViewerError, match=words):
+    with pytest.raises(ViewerError, match=message):
         write_mp4(path, recording, **arguments)
     assert list(tmp_path.iterdir()) == []
 

@@ -99,7 +99,7 @@ def test_a_world_and_a_road_are_refused_together(car: Path, tmp_path: Path, caps
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("world", "words"),
+    ("world", "message"),
     [
         (None, "There is no world '"),
         pytest.param("version = 2\nbounds = [0, 0, 90, 90]", "version is 2; it must be 1", marks=pytest.mark.proof),
@@ -108,7 +108,7 @@ def test_a_world_and_a_road_are_refused_together(car: Path, tmp_path: Path, caps
     ids=["missing", "newer", "100 km"],
 )
 def test_worlds_that_cannot_be_are_one_sentence_at_each_door(
-    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], world: str | None, words: str
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], world: str | None, message: str
 ) -> None:
     file = tmp_path / "w.toml"
     if world is not None:
@@ -116,7 +116,7 @@ def test_worlds_that_cannot_be_are_one_sentence_at_each_door(
     tab = ["--live", "--no-open", "--out", str(tmp_path / "out")]
     for door, options in ((view, tab), (simulator, ["--headless", "--stop-time", "0.1"])):
         assert door([str(car), "--world", str(file), *options]) == 2
-        said = capsys.readouterr().err.strip().splitlines()
-        assert len(said) == 1
-        assert words in said[0]
+        errors = capsys.readouterr().err.strip().splitlines()
+        assert len(errors) == 1
+        assert message in errors[0]
     assert not list(tmp_path.rglob("*.html"))

@@ -86,8 +86,8 @@ def test_a_road_that_is_slick_everywhere_is_drawn_wet_or_as_ice(drawn, quality):
     # The sun stands towards +y: a plane that falls to it mirrors it, where it is wet.
     to_sun, from_sun = ({"kind": "plane", "point": [0, 0, 0], "normal": [0, side, 1]} for side in (0.2, -0.1))
 
-    def seen(one: dict[str, Any], said: dict[str, float]) -> np.ndarray:
-        drawn.show(world(roads=[one | said], extent=4.0), at(0, 0, 0), camera="top", quality=quality)
+    def seen(one: dict[str, Any], message: dict[str, float]) -> np.ndarray:
+        drawn.show(world(roads=[one | message], extent=4.0), at(0, 0, 0), camera="top", quality=quality)
         return around(drawn.picture(), drawn.project((1.5, 1.0, 0.0)), 10)
 
     wet = {"friction": 0.5}
@@ -103,8 +103,8 @@ def test_a_road_that_is_slick_everywhere_is_drawn_wet_or_as_ice(drawn, quality):
 def test_the_border_of_a_grid_goes_on_before_it_as_road_and_beside_it_as_grass(drawn):
     """At its height, 2 m: of a ball below it nothing is seen, of one that lies on it the upper half."""
     grid = {"kind": "grid", "origin": [5, -3], "spacing": [10, 6], "shape": [3, 2], "heights": floats(np.full(6, 2.0))}
-    made = world(roads=[grid], shapes=[ball(radius=0.5)], extent=12.0)
-    drawn.show(made, at(-4.0, 0.0, 1.4), camera="top", quality="medium")
+    result = world(roads=[grid], shapes=[ball(radius=0.5)], extent=12.0)
+    drawn.show(result, at(-4.0, 0.0, 1.4), camera="top", quality="medium")
     picture = drawn.picture()
     with pytest.raises(AssertionError, match="nothing red"):
         red(picture)
@@ -160,8 +160,8 @@ def test_where_four_surfaces_meet_there_is_no_fifth(drawn, quality):
     four = np.array([[NAMES.index("asphalt"), NAMES.index("grass")], [NAMES.index("wet"), NAMES.index("gravel")]])
     classes = np.kron(four, np.ones((40, 40), int))
     surface = {"origin": [-39.5, -39.5], "spacing": [1, 1], "shape": [80, 80], "classes": octets(classes)}
-    made = world(roads=[ground | {"surface": ground["surface"] | surface}], shapes=[], extent=2.0)
-    drawn.show(made, at(0, 0, 0), camera="top", quality=quality)
+    result = world(roads=[ground | {"surface": ground["surface"] | surface}], shapes=[], extent=2.0)
+    drawn.show(result, at(0, 0, 0), camera="top", quality=quality)
     seen = drawn.picture().mean(axis=2)
     x, y = (round(value) for value in drawn.project((0.0, 0.0, 0.0)))
     squares = [seen[y + 50 * i - 15 :, x + 50 * j - 15 :][:30, :30].mean() for i in (-1, 1) for j in (-1, 1)]
@@ -278,14 +278,14 @@ def test_beyond_a_world_its_border_goes_on(drawn):
     assert rows.max() == pytest.approx(drawn.project((9e4, -7e4, 0.0))[1], abs=5)
 
 
-def test_what_is_not_known_is_said(drawn):
+def test_what_is_not_known_is_reported(drawn):
     strange = terrain()
     strange["surface"] = strange["surface"] | {"names": ["lava", *NAMES[1:]]}
     drawn.show(world(roads=[strange, strange], scenery=[{"kind": "fountain", "at": [0, 0, 0]}]), at(0, 0, 0))
-    said = " ".join(drawn.ask("view.messages"))
-    assert "'lava'" in said
-    assert "'fountain'" in said
-    assert "2 terrains" in said
+    messages = " ".join(drawn.ask("view.messages"))
+    assert "'lava'" in messages
+    assert "'fountain'" in messages
+    assert "2 terrains" in messages
 
 
 def test_a_world_costs_few_calls_and_triangles(drawn):

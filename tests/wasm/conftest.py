@@ -69,11 +69,11 @@ def _fidelities(car: str) -> list[mbs.System]:
 @pytest.fixture(scope="session")
 def small(built: Built) -> Callable[[str], Fmu]:
     """FMUs of small scenes, built once."""
-    made: dict[str, Fmu] = {}
+    results: dict[str, Fmu] = {}
 
     def make(scene: str) -> Fmu:
-        if scene not in made:
-            made[scene] = built(scene, lambda: load_scene(f"{SCENES}:{scene}"))
-        return made[scene]
+        if scene not in results:
+            results[scene] = built(scene, lambda: load_scene(f"{SCENES}:{scene}"))
+        return results[scene]
 
     return make

@@ -17,7 +17,7 @@ def told(prototype: Fmu) -> Any:
 
 
 @pytest.mark.parametrize(
-    ("what", "words"),
+    ("what", "message"),
     [
         ("noDescription", "has no guid and variables"),
         ("text", "There is no DOMParser here to read modelDescription.xml"),
@@ -25,12 +25,12 @@ def told(prototype: Fmu) -> Any:
         ("empty", "is no binary for wasm32 of an FMU of ALi3: it exports no memory."),
     ],
 )
-def test_what_cannot_be_loaded(told: Any, what: str, words: str) -> None:
-    assert words in told[what]
+def test_modules_that_cannot_be_loaded_are_refused(told: Any, what: str, message: str) -> None:
+    assert message in told[what]
 
 
 @pytest.mark.parametrize(
-    ("what", "words"),
+    ("what", "message"),
     [
         (
             "noResources",
@@ -58,11 +58,11 @@ def test_what_cannot_be_loaded(told: Any, what: str, words: str) -> None:
         ("freed", "This instance was freed."),
     ],
 )
-def test_a_refusal_has_the_words_of_the_fmu(told: Any, what: str, words: str) -> None:
+def test_a_refusal_has_the_words_of_the_fmu(told: Any, what: str, message: str) -> None:
     is_fmu_error, status, text = told[what]
     assert is_fmu_error
     assert status == "error"
-    assert words in text
+    assert message in text
 
 
 def test_a_refused_start_can_be_tried_again_and_a_refused_step_changes_nothing(told: Any) -> None:

@@ -48,9 +48,9 @@ def test_it_imports_nothing_and_exports_fmi(small: Callable[[str], Fmu]) -> None
     import wasmtime
 
     fmu = small("crane")
-    made = wasmtime.Module(wasmtime.Engine(), fmu.wasm)
-    assert list(made.imports) == []
-    names = {export.name for export in made.exports}
+    module = wasmtime.Module(wasmtime.Engine(), fmu.wasm)
+    assert list(module.imports) == []
+    names = {export.name for export in module.exports}
     sources = "".join(f.read_text() for f in (fmu.folder / "sources").glob("fmi2_*.c"))
     fmi = set(re.findall(r"FMI2_(?:NAME|ENTRY)\((fmi2\w+)", sources))
     assert len(fmi) == 34
@@ -89,11 +89,11 @@ def test_a_road_for_which_there_is_no_memory(prototype: Fmu) -> None:
 @pytest.mark.slow
 def test_a_table_whose_points_exceed_32_bits_is_refused(prototype: Fmu) -> None:
     """65536 x 65536 points are 0 in 32 bits."""
-    made, n = module(prototype), 1 << 16
-    made.add_file("roads/large.csv", b"y/x" + b";1" * n + b"\n" + (b"1" + b";0" * n + b"\n") * 4 + b"1;0\n" * (n - 4))
+    result, n = module(prototype), 1 << 16
+    result.add_file("roads/large.csv", b"y/x" + b";1" * n + b"\n" + (b"1" + b";0" * n + b"\n") * 4 + b"1;0\n" * (n - 4))
     with pytest.raises(FMICallException):
-        made.set("String", [prototype.kinds["road.file"][1]], ["large.csv"])
-    assert "it has fewer cells than rows and columns" in made.messages[-1][1]
+        result.set("String", [prototype.kinds["road.file"][1]], ["large.csv"])
+    assert "it has fewer cells than rows and columns" in result.messages[-1][1]
 
 
 @pytest.mark.slow
@@ -176,8 +176,8 @@ def bare(tmp_path: Path) -> Path:
 def test_an_fmu_is_compiled_again_from_its_own_sources(bare: Path, small: Callable[[str], Fmu], tmp_path: Path) -> None:
     out = tmp_path / "out"
     assert build_fmu.main(["--fmu", str(bare), "--platforms", "wasm32", "--out", str(out)]) == 0
-    made = Fmu(out / "Crane.fmu", tmp_path / "made")
-    assert made.wasm == small("crane").wasm
+    fmu = Fmu(out / "Crane.fmu", tmp_path / "made")
+    assert fmu.wasm == small("crane").wasm
     with zipfile.ZipFile(bare) as before, zipfile.ZipFile(out / "Crane.fmu") as after:
         assert {n: after.read(n) for n in before.namelist()} == {n: before.read(n) for n in before.namelist()}
     again = ["--fmu", str(out / "Crane.fmu"), "--platforms", "wasm32", "--out", str(out)]
@@ -206,7 +206,7 @@ def test_other_sources_than_those_installed_are_compiled(bare: Path, tmp_path: P
 
 
 @pytest.mark.slow
-def test_what_cannot_be_compiled_again(
+def test_fmus_that_cannot_be_compiled_again_are_refused(
     bare: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], small: Callable[[str], Fmu]
 ) -> None:
     def words(file: Path) -> str:
@@ -247,10 +247,10 @@ def test_the_platform_is_asked_for_by_name(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Its compilation takes longest where it was never done: other tests look at what it gives."""
-    asked: list[tuple[tuple[str, ...], str]] = []
+    requested: list[tuple[tuple[str, ...], str]] = []
 
     def compiled(targets: Sequence[str], face: str, *_: object) -> bytes:
-        asked.append((tuple(targets), face))
+        requested.append((tuple(targets), face))
         return b"\0asm"
 
     monkeypatch.setattr("fmu_src.native.package.compile_library", compiled)
@@ -264,7 +264,7 @@ def test_the_platform_is_asked_for_by_name(
     with zipfile.ZipFile(tmp_path / "Crane.fmu") as archive:
         assert [n for n in archive.namelist() if n.startswith("binaries/")] == ["binaries/wasm32/Crane.wasm"]
         assert archive.read("binaries/wasm32/Crane.wasm") == b"\0asm"
-    assert asked == [(("wasm32-wasi",), "fmi2")]
+    assert requested == [(("wasm32-wasi",), "fmi2")]
 
 
 def test_sources_for_a_file_system_leave_the_room_out() -> None:
@@ -282,13 +282,13 @@ def test_the_kernel_alone_is_a_module_too(tmp_path: Path) -> None:
     path = kernel_build.compile_library("wasm32-wasi", tmp_path / kernel_build.library_name("wasm32-wasi"))
     assert path.name == "ali3.wasm"
     engine = wasmtime.Engine()
-    made = wasmtime.Module.from_file(engine, str(path))
-    assert list(made.imports) == []
-    assert {e.name for e in made.exports} == (
+    result = wasmtime.Module.from_file(engine, str(path))
+    assert list(result.imports) == []
+    assert {e.name for e in result.exports} == (
         {"memory", "_initialize"} | set(kernel_build.functions()) | set(kernel_build.WASM_HELPERS)
     )
     store = wasmtime.Store(engine)
-    exports: Any = wasmtime.Instance(store, made, []).exports(store)
+    exports: Any = wasmtime.Instance(store, result, []).exports(store)
     address = exports["ali3_status_text"](store, 0)
     text = bytes(exports["memory"].read(store, address, address + 200)).split(b"\0")[0]
     assert text.decode() == status_text(load_library(), 0).removesuffix(".")

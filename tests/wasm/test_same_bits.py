@@ -41,12 +41,12 @@ def moved(driven: Driven) -> int:
 @pytest.fixture(scope="module")
 def expected() -> Callable[[Fmu, str, Plan], Driven]:
     """What the native library gives, driven once a plan."""
-    made: dict[str, Driven] = {}
+    results: dict[str, Driven] = {}
 
     def get(fmu: Fmu, name: str, plan: Plan) -> Driven:
-        if name not in made:
-            made[name] = native(fmu, plan)
-        return made[name]
+        if name not in results:
+            results[name] = native(fmu, plan)
+        return results[name]
 
     return get
 
@@ -118,14 +118,14 @@ def test_in_chromium(prototype: Fmu, hatchback: Fmu, small: Callable[[str], Fmu]
         plan = refused_steps()
         assert_same(chromium(small("reach"), plan), native(small("reach"), plan), small("reach"), plan)
         chromium.run("(xml) => (window.xml = xml)", described_text(prototype))
-        told = chromium.run("async () => (await import('/description.js')).describe(window.xml)")
+        reported = chromium.run("async () => (await import('/description.js')).describe(window.xml)")
     given = prototype.job(plan)["description"]
-    assert (told["guid"], told["modelName"]) == (given["guid"], given["modelName"])
-    assert [{key: v[key] for key in w} for v, w in zip(told["variables"], given["variables"], strict=True)] == (
+    assert (reported["guid"], reported["modelName"]) == (given["guid"], given["modelName"])
+    assert [{key: v[key] for key in w} for v, w in zip(reported["variables"], given["variables"], strict=True)] == (
         given["variables"]
     )
-    assert (told["stepSize"], told["stopTime"]) == (H, 10.0)
-    variables = {v["name"]: v for v in told["variables"]}
+    assert (reported["stepSize"], reported["stopTime"]) == (H, 10.0)
+    variables = {v["name"]: v for v in reported["variables"]}
     assert variables["fidelity"] | {"type": "Integer", "min": 0, "max": 2, "start": 0} == variables["fidelity"]
     assert variables["front.spring.stiffness"]["unit"] == "N/m"
     assert variables["road.file"]["start"] == ""

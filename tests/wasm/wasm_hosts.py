@@ -76,12 +76,12 @@ def _drive(slave: Any, fmu: Fmu, plan: Plan) -> Driven:
             getattr(slave, f"set{kind}")([reference], [value])
 
     def row() -> list[float]:
-        found = {}
+        results = {}
         for kind, names in groups.items():
             if names:
                 values = getattr(slave, f"get{kind}")([fmu.kinds[name][1] for name in names])
-                found |= dict(zip(names, values, strict=True))
-        return [float(found[name]) for name in outputs]
+                results |= dict(zip(names, values, strict=True))
+        return [float(results[name]) for name in outputs]
 
     outputs = fmu.outputs(plan)
     groups = {kind: [name for name in outputs if fmu.kinds[name][0] == kind] for kind in ("Real", "Integer")}
@@ -164,11 +164,11 @@ class Chromium:
         return self._page.run(code, argument)
 
 
-def decoded(told: dict[str, Any], plan: Plan) -> Driven:
+def decoded(reported: dict[str, Any], plan: Plan) -> Driven:
     """What `drive.js` gave."""
-    rows = np.frombuffer(base64.b64decode(told["rows"]))
-    states = [base64.b64decode(text) for text in told["states"]]
-    refusals = [(k, status) for k, status, _ in told["refusals"]]
+    rows = np.frombuffer(base64.b64decode(reported["rows"]))
+    states = [base64.b64decode(text) for text in reported["states"]]
+    refusals = [(k, status) for k, status, _ in reported["refusals"]]
     return Driven(rows.reshape(len(plan.steps) + 1, -1), states, refusals)
 
 

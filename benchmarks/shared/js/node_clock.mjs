@@ -1,4 +1,4 @@
-// node node_clock.mjs FMU_JS < JOB: what clock.js finds.
+// node node_clock.mjs FMU_JS < JOB: prints the times that clock.js measures.
 import { readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 import { clock } from "./clock.js";

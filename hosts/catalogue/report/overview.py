@@ -94,7 +94,7 @@ def overview(
     labels: Sequence[str],
     records: Mapping[str, Mapping[str, TestRecord | str]],
 ) -> list[HtmlElement]:
-    """What was done and kept, then every measure of every car."""
+    """The table of tests by car with their outcomes, then every measure of every car."""
     done: list[list[Content]] = [
         [
             element("a", test.title, href=f"#{test.name}"),
@@ -104,12 +104,12 @@ def overview(
     ]
     rows: list[list[Content]] = []
     for test in tests:
-        found = [_measures(records.get(test.name, {}).get(label)) for label in labels]
-        names = list(dict.fromkeys(name for measures in found for name in measures))
+        results = [_measures(records.get(test.name, {}).get(label)) for label in labels]
+        names = list(dict.fromkeys(name for measures in results for name in measures))
         if names:
             rows.append([test.title])
         for name in names:
-            rows.append(_row(name, [measures.get(name) for measures in found]))
+            rows.append(_row(name, [measures.get(name) for measures in results]))
     parts = [table("Tests", ["test", *labels], done)]
     if rows:
         more = f"; differences to {labels[0]}" if len(labels) > 1 else ""
@@ -141,10 +141,10 @@ def _outcome(record: TestRecord | str | None) -> HtmlElement:
 
 def _row(name: str, found: Sequence[Measure | None]) -> list[Content]:
     """A measure of all cars, the first of which is what others are compared with."""
-    there = [m for m in found if m is not None]
-    known = there[0]
+    present = [m for m in found if m is not None]
+    known = present[0]
     tail = typeset(known.unit)
-    shared = known.note if len(there) > 1 and all(m.note == known.note for m in there) else ""
+    shared = known.note if len(present) > 1 and all(m.note == known.note for m in present) else ""
     what: list[Content] = [known.text or name, element("small", f" {name}{f', {tail}' if tail else ''}")]
     if shared:
         what.append(element("small", f" {shared}"))

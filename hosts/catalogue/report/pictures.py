@@ -24,7 +24,13 @@ _SHARED = "#767676"
 _MARKS = 9
 """Markers on a line that is one of several of its car."""
 # Inches; the height is that of the axes.
-_WIDTH, _HEIGHT, _LEFT, _RIGHT, _ABOVE, _BELOW, _LEGEND_ROW = 5.625, 2.9, 0.85, 0.15, 0.32, 0.55, 0.21
+_WIDTH = 5.625
+_HEIGHT = 2.9
+_LEFT = 0.85
+_RIGHT = 0.15
+_ABOVE = 0.32
+_BELOW = 0.55
+_LEGEND_ROW = 0.21
 _FEW = 40
 """Points that may be measured ones: each is marked."""
 _SETTINGS: Mapping[Any, Any] = {**STYLE, "axes.titlesize": 10.5}
@@ -59,7 +65,7 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> D
     # Fixed margins: a layout that is computed takes longer than the drawing.
     figure.subplots_adjust(_LEFT / _WIDTH, below / height, 1.0 - _RIGHT / _WIDTH, 1.0 - _ABOVE / height)
     axes = figure.add_subplot()
-    words = _drawn(axes, found, shared, many)
+    message = _drawn(axes, found, shared, many)
     texts = [axes.set_title(title), axes.xaxis.label, axes.yaxis.label]
     if rows:
         legend = figure.legend(
@@ -68,21 +74,21 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> D
         texts += legend.get_texts()
     for text in texts:
         text.set_parse_math(False)
-    return drawing(figure, f"{title}: {first.y} over {first.x}. {'; '.join(words) or 'No lines'}.")
+    return drawing(figure, f"{title}: {first.y} over {first.x}. {'; '.join(message) or 'No lines'}.")
 
 
 def _drawn(axes: Axes, found: Mapping[int, tuple[str, Plot]], shared: Mapping[str, Line], many: bool) -> list[str]:
     """Draw lines, labels and scales of a plot; what they show in words."""
     first = next(iter(found.values()))[1]
-    words = []
+    message = []
     for line in shared.values():
         axes.plot(line.x, line.y, color=_SHARED, linewidth=1.2, label=line.label)
-        words.append(f"{line.label}: {_range(line)}")
+        message.append(f"{line.label}: {_range(line)}")
     for k, (label, plot) in found.items():
         for j, line in enumerate(line for line in plot.lines if line.label not in shared):
             name = _name(label, line, plot, many)
             _draw(axes, line, name, *((k, j) if many else (j, 0)))
-            words.append(f"{name or 'the line'}: {_range(line)}")
+            message.append(f"{name or 'the line'}: {_range(line)}")
     for log, axis, set_scale in (
         (first.log_x, axes.xaxis, axes.set_xscale),
         (first.log_y, axes.yaxis, axes.set_yscale),
@@ -95,7 +101,7 @@ def _drawn(axes: Axes, found: Mapping[int, tuple[str, Plot]], shared: Mapping[st
         axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel(first.x)
     axes.set_ylabel(first.y)
-    return words
+    return message
 
 
 def _displayed(plot: Plot) -> Plot:
@@ -111,12 +117,12 @@ def _shared(plots: Sequence[Plot]) -> dict[str, Line]:
     """Lines by label that are the same for all cars, such as lanes; none where cars do all the same."""
     if len(plots) < 2:
         return {}
-    found = {
+    results = {
         line.label: line
         for line in plots[0].lines
         if line.label and all(any(_same(line, other) for other in plot.lines) for plot in plots[1:])
     }
-    return found if len(found) < len(plots[0].lines) else {}
+    return results if len(results) < len(plots[0].lines) else {}
 
 
 def _same(one: Line, other: Line) -> bool:
@@ -157,10 +163,10 @@ def _draw(axes: Axes, line: Line, name: str, style: int, mark: int) -> None:
 
 
 def _range(line: Line) -> str:
-    there = np.isfinite(line.x) & np.isfinite(line.y)
-    if not there.any():
+    finite = np.isfinite(line.x) & np.isfinite(line.y)
+    if not finite.any():
         return "no points"
-    x, y = np.asarray(line.x)[there], np.asarray(line.y)[there]
+    x, y = np.asarray(line.x)[finite], np.asarray(line.y)[finite]
     top, low = int(np.argmax(y)), int(np.argmin(y))
     return (
         f"from {shown(y[0])} at {shown(x[0])} to {shown(y[-1])} at {shown(x[-1])}, largest {shown(y[top])} at "

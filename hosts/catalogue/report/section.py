@@ -1,4 +1,4 @@
-"""A test in the report."""
+"""The section of the report about one test."""
 
 from __future__ import annotations
 
@@ -16,8 +16,10 @@ from hosts.measures.measure import Measure
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
 
-CHECKED, FROM_SUMMARIES = "text checked", "from public summaries"
-_OF_TESTS, _OF_SETTINGS = "--tests", "--test-setting"
+CHECKED = "text checked"
+FROM_SUMMARIES = "from public summaries"
+_OF_TESTS = "--tests"
+_OF_SETTINGS = "--test-setting"
 
 
 def section(
@@ -27,7 +29,7 @@ def section(
     command: Sequence[str],
     plots: Sequence[HtmlElement],
 ) -> Section:
-    """All of a test.
+    """The section of a test.
 
     `records`: by label of the car, in the order of the cars; `command`: that makes the whole report; empty where nobody
     knows it.
@@ -59,23 +61,23 @@ def section(
 
 def command_of(command: Sequence[str], test: str) -> list[str]:
     """The command for one test: without the list of tests and without settings of others."""
-    made: list[str] = []
-    words = iter(command)
-    for word in words:
+    results: list[str] = []
+    message = iter(command)
+    for word in message:
         name, equals, value = word.partition("=")
         if name not in (_OF_TESTS, _OF_SETTINGS):
-            made.append(word)
+            results.append(word)
             continue
-        value = value if equals else next(words, "")
+        value = value if equals else next(message, "")
         if name == _OF_SETTINGS and value.startswith(f"{test}."):
-            made += [_OF_SETTINGS, value]
-    return [*made, _OF_TESTS, test]
+            results += [_OF_SETTINGS, value]
+    return [*results, _OF_TESTS, test]
 
 
 def _standard(standard: Standard) -> HtmlElement:
     if not standard.clauses:
-        words = f" ({FROM_SUMMARIES})"
-        return element("p", element("strong", standard.name), f", {standard.title}{words}")
+        message = f" ({FROM_SUMMARIES})"
+        return element("p", element("strong", standard.name), f", {standard.title}{message}")
     clauses = [
         element(
             "li",

@@ -1,4 +1,4 @@
-"""Writes the report."""
+"""Writes the report of standard tests as an HTML file."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -47,8 +47,8 @@ def write_report(
     labels = [car.label for car in cars]
     plots, sections = Plots(file.parent / "plots"), [Section("Overview", overview(tests, labels, records), "overview")]
     for test in tests:
-        found = {n: r for n in labels if (r := records.get(test.name, {}).get(n)) is not None}
-        drawn = pictures_of({n: r.plots for n, r in found.items() if isinstance(r, TestRecord)})
+        results = {n: r for n in labels if (r := records.get(test.name, {}).get(n)) is not None}
+        drawn = pictures_of({n: r.plots for n, r in results.items() if isinstance(r, TestRecord)})
         shown = [plots.add(one, f"{test.name} {name}") for name, one in drawn.items()]
-        sections.append(section(test, found, settings.get(test.name, {}), command, shown))
+        sections.append(section(test, results, settings.get(test.name, {}), command, shown))
     write_text(file, page(f"Standard tests of {', '.join(labels)}", head(cars), sections))

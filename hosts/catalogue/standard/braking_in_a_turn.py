@@ -43,8 +43,8 @@ def add_stops(sheet: Sheet, stops: Sequence[Stop]) -> None:
     )
     first = braked[0] if braked else HostError("the car did not get onto the circle")
     sheet.add("circle", first=first)
-    there = {"braked": braked, "known": known} if braked else {"braked": first, "known": first}
-    sheet.add("stops", compared=COMPARED, **there)
+    present = {"braked": braked, "known": known} if braked else {"braked": first, "known": first}
+    sheet.add("stops", compared=COMPARED, **present)
 
 
 def stop(car: TestedCar, settings: Mapping[str, float], pedal: float, longest: float = math.inf) -> Stop:

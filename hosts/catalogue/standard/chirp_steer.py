@@ -38,20 +38,20 @@ def drive(sheet: Sheet) -> None:
     sheet.runs["chirp"] = run.thinned()
     sheet.progress(0.95)
     sheet.add("run", run=run, speed=ramp.speed, amplitude=amplitude)
-    found: list[dict[str, Any]] = []
+    results: list[dict[str, Any]] = []
     for name, (signal, word, unit, zeros) in _QUANTITIES.items():
         response = _response(run, getattr(run, signal), low, high)
         none = "" if len(response.frequency) else f"The run does not show the {word}."
         names = {"name": name, "word": word, "unit": unit, "response": response, "found": bandwidth(response)}
         why = none or "Not within the range of frequencies."
         sheet.add("quantity", why_none=why, should_be=bool(none), frequency=response.frequency, **names)
-        found += [] if none else [{**names, "zeros": zeros}]
-    fitted = [q for q in found if q["zeros"] is not None]
+        results += [] if none else [{**names, "zeros": zeros}]
+    fitted = [q for q in results if q["zeros"] is not None]
     fits = fit_second_order([q["response"] for q in fitted], [q["zeros"] for q in fitted]) or [NOTHING]
-    words = " and ".join(q["word"] for q in fitted)
+    message = " and ".join(q["word"] for q in fitted)
     why = "The fit does not converge." if fitted else "There is no response."
-    sheet.add("mode", why_none=why, fit=fits[0], misfit=max(f.misfit for f in fits), words=words or "nothing")
-    sheet.add("pictures", run=run, found=found)
+    sheet.add("mode", why_none=why, fit=fits[0], misfit=max(f.misfit for f in fits), words=message or "nothing")
+    sheet.add("pictures", run=run, found=results)
 
 
 def _table(

@@ -27,7 +27,7 @@ RELEASED_AFTER = 2.0  # m, into the first lane of ISO 3888-2
 
 @dataclass(frozen=True)
 class _Layout:
-    """A course and how it is driven."""
+    """A course and its driver settings."""
 
     name: str
     release: float  # m into the first lane
@@ -119,13 +119,13 @@ def limit(
 def tries(car: TestedCar, layout: _Layout, speed: float, passed: Passage | None) -> Passage:
     """The first clean passage of the drivers, that of the last success first; else the one nearest to clean."""
     order = sorted(DRIVERS, key=lambda name: passed is None or name != passed.driver)
-    made = []
+    results = []
     for driver in order:
-        made.append(drive_through(car, layout, speed, driver))
-        if made[-1].clean:
-            return made[-1]
+        results.append(drive_through(car, layout, speed, driver))
+        if results[-1].clean:
+            return results[-1]
     return max(
-        made, key=lambda p: (not p.not_driven, -math.inf if math.isnan(p.least_clearance) else p.least_clearance)
+        results, key=lambda p: (not p.not_driven, -math.inf if math.isnan(p.least_clearance) else p.least_clearance)
     )
 
 

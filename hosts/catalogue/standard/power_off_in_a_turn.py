@@ -15,13 +15,13 @@ def drive(sheet: Sheet) -> None:
     car, settings = sheet.with_step_up_to(STEP, "the yaw acceleration"), dict(sheet.settings)
     levels, released = round(settings["levels"]), list[tuple[float, Stop]]()
     for k in range(1, levels + 1):
-        asked = settings["lowest"] + (settings["highest"] - settings["lowest"]) * (k - 1) / max(levels - 1, 1)
-        made = stop(car, settings | {"lateral_acceleration": asked, "rise_time": 0.0}, 0.0, AFTER + STEADY)
-        sheet.keep(f"{asked:.6g}_m_s2", made.result)
+        requested = settings["lowest"] + (settings["highest"] - settings["lowest"]) * (k - 1) / max(levels - 1, 1)
+        made = stop(car, settings | {"lateral_acceleration": requested, "rise_time": 0.0}, 0.0, AFTER + STEADY)
+        sheet.keep(f"{requested:.6g}_m_s2", made.result)
         if math.isnan(made.onset):
-            sheet.add("not_there", last=made, asked=asked)
+            sheet.add("not_there", last=made, asked=requested)
             break
-        released.append((asked, made))
+        released.append((requested, made))
         sheet.progress(k / levels)
     add_releases(sheet, released)
 
@@ -33,5 +33,5 @@ def add_releases(sheet: Sheet, released: Sequence[tuple[float, Stop]]) -> None:
         for _, r in released
         if (values := r.values())
     ]
-    rows = [{"asked": asked, "r": r} for asked, r in released]
+    rows = [{"asked": requested, "r": r} for requested, r in released]
     sheet.add("releases", compared=COMPARED, released=rows, known=sorted(known, key=lambda v: v["ay"]))

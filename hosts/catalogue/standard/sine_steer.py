@@ -33,8 +33,8 @@ def drive(sheet: Sheet) -> None:
         ("yaw_rate", "yaw_rate", ("1/s", "rad/s")),
         ("lateral_acceleration", "acceleration", ("m/(s2.rad)", "m/s2")),
     ):
-        found = {side: {"period": _one_period(run, getattr(run, signal), period)} for side, run in sides.items()}
-        sheet.add("quantity", name=name, word=name.replace("_", " "), units=units, **found)
+        results = {side: {"period": _one_period(run, getattr(run, signal), period)} for side, run in sides.items()}
+        sheet.add("quantity", name=name, word=name.replace("_", " "), units=units, **results)
 
 
 def _one_period(run: SteeredRun, values: NDArray[np.float64], period: float) -> OnePeriod:

@@ -30,16 +30,16 @@ def drive(sheet: Sheet) -> None:
     sheet.progress(0.2)
     sheet.add("stop", run=run, onset=onset)
     best: float = settings["pedal"]
-    found: dict[str, Any] = {"run": run, "onset": onset}
-    if sheet.value("locking", **found):
-        sheet.add("locked", **found)
-        best, found = _best_unlocked(sheet, car)
-        sheet.runs |= {"unlocked": found["run"]} if found else {}
+    results: dict[str, Any] = {"run": run, "onset": onset}
+    if sheet.value("locking", **results):
+        sheet.add("locked", **results)
+        best, results = _best_unlocked(sheet, car)
+        sheet.runs |= {"unlocked": results["run"]} if results else {}
     nothing = HostError("wheels lock at every pedal")
-    if found and not sheet.value("locks_known", **found):
-        nothing, found = HostError("the car does not provide the slip of its wheels, or did not brake"), {}
-    missing = {} if found else dict.fromkeys(("best", "run", "onset"), nothing)
-    sheet.add("unlocked", **{"best": best, "resolution": RESOLUTION, **found, **missing})
+    if results and not sheet.value("locks_known", **results):
+        nothing, results = HostError("the car does not provide the slip of its wheels, or did not brake"), {}
+    missing = {} if results else dict.fromkeys(("best", "run", "onset"), nothing)
+    sheet.add("unlocked", **{"best": best, "resolution": RESOLUTION, **results, **missing})
     sheet.add("pictures", run=run, onset=onset)
     sheet.progress(1.0)
 

@@ -1,4 +1,4 @@
-"""A pilot that lets another one steer and then keeps the mean of what that one did."""
+"""A pilot that lets another one steer and then holds the mean of its steering."""
 
 from collections.abc import Mapping
 

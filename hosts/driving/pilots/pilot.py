@@ -1,4 +1,4 @@
-"""What a pilot is."""
+"""The interface of a pilot: outputs of a car in, inputs of the car out."""
 
 from collections.abc import Mapping, Sequence
 from typing import Protocol

@@ -23,7 +23,7 @@ class Alias:
 
 @dataclass(frozen=True)
 class Aliases:
-    """Those of a file."""
+    """The aliases of a file."""
 
     aliases: tuple[Alias, ...] = ()
     constants: Mapping[str, float] = field(default_factory=dict)
@@ -58,34 +58,34 @@ class Aliases:
         Returns `factors` and `offsets`, shape (n,): ours = (theirs - offset) / factor.
         """
         by_name = {alias.theirs: alias for alias in self.aliases}
-        found = [by_name.get(name, Alias(name, name)) for name in theirs]
-        return np.array([a.factor for a in found]), np.array([a.offset for a in found])
+        results = [by_name.get(name, Alias(name, name)) for name in theirs]
+        return np.array([a.factor for a in results]), np.array([a.offset for a in results])
 
     def inputs(self, values: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
         """Values and rates under our names as the FMU has them."""
         by_name = {alias.ours: alias for alias in self.aliases}
-        made = {}
+        results = {}
         for name, (value, rate) in values.items():
             alias = by_name.get(name, Alias(name, name))
-            made[alias.theirs] = (alias.factor * value + alias.offset, abs(alias.factor) * rate)
-        return made
+            results[alias.theirs] = (alias.factor * value + alias.offset, abs(alias.factor) * rate)
+        return results
 
     def values(self, values: Mapping[str, Any]) -> dict[str, Any]:
         """Start values under our names as the FMU has them; texts stay as they are."""
         by_name = {alias.ours: alias for alias in self.aliases}
-        made = {}
+        results = {}
         for name, value in values.items():
             alias = by_name.get(name, Alias(name, name))
             plain = isinstance(value, (str, bool)) or (alias.factor, alias.offset) == (1.0, 0.0)
-            made[alias.theirs] = value if plain else alias.factor * value + alias.offset
-        return made
+            results[alias.theirs] = value if plain else alias.factor * value + alias.offset
+        return results
 
     def own_values(self, values: Mapping[str, Value]) -> dict[str, Value]:
         """Start values of the FMU under our names, in our units; texts stay as they are."""
         by_name = {alias.theirs: alias for alias in self.aliases}
-        made: dict[str, Value] = {}
+        results: dict[str, Value] = {}
         for name, value in values.items():
             alias = by_name.get(name, Alias(name, name))
             plain = isinstance(value, (str, bool)) or (alias.factor, alias.offset) == (1.0, 0.0)
-            made[alias.ours] = value if plain else (float(value) - alias.offset) / alias.factor
-        return made
+            results[alias.ours] = value if plain else (float(value) - alias.offset) / alias.factor
+        return results

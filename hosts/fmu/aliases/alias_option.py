@@ -1,4 +1,4 @@
-"""The aliases that a command is given, if it is."""
+"""The option ``--aliases`` of commands: reads the alias file, if one is given."""
 
 from pathlib import Path
 

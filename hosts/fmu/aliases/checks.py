@@ -45,8 +45,8 @@ def factor_of_unit(unit: Any, variable: Variable | None, where: str) -> float:
     if known.offset:
         raise HostError(f"{where}: the unit {brief(unit)} has another zero than the SI unit; give factor and offset.")
     if variable is not None:
-        there = definition(variable)
-        if there is not None and not _same(known, there):
+        present = definition(variable)
+        if present is not None and not _same(known, present):
             raise HostError(
                 f"{where}: the file says that '{variable.name}' is in {unit}, the FMU declares {declared(variable)}; "
                 "one of them is wrong."

@@ -1,4 +1,4 @@
-"""Values of derived variables, from rows of those that are there."""
+"""Computes the values of derived variables from rows of the variables of the FMU."""
 
 from collections import deque
 from collections.abc import Sequence

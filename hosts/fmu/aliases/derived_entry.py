@@ -1,4 +1,4 @@
-"""Reads how a variable is derived, as an alias file has it."""
+"""Reads the entry of an alias file that derives a variable."""
 
 import re
 from collections.abc import Mapping

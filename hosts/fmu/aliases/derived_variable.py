@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Derived:
-    """One variable."""
+    """A derived variable: its name and formula."""
 
     ours: str
     formula: str
@@ -42,11 +42,11 @@ def in_order(derived: Sequence[Derived], known: Collection[str]) -> tuple[list[D
     missing : dict of str to str
         Of the others, a name that it lacks.
     """
-    there, open_ones, done = set(known), list(derived), list[Derived]()
+    present, open_ones, done = set(known), list(derived), list[Derived]()
     while True:
-        ready = [d for d in open_ones if there.issuperset(d.names)]
+        ready = [d for d in open_ones if present.issuperset(d.names)]
         if not ready:
-            return done, {d.ours: next(n for n in d.names if n not in there) for d in open_ones}
+            return done, {d.ours: next(n for n in d.names if n not in present) for d in open_ones}
         done += ready
-        there.update(d.ours for d in ready)
+        present.update(d.ours for d in ready)
         open_ones = [d for d in open_ones if d not in ready]

@@ -171,21 +171,21 @@ def _derived(
 ) -> tuple[Derived, ...]:
     """Those that can be computed, in order."""
     ours_of = {a.theirs: a.ours for a in aliases}
-    there = {ours_of.get(n, n) for n in names if known is None or known[n].causality in _RECORDED}
-    asked = []
+    present = {ours_of.get(n, n) for n in names if known is None or known[n].causality in _RECORDED}
+    requested = []
     for entry in content.entries.values():
-        if "from" not in entry.value or entry.ours in there:
+        if "from" not in entry.value or entry.ours in present:
             continue
         parsed = parse_derived(entry.ours, entry.value["from"], constants, entry.where)
         arguments = tuple(ours_of.get(a, a) if isinstance(a, str) else a for a in parsed.arguments)
-        asked.append(replace(parsed, arguments=arguments))
-    done, lacking = in_order(asked, there | set(content.needs))
+        requested.append(replace(parsed, arguments=arguments))
+    done, lacking = in_order(requested, present | set(content.needs))
     for ours, name in lacking.items():
         entry = content.entries[ours]
         if not entry.partial:
             raise HostError(
                 f"{entry.where}: '{name}' is neither an input or output of the FMU nor another name or constant of the "
-                f"file{did_you_mean(name, there)}"
+                f"file{did_you_mean(name, present)}"
             )
         why = missing.get(name, "which the FMU does not have")
         missing[ours] = f"{entry.file} computes '{ours}' from '{name}', {why}"

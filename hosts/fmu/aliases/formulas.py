@@ -1,4 +1,4 @@
-"""What can be computed from variables of an FMU that has other ones: a closed list of named formulas.
+"""Named formulas that compute our variables from other variables of an FMU.
 
 Vehicle axes are those of ISO 8855, turned from the earth's by yaw, pitch and roll about z, the new y and the new x.
 """
@@ -29,7 +29,7 @@ class Formula:
     """Whether it is an angle that counts whole turns."""
 
     def takes(self, count: int) -> bool:
-        """Whether it can have so many arguments."""
+        """Whether the formula accepts a number of arguments."""
         if self.arguments[-1].endswith("..."):
             return count >= len(self.arguments)
         return count == len(self.arguments)

@@ -42,7 +42,7 @@ class Calibration:
 
     @property
     def words(self) -> str:
-        """What the person is to do now."""
+        """Instruction for the person."""
         return MOVE if self._first else LET_GO
 
     def ends(self) -> list[list[float]]:
@@ -84,7 +84,7 @@ class Calibration:
         still : list of str
             Inputs whose axis was not moved far enough; they are as before.
         """
-        inputs, found, still = dict(self._mapping.inputs), [], []
+        inputs, results, still = dict(self._mapping.inputs), [], []
         for name, old in self._mapping.inputs.items():
             source = Source.read(old.source)
             if source.kind != "axis" or name not in (*CENTRED, *PEDALS):
@@ -94,8 +94,8 @@ class Calibration:
                 still.append(name)
                 continue
             inputs[name] = self._steering(old, k) if name in CENTRED else self._pedal(old, k)
-            found.append(name)
-        return replace(self._mapping, inputs=inputs), found, still
+            results.append(name)
+        return replace(self._mapping, inputs=inputs), results, still
 
     def _widen(self, reading: Reading) -> None:
         for span, at in zip(self._span, reading.axes, strict=True):

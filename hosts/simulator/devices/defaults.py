@@ -32,34 +32,34 @@ def default_mapping(kind: str, reading: Reading, bindings: str, inputs: Collecti
     `bindings`: SDL's table of a gamepad.
     """
     if kind == "gamepad":
-        found, settings = _of_gamepad(bindings), DeviceSettings()
+        results, settings = _of_gamepad(bindings), DeviceSettings()
     elif kind == "wheel":
-        found, settings = _of_wheel(reading), DeviceSettings(rotation=ROTATION)
+        results, settings = _of_wheel(reading), DeviceSettings(rotation=ROTATION)
     elif reading.axes and not reading.buttons:  # pedals by themselves
-        found, settings = _pedals(reading, range(len(reading.axes))), DeviceSettings()
+        results, settings = _pedals(reading, range(len(reading.axes))), DeviceSettings()
     else:
-        found, settings = {}, DeviceSettings()
-    return DeviceMapping({name: m for name, m in found.items() if name in inputs}, settings)
+        results, settings = {}, DeviceSettings()
+    return DeviceMapping({name: m for name, m in results.items() if name in inputs}, settings)
 
 
 def _of_wheel(reading: Reading) -> dict[str, InputMapping]:
     count = len(reading.axes)
-    found = {"steering": InputMapping("axis 0", inverted=True)} if count else {}
+    results = {"steering": InputMapping("axis 0", inverted=True)} if count else {}
     if count == 2:  # both pedals on one axis
-        found["throttle"] = InputMapping("axis 1", True, -1.0, 0.0, PEDAL_DEAD_ZONE)
-        found["brake"] = InputMapping("axis 1", False, 0.0, 1.0, PEDAL_DEAD_ZONE)
-        return found
+        results["throttle"] = InputMapping("axis 1", True, -1.0, 0.0, PEDAL_DEAD_ZONE)
+        results["brake"] = InputMapping("axis 1", False, 0.0, 1.0, PEDAL_DEAD_ZONE)
+        return results
     # With four axes the one after the wheel's is mostly the clutch.
-    return found | _pedals(reading, range(1 if count == 3 else 2, count))
+    return results | _pedals(reading, range(1 if count == 3 else 2, count))
 
 
 def _pedals(reading: Reading, axes: range) -> dict[str, InputMapping]:
-    found = {}
+    results = {}
     for name, k in zip(("throttle", "brake"), axes, strict=False):
         # Most pedals that do not say where they rest do so at the high end.
         inverted = not reading.known[k] or reading.axes[k] > -_SIDE
-        found[name] = InputMapping(f"axis {k}", inverted, dead_zone=PEDAL_DEAD_ZONE)
-    return found
+        results[name] = InputMapping(f"axis {k}", inverted, dead_zone=PEDAL_DEAD_ZONE)
+    return results
 
 
 def _of_gamepad(bindings: str) -> dict[str, InputMapping]:
@@ -70,10 +70,10 @@ def _of_gamepad(bindings: str) -> dict[str, InputMapping]:
 
 def _bound(name: str, binding: str) -> InputMapping | None:
     """From SDL's words: ``a2`` an axis, ``+a2`` half of it, ``~`` inverted, ``b6`` a button, ``h0.1`` a hat."""
-    found = _BINDING.fullmatch(binding)
-    if found is None:
+    result = _BINDING.fullmatch(binding)
+    if result is None:
         return None
-    half, axis, inverted, button, hat, bit = found.groups()
+    half, axis, inverted, button, hat, bit = result.groups()
     if axis is None:
         source = f"button {button}" if button is not None else f"hat {hat} {_HAT_BITS.get(int(bit), 'up')}"
         return None if name == "steering" else InputMapping(source)

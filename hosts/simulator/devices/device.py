@@ -83,7 +83,7 @@ class Device:
 
         `everything`: also those that have not changed since the last call.
         """
-        found: dict[str, tuple[float, float]] = {}
+        results: dict[str, tuple[float, float]] = {}
         for name, mapping in self.mapping.inputs.items():
             if name not in self._inputs or name in SELECTOR:
                 continue
@@ -97,9 +97,9 @@ class Device:
             want = value, self._rate(name, mapping, value)
             if everything or self._sent.get(name) != want:
                 self._sent[name] = want
-                found.update(self._asked(name, mapping, want))
-        found.update(self._selector())
-        return found
+                results.update(self._asked(name, mapping, want))
+        results.update(self._selector())
+        return results
 
     def value(self, name: str, mapping: InputMapping) -> float | None:
         """Value of an input of the car in the last reading; None: its source has none."""

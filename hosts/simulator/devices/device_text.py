@@ -11,12 +11,12 @@ def and_list(names: Sequence[str]) -> str:
 
 
 def number_text(names: Sequence[str]) -> str:
-    """Which inputs a device can drive."""
+    """A sentence on the inputs that a device can drive."""
     return f"a device can drive {and_list(names)}" if names else "a device can drive none of its inputs"
 
 
 def came(label: str, kind: str, mapping: DeviceMapping, kept: bool, inputs: Collection[str]) -> str:
-    """A device was plugged in."""
+    """The sentence for a device that was plugged in."""
     drives = [f"{name} by {m.source}" for name, m in mapping.inputs.items() if name in inputs]
     if not drives:
         return f"{label} is plugged in and drives nothing yet: assign its axes under Devices in the page."

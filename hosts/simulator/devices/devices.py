@@ -74,21 +74,21 @@ class Devices:
         `HostError`: the device is not there, or the mapping is wrong; nothing changes.
         """
         with self._reader.lock:
-            found = self._device(device)
+            result = self._device(device)
             made = None if mapping is None else read_input(name, mapping)
             if name not in self._inputs:
                 raise HostError(f"The car has no input for '{name}'; {number_text(self._inputs)}.")
-            if made is not None and not Source.read(made.source).is_in(found.reading):
-                raise HostError(f"{found.label} has no {made.source}; it has {found.reading.counts()}.")
-            self._reader.remap(found, found.mapping.with_input(name, made))
+            if made is not None and not Source.read(made.source).is_in(result.reading):
+                raise HostError(f"{result.label} has no {made.source}; it has {result.reading.counts()}.")
+            self._reader.remap(result, result.mapping.with_input(name, made))
 
     def assign_by_moving(self, device: str, name: str, on: bool = True) -> None:
         """The next axis or button that is moved on this device drives this input; see `assign`."""
         with self._reader.lock:
-            found = self._device(device)
+            result = self._device(device)
             if name not in self._inputs:
                 raise HostError(f"The car has no input for '{name}'; {number_text(self._inputs)}.")
-            found.assignment = Assignment(name, found.reading, time.monotonic() + ASSIGN_TIME) if on else None
+            result.assignment = Assignment(name, result.reading, time.monotonic() + ASSIGN_TIME) if on else None
 
     def calibrate(self, device: str, on: bool, keep: bool = True) -> None:
         """Begin a calibration, or end it.
@@ -97,42 +97,42 @@ class Devices:
         was found counts. Raises `HostError`: the device is not there.
         """
         with self._reader.lock:
-            found = self._device(device)
+            result = self._device(device)
             if on:
-                self._reader.let_go(found)
-                found.calibration = Calibration(found.mapping)
+                self._reader.let_go(result)
+                result.calibration = Calibration(result.mapping)
                 return
-            calibration, found.calibration = found.calibration, None
+            calibration, result.calibration = result.calibration, None
             if calibration is None or not keep:
                 return
             mapping, new, still = calibration.result()
-            self._reader.remap(found, mapping)
+            self._reader.remap(result, mapping)
             if new:
-                self._reader.tell(f"{found.label}: the ends of {and_list(new)} are found.")
+                self._reader.tell(f"{result.label}: the ends of {and_list(new)} are found.")
             if still:
-                self._reader.tell(f"{found.label}: {and_list(still)} was not moved far enough and is as before.")
+                self._reader.tell(f"{result.label}: {and_list(still)} was not moved far enough and is as before.")
 
     def reset_mapping(self, device: str) -> None:
         """The mapping that a device of this kind begins with; its file is removed."""
         with self._reader.lock:
-            found = self._device(device)
+            result = self._device(device)
             self._reader.files.remove(device)
-            self._reader.remap(found, self._reader.default(found.joystick), save=False)
+            self._reader.remap(result, self._reader.default(result.joystick), save=False)
 
     def set_settings(self, device: str, settings: Mapping[str, Any]) -> None:
         """Other `DeviceSettings`; those not named stay. Kept in the device's file; see `assign` for errors."""
         with self._reader.lock:
-            found = self._device(device)
-            made = read_settings(settings, found.mapping.settings)
-            self._reader.remap(found, DeviceMapping(found.mapping.inputs, made))
+            result = self._device(device)
+            made = read_settings(settings, result.mapping.settings)
+            self._reader.remap(result, DeviceMapping(result.mapping.inputs, made))
 
     def test_force(self, device: str) -> None:
         """A short push to the left. Raises `HostError`: the device is not there or has no motor that works."""
         with self._reader.lock:
-            found = self._device(device)
-            if found.force is None or not found.force.works:
-                raise HostError(f"{found.label} has no force: {found.force_problem or 'it has no motor'}.")
-            found.force.pulse()
+            result = self._device(device)
+            if result.force is None or not result.force.works:
+                raise HostError(f"{result.label} has no force: {result.force_problem or 'it has no motor'}.")
+            result.force.pulse()
 
     def message(self, message: Mapping[str, Any]) -> None:
         """Do what a message of the page asks for.
@@ -163,7 +163,7 @@ class Devices:
             raise HostError(f"A message about devices has the type {kind!r}, which is unknown.")
 
     def _device(self, device: str) -> Device:
-        found = self._reader.devices.get(device)
-        if found is None:
+        result = self._reader.devices.get(device)
+        if result is None:
             raise HostError(f"The device '{device}' is not plugged in.")
-        return found
+        return result

@@ -24,10 +24,10 @@ class Identities:
         """The `id` of a device that was connected."""
         names = (_named(guid, k) for k in range(1, len(self._there) + MOST_OF_A_MODEL + 1))
         free = [name for name in names if name not in self._there]
-        found = self._same(free, serial, path) or self._unclaimed(free, serial)
-        self._there.add(found)
-        self._before[found] = (serial, path)
-        return found
+        result = self._same(free, serial, path) or self._unclaimed(free, serial)
+        self._there.add(result)
+        self._before[result] = (serial, path)
+        return result
 
     def leave(self, device: str) -> None:
         """The device was disconnected."""

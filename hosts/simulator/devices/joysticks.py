@@ -7,7 +7,8 @@ from typing import Any
 from hosts.simulator.devices.reading import Reading
 from hosts.simulator.devices.sdl import text
 
-_LOWEST, _HIGHEST = -32768, 32767
+_LOWEST = -32768
+_HIGHEST = 32767
 _ALL_EVENTS = 0x0, 0xFFFF
 
 
@@ -44,8 +45,8 @@ class Joystick:
         sdl, handle = self.sdl, self.handle
         for k in self._axes:
             if not self._known[k]:
-                told = sdl.SDL_JoystickGetAxisInitialState(handle, k, ctypes.byref(self._first))
-                self._known[k] = bool(told)
+                reported = sdl.SDL_JoystickGetAxisInitialState(handle, k, ctypes.byref(self._first))
+                self._known[k] = bool(reported)
         return Reading(
             tuple([_share(sdl.SDL_JoystickGetAxis(handle, k)) for k in self._axes]),
             tuple(self._known),
@@ -78,11 +79,11 @@ class Joysticks:
         sdl = self._sdl
         sdl.SDL_JoystickUpdate()
         sdl.SDL_FlushEvents(*_ALL_EVENTS)  # nobody takes events here: they would fill SDL's queue
-        there = {sdl.SDL_JoystickGetDeviceInstanceID(k): k for k in range(sdl.SDL_NumJoysticks())}
-        removed = [self._open.pop(i) for i in [*self._open] if i not in there]
-        self._refused &= there.keys()
+        present = {sdl.SDL_JoystickGetDeviceInstanceID(k): k for k in range(sdl.SDL_NumJoysticks())}
+        removed = [self._open.pop(i) for i in [*self._open] if i not in present]
+        self._refused &= present.keys()
         added, refused = [], []
-        for instance, index in there.items():
+        for instance, index in present.items():
             if instance < 0 or instance in self._open or instance in self._refused:
                 continue
             made = self._opened(index)

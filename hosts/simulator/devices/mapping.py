@@ -30,7 +30,7 @@ def drivable(inputs: Collection[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class InputMapping:
-    """How a source moves an input."""
+    """The mapping of a source (axis or button) to an input."""
 
     source: str
     """Such as ``axis 0``, ``button 5`` or ``hat 0 up``."""
@@ -74,7 +74,7 @@ class InputMapping:
 
 @dataclass(frozen=True)
 class DeviceSettings:
-    """What belongs to a device rather than to one of its inputs."""
+    """Settings of a device as a whole."""
 
     rotation: float = 0.0
     """Degrees between the ends of the real wheel: the steering wheel of the car then turns by the same angle. 0: the
@@ -105,7 +105,7 @@ _RANGES = {
 
 @dataclass(frozen=True)
 class DeviceMapping:
-    """All that is kept of a device."""
+    """All stored settings of a device."""
 
     inputs: dict[str, InputMapping] = field(default_factory=dict)
     settings: DeviceSettings = DeviceSettings()
@@ -121,30 +121,34 @@ def read_input(name: str, table: object) -> InputMapping:
 
     Raises `HostError`: a field is unknown or has a value that cannot be.
     """
-    what = f"The mapping of '{name}'"
+    label = f"The mapping of '{name}'"
     if name not in (*CENTRED, *PEDALS, *SELECTOR):
         raise HostError(f"'{name}' cannot be driven by a device; {_list([*CENTRED, *PEDALS, *SELECTOR])} can.")
-    fields = _fields(what, table, asdict(InputMapping("")))
+    fields = _fields(label, table, asdict(InputMapping("")))
     if "source" not in fields:
-        raise HostError(f"{what} has no source; it needs one such as “axis 2”.")
+        raise HostError(f"{label} has no source; it needs one such as “axis 2”.")
     source = Source.read(fields["source"])
     if source.kind != "axis" and name in CENTRED:
-        raise HostError(f"{what} has the source “{source}”; '{name}' needs an axis.")
+        raise HostError(f"{label} has the source “{source}”; '{name}' needs an axis.")
     if source.kind == "axis" and name in SELECTOR:
-        raise HostError(f"{what} has the source “{source}”; '{name}' needs a button or a hat.")
+        raise HostError(f"{label} has the source “{source}”; '{name}' needs a button or a hat.")
     for number in ("low", "high", "centre"):
         if fields.get(number) is not None:
-            fields[number] = _number(what, number, fields[number], -1.0, 1.0)
+            fields[number] = _number(label, number, fields[number], -1.0, 1.0)
     if "dead_zone" in fields:
-        fields["dead_zone"] = _number(what, "dead_zone", fields["dead_zone"], 0.0, MOST_DEAD)
-    _check_bool(what, fields, "inverted")
-    made = InputMapping(**fields)
-    if made.high - made.low < NARROWEST:
-        raise HostError(f"{what} has low = {made.low:g} and high = {made.high:g}; high must be larger by {NARROWEST}.")
+        fields["dead_zone"] = _number(label, "dead_zone", fields["dead_zone"], 0.0, MOST_DEAD)
+    _check_bool(label, fields, "inverted")
+    mapping = InputMapping(**fields)
+    if mapping.high - mapping.low < NARROWEST:
+        raise HostError(
+            f"{label} has low = {mapping.low:g} and high = {mapping.high:g}; high must be larger by {NARROWEST}."
+        )
     margin = 0.2 * NARROWEST
-    if made.centre is not None and not made.low + margin <= made.centre <= made.high - margin:
-        raise HostError(f"{what} has centre = {made.centre:g}, which is not between {made.low:g} and {made.high:g}.")
-    return made
+    if mapping.centre is not None and not mapping.low + margin <= mapping.centre <= mapping.high - margin:
+        raise HostError(
+            f"{label} has centre = {mapping.centre:g}, which is not between {mapping.low:g} and {mapping.high:g}."
+        )
+    return mapping
 
 
 def read_settings(table: object, base: DeviceSettings | None = None) -> DeviceSettings:

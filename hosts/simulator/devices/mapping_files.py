@@ -15,7 +15,8 @@ from ali3.reading import LARGEST_TEXT, read_bytes, read_toml
 from hosts.common.errors import HostError
 from hosts.simulator.devices.mapping import DeviceMapping, read_input, read_settings
 
-FORMAT, VERSION = "ALi3 device", 1
+FORMAT = "ALi3 device"
+VERSION = 1
 _HEAD = """\
 # How this device drives the car; written by the simulator's page of devices, and may be edited.
 # source: "axis 0", "button 3" or "hat 0 up". low, high: ends of the axis, from -1 to 1. inverted: the input grows as
@@ -77,8 +78,8 @@ class MappingFiles:
             if file.is_file():
                 with atomic_file(file.with_name(file.name + ".damaged")) as kept:
                     kept.write_bytes(read_bytes(file, LARGEST_TEXT))
-        with atomic_file(file) as made:
-            made.write_text(_HEAD + tomli_w.dumps(table), encoding="utf-8")
+        with atomic_file(file) as temporary:
+            temporary.write_text(_HEAD + tomli_w.dumps(table), encoding="utf-8")
 
     def remove(self, device: str) -> None:
         """Remove the file of a device, if there is one."""

@@ -70,7 +70,7 @@ class Motor:
         return True
 
     def close(self) -> None:
-        """No force any more; never raises."""
+        """Stop the motor; never raises."""
         if not self._haptic:
             return
         sdl, haptic = self._sdl, self._haptic

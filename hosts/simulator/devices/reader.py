@@ -32,7 +32,7 @@ TORQUE = "steering_wheel_torque"
 
 
 class ArbiterLike(Protocol):
-    """What devices need of `InputArbiter`."""
+    """The interface of `InputArbiter` for devices."""
 
     def want(self, source: str, values: Mapping[str, tuple[float, float]]) -> None: ...
 
@@ -143,11 +143,11 @@ class Reader:
             return
         assignment = device.assignment
         if assignment is not None:
-            found = assignment.feed(device.reading)
-            if found is not None:
+            result = assignment.feed(device.reading)
+            if result is not None:
                 device.assignment = None
-                self.remap(device, device.mapping.with_input(assignment.name, found))
-                self.tell(f"{device.label}: {found.source} drives {assignment.name} now.")
+                self.remap(device, device.mapping.with_input(assignment.name, result))
+                self.tell(f"{device.label}: {result.source} drives {assignment.name} now.")
             elif now > assignment.until:
                 device.assignment = None
                 self.tell(f"{device.label}: nothing was moved far enough for {assignment.name}; it is as before.")
@@ -201,8 +201,8 @@ class Reader:
             del self.devices[device.id]
         let_go = self._arbiter.gone(device.source)
         self._identities.leave(device.id)
-        words = f"; {and_list(let_go)} let go" if let_go else ""
-        self.tell(f"{device.label} was pulled out{words}. Plug it in again and it drives as before.")
+        message = f"; {and_list(let_go)} let go" if let_go else ""
+        self.tell(f"{device.label} was pulled out{message}. Plug it in again and it drives as before.")
         device.close(_END_TIME)
 
     def default(self, joystick: Joystick) -> DeviceMapping:

@@ -1,4 +1,4 @@
-"""What a device says at one instant, and the sources in it that can move an input."""
+"""The state of a device at one instant, and the axes and buttons that can move an input."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ class Reading:
     """Bits of `WAYS`."""
 
     def counts(self) -> str:
-        """How many of what, for people."""
+        """A count with its noun, as text."""
         return f"axes: {len(self.axes)}, buttons: {len(self.buttons)}, hats: {len(self.hats)}, numbered from 0"
 
     def pressed(self) -> set[str]:
         """Sources that are pressed: buttons and ways of hats."""
-        found = {f"button {k}" for k, down in enumerate(self.buttons) if down}
+        results = {f"button {k}" for k, down in enumerate(self.buttons) if down}
         for k, bits in enumerate(self.hats):
-            found.update(f"hat {k} {way}" for way, bit in WAYS.items() if bits & bit)
-        return found
+            results.update(f"hat {k} {way}" for way, bit in WAYS.items() if bits & bit)
+        return results
 
 
 @dataclass(frozen=True)
@@ -48,18 +48,18 @@ class Source:
     @classmethod
     def read(cls, text: object) -> Source:
         """From its words: ``axis 2``, ``button 7``, ``hat 0 up``. Raises `HostError`: it is no such word."""
-        found = _SOURCE.fullmatch(text) if isinstance(text, str) else None
-        if found is None:
+        result = _SOURCE.fullmatch(text) if isinstance(text, str) else None
+        if result is None:
             raise HostError(f"{text!r} is not a source; “axis 2”, “button 7” or “hat 0 up” would be.")
-        if found[1]:
-            return cls(found[1], int(found[2]))
-        return cls("hat", int(found[3]), found[4])
+        if result[1]:
+            return cls(result[1], int(result[2]))
+        return cls("hat", int(result[3]), result[4])
 
     def __str__(self) -> str:
         return f"{self.kind} {self.number} {self.way}".strip()
 
     def is_in(self, reading: Reading) -> bool:
-        """Whether a device has it."""
+        """Whether a device has this source."""
         return self.number < len({"axis": reading.axes, "button": reading.buttons, "hat": reading.hats}[self.kind])
 
     def position(self, reading: Reading) -> float | None:

@@ -56,7 +56,7 @@ def stop(sdl: Any) -> None:
 
 
 def last_error(sdl: Any) -> str:
-    """What SDL says about the call that failed last in this thread."""
+    """The error message of SDL for the last failed call of this thread."""
     return text(sdl.SDL_GetError()) or "no reason given"
 
 

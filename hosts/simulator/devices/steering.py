@@ -12,7 +12,7 @@ _USUAL = 900.0
 
 @dataclass(frozen=True)
 class Steering:
-    """How a car is steered."""
+    """How a car is steered by a device: to an angle, or to a share of full steering."""
 
     angle_max: float | None
     """Angle of the car's steering wheel at full steering, rad, if it is known."""

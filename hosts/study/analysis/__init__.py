@@ -1,1 +1,1 @@
-"""What a study's runs say: effects, indices, distributions, worst cases, and a report of them."""
+"""Analysis of the runs of a study: effects, indices, distributions, worst cases, and a report."""

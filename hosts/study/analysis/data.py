@@ -24,7 +24,7 @@ _RELATIVE_ROUND_OFF = 1e-8  # of the largest value: what steps leave within thei
 
 @dataclass(frozen=True)
 class Parameter:
-    """What is varied."""
+    """A varied parameter with its values."""
 
     name: str
     unit: str
@@ -69,7 +69,7 @@ class Response:
 
     @property
     def label(self) -> str:
-        """For people."""
+        """Label for charts and tables."""
         return f"{self.measure} ({self.manoeuvre})" if self.several else self.measure
 
     @property
@@ -80,7 +80,7 @@ class Response:
 
 @dataclass(frozen=True)
 class StudyData:
-    """Runs that are there."""
+    """The finished runs of a study."""
 
     frame: pd.DataFrame
     """One row a run; the index is that of the run."""
@@ -117,11 +117,11 @@ def study_data(frame: pd.DataFrame) -> StudyData:
     attrs, units = frame.attrs, dict(frame.attrs["units"])
     parameters, columns = [], []
     for name in attrs["parameters"]:
-        column, words = _numbers(frame[name])
+        column, message = _numbers(frame[name])
         unit, factor = shown_in(units.get(name) or "1", name)
         column = factor * column
         log = bool(attrs["parameters"][name].get("log")) and bool((column > 0.0).all())
-        parameters.append(Parameter(name, unit, log, words))
+        parameters.append(Parameter(name, unit, log, message))
         columns.append(column)
     manoeuvres = frame["manoeuvre"].astype(str).to_numpy()
     names = attrs["manoeuvres"]
@@ -135,10 +135,10 @@ def study_data(frame: pd.DataFrame) -> StudyData:
             rows = np.flatnonzero(mine & np.isfinite(values))
             # The measures of a test are in the rows of its own runs only.
             if len(rows):
-                asked, several = int(mine.sum()), len(names) > 1
+                requested, several = int(mine.sum()), len(names) > 1
                 limits = (ends[0], ends[1])
-                found = without_round_off(values[rows], unit)
-                responses.append(Response(measure, manoeuvre, unit, rows, found, asked, several, limits))
+                result = without_round_off(values[rows], unit)
+                responses.append(Response(measure, manoeuvre, unit, rows, result, requested, several, limits))
     x = np.stack(columns, axis=1) if columns else np.empty((len(frame), 0))
     failed = np.asarray(frame["status"].astype(str) == FAILED)
     return StudyData(frame, tuple(parameters), x, tuple(responses), failed, attrs)

@@ -1,4 +1,4 @@
-"""Which part of the variance of a measure a parameter makes: Sobol' indices."""
+"""Sobol' indices: the share of the variance of a measure that each parameter causes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,7 +13,8 @@ _FEWEST_BLOCKS = 64
 _BARS = "Bars: bootstrap, 95 %; an index whose bar reaches zero or lies below it cannot be distinguished from zero."
 # Harmonics of RBD-FAST, and the fewest runs from which SALib's bootstrap (of half the runs) can tell them apart.
 _HARMONICS = 10
-_FEWEST_FOR_ESTIMATE, _MOST_FOR_ESTIMATE = 64, 50_000
+_FEWEST_FOR_ESTIMATE = 64
+_MOST_FOR_ESTIMATE = 50_000
 _SEED = 1  # of the bootstrap; SALib takes 0 for none
 
 
@@ -64,10 +65,10 @@ def saltelli_indices(names: Sequence[str], points: NDArray[np.int64], y: NDArray
     used = blocks[whole].ravel()
     if same := _all_the_same(used):
         return same
-    found = sobol.analyze(_problem(names), used, calc_second_order=False, seed=_SEED)
+    result = sobol.analyze(_problem(names), used, calc_second_order=False, seed=_SEED)
     left_out = f"; blocks with a missing or failed run left out: {len(whole) - whole.sum()}" * (not whole.all())
     how = f"Sobol' indices by Saltelli's estimators from {whole.sum()} blocks of {width} runs{left_out}. {_BARS}"
-    s1, s1_conf, st, st_conf = (np.asarray(found[k], dtype=np.float64) for k in ("S1", "S1_conf", "ST", "ST_conf"))
+    s1, s1_conf, st, st_conf = (np.asarray(result[k], dtype=np.float64) for k in ("S1", "S1_conf", "ST", "ST_conf"))
     return Indices(tuple(names), s1, s1_conf, st, st_conf, how)
 
 
@@ -113,13 +114,13 @@ def estimated_indices(names: Sequence[str], x: NDArray[np.float64], y: NDArray[n
     if len(y) > _MOST_FOR_ESTIMATE:
         some = np.random.default_rng(_SEED).choice(len(y), _MOST_FOR_ESTIMATE, replace=False)
         x, y = x[some], y[some]
-    found = rbd_fast.analyze(_problem(names), x, y, M=_HARMONICS, seed=_SEED)
+    result = rbd_fast.analyze(_problem(names), x, y, M=_HARMONICS, seed=_SEED)
     none = np.full(len(names), np.nan)
     how = (
         f"An estimate by RBD-FAST from {len(y)} runs, of the first order only: for total indices choose the sampling "
         f"method saltelli. {_BARS}"
     )
-    return Indices(tuple(names), np.asarray(found["S1"]), np.asarray(found["S1_conf"]), none, none, how)
+    return Indices(tuple(names), np.asarray(result["S1"]), np.asarray(result["S1_conf"]), none, none, how)
 
 
 def _all_the_same(values: NDArray[np.float64]) -> str:

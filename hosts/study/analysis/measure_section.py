@@ -43,27 +43,27 @@ def measure_section(
     """
     if not response.varies:
         value = number_in(float(response.values.min()), response.unit, ".6g")
-        words = f"It is {value} in all runs, but for rounding: nothing that was varied changes it."
+        message = f"It is {value} in all runs, but for rounding: nothing that was varied changes it."
         if len(response.values) == 1:
-            words = f"One run yields it: {value}."
-        return Section(response.title, [paragraph(words, NOTE)])
+            message = f"One run yields it: {value}."
+        return Section(response.title, [paragraph(message, NOTE)])
     effects = [main_effect(data.x[response.rows, k], response.values) for k in range(len(data.parameters))]
     indices = indices_of(data, response)
     numbers += _numbers(response, data.parameters, effects, indices)
     lost, label = bool(data.failed.any()), response.label
 
-    def plot(figure: Figure, name: str, words: str) -> HtmlElement:
-        return plots.add(drawing(figure, words), f"{number + 1:02d}_{name}_{label}")
+    def plot(figure: Figure, name: str, message: str) -> HtmlElement:
+        return plots.add(drawing(figure, message), f"{number + 1:02d}_{name}_{label}")
 
-    words = f"{'Values' if no_distribution(data, response) else 'Distribution'} of {label}"
-    body = [plot(plot_overview(data, response, indices), "overview", words)]
+    message = f"{'Values' if no_distribution(data, response) else 'Distribution'} of {label}"
+    body = [plot(plot_overview(data, response, indices), "overview", message)]
     body.append(paragraph(indices if isinstance(indices, str) else indices.how, FAINT))
     if data.parameters:
         body.append(element("h3", "Main effects"))
         body.append(plot(plot_main_effects(data.parameters, response, effects), "effects", f"Main effects on {label}"))
         of_blocks = " (about: runs of a block of the design share values)" * (data.method == "saltelli")
-        words = f"Mean over all runs of a class of the parameter, with its interval of 95 %{of_blocks}."
-        body.append(paragraph(words, FAINT))
+        message = f"Mean over all runs of a class of the parameter, with its interval of 95 %{of_blocks}."
+        body.append(paragraph(message, FAINT))
         body.append(element("h3", "Runs"))
         body.append(plot(plot_scatter(data, response, effects), "runs", f"{label} over each parameter"))
         body.append(_drawn("run", len(response.rows), MOST_POINTS, "; red marks below are failed runs" * lost))
@@ -76,8 +76,8 @@ def measure_section(
 
 
 def _drawn(what: str, count: int, most: int, more: str) -> HtmlElement:
-    words = f"{most} of {count} {what}s, drawn at random" if count > most else f"All {count} {what}s"
-    return paragraph(f"{words}{more}.", FAINT)
+    message = f"{most} of {count} {what}s, drawn at random" if count > most else f"All {count} {what}s"
+    return paragraph(f"{message}{more}.", FAINT)
 
 
 def _extremes(data: StudyData, response: Response, rows: Sequence[Row], commands: Commands) -> HtmlElement:
@@ -107,11 +107,11 @@ def indices_of(data: StudyData, response: Response) -> Indices | str:
     if data.method == "table":
         return "No indices: they need a random design or a full grid; how the rows of a table were chosen is unknown."
     ordered = [k for k, p in enumerate(data.parameters) if len(p.words) <= 2]
-    found = estimated_indices([names[k] for k in ordered], x[:, ordered], response.values)
+    result = estimated_indices([names[k] for k in ordered], x[:, ordered], response.values)
     unordered = [p.name for p in data.parameters if len(p.words) > 2]
-    if unordered and isinstance(found, Indices):
-        found = replace(found, how=f"{found.how} Without {', '.join(unordered)}, whose values have no order.")
-    return found
+    if unordered and isinstance(result, Indices):
+        result = replace(result, how=f"{result.how} Without {', '.join(unordered)}, whose values have no order.")
+    return result
 
 
 def _numbers(

@@ -56,13 +56,13 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
     with plt.rc_context({**STYLE, "font.size": 9, "axes.titlesize": 10}):
         sections = [*limits_section(data), measures_section(data), *failed_sections(data, plots, commands)]
         if shown and data.parameters:
-            words = "Spearman's: 1 or -1 where the measure only grows or only falls with it."
+            message = "Spearman's: 1 or -1 where the measure only grows or only falls with it."
             drawn = plots.add(drawing(plot_correlations(data, shown), "Rank correlations"), "correlations")
-            sections.append(Section("Rank correlations", [paragraph(words, FAINT), drawn]))
+            sections.append(Section("Rank correlations", [paragraph(message, FAINT), drawn]))
         for k, response in enumerate(bar_of(shown, desc="report", unit="measure")):
             sections.append(measure_section(data, response, k, plots, commands, numbers))
     file, rows = folder / "report.html", make_folder(folder / ANALYSIS) / "effects.csv"
     write_text(file, page(f"Study {data.about['study']}", facts(data), sections))
-    with atomic_file(rows) as made:
-        pd.DataFrame(numbers).to_csv(made, index=False)
+    with atomic_file(rows) as temporary:
+        pd.DataFrame(numbers).to_csv(temporary, index=False)
     return [file, rows.parent]

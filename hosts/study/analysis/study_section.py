@@ -14,7 +14,8 @@ from hosts.study.analysis.tables import reasons, reported_statistics, said, stat
 from hosts.study.limits import share_notes, share_rows, shares
 
 MOST_RESPONSES = 40
-_SHOWN_OF_A_REASON, _SHOWN_REASONS = 3, 20
+_SHOWN_OF_A_REASON = 3
+_SHOWN_REASONS = 20
 
 if TYPE_CHECKING:
     from lxml.html import HtmlElement
@@ -26,14 +27,14 @@ Commands: TypeAlias = "Callable[[int], Sequence[str]]"
 def facts(data: StudyData) -> list[HtmlElement]:
     """What was run, and how much of it is done."""
     about, counts = data.about, data.frame["status"].astype(str).value_counts()
-    words = ", ".join(f"{counts[s]} {s}" for s in ("done", "incomplete", FAILED) if s in counts)
+    message = ", ".join(f"{counts[s]} {s}" for s in ("done", "incomplete", FAILED) if s in counts)
     versions = ", ".join(f"{k} {v}" for k, v in about["versions"].items())
     sampling = about["sampling"]
     rows = [
         ("FMU", f"{about['fmu']}, model {about['model']}, GUID {about['guid']}"),
         ("manoeuvres", ", ".join(about["manoeuvres"])),
         ("sampling", f"{sampling['method']}, seed {about['seed']}"),
-        ("runs", f"{len(data.frame)} of {data.planned}: {words}"),
+        ("runs", f"{len(data.frame)} of {data.planned}: {message}"),
         ("versions", versions),
     ]
     body = [table("What was run", ("", ""), rows)]
@@ -43,10 +44,10 @@ def facts(data: StudyData) -> list[HtmlElement]:
             paragraph(f"{missing} of {data.planned} runs are not done yet; this is the report of the others.", NOTE)
         )
     if len(data.responses) > MOST_RESPONSES:
-        left = len(data.responses) - MOST_RESPONSES
+        remaining = len(data.responses) - MOST_RESPONSES
         body.append(
             paragraph(
-                f"Plots are drawn of the first {MOST_RESPONSES} measures; {left} more are in the table only.", NOTE
+                f"Plots are drawn of the first {MOST_RESPONSES} measures; {remaining} more are in the table only.", NOTE
             )
         )
     return body
@@ -57,10 +58,10 @@ def measures_section(data: StudyData) -> Section:
     if not data.responses:
         return Section("Measures", [paragraph("No run yields a measure.", NOTE)])
     names, why = reported_statistics(data)
-    found = [(r, statistics(r)) for r in data.responses]
+    results = [(r, statistics(r)) for r in data.responses]
     rows = [
         (r.label, r.unit, f"{len(r.rows)} of {r.asked}", *(f"{s[n]:.5g}" for n in names if n != "runs"))
-        for r, s in found
+        for r, s in results
     ]
     body = [table("Of all runs", ("measure", "unit", *names), rows, "numbers")]
     if why:
@@ -74,9 +75,9 @@ def limits_section(data: StudyData) -> list[Section]:
     if not found:
         return []
     rows = share_rows(found, data.about)
-    words = " ".join(share_notes(found, data.about))
+    message = " ".join(share_notes(found, data.about))
     head = ("measure", "limit", "within", "share", "95 % interval")
-    return [Section("Limits", [table("Runs within the limits", head, rows, "numbers"), paragraph(words, FAINT)])]
+    return [Section("Limits", [table("Runs within the limits", head, rows, "numbers"), paragraph(message, FAINT)])]
 
 
 def failed_sections(data: StudyData, plots: Plots, commands: Commands) -> list[Section]:
@@ -92,8 +93,8 @@ def failed_sections(data: StudyData, plots: Plots, commands: Commands) -> list[S
         body = []
         if title == "Failed runs" and data.parameters:
             drawn = drawing(plot_failed(data), "Share of failed runs over each parameter")
-            words = "Share of failed runs, Wilson's interval of 95 %; a mark below is a failed run."
-            body += [plots.add(drawn, "failed"), paragraph(words, FAINT)]
+            message = "Share of failed runs, Wilson's interval of 95 %; a mark below is a failed run."
+            body += [plots.add(drawn, "failed"), paragraph(message, FAINT)]
         rows: list[tuple[Content, ...]] = []
         for text, indices in groups[:_SHOWN_REASONS]:
             for k, index in enumerate(indices[:_SHOWN_OF_A_REASON]):

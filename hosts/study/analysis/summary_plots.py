@@ -77,11 +77,11 @@ def plot_indices(axes: Axes, indices: Indices) -> None:
         if np.isfinite(values).any():
             value, half = values[order], np.nan_to_num(conf[order])
             noise = (value - half <= 0.0) & (half > 0.0)
-            for some, fill, words in ((~noise, colour, label), (noise, "white", f"{label}, may be 0")):
+            for some, fill, message in ((~noise, colour, label), (noise, "white", f"{label}, may be 0")):
                 if some.any():
                     axes.errorbar(
                         value[some], at[some] + shift, xerr=half[some], fmt="o", color=colour, markerfacecolor=fill,
-                        markersize=6, capsize=3, linewidth=1.2, label=words,
+                        markersize=6, capsize=3, linewidth=1.2, label=message,
                     )  # fmt: skip
     axes.set_yticks(at, [indices.names[k] for k in order])
     axes.set_ylim(-0.6, len(order) - 0.4)

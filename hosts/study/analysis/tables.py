@@ -78,10 +78,10 @@ def said(data: StudyData) -> list[tuple[str, list[int]]]:
 
 def _grouped(texts: pd.Series[str]) -> list[tuple[str, list[int]]]:
     """Texts that are the same but for their numbers, and the runs in which they stand."""
-    found: dict[str, list[tuple[int, str]]] = {}
+    results: dict[str, list[tuple[int, str]]] = {}
     for index, text in texts.astype(str).items():
-        found.setdefault(_NUMBER.sub("…", text), []).append((int(str(index)), text))
-    groups = [(_with_ranges([text for _, text in runs]), [index for index, _ in runs]) for runs in found.values()]
+        results.setdefault(_NUMBER.sub("…", text), []).append((int(str(index)), text))
+    groups = [(_with_ranges([text for _, text in runs]), [index for index, _ in runs]) for runs in results.values()]
     return sorted(groups, key=lambda group: -len(group[1]))
 
 

@@ -54,13 +54,13 @@ class Expression:
         tree, signals = _parse(text)
         always = np.zeros(1)
         try:
-            found = _evaluated(text, {name: Quantity(name, always, ANY, always) for name in signals})
+            result = _evaluated(text, {name: Quantity(name, always, ANY, always) for name in signals})
         except NotYieldedError:  # the form is right
-            found = None
-        if found is not None and found.time is not None:
+            result = None
+        if result is not None and result.time is not None:
             raise HostError(
-                f"The measure '{text}' is a signal over time, not a number; reduce it, such as by max({found.text}), "
-                f"rms({found.text}) or final({found.text})."
+                f"The measure '{text}' is a signal over time, not a number; reduce it, such as by max({result.text}), "
+                f"rms({result.text}) or final({result.text})."
             )
         if not signals:
             raise HostError(f"The measure '{text}' reads no signal; it is the same for every run.")
@@ -68,7 +68,7 @@ class Expression:
 
     @property
     def signals(self) -> frozenset[str]:
-        """What it reads of a run."""
+        """Names of the signals that the expression reads."""
         return _parse(self.text)[1] - {TIME}
 
     @property
@@ -91,7 +91,7 @@ class Expression:
             raise HostError(f"The measure '{self.text}' cannot be computed for any run. {error}") from None
 
     def evaluate(self, result: Result, parameters: Mapping[str, Value] | None = None) -> list[Measure]:
-        """Its value; see there."""
+        """Evaluate the expression; see `StudyMeasure`."""
         value, note, unit = math.nan, "", ""
         try:
             if result.refusal:
@@ -106,7 +106,7 @@ class Expression:
         return [Measure(self.name, value, unit, self.text, note=note)]
 
     def _signals_of(self, result: Result) -> dict[str, Quantity]:
-        found = {TIME: Quantity(TIME, result.time, "s", result.time)}
+        results = {TIME: Quantity(TIME, result.time, "s", result.time)}
         for signal in sorted(self.signals):
             if signal not in result:
                 raise HostError(f"The run has no signal '{signal}'.")
@@ -115,8 +115,8 @@ class Expression:
             if wrong.any():
                 first = int(wrong.argmax())
                 raise NotYieldedError(f"'{signal}' is {values[first]:g} at {result.time[first]:g} s.")
-            found[signal] = Quantity(signal, values, result.units.get(signal) or NONE, result.time)
-        return found
+            results[signal] = Quantity(signal, values, result.units.get(signal) or NONE, result.time)
+        return results
 
 
 def _evaluated(text: str, signals: Mapping[str, Quantity]) -> Quantity:
@@ -132,19 +132,19 @@ def _evaluated(text: str, signals: Mapping[str, Quantity]) -> Quantity:
     evaluator.nodes[ast.Constant] = lambda node: signals[node.value] if node.value in signals else _number(node)
     try:
         with np.errstate(all="ignore"):
-            found = evaluator.eval(text, _parse(text)[0])
+            result = evaluator.eval(text, _parse(text)[0])
     except HostError as error:
         raise HostError(f"{where}: {error}") from None
     except simpleeval.FunctionNotDefined as error:
-        there = ", ".join(_FUNCTIONS)
-        raise HostError(f"{where} has no function '{error.func_name}' to use; there are: {there}.") from None
+        present = ", ".join(_FUNCTIONS)
+        raise HostError(f"{where} has no function '{error.func_name}' to use; there are: {present}.") from None
     except (simpleeval.InvalidExpression, TypeError, KeyError):
-        there = f"signals, numbers, + - * / and the functions {', '.join(_FUNCTIONS)}"
-        raise HostError(f"{where} cannot be read: {there} can stand there.") from None
+        present = f"signals, numbers, + - * / and the functions {', '.join(_FUNCTIONS)}"
+        raise HostError(f"{where} cannot be read: {present} can stand there.") from None
     except RecursionError:
         raise HostError(f"{where} is nested too deep; use a function in a file: file.py:function.") from None
-    assert isinstance(found, Quantity)
-    return found
+    assert isinstance(result, Quantity)
+    return result
 
 
 def _number(node: ast.Constant) -> Quantity:
@@ -166,9 +166,9 @@ def _parse(text: str) -> tuple[ast.expr, frozenset[str]]:
         tree = ast.parse(text.strip(), mode="eval").body
         return tree, frozenset(_signals(tree))
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        words = (error.msg if isinstance(error, SyntaxError) else "") or "it is not an expression"
+        message = (error.msg if isinstance(error, SyntaxError) else "") or "it is not an expression"
         raise HostError(
-            f"The measure '{text}' cannot be read: {words}. Forms: max(abs(chassis.ay), after=2.0), "
+            f"The measure '{text}' cannot be read: {message}. Forms: max(abs(chassis.ay), after=2.0), "
             "value(speed, 3.0), range('a name with signs'), file.py:function."
         ) from None
 
@@ -191,5 +191,5 @@ def _name(node: ast.AST) -> str:
 
 
 def near(name: str, known: Mapping[str, str]) -> str:
-    """What may have been meant, as the rest of a sentence."""
+    """A suggestion of similar names, as the end of a sentence."""
     return did_you_mean(name, known, f"there are: {', '.join(known) or 'none'}" if len(known) <= 2 * MOST else "")

@@ -1,4 +1,4 @@
-"""What stands in an expression: a number or a signal over time, with its unit."""
+"""An operand of an expression: a number or a signal over time, with its unit."""
 
 from __future__ import annotations
 

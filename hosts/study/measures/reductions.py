@@ -1,4 +1,4 @@
-"""What makes one number of a signal over time; a closed list."""
+"""Reductions of a signal over time to one number."""
 
 import math
 from collections.abc import Callable
@@ -55,8 +55,8 @@ class Reduction:
         wanted = (signal.time >= after - SAME_TIME) & (signal.time <= before + SAME_TIME)
         if not wanted.any():
             raise NotYieldedError(f"The run from {begin:g} to {end:g} s has no sample for '{text}'.")
-        found = self.apply(signal.time[wanted], np.broadcast_to(signal.values, signal.time.shape)[wanted], number)
-        return Quantity(text, np.asarray(found), self.unit or signal.unit)
+        result = self.apply(signal.time[wanted], np.broadcast_to(signal.values, signal.time.shape)[wanted], number)
+        return Quantity(text, np.asarray(result), self.unit or signal.unit)
 
     def _window(self, window: dict[str, Quantity]) -> tuple[float, float]:
         limits = {"after": -math.inf, "before": math.inf}

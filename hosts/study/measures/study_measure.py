@@ -1,4 +1,4 @@
-"""What every measure of a study can do: an expression, or a function in a file."""
+"""The interface of a measure of a study: an expression, or a function in a file."""
 
 import re
 from pathlib import Path

@@ -63,7 +63,7 @@ class UserFunction:
         return {f"{self.name}.{k}": v or "1" for k, v in declared.items()}
 
     def evaluate(self, result: Result, parameters: Mapping[str, Value] | None = None) -> list[Measure]:
-        """What it gives; see there."""
+        """Call the function; see `StudyMeasure`."""
         columns = self.columns(result.units)
         values, note = dict.fromkeys(columns, math.nan), ""
         notes: dict[str, str] = {}
@@ -136,14 +136,14 @@ def _load(wanted: UserFunction) -> Callable[..., Any]:
         raise HostError(_words(wanted, error)) from None
     finally:
         sys.path.remove(neighbours)
-    found = getattr(module, wanted.function, None)
-    if found is None:
+    result = getattr(module, wanted.function, None)
+    if result is None:
         functions = {n: "" for n, value in vars(module).items() if inspect.isfunction(value)}
         raise HostError(f"{wanted.file} has no function '{wanted.function}'{near(wanted.function, functions)}")
-    if not callable(found):
-        raise HostError(f"{wanted.text} is {type(found).__name__}, not a function.")
-    _takes_parameters(found, wanted.text)
-    return found  # type: ignore[no-any-return]
+    if not callable(result):
+        raise HostError(f"{wanted.text} is {type(result).__name__}, not a function.")
+    _takes_parameters(result, wanted.text)
+    return result  # type: ignore[no-any-return]
 
 
 def _takes_parameters(function: Callable[..., Any], text: str = "") -> bool:

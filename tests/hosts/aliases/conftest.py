@@ -29,15 +29,15 @@ def foreign_fmu(tmp_path_factory):
         pytest.skip("PythonFMU has no binary for this platform")
     from pythonfmu.builder import FmuBuilder
 
-    made: dict[str, Path] = {}
+    results: dict[str, Path] = {}
 
     def build(style: str) -> Path:
-        if style not in made:
+        if style not in results:
             folder = tmp_path_factory.mktemp(style)
             script = folder / f"foreign_{style}.py"
             script.write_text(SOURCE.read_text("utf-8").replace('STYLE = "ours"', f'STYLE = "{style}"'), "utf-8")
-            made[style] = Path(FmuBuilder.build_FMU(script, dest=folder))
-        return made[style]
+            results[style] = Path(FmuBuilder.build_FMU(script, dest=folder))
+        return results[style]
 
     return build
 

@@ -48,7 +48,7 @@ def test_start_values_keep_their_kind(file):
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "message"),
     [
         ("steering = ", "is not a TOML file: "),
         ('steering = "StrAngle"', "'steering': the FMU has no variable 'StrAngle'; did you mean 'StrAng'?"),
@@ -64,11 +64,11 @@ def test_start_values_keep_their_kind(file):
         ("constants = 3", "[constants] must be a table"),
     ],
 )
-def test_what_is_wrong_is_one_sentence(file, text, words):
-    with pytest.raises(HostError) as told:
+def test_each_error_is_one_sentence(file, text, message):
+    with pytest.raises(HostError) as refusal:
         read_aliases(file(text), NAMES)
-    assert words in str(told.value)
-    assert "\n" not in str(told.value)
+    assert message in str(refusal.value)
+    assert "\n" not in str(refusal.value)
 
 
 def test_a_file_that_cannot_be_read(tmp_path):

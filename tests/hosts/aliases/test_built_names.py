@@ -124,8 +124,8 @@ def test_run_drives_a_car_under_other_names(
     assert [item["name"] for item in shown.missing] == ["steering wheel"], "which is in degrees there"
     capsys.readouterr()
     assert run([theirs, *drive, "--out", str(tmp_path / "none")]) != 0
-    assert "steering" in (said := capsys.readouterr().err)
-    assert "--aliases" in said
+    assert "steering" in (errors := capsys.readouterr().err)
+    assert "--aliases" in errors
 
 
 @pytest.mark.slow
@@ -144,9 +144,11 @@ def test_runs_of_the_catalogue_are_drawn_as_those_of_other_names(
     assert shown.scene is not None
     assert shown.scene["shapes"]
     assert [item["name"] for item in shown.missing] == ["steering wheel"], "which is in degrees there"
-    told = {entry["name"]: entry["new"] for entry in json.loads(table.with_suffix(".json").read_text("utf-8"))["set"]}
-    assert set(told) <= set(Variables(described(theirs)).names)
-    assert told["IMP_STEER_SW"] == pytest.approx(aliases.values({"steering": 0.5})["IMP_STEER_SW"])
+    reported = {
+        entry["name"]: entry["new"] for entry in json.loads(table.with_suffix(".json").read_text("utf-8"))["set"]
+    }
+    assert set(reported) <= set(Variables(described(theirs)).names)
+    assert reported["IMP_STEER_SW"] == pytest.approx(aliases.values({"steering": 0.5})["IMP_STEER_SW"])
 
 
 @pytest.mark.slow

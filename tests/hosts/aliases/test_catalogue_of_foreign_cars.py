@@ -33,8 +33,8 @@ def step_steer(foreign_fmu):
 
     def measures(style: str, file: Path | None) -> dict[str, float]:
         fmu = foreign_fmu(style)
-        told = Variables(described(fmu))
-        aliases = Aliases(constants=CONSTANTS) if file is None else find_aliases(file, told)
+        reported = Variables(described(fmu))
+        aliases = Aliases(constants=CONSTANTS) if file is None else find_aliases(file, reported)
         car = TestedCar(style, FmuSource(fmu, aliases), step=0.01)
         assert missing_for(test, car, {s.name: s.value for s in test.settings}) is None
         return {m.name: m.value for m in perform(test, car).measures}
@@ -71,7 +71,7 @@ def test_measures_are_the_same(style, step_steer, ours, file):
         assert theirs[name] == pytest.approx(value, rel=TOLERANCES[style], abs=1e-9, nan_ok=True), name
 
 
-def test_a_turned_sign_is_told(step_steer, file):
+def test_a_turned_sign_is_reported(step_steer, file):
     turned = file("carmaker", '"chassis.wz" = { name = "Car.YawRate", factor = -1.0 }')
     with pytest.raises(HostError, match=r"the other sign of 'chassis\.wz'"):
         step_steer("carmaker", turned)

@@ -138,8 +138,8 @@ def test_rates_are_as_good_as_the_step_is_short(foreign_fmu, alias_file):
     errors = []
     for step in (0.01, 0.002):
         exact = replace(car_of(foreign_fmu("ours"), None), step=step).drive(manoeuvre())
-        made = replace(car_of(foreign_fmu("chrono"), alias_file("chrono")), step=step).drive(manoeuvre())
-        errors.append(largest_errors(exact, made)["chassis.ay"])
+        result = replace(car_of(foreign_fmu("chrono"), alias_file("chrono")), step=step).drive(manoeuvre())
+        errors.append(largest_errors(exact, result)["chassis.ay"])
     assert errors[1] == pytest.approx(errors[0] / 5.0, rel=0.3)
 
 
@@ -207,9 +207,9 @@ def test_a_formula_takes_si_units_only(foreign_fmu, with_units, tmp_path):
 
 def test_what_depends_on_the_car_is_asked_for(foreign_fmu):
     variables = Variables(described(foreign_fmu("carmaker")))
-    with pytest.raises(HostError) as told:
+    with pytest.raises(HostError) as refusal:
         find_aliases("carmaker", variables)
-    assert str(told.value) == (
+    assert str(refusal.value) == (
         "carmaker.toml needs numbers of this car, 'vehicle.steering_wheel_angle_max' (angle of the steering wheel at "
         'full lock, rad): write a file with extends = "carmaker" and them in its table [constants], for --aliases.'
     )
@@ -222,7 +222,7 @@ def test_a_file_of_another_program_is_refused(foreign_fmu):
         find_aliases("carsim", Variables(described(foreign_fmu("carmaker"))))
 
 
-def test_what_is_left_out_is_told(foreign_fmu, alias_file):
+def test_the_reason_for_a_missing_variable_is_reported(foreign_fmu, alias_file):
     aliases = find_aliases(alias_file("carmaker"), Variables(described(foreign_fmu("carmaker"))))
     assert aliases.why_missing("wheel_FL.Fz") == (
         "carmaker.toml takes 'wheel_FL.Fz' from 'Car.FzFL', which the FMU does not have"
@@ -230,17 +230,17 @@ def test_what_is_left_out_is_told(foreign_fmu, alias_file):
     assert aliases.why_missing("chassis.x") == ""
 
 
-def test_a_variable_that_is_no_output_is_told(foreign_fmu, tmp_path, alias_file):
+def test_a_variable_that_is_no_output_is_reported(foreign_fmu, tmp_path, alias_file):
     fmu = foreign_fmu("carmaker")
-    made = tmp_path / "local.fmu"
-    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(made, "w") as new:
+    result = tmp_path / "local.fmu"
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(result, "w") as new:
         for item in old.infolist():
             content = old.read(item)
             if item.filename == "modelDescription.xml":
                 content = re.sub(rb'(name="Car.ay"[^>]*)causality="output"', rb'\1causality="local"', content)
                 content = content.replace(b'causality="local" initial="calculated"', b'causality="local"')
             new.writestr(item, content)
-    aliases = find_aliases(alias_file("carmaker"), Variables(read_model_description(str(made), validate=False)))
+    aliases = find_aliases(alias_file("carmaker"), Variables(read_model_description(str(result), validate=False)))
     assert aliases.why_missing("chassis.ay") == (
         "carmaker.toml takes 'chassis.ay' from 'Car.ay', which is a local variable of the FMU and no output"
     )

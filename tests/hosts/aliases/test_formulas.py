@@ -50,8 +50,8 @@ def test_angles_of_a_quaternion():
 
 @pytest.mark.parametrize("axis", range(3))
 def test_vectors_in_vehicle_axes(axis):
-    made = of(f"vehicle_{'xyz'[axis]}", *VELOCITY, ROLL, PITCH, YAW)
-    assert made == pytest.approx(in_vehicle(VELOCITY)[axis], abs=1e-12)
+    result = of(f"vehicle_{'xyz'[axis]}", *VELOCITY, ROLL, PITCH, YAW)
+    assert result == pytest.approx(in_vehicle(VELOCITY)[axis], abs=1e-12)
 
 
 @pytest.mark.parametrize("axis", range(3))
@@ -61,22 +61,22 @@ def test_another_point_of_the_car(axis):
     assert of(f"point_{name}", *POSITION, ROLL, PITCH, YAW, *R) == pytest.approx(place[axis], abs=1e-12)
     w = angular_velocity()
     exact = in_vehicle(np.gradient(place, TIME, axis=1))[axis]
-    made = of(f"point_v{name}", *in_vehicle(VELOCITY), *w, *R)
-    assert made[INNER] == pytest.approx(exact[INNER], abs=2e-4)
+    result = of(f"point_v{name}", *in_vehicle(VELOCITY), *w, *R)
+    assert result[INNER] == pytest.approx(exact[INNER], abs=2e-4)
     moved = VELOCITY + TURNS.apply(np.cross(w.T, R)).T
     exact = in_vehicle(np.gradient(moved, TIME, axis=1))[axis]
-    made = of(f"point_a{name}", *in_vehicle(ACCELERATION), *w, *R)
-    assert made[INNER] == pytest.approx(exact[INNER], abs=2e-4)
+    result = of(f"point_a{name}", *in_vehicle(ACCELERATION), *w, *R)
+    assert result[INNER] == pytest.approx(exact[INNER], abs=2e-4)
 
 
 @pytest.mark.parametrize("axis", range(3))
 def test_rates(axis):
     name = "xyz"[axis]
     w = angular_velocity()
-    made = of(f"angular_velocity_{name}", *Q, *np.gradient(Q, TIME, axis=1, edge_order=2))
-    assert made[INNER] == pytest.approx(w[axis][INNER], abs=2e-5)
-    made = of(f"acceleration_{name}", *in_vehicle(VELOCITY), *w)
-    assert made[INNER] == pytest.approx(in_vehicle(ACCELERATION)[axis][INNER], abs=2e-3)
+    result = of(f"angular_velocity_{name}", *Q, *np.gradient(Q, TIME, axis=1, edge_order=2))
+    assert result[INNER] == pytest.approx(w[axis][INNER], abs=2e-5)
+    result = of(f"acceleration_{name}", *in_vehicle(VELOCITY), *w)
+    assert result[INNER] == pytest.approx(in_vehicle(ACCELERATION)[axis][INNER], abs=2e-3)
 
 
 def test_the_others():
@@ -117,7 +117,7 @@ NAMES = ("vx", "vy", "qw", "Throttle")
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "message"),
     [
         ('sideslip = { from = "sideslip vx, vy" }', "it must be a formula such as sideslip(chassis.vx, chassis.vy)"),
         ('sideslip = { from = "sidesslip(vx, vy)" }', "there is no formula 'sidesslip'; did you mean 'sideslip'"),
@@ -136,13 +136,13 @@ NAMES = ("vx", "vy", "qw", "Throttle")
         ('partial = true\nthrottle = "Gas"', "of its 1 names this FMU has none, such as 'Gas'; is it an FMU of that"),
     ],
 )
-def test_what_is_wrong_is_one_sentence(text, words, tmp_path):
+def test_each_error_is_one_sentence(text, message, tmp_path):
     file = tmp_path / "a.toml"
     file.write_text(text)
-    with pytest.raises(HostError) as told:
+    with pytest.raises(HostError) as refusal:
         read_aliases(file, NAMES)
-    assert words in str(told.value)
-    assert "\n" not in str(told.value)
+    assert message in str(refusal.value)
+    assert "\n" not in str(refusal.value)
 
 
 def test_files_that_extend_one_another(tmp_path):

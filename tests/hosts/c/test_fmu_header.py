@@ -88,10 +88,10 @@ def test_zig_compiles_the_header_too(prototype: Path, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("c++") is None, reason="there is no c++")
-def test_what_is_refused_is_one_sentence(prototype: Path, tmp_path: Path) -> None:
+def test_each_refusal_is_one_sentence(prototype: Path, tmp_path: Path) -> None:
     program = compiled(["c++"], Path(__file__).parent / "refusals.cpp", tmp_path)
     done = subprocess.run([str(program), str(prototype), str(tmp_path)], capture_output=True, text=True, check=True)
-    words = (
+    message = (
         "modelDescription.xml cannot be read.",
         "The FMU has no library for ",
         " cannot be loaded: ",
@@ -106,8 +106,8 @@ def test_what_is_refused_is_one_sentence(prototype: Path, tmp_path: Path) -> Non
         "a finite time and a positive step are needed.",
     )
     lines = done.stdout.splitlines()
-    assert len(lines) == len(words)
-    assert [(line, word) for line, word in zip(lines, words, strict=True) if word not in line] == []
+    assert len(lines) == len(message)
+    assert [(line, word) for line, word in zip(lines, message, strict=True) if word not in line] == []
 
 
 @pytest.mark.proof

@@ -34,7 +34,7 @@ def table() -> dict[str, np.ndarray]:
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("c++") is None, reason="there is no c++")
-def test_outputs_have_the_bits_of_fmpy_and_silence_is_told_in_its_words(tmp_path: Path) -> None:
+def test_outputs_have_the_bits_of_fmpy_and_silence_is_reported_in_its_words(tmp_path: Path) -> None:
     """From the 200th of 600 steps on nobody sets anything, which is told after half a second."""
     path, given = car_fmu("hatchback", "torque,road,forces"), table()
     rows = np.column_stack(list(given.values()))
@@ -47,15 +47,15 @@ def test_outputs_have_the_bits_of_fmpy_and_silence_is_told_in_its_words(tmp_path
                 give(rows[k].tolist())
             car.step(STEP * k, STEP)
             wanted.append(read())
-        told = list(car.messages)
+        messages = list(car.messages)
     lines = [" ".join(given), *(" ".join(map(float.hex, row)) for row in rows.tolist()), *[""] * (ROWS - SILENT)]
     program = compiled(["c++"], Path(__file__).with_name("ports.cpp"), tmp_path)
     command = [str(program), str(unpack(path, tmp_path / "car")), str(STEP), str(SPEED)]
     done = subprocess.run(command, input="\n".join(lines) + "\n", capture_output=True, text=True, check=True)
-    found = np.array([[float.fromhex(word) for word in line.split()] for line in done.stdout.splitlines()])
-    assert found.shape == (ROWS, len(names))
-    assert (np.ptp(found, axis=0) > 0.0).mean() > 0.6
-    assert found.tobytes() == np.array(wanted).tobytes()
-    assert done.stderr.splitlines() == told
-    (silent,) = (text for text in told if "again and again" in text)
+    values = np.array([[float.fromhex(word) for word in line.split()] for line in done.stdout.splitlines()])
+    assert values.shape == (ROWS, len(names))
+    assert (np.ptp(values, axis=0) > 0.0).mean() > 0.6
+    assert values.tobytes() == np.array(wanted).tobytes()
+    assert done.stderr.splitlines() == messages
+    (silent,) = (text for text in messages if "again and again" in text)
     assert "get none any more" in silent

@@ -45,7 +45,7 @@ def test_measures_of_a_made_turn(radius: float) -> None:
     assert "slip" in measured["lock.deceleration"].note
 
 
-def test_a_deceleration_that_no_stop_has_is_told() -> None:
+def test_a_deceleration_that_no_stop_has_is_reported() -> None:
     measured = measures_of([turn(3.0, 1.0, 80.0, 0.0)], 6.0)
     assert math.isnan(measured["yaw_rate.ratio"].value)
     assert "3 to 3 m/s²" in measured["yaw_rate.ratio"].note
@@ -78,7 +78,7 @@ def test_right_is_the_mirror_of_left_and_the_step_does_not_matter(prototype: Tes
             assert right[name] == pytest.approx(wanted, rel=0.03, abs=2e-3), name
 
 
-def test_a_circle_that_cannot_be_held_is_told(prototype: TestedCar) -> None:
+def test_a_circle_that_cannot_be_held_is_reported(prototype: TestedCar) -> None:
     record = perform(TEST, prototype, FEW | {"lateral_acceleration": 14.0, "radius": 60.0})
     assert record.notes
     assert "asked for" in record.notes[-1] or "did not get onto" in record.notes[-1]

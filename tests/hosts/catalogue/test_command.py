@@ -82,7 +82,7 @@ def test_no_tests_at_a_time(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "message"),
     [
         (["--tests", "steady_circel"], "did you mean 'steady_circle'?"),
         (["--test-setting", "steady_circle.radius=3"], "it must be from 30 to 1000 m"),
@@ -95,18 +95,18 @@ def test_no_tests_at_a_time(capsys: pytest.CaptureFixture[str]) -> None:
         (["--step", "0.5"], "at most 0.1 s"),
     ],
 )
-def test_what_is_wrong_is_one_sentence_before_the_first_run(
-    prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
+def test_each_error_is_one_sentence_before_the_first_run(
+    prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
 ) -> None:
     tests = [] if "--tests" in arguments else ["--tests", "steady_circle"]
     assert main([str(prototype_fmu), *tests, *arguments, "--out", str(tmp_path / "out")]) == 2
     error = capsys.readouterr().err
     assert error.startswith("error: ")
-    assert words in error
+    assert message in error
     assert not (tmp_path / "out").exists()
 
 
-def test_no_fmu_and_no_file_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_no_fmu_and_no_file_are_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([]) == 2
     assert "There is no FMU to test" in capsys.readouterr().err
     assert main([str(tmp_path / "none.fmu")]) == 2
@@ -138,17 +138,17 @@ def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> 
             time.sleep(0.2)
         assert process.poll() is None, process.communicate()[1]
         os.killpg(process.pid, signal.SIGINT)
-        told, error = process.communicate(timeout=60.0)
+        output, error = process.communicate(timeout=60.0)
     finally:
         process.kill()
     assert process.returncode == 130
     assert error.strip().endswith("stopped by Ctrl-C")
     assert "Traceback" not in error
-    assert "1 of 2" not in told  # no verdict on what was not tried
-    assert str(out / "report.html") in told
+    assert "1 of 2" not in output  # no verdict on what was not tried
+    assert str(out / "report.html") in output
     assert "was stopped" in (out / "report.html").read_text()
-    (left,) = (row for row in rows(out) if row["test"] == "steady_circle")
-    assert left["note"] == "Not done yet: the command is still running, or was stopped."
+    (remaining,) = (row for row in rows(out) if row["test"] == "steady_circle")
+    assert remaining["note"] == "Not done yet: the command is still running, or was stopped."
     assert "load.peak_FL" in {row["measure"] for row in rows(out) if row["test"] == "drop"}
     assert list(out.rglob("runs/drop/*.csv"))
-    assert "1 test is not done yet; the same command resumes here." in told
+    assert "1 test is not done yet; the same command resumes here." in output

@@ -144,7 +144,7 @@ def test_clearance_does_not_depend_on_the_step(prototype: TestedCar) -> None:
     assert least[1] == pytest.approx(least[0], abs=0.015)
 
 
-def test_what_a_car_lacks_and_wrong_settings_are_told(prototype: TestedCar) -> None:
+def test_missing_variables_and_wrong_settings_are_reported(prototype: TestedCar) -> None:
     bare = replace(prototype)
     constants = {n: x for n, x in prototype.facts.constants.items() if n != "vehicle.width"}
     bare.__dict__["facts"] = replace(prototype.facts, constants=constants)
@@ -156,7 +156,7 @@ def test_what_a_car_lacks_and_wrong_settings_are_told(prototype: TestedCar) -> N
 
 
 @pytest.mark.slow
-def test_a_car_that_does_not_reach_the_speed_is_told(prototype: TestedCar) -> None:
+def test_a_car_that_does_not_reach_the_speed_is_reported(prototype: TestedCar) -> None:
     slow = double_lane_change.drive_through(prototype, _LAYOUTS[0], 240.0, next(iter(DRIVERS)))
     assert not slow.clean
     assert "the speed was not reached" in slow.why

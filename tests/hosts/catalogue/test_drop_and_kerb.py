@@ -93,7 +93,7 @@ def test_kerb_on_a_step_too_long_for_the_weighting(prototype: TestedCar) -> None
 
 
 @pytest.mark.slow
-def test_a_kerb_that_is_not_reached_is_told(prototype: TestedCar) -> None:
+def test_a_kerb_that_is_not_reached_is_reported(prototype: TestedCar) -> None:
     # so slow that rolling resistance stops the car before the edge
     record = perform(standard_test("kerb"), prototype, {"speed": 4.0, "ahead": 7.5})
     assert any("not all wheels" in note for note in record.notes)

@@ -54,9 +54,9 @@ def test_what_is_kept_is_what_was_done(
     monkeypatch.setattr(command, "_done", undone)
     given = [part for name, x in SETTINGS.items() for part in ("--test-setting", f"drop.{name}={x}")]
     assert command.main([str(prototype_fmu), "--tests", "drop", "--out", str(tmp_path), *given]) == 0
-    told = capsys.readouterr().out
-    assert "1 of 1 tests are there; --again repeats them." in told
-    assert "load.peak_FL" in told
+    output = capsys.readouterr().out
+    assert "1 of 1 tests are there; --again repeats them." in output
+    assert "load.peak_FL" in output
 
     assert kept(replace(task, settings={**task.settings, "height": 0.06}), tmp_path) is None
     assert kept(replace(task, car=replace(task.car, start={"front.tyre.grip": 0.9})), tmp_path) is None

@@ -47,13 +47,13 @@ def kept(made: dict[str, dict[str, Outcome]]) -> dict[tuple[str, str], bool | No
 
 def test_each_car_is_held_against_the_limits(tmp_path: Path) -> None:
     given = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}\n"drop.critical_speed" = {min = 80, unit = "km/h"}')
-    made, faults = given.judged({"drop": {"a": record(1999.0), "b": record(2001.0, False), "c": "It has no wheels."}})
+    result, faults = given.judged({"drop": {"a": record(1999.0), "b": record(2001.0, False), "c": "It has no wheels."}})
     assert not faults
-    assert kept(made) == {
+    assert kept(result) == {
         **{("a", "peak"): True, ("a", "critical_speed"): False, ("a", "rest"): True},
         **{("b", "peak"): False, ("b", "critical_speed"): None, ("b", "rest"): True},
     }
-    assert made["drop"]["c"] == "It has no wheels."
+    assert result["drop"]["c"] == "It has no wheels."
 
 
 @pytest.mark.parametrize(("least", "both"), [(0.4, True), (0.6, False)])
@@ -65,10 +65,10 @@ def test_the_limit_of_a_standard_holds_too(tmp_path: Path, least: float, both: b
     assert outcome.measures[2].is_kept is both
 
 
-def test_a_limit_of_nothing_is_told_and_the_others_are_judged(tmp_path: Path) -> None:
+def test_a_limit_of_nothing_is_reported_and_the_others_are_judged(tmp_path: Path) -> None:
     given = limits(tmp_path, 'peek = {max = 1}\n"rest.unit" = {max = 1}\npeak = {max = 1}\n"drop.peak" = {min = 0}')
-    made, faults = given.judged({"drop": {"a": record(2.0)}})
-    assert kept(made)["a", "peak"] is False
+    result, faults = given.judged({"drop": {"a": record(2.0)}})
+    assert kept(result)["a", "peak"] is False
     assert [fault.removeprefix(f"{given.file}: limits.") for fault in faults] == [
         "'peek': there is no measure 'peek'; there are drop.peak, drop.critical_speed, drop.rest.",
         "'rest.unit': there is no measure 'rest.unit'; there are drop.peak, drop.critical_speed, drop.rest.",
@@ -84,7 +84,7 @@ def test_limits_of_tests_that_are_not_done_are_left_out(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "message"),
     [
         ("[limit]\npeak = {max = 1}", "limits is missing"),
         ("[limits]", "limits"),
@@ -94,13 +94,13 @@ def test_limits_of_tests_that_are_not_done_are_left_out(tmp_path: Path) -> None:
         ("limits = 3", "limits is 3"),
     ],
 )
-def test_a_file_without_limits_is_one_sentence(tmp_path: Path, text: str, words: str) -> None:
+def test_a_file_without_limits_is_one_sentence(tmp_path: Path, text: str, message: str) -> None:
     file = tmp_path / "l.toml"
     file.write_text(text)
-    with pytest.raises(HostError) as told:
+    with pytest.raises(HostError) as refusal:
         read_limits(file)
-    assert words in str(told.value)
-    assert "\n" not in str(told.value)
+    assert message in str(refusal.value)
+    assert "\n" not in str(refusal.value)
 
 
 def test_the_command_says_which_measure_is_outside(
@@ -109,15 +109,15 @@ def test_the_command_says_which_measure_is_outside(
     task = Task(
         "drop", TestedCar(prototype_fmu.stem, FmuSource(prototype_fmu)), settings_of_test(standard_test("drop"), {})
     )
-    with ResultStore[TestRecord](tmp_path, TestRecord, "does tests") as kept:
-        keep(kept, task, record(2001.0))
+    with ResultStore[TestRecord](tmp_path, TestRecord, "does tests") as store:
+        keep(store, task, record(2001.0))
     file = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}\n"kerb.peak" = {max = 1}').file
     drop = [str(prototype_fmu), "--tests", "drop", "--no-runs", "--out", str(tmp_path)]
     assert command.main(drop) == 0
     assert command.main([*drop, "--limits", str(file)]) == 1
-    said = capsys.readouterr().out
-    assert "1 measure does not keep its limit; it is marked (!)." in said
-    assert "limits of tests that --tests leaves out are not evaluated: kerb.peak\n" in said
+    output = capsys.readouterr().out
+    assert "1 measure does not keep its limit; it is marked (!)." in output
+    assert "limits of tests that --tests leaves out are not evaluated: kerb.peak\n" in output
     (test,) = json.loads((tmp_path / "measures.json").read_text())["tests"]
     peak = test["cars"][prototype_fmu.stem]["measures"]["peak"]
     assert peak["limit"] == {"lowest": None, "highest": 2000.0, "source": "limits.toml"}
@@ -126,8 +126,10 @@ def test_the_command_says_which_measure_is_outside(
 
 def test_measures_are_in_si_units() -> None:
     """Tables of data keep them; reports show degrees and km/h."""
-    found = [m.unit for test in TESTS for part in file_of_test(test).parts.values() for m in part.measures.values()]
-    found = [unit for unit in found if "{" not in unit]
-    assert len(found) > 100
-    known = {unit: known_unit(str(unit)) for unit in found}
-    assert {unit: told.factor for unit, told in known.items() if told is not None and told.factor != 1.0} == {}
+    results = [m.unit for test in TESTS for part in file_of_test(test).parts.values() for m in part.measures.values()]
+    results = [unit for unit in results if "{" not in unit]
+    assert len(results) > 100
+    known = {unit: known_unit(str(unit)) for unit in results}
+    assert {
+        unit: reported.factor for unit, reported in known.items() if reported is not None and reported.factor != 1.0
+    } == {}

@@ -43,7 +43,7 @@ def test_each_release_has_a_run_of_its_own(monkeypatch: pytest.MonkeyPatch) -> N
     assert len(sheet.runs) == 12
 
 
-def test_a_lateral_acceleration_that_no_circle_has_is_told() -> None:
+def test_a_lateral_acceleration_that_no_circle_has_is_reported() -> None:
     sheet = sheet_of("power_off_in_a_turn", compared_at=7.0)
     add_releases(sheet, [(6.0, turn(1.0, 1.0, 80.0, 0.0))])
     measured = {m.name: m for m in sheet.measures}
@@ -61,15 +61,17 @@ def test_prototype_without_power_turns_in_and_slows_down(prototype: TestedCar) -
     assert measured["worst.path.deviation"] < 0.0  # load moves to the front wheels
 
 
-def test_a_circle_that_cannot_be_held_is_told(prototype: TestedCar) -> None:
+def test_a_circle_that_cannot_be_held_is_reported(prototype: TestedCar) -> None:
     record = perform(TEST, prototype, {"levels": 1.0, "lowest": 14.0, "highest": 14.0, "radius": 60.0})
     assert record.notes
     assert "did not get onto" in record.notes[0] or "not steady" in record.notes[0]
 
 
 @pytest.mark.parametrize(
-    ("settings", "words"), [({"radius": 5.0}, "radius"), ({"levels": 2.5}, "levels"), ({"lowest": 9.0}, "lower one")]
+    ("settings", "message"), [({"radius": 5.0}, "radius"), ({"levels": 2.5}, "levels"), ({"lowest": 9.0}, "lower one")]
 )
-def test_settings_that_make_no_sense_are_refused(prototype: TestedCar, settings: dict[str, float], words: str) -> None:
-    with pytest.raises(HostError, match=words):
+def test_settings_that_make_no_sense_are_refused(
+    prototype: TestedCar, settings: dict[str, float], message: str
+) -> None:
+    with pytest.raises(HostError, match=message):
         perform(TEST, prototype, settings)

@@ -93,7 +93,7 @@ def test_everything_of_a_car_is_in_the_header(report):
     assert "initial.x" not in changed
 
 
-def test_limits_and_differences_are_told_by_words(report):
+def test_limits_and_differences_are_reported_by_words(report):
     _, document = report
     row = next(r for r in document.xpath("//tr") if "yaw_rate.overshoot" in "".join(r.itertext()))
     assert texts(row)[1:] == [
@@ -111,11 +111,11 @@ def test_limits_and_differences_are_told_by_words(report):
 def test_limits_of_their_own_units_and_notes(fmu, tmp_path):
     """Cars may differ in what they must keep, in units, and in what they lack."""
     tests, cars, _ = synthetic(fmu, cars=3, tests=1)
-    made = [
+    result = [
         Measure("a", 1.0, "m", "a", Limit("x", lowest=0.5), "one"),
         Measure("a", 0.4, "rad", "a", Limit("x", lowest=0.3), "two"),
     ]
-    records = {"test_0": {car.label: TestRecord([m], [], {}) for car, m in zip(cars, made, strict=False)}}
+    records = {"test_0": {car.label: TestRecord([m], [], {}) for car, m in zip(cars, result, strict=False)}}
     write_report(tmp_path / "r.html", tests, cars, records)
     document = html5lib.parse((tmp_path / "r.html").read_text("utf-8"), "lxml", namespaceHTMLElements=False)
     row = next(r for r in document.xpath("//tr") if texts(r)[0] == "a a, m")
@@ -131,7 +131,7 @@ def test_limits_of_their_own_units_and_notes(fmu, tmp_path):
 def test_a_section_has_all_of_a_test(report):
     _, document = report
     text = texts(document.xpath("//section[@id='test_0']"))[0]
-    for words in (
+    for message in (
         "ISO 7401:2011, Lateral transient response test methods",
         "8.2: a step of the steering wheel in 0.1 s (text checked)",
         "at 100 km/h (from public summaries)",
@@ -139,7 +139,7 @@ def test_a_section_has_all_of_a_test(report):
         "80 km/hby default 100 km/h",
         "ali3 catalogue 'my car.fmu' --jobs 2 --tests test_0",
     ):
-        assert words in text
+        assert message in text
     not_done = texts(document.xpath("//section[@id='test_1']"))[0]
     assert "with $stiff$ springs: not done. The FMU has no variable steering;" in not_done
     assert "--test-setting test_1.speed=80 --jobs 2 --tests test_1" in not_done
@@ -190,9 +190,9 @@ def test_what_is_the_same_for_all_cars_is_drawn_once():
     x = np.arange(100.0)
     lanes = Line("lanes", x, np.where(x < 50.0, 1.0, np.nan))
     plots = {f"car {k}": [Plot("p", "x, m", "y, m", [lanes, Line("path", x, k * x)])] for k in range(3)}
-    words = pictures_of(plots)["p"].words
-    assert words.count("lanes") == 1
-    assert all(f"car {k}, path" in words for k in range(3))
+    message = pictures_of(plots)["p"].words
+    assert message.count("lanes") == 1
+    assert all(f"car {k}, path" in message for k in range(3))
     same = {f"car {k}": [Plot("p", "x, m", "y, m", [lanes])] for k in range(2)}
     assert "car 1" in pictures_of(same)["p"].words
 
@@ -294,8 +294,8 @@ def test_measures_plots_and_limits_are_in_the_units_of_the_field(fmu, tmp_path, 
     records = {"test_0": {cars[0].label: TestRecord(measures, [plot], {})}}
     write_report(tmp_path / "r.html", tests, cars, records)
     text = (tmp_path / "r.html").read_text("utf-8")
-    for words in ("1.124 deg/g", "0.56188 to 1.6856 deg/g", "90 km/h", "1 Hz", "Left 5.73, right 11.46 deg/s."):
-        assert words in text
+    for message in ("1.124 deg/g", "0.56188 to 1.6856 deg/g", "90 km/h", "1 Hz", "Left 5.73, right 11.46 deg/s."):
+        assert message in text
     assert "largest 180 at 1" in text  # the words of the plot
     assert not re.search(r"\brad\b", re.sub(r"base64,[^\"]*", "", text.partition("<body>")[2]))
     (svg,) = (tmp_path / "plots").glob("*.svg")

@@ -34,11 +34,11 @@ def degrees(*values: float) -> list[float]:
     ],
 )
 def test_amplitudes_of_a_series(a: float, lock: float, first: float, last: float, number: int) -> None:
-    made = degrees(*amplitudes(math.radians(a), 1.5, 0.5, math.radians(lock)))
-    assert made[0] == pytest.approx(first)
-    assert made[-1] == pytest.approx(last)
-    assert len(made) == number
-    assert np.diff(made)[:-1] == pytest.approx(0.5 * a)
+    result = degrees(*amplitudes(math.radians(a), 1.5, 0.5, math.radians(lock)))
+    assert result[0] == pytest.approx(first)
+    assert result[-1] == pytest.approx(last)
+    assert len(result) == number
+    assert np.diff(result)[:-1] == pytest.approx(0.5 * a)
 
 
 def test_table_is_a_sine_with_a_dwell_at_its_second_peak() -> None:
@@ -48,13 +48,13 @@ def test_table_is_a_sine_with_a_dwell_at_its_second_peak() -> None:
 
 
 def test_a_linear_car_keeps_the_limits() -> None:
-    seen: list[float] = []
-    record = perform(standard_test("sine_with_dwell"), BicycleCar(), FEW, seen.append)
-    assert seen == sorted(seen)
-    assert len(seen) > 6
-    found = {m.name: m for m in record.measures}
+    recorded: list[float] = []
+    record = perform(standard_test("sine_with_dwell"), BicycleCar(), FEW, recorded.append)
+    assert recorded == sorted(recorded)
+    assert len(recorded) > 6
+    actual = {m.name: m for m in record.measures}
     gain = gains(SPEED)[1]
-    a = found["angle_at_0_3_g"].value
+    a = actual["angle_at_0_3_g"].value
     # the ramp of 13.5 °/s is late: the angle is above that of the steady state
     assert 0.3 * G / gain < a < 0.3 * G / gain + math.radians(13.5) * 0.3
     t = np.arange(0.0, 6.0, 1e-3)
@@ -65,23 +65,23 @@ def test_a_linear_car_keeps_the_limits() -> None:
     _, acceleration, slip = lsim(bicycle(SPEED + 0.7), np.interp(t, time, angle), t)[1].T
     begin = math.asin(math.radians(5.0) / (5.0 * a)) / (2 * math.pi * 0.7)
     moved = np.cumsum(np.cumsum(np.where(t > begin, acceleration, 0.0))) * 1e-6
-    assert found["displacement"].value == pytest.approx(float(np.interp(begin + 1.07, t, moved)), rel=0.01)
-    assert found["yaw_rate_ratio_1_00"].value < 0.01
-    assert [found[n].is_kept for n in ("yaw_rate_ratio_1_00", "yaw_rate_ratio_1_75", "displacement")] == [True] * 3
-    assert degrees(found["stable_amplitude.left"].value, found["stable_amplitude.right"].value) == pytest.approx(
+    assert actual["displacement"].value == pytest.approx(float(np.interp(begin + 1.07, t, moved)), rel=0.01)
+    assert actual["yaw_rate_ratio_1_00"].value < 0.01
+    assert [actual[n].is_kept for n in ("yaw_rate_ratio_1_00", "yaw_rate_ratio_1_75", "displacement")] == [True] * 3
+    assert degrees(actual["stable_amplitude.left"].value, actual["stable_amplitude.right"].value) == pytest.approx(
         [270.0] * 2
     )
     # the largest sideslip angle is that of the last run, to which the answer is in proportion
     largest = np.abs(slip[t < 4.2]).max() * math.radians(270.0) / (5.0 * a)
-    assert found["sideslip"].value == pytest.approx(largest, rel=0.01)
+    assert actual["sideslip"].value == pytest.approx(largest, rel=0.01)
 
 
 @pytest.mark.slow
 def test_tyres_that_slide_move_the_car_too_little() -> None:
     record = perform(standard_test("sine_with_dwell"), BicycleCar(strongest=4.0), FEW)
-    found = {m.name: m for m in record.measures}
-    assert found["displacement"].value < 1.83
-    assert found["displacement"].is_kept is False
+    results = {m.name: m for m in record.measures}
+    assert results["displacement"].value < 1.83
+    assert results["displacement"].is_kept is False
     heavy = perform(standard_test("sine_with_dwell"), BicycleCar(strongest=4.0), {**FEW, "gross_mass": 3600.0})
     assert next(m.limit for m in heavy.measures if m.name == "displacement").lowest == 1.52  # type: ignore[union-attr]
 
@@ -98,10 +98,10 @@ def test_a_car_that_spins_is_not_driven_further() -> None:
             return result
 
     record = perform(standard_test("sine_with_dwell"), Spins(), FEW)
-    found = {m.name: m for m in record.measures}
-    assert found["yaw_rate_ratio_1_00"].value > 0.35
-    assert found["yaw_rate_ratio_1_00"].is_kept is False
-    assert found["stable_amplitude.left"].value < math.radians(100.0)
+    results = {m.name: m for m in record.measures}
+    assert results["yaw_rate_ratio_1_00"].value > 0.35
+    assert results["yaw_rate_ratio_1_00"].is_kept is False
+    assert results["stable_amplitude.left"].value < math.radians(100.0)
     assert len([name for name in record.runs if name.startswith("right")]) == 2
     assert any("the car is lost at" in n for n in record.notes)
     assert any("without it" in n for n in record.notes)
@@ -125,9 +125,9 @@ def test_a_series_without_end_is_refused() -> None:
 def test_signals_are_filtered_at_their_frequencies_and_zero_before_the_steering() -> None:
     run = steer(BicycleCar(), "sine", SPEED, *table(0.5), Pedals.COAST)
     six, ten = (np.sin(2 * np.pi * f * run.time) for f in (6.0, 10.0))
-    made = processed(replace(run, steering=0.3 + ten, yaw_rate=0.3 + six, acceleration=0.3 + six))
+    result = processed(replace(run, steering=0.3 + ten, yaw_rate=0.3 + six, acceleration=0.3 + six))
     inner = (run.time > 0.5) & (run.time < 3.0)
-    for got, wave in ((made.steering, ten), (made.yaw_rate, six), (made.acceleration, six)):
+    for got, wave in ((result.steering, ten), (result.yaw_rate, six), (result.acceleration, six)):
         # half of the amplitude at the cut-off; the mean before the steering, of no whole number of periods, is gone
         assert got[inner] == pytest.approx(0.5 * wave[inner], abs=0.04)
         assert got[run.time < -0.1].mean() == pytest.approx(0.0, abs=1e-12)

@@ -54,11 +54,13 @@ def test_a_stop_that_does_not_begin_says_so_and_one_without_locked_wheels_too() 
 
 def test_prototype_turns_to_the_side_of_the_high_friction(prototype: TestedCar) -> None:
     record = perform(standard_test("split_braking"), prototype)
-    found, run = values(record), record.runs["split_braking"]
-    assert found["yaw_rate.at_1_s"] > 0.1
-    assert found["deviation.at_1_s"] > 0.1
-    assert min(found["locked_time.FR"], found["locked_time.RR"]) > max(found["locked_time.FL"], found["locked_time.RL"])
+    actual, run = values(record), record.runs["split_braking"]
+    assert actual["yaw_rate.at_1_s"] > 0.1
+    assert actual["deviation.at_1_s"] > 0.1
+    assert min(actual["locked_time.FR"], actual["locked_time.RR"]) > max(
+        actual["locked_time.FL"], actual["locked_time.RL"]
+    )
     onset = run.time[np.argmax(run["brake"] > 0.0)]
     part = (run.time >= onset) & (run.time <= onset + 1.0)
     turned = np.trapezoid(run["chassis.wz"][part], run.time[part])
-    assert found["yaw_angle.at_1_s"] == pytest.approx(turned, rel=0.02)
+    assert actual["yaw_angle.at_1_s"] == pytest.approx(turned, rel=0.02)

@@ -76,12 +76,12 @@ def test_a_car_that_is_too_weak_has_no_gradient_but_a_reason() -> None:
     assert math.isnan(m["understeer_gradient"])
     note = next(x.note for x in record.measures if x.name == "understeer_gradient")
     assert "of the 4 m/s² of the regression" in note
-    assert all("the drive ended the run" in words for words in record.notes)
+    assert all("the drive ended the run" in message for message in record.notes)
     assert 0.5 < m["lateral_acceleration_max.left"] < 4.0
 
 
 @pytest.mark.parametrize(
-    ("settings", "words"),
+    ("settings", "message"),
     [
         ({"method": 2.5}, "it must be 1, 2 or 3"),
         ({"fit_from": 3.0, "fit_to": 3.2}, "at least 0.5 m/s² above"),
@@ -89,6 +89,6 @@ def test_a_car_that_is_too_weak_has_no_gradient_but_a_reason() -> None:
         ({"raduis": 50.0}, "no setting 'raduis'"),
     ],
 )
-def test_wrong_settings_are_told(settings: dict[str, float], words: str) -> None:
-    with pytest.raises(HostError, match=words):
+def test_wrong_settings_are_reported(settings: dict[str, float], message: str) -> None:
+    with pytest.raises(HostError, match=message):
         perform(standard_test("steady_circle"), BicycleCar(), settings)

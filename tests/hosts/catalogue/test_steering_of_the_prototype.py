@@ -12,10 +12,10 @@ pytestmark = pytest.mark.slow
 
 
 def measured(car: TestedCar, test: str, **settings: float) -> dict[str, float]:
-    seen: list[float] = []
-    record = perform(standard_test(test), car, settings, seen.append)
-    assert len(seen) > 2
-    assert seen == sorted(seen)
+    recorded: list[float] = []
+    record = perform(standard_test(test), car, settings, recorded.append)
+    assert len(recorded) > 2
+    assert recorded == sorted(recorded)
     return {m.name: m.value for m in record.measures}
 
 
@@ -40,9 +40,9 @@ def test_step_sine_and_chirp_agree(prototype: TestedCar) -> None:
 
 
 def test_sine_with_dwell_of_a_car_without_stability_control(prototype: TestedCar) -> None:
-    found = measured(prototype, "sine_with_dwell", first=3.0, increment=2.0)
-    assert math.degrees(found["angle_at_0_3_g"]) == pytest.approx(18.6, abs=0.5)
+    actual = measured(prototype, "sine_with_dwell", first=3.0, increment=2.0)
+    assert math.degrees(actual["angle_at_0_3_g"]) == pytest.approx(18.6, abs=0.5)
     # it spins before the largest amplitudes, and to both sides at the same
-    assert found["yaw_rate_ratio_1_75"] > 0.2
-    assert found["stable_amplitude.left"] == pytest.approx(found["stable_amplitude.right"])
-    assert found["stable_amplitude.left"] > 2.9 * found["angle_at_0_3_g"]
+    assert actual["yaw_rate_ratio_1_75"] > 0.2
+    assert actual["stable_amplitude.left"] == pytest.approx(actual["stable_amplitude.right"])
+    assert actual["stable_amplitude.left"] > 2.9 * actual["angle_at_0_3_g"]

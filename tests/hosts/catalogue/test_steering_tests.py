@@ -26,11 +26,11 @@ LOCK = {"vehicle.steering_wheel_angle_max": 8.0}
 
 @pytest.fixture(scope="module")
 def step() -> TestRecord:
-    seen: list[float] = []
-    record = perform(standard_test("step_steer"), BicycleCar(), {"level_1": 0.0}, seen.append)
-    assert len(seen) > 5
-    assert seen == sorted(seen)
-    assert (seen[0], seen[-1]) == (0.0, 1.0)
+    recorded: list[float] = []
+    record = perform(standard_test("step_steer"), BicycleCar(), {"level_1": 0.0}, recorded.append)
+    assert len(recorded) > 5
+    assert recorded == sorted(recorded)
+    assert (recorded[0], recorded[-1]) == (0.0, 1.0)
     return record
 
 
@@ -40,16 +40,16 @@ def test_round_off_is_no_asymmetry() -> None:
 
 
 def test_steady_values_of_a_step(step: TestRecord) -> None:
-    found, (yaw_rate, acceleration, slip) = values(step), gains(SPEED)
+    actual, (yaw_rate, acceleration, slip) = values(step), gains(SPEED)
     for level, wanted in (("level_2", 4.0), ("level_3", 6.0)):
-        assert found[f"{level}.lateral_acceleration.steady"] == pytest.approx(wanted, rel=0.02)
-        assert found[f"{level}.yaw_rate.gain"] == pytest.approx(yaw_rate, rel=1e-3)
-        assert found[f"{level}.lateral_acceleration.gain"] == pytest.approx(acceleration, rel=1e-3)
-        angle = found[f"{level}.steering_wheel_angle"]
-        assert found[f"{level}.sideslip.steady"] == pytest.approx(slip * angle, rel=2e-3)
-        assert found[f"{level}.roll.gradient"] == pytest.approx(ROLL_PER_ACCELERATION, rel=1e-6)
-        assert found[f"{level}.asymmetry"] < 1e-6
-    assert "level_1.yaw_rate.gain" not in found
+        assert actual[f"{level}.lateral_acceleration.steady"] == pytest.approx(wanted, rel=0.02)
+        assert actual[f"{level}.yaw_rate.gain"] == pytest.approx(yaw_rate, rel=1e-3)
+        assert actual[f"{level}.lateral_acceleration.gain"] == pytest.approx(acceleration, rel=1e-3)
+        angle = actual[f"{level}.steering_wheel_angle"]
+        assert actual[f"{level}.sideslip.steady"] == pytest.approx(slip * angle, rel=2e-3)
+        assert actual[f"{level}.roll.gradient"] == pytest.approx(ROLL_PER_ACCELERATION, rel=1e-6)
+        assert actual[f"{level}.asymmetry"] < 1e-6
+    assert "level_1.yaw_rate.gain" not in actual
 
 
 def test_transients_of_a_step(step: TestRecord) -> None:
@@ -79,9 +79,9 @@ def test_a_level_that_tyres_do_not_reach_is_left_out_with_its_reason() -> None:
 
 def test_a_car_that_turns_less_to_the_right_is_seen() -> None:
     record = perform(standard_test("step_steer"), BicycleCar(turn_right=0.8), {"level_1": 0.0, "level_3": 0.0})
-    found = {m.name: m for m in record.measures}
-    assert found["level_2.asymmetry"].value == pytest.approx(0.2 / 0.9, rel=0.02)
-    assert "Left" in found["level_2.yaw_rate.gain"].note
+    actual = {m.name: m for m in record.measures}
+    assert actual["level_2.asymmetry"].value == pytest.approx(0.2 / 0.9, rel=0.02)
+    assert "Left" in actual["level_2.yaw_rate.gain"].note
 
 
 def test_a_slow_car_is_tested_at_80_and_a_slower_one_refused() -> None:
@@ -103,7 +103,7 @@ def test_a_run_that_ends_early_leaves_its_measures_open() -> None:
 
 
 @pytest.mark.parametrize(
-    ("test", "settings", "words"),
+    ("test", "settings", "message"),
     [
         ("step_steer", {"steady_from": 5.0}, "steady_from = 5 s and ends at steady_to = 4 s"),
         ("step_steer", {"level_1": 0.0, "level_2": 0.0, "level_3": 0.0}, "all 0"),
@@ -112,8 +112,8 @@ def test_a_run_that_ends_early_leaves_its_measures_open() -> None:
         ("sine_steer", {"speed": 1.0}, "speed of the test sine_steer is 1 km/h"),
     ],
 )
-def test_settings_that_make_no_sense_are_refused(test: str, settings: dict[str, float], words: str) -> None:
-    with pytest.raises(HostError, match=words):
+def test_settings_that_make_no_sense_are_refused(test: str, settings: dict[str, float], message: str) -> None:
+    with pytest.raises(HostError, match=message):
         perform(standard_test(test), BicycleCar(), settings)
 
 
@@ -142,28 +142,28 @@ def test_chirp_has_the_responses_of_the_model(steered_by: str) -> None:
     car = BicycleCar(steered_by=steered_by, told=LOCK, step=0.002)
     record = perform(standard_test("chirp_steer"), car)
     plots = {p.title: p.lines[0] for p in record.plots}
-    words = ("Yaw rate", "Lateral acceleration", "Sideslip angle")
-    for word, exact in zip(words, _exact(plots["Yaw rate over steering: gain"].x), strict=True):
+    message = ("Yaw rate", "Lateral acceleration", "Sideslip angle")
+    for word, exact in zip(message, _exact(plots["Yaw rate over steering: gain"].x), strict=True):
         scale = math.radians(1.0) if word == "Lateral acceleration" else 1.0
         assert plots[f"{word} over steering: gain"].y == pytest.approx(scale * np.abs(exact), rel=0.03)
         phase = np.degrees(np.unwrap(np.angle(exact)))
         phase += 360.0 if phase[0] < -90.0 else 0.0
         assert plots[f"{word} over steering: phase"].y == pytest.approx(phase, abs=2.0)
-    found, (w, zeta) = values(record), mode(SPEED)
-    assert found["mode.natural_frequency"] == pytest.approx(w, rel=0.02)
-    assert found["mode.damping_ratio"] == pytest.approx(zeta, rel=0.02)
-    assert found["mode.misfit"] < 0.01
-    assert found["yaw_rate.gain"] == pytest.approx(abs(_exact(np.array([0.2]))[0][0]), rel=0.01)
-    assert found["roll.phase_1_0_hz"] == pytest.approx(found["lateral_acceleration.phase_1_0_hz"])
+    actual, (w, zeta) = values(record), mode(SPEED)
+    assert actual["mode.natural_frequency"] == pytest.approx(w, rel=0.02)
+    assert actual["mode.damping_ratio"] == pytest.approx(zeta, rel=0.02)
+    assert actual["mode.misfit"] < 0.01
+    assert actual["yaw_rate.gain"] == pytest.approx(abs(_exact(np.array([0.2]))[0][0]), rel=0.01)
+    assert actual["roll.phase_1_0_hz"] == pytest.approx(actual["lateral_acceleration.phase_1_0_hz"])
 
 
 def test_a_car_without_sideslip_and_roll_is_measured_without_them() -> None:
     car = BicycleCar(shown=("chassis.wz", "chassis.ay", "speed"), step=0.004)
     record = perform(standard_test("chirp_steer"), car)
-    found = {m.name: m for m in record.measures}
-    assert math.isfinite(found["yaw_rate.gain_bandwidth"].value) or found["yaw_rate.gain_bandwidth"].note
-    assert found["sideslip.gain"].note == "The run does not show the sideslip angle."
-    assert found["mode.natural_frequency"].value == pytest.approx(mode(SPEED)[0], rel=0.02)
+    actual = {m.name: m for m in record.measures}
+    assert math.isfinite(actual["yaw_rate.gain_bandwidth"].value) or actual["yaw_rate.gain_bandwidth"].note
+    assert actual["sideslip.gain"].note == "The run does not show the sideslip angle."
+    assert actual["mode.natural_frequency"].value == pytest.approx(mode(SPEED)[0], rel=0.02)
 
 
 def test_a_step_that_is_too_long_for_the_frequencies_is_refused() -> None:
@@ -194,25 +194,25 @@ def test_the_level_acceleration_does_not_depend_on_the_roll_of_the_body() -> Non
 
 
 def test_a_car_without_a_start_value_of_the_speed_drives_up_to_it() -> None:
-    found, from_rest = (
+    results, from_rest = (
         perform(standard_test("sine_steer"), car) for car in (BicycleCar(), BicycleCar(from_rest=SPEED, step=0.01))
     )
     # the record keeps the time of the run, of which it has the part with the steering
-    assert from_rest.runs["sine_left"].time[0] > found.runs["sine_left"].time[0] + 5.0
+    assert from_rest.runs["sine_left"].time[0] > results.runs["sine_left"].time[0] + 5.0
     assert len(from_rest.runs["sine_left"].time) == pytest.approx(5.0 / 0.02, abs=3)
-    for name, value in values(found).items():
+    for name, value in values(results).items():
         assert values(from_rest)[name] == pytest.approx(value, rel=1e-3, abs=1e-6)
 
 
 def test_the_map_of_a_slow_ramp_is_that_of_the_steady_state() -> None:
     for steered_by in ("steering_wheel_angle_demand", "steering"):
-        found = steady_map(BicycleCar(steered_by=steered_by, told=LOCK), SPEED, 4.0)
-        assert found.angle_at(4.0) == pytest.approx(4.0 / gains(SPEED)[1], rel=2e-3)
-        assert found.angle_at(2.0) == pytest.approx(2.0 / gains(SPEED)[1], rel=2e-3)
-        assert math.isnan(found.angle_at(9.0))
+        actual = steady_map(BicycleCar(steered_by=steered_by, told=LOCK), SPEED, 4.0)
+        assert actual.angle_at(4.0) == pytest.approx(4.0 / gains(SPEED)[1], rel=2e-3)
+        assert actual.angle_at(2.0) == pytest.approx(2.0 / gains(SPEED)[1], rel=2e-3)
+        assert math.isnan(actual.angle_at(9.0))
 
 
-def test_a_steering_wheel_that_does_not_come_to_its_angle_is_told() -> None:
+def test_a_steering_wheel_that_does_not_come_to_its_angle_is_reported() -> None:
     whole = steer(BicycleCar(), "sine", SPEED, *table(0.5), Pedals.FIXED)
     assert whole.shortfall(0.5) == ""
     assert (
@@ -222,7 +222,7 @@ def test_a_steering_wheel_that_does_not_come_to_its_angle_is_told() -> None:
     )
 
 
-def test_an_fmu_that_refuses_a_step_before_the_steering_is_told() -> None:
+def test_an_fmu_that_refuses_a_step_before_the_steering_is_reported() -> None:
     for test in ("sine_steer", "sine_with_dwell"):
         with pytest.raises(HostError, match=r"Before the steering began the FMU refused the step at 0\.51"):
             perform(standard_test(test), BicycleCar(refuses_after=0.5))
@@ -230,7 +230,7 @@ def test_an_fmu_that_refuses_a_step_before_the_steering_is_told() -> None:
 
 @pytest.mark.parametrize("test", ["sine_steer", "sine_with_dwell"])
 @pytest.mark.parametrize(
-    ("factors", "words"),
+    ("factors", "message"),
     [
         ({"chassis.ay": -1.0}, r"the other sign of 'chassis\.ay'"),
         ({"chassis.wz": -1.0}, r"the other sign of 'chassis\.wz'"),
@@ -238,6 +238,6 @@ def test_an_fmu_that_refuses_a_step_before_the_steering_is_told() -> None:
         ({"chassis.wz": -1.0, "chassis.ay": -1.0}, r"the other sign of 'steering_wheel_angle'"),
     ],
 )
-def test_wrong_signs_and_units_are_told(test: str, factors: dict[str, float], words: str) -> None:
-    with pytest.raises(HostError, match=words):
+def test_wrong_signs_and_units_are_reported(test: str, factors: dict[str, float], message: str) -> None:
+    with pytest.raises(HostError, match=message):
         perform(standard_test(test), BicycleCar(factors=factors))

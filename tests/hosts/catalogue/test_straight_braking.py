@@ -63,7 +63,7 @@ def test_loads_move_forward_by_the_moment_of_the_deceleration(gentle: TestRecord
 
 
 @pytest.mark.slow
-def test_locked_wheels_are_told(prototype: TestedCar) -> None:
+def test_locked_wheels_are_reported(prototype: TestedCar) -> None:
     record = perform(standard_test("straight_braking"), prototype)
     measured = values(record)
     assert measured["locked_time.FL"] > 0.99
@@ -94,7 +94,7 @@ def test_results_do_not_depend_on_the_step(prototype: TestedCar, gentle: TestRec
 
 
 @pytest.mark.slow
-def test_a_car_too_weak_for_the_speed_is_told(prototype: TestedCar) -> None:
+def test_a_car_too_weak_for_the_speed_is_reported(prototype: TestedCar) -> None:
     record = perform(standard_test("straight_braking"), prototype, {"speed": 250.0})
     assert any("250 km/h" in note for note in record.notes)
     assert all(math.isnan(m.value) and m.note for m in record.measures if "stopping" in m.name)

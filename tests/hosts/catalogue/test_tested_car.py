@@ -88,7 +88,7 @@ def test_facts_are_under_our_names(foreign: TestedCar) -> None:
     assert foreign.facts.step == 0.002
 
 
-def test_what_a_pilot_lacks_is_named(prototype: TestedCar) -> None:
+def test_variables_that_a_pilot_lacks_are_named(prototype: TestedCar) -> None:
     still = Manoeuvre("still", np.zeros(0), {}, 0.1)
     with pytest.raises(HostError, match="variables that .* does not have: oars"):
         prototype.drive(still, SteeringTable([0.0], [0.0], "oars"))
@@ -107,7 +107,7 @@ def test_what_a_pilot_lacks_is_named(prototype: TestedCar) -> None:
     assert prototype.drive(still, Careful())["steering"][-1] == 0.25
 
 
-def test_a_pilot_that_asks_for_nothing_is_told(prototype: TestedCar) -> None:
+def test_a_pilot_that_asks_for_nothing_is_reported(prototype: TestedCar) -> None:
     turn = SteeringTable([0.0, 0.1, 0.2], [0.0, 0.0, math.nan])
     with pytest.raises(HostError, match="At 0.1.* s the driver asks for steering = nan."):
         prototype.drive(Manoeuvre("blank", np.zeros(0), {}, 0.3), turn)

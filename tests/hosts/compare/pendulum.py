@@ -28,8 +28,8 @@ def motion(stiffness: float, damping: float) -> Callable[[Array], Array]:
         tension = stiffness * (r - FREE_LENGTH) + damping * (x * u + y * v) / r
         return [u, v, (pull(t) - tension * x / r) / MASS, -tension * y / r / MASS - GRAVITY]
 
-    found = solve_ivp(rates, (0.0, END), [0.0, -1.0, 0.0, 0.0], rtol=1e-9, atol=1e-11, dense_output=True).sol
-    return lambda t: found(np.clip(t, 0.0, END))[:2]
+    solution = solve_ivp(rates, (0.0, END), [0.0, -1.0, 0.0, 0.0], rtol=1e-9, atol=1e-11, dense_output=True).sol
+    return lambda t: solution(np.clip(t, 0.0, END))[:2]
 
 
 def noise(rng: np.random.Generator, count: int, deviation: float, memory: float) -> Array:

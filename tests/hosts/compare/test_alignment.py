@@ -41,18 +41,18 @@ def log_of(delay: float, drift: float, noise: float = 0.0, seed: int = 1) -> Sig
 
 @pytest.mark.parametrize(("delay", "drift"), [(0.1234, 0.0), (-0.057, 3e-4), (0.0, -1e-3), (0.4, 2e-3)])
 def test_known_delay_and_drift_are_found_to_a_thousandth_of_a_sample(curve: Curve, delay: float, drift: float) -> None:
-    found = align([(log_of(delay, drift), curve)], 0.6)
-    assert found.delay == pytest.approx(delay, abs=1e-5)
-    assert found.drift == pytest.approx(drift, abs=1e-6)
-    assert found.correlation == pytest.approx(1.0, abs=1e-9)
+    alignment = align([(log_of(delay, drift), curve)], 0.6)
+    assert alignment.delay == pytest.approx(delay, abs=1e-5)
+    assert alignment.drift == pytest.approx(drift, abs=1e-6)
+    assert alignment.correlation == pytest.approx(1.0, abs=1e-9)
 
 
 def test_intervals_hold_under_noise(curve: Curve) -> None:
     inside = 0
     for seed in range(40):
-        found = align([(log_of(0.08, 0.0, 0.1, seed), curve)], 0.5, drift=False)
-        inside += abs(found.delay - 0.08) <= found.delay_error
-        assert 0.001 < found.delay_error < 0.01
+        alignment = align([(log_of(0.08, 0.0, 0.1, seed), curve)], 0.5, drift=False)
+        inside += abs(alignment.delay - 0.08) <= alignment.delay_error
+        assert 0.001 < alignment.delay_error < 0.01
     assert inside >= 34  # of 40; fewer than 34 has a probability of 0.3 % where it is 95 %
 
 
@@ -73,9 +73,9 @@ def test_intervals_hold_where_a_start_is_measured_with_noise(memory: float) -> N
             measured = np.interp(t - late, t, values) + off[0] + off[1] * t + size * noise
             curve = Curve(Result([name], {name: "1"}, t, values[:, None], 0.0, END, 0, []), name)
             pairs.append((Signal(name, name, "1", t[5:-5], measured[5:-5]), curve))
-        found = align(pairs, 0.5)
-        held += abs(found.delay - late) <= found.delay_error
-        assert not found.has_drift
+        alignment = align(pairs, 0.5)
+        held += abs(alignment.delay - late) <= alignment.delay_error
+        assert not alignment.has_drift
     print(f"\nmemory {memory:g}: intervals of 95 % hold in {held} of {count} logs")
     assert held >= 54  # fewer have a probability of 2 % where it is 95 %
 
@@ -85,11 +85,11 @@ def test_a_delay_in_common_is_that_of_both(curve: Curve) -> None:
     assert align([(log_of(0.08, 0.0), curve), (other, curve)], 0.5).delay == pytest.approx(0.08, abs=1e-5)
 
 
-def test_what_cannot_be_told_is_said(curve: Curve) -> None:
+def test_what_cannot_be_told_is_reported(curve: Curve) -> None:
     noise = np.random.default_rng(2).normal(size=1000)
-    found = align([(Signal("y", "y", "1", 0.015 * np.arange(1000), noise), curve)], 0.5)
-    assert math.isnan(found.delay)
-    assert "no delay can be determined" in found.note
+    alignment = align([(Signal("y", "y", "1", 0.015 * np.arange(1000), noise), curve)], 0.5)
+    assert math.isnan(alignment.delay)
+    assert "no delay can be determined" in alignment.note
     flat = align([(Signal("y", "y", "1", 0.015 * np.arange(1000), np.ones(1000)), curve)], 0.5)
     assert flat.note == "no signal moves in both"
 
@@ -99,33 +99,33 @@ def test_a_log_too_short_and_straight_tells_no_delay(bend: float) -> None:
     """The rest of another start is enough to move the best delay by samples: of 0.3 s it is none of the log."""
     t = np.arange(0.0, 0.295, 0.01)
     curve = simulated(20.0 - 0.5 * t + 0.1 * t**2, t)
-    found = align([(Signal("y", "y", "1", t, curve(t) + bend * np.exp(-t / 0.03)), curve)], 1.0)
-    assert math.isnan(found.delay)
-    assert "so short a log" in found.note
+    alignment = align([(Signal("y", "y", "1", t, curve(t) + bend * np.exp(-t / 0.03)), curve)], 1.0)
+    assert math.isnan(alignment.delay)
+    assert "so short a log" in alignment.note
 
 
 def test_of_a_periodic_signal_the_smallest_delay_is_taken_and_the_other_named() -> None:
     t = np.arange(0.0, END, 0.01)
     wave = simulated(np.sin(2.0 * np.pi * 2.0 * t), t)
     signal = Signal("y", "y", "1", t[:-100], np.sin(2.0 * np.pi * 2.0 * (t[:-100] - 0.1)))
-    found = align([(signal, wave)], 1.0, drift=False)
-    assert found.delay == pytest.approx(0.1, abs=1e-4)
-    assert "-0.4" in found.note or "0.6" in found.note
+    alignment = align([(signal, wave)], 1.0, drift=False)
+    assert alignment.delay == pytest.approx(0.1, abs=1e-4)
+    assert "-0.4" in alignment.note or "0.6" in alignment.note
 
 
-@pytest.mark.parametrize(("drift", "told"), [(0.0, False), (3e-3, True), (-3e-3, True)])
-def test_a_difference_of_the_model_in_many_signals_is_no_drift(curve: Curve, drift: float, told: bool) -> None:
+@pytest.mark.parametrize(("drift", "reported"), [(0.0, False), (3e-3, True), (-3e-3, True)])
+def test_a_difference_of_the_model_in_many_signals_is_no_drift(curve: Curve, drift: float, reported: bool) -> None:
     """Its drift is none of the clock: only what is explained tells. One that is not told leaves the delay alone."""
     t = np.arange(0.0, 19.5, 0.013)
     at = t / (1.0 + drift)
     values = motion(at - 2e-3 * np.sin(3.0 * at))
     pair = (Signal("y", "y", "1", t, values), curve)
-    found = align(20 * [pair], 0.6)
-    assert abs(found.drift - drift) < 1e-4
-    assert found.has_drift is told
-    if not told:
-        assert abs(found.drift) > 0.0
-        assert found.delay == pytest.approx(align([pair], 0.6, drift=False).delay, abs=1e-9)
+    alignment = align(20 * [pair], 0.6)
+    assert abs(alignment.drift - drift) < 1e-4
+    assert alignment.has_drift is reported
+    if not reported:
+        assert abs(alignment.drift) > 0.0
+        assert alignment.delay == pytest.approx(align([pair], 0.6, drift=False).delay, abs=1e-9)
 
 
 def test_signals_that_differ_alike_count_as_one(curve: Curve) -> None:
@@ -140,7 +140,7 @@ def test_signals_that_differ_alike_count_as_one(curve: Curve) -> None:
     assert others.delay_error == pytest.approx(alone / math.sqrt(count), rel=0.25)
 
 
-def test_a_signal_with_a_delay_of_its_own_is_told(curve: Curve) -> None:
+def test_a_signal_with_a_delay_of_its_own_is_reported(curve: Curve) -> None:
     """One of six is 5 ms late: the common delay is of none, and the sentence names the one."""
     names = "abcdef"
     logs = {n: log_of(0.005 if n == "b" else 0.0, 0.0, 1e-3, seed) for seed, n in enumerate(names)}

@@ -125,14 +125,14 @@ def test_the_same_car_at_another_step_is_the_same(car: Path, tmp_path: Path) -> 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("column", "told"),
+    ("column", "reported"),
     [
         ("Lenkrad", ["The input 'Lenkrad' (steering) has the opposite sign", "chassis.wz and chassis.ay have"]),
         ("ay", ["'ay' (chassis.ay) has the opposite sign of the simulation"]),
     ],
 )
-def test_what_is_turned_is_told_and_not_what_it_moves(
-    car: Path, tmp_path: Path, column: str, told: list[str], capsys: pytest.CaptureFixture[str]
+def test_what_is_turned_is_reported_and_not_what_it_moves(
+    car: Path, tmp_path: Path, column: str, reported: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     file = log.with_suffix(".toml")
@@ -143,13 +143,13 @@ def test_what_is_turned_is_told_and_not_what_it_moves(
     assert status == 1
     lines = [line for line in capsys.readouterr().out.splitlines() if "opposite sign" in line]
     assert len(lines) == 1
-    assert all(words in lines[0] for words in told)
+    assert all(message in lines[0] for message in reported)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("unit", "told"), [("m/s", True), ("km/h", False)])
-def test_a_speed_in_another_unit_is_told_where_the_log_alone_does_not_show_it(
-    car: Path, tmp_path: Path, unit: str, told: bool, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize(("unit", "reported"), [("m/s", True), ("km/h", False)])
+def test_a_speed_in_another_unit_is_reported_where_the_log_alone_does_not_show_it(
+    car: Path, tmp_path: Path, unit: str, reported: bool, capsys: pytest.CaptureFixture[str]
 ) -> None:
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     file = log.with_suffix(".toml")
@@ -158,9 +158,9 @@ def test_a_speed_in_another_unit_is_told_where_the_log_alone_does_not_show_it(
     named = "\n".join(kept).replace('speed = "v"', f'speed = {{ name = "v", unit = "{unit}" }}')
     file.write_text(named, encoding="utf-8")
     status, record = compared(car, log, signals="speed,chassis.wz")
-    assert status == told
-    assert ("'v' (speed) looks like km/h in place of m/s" in "".join(record["problems"])) == told
-    assert (values(record)["chassis.wz.correlation"] < 0.8) == told
+    assert status == reported
+    assert ("'v' (speed) looks like km/h in place of m/s" in "".join(record["problems"])) == reported
+    assert (values(record)["chassis.wz.correlation"] < 0.8) == reported
 
 
 @pytest.mark.slow
@@ -178,12 +178,12 @@ def test_parameters_of_the_car_come_back(car: Path, tmp_path: Path) -> None:
         car, log, "--fit", "front.tyre.grip", "--fit", "initial.speed=12:18", "--nuisance", "delay"
     )
     assert status == 0
-    found = {f["name"]: f for f in record["fit"]["found"]}
+    actual = {f["name"]: f for f in record["fit"]["found"]}
     for name, value in (("front.tyre.grip", 0.85), ("delay", 0.04)):
-        assert abs(found[name]["value"] - value) < 1.5 * found[name]["half_width_95"], name
+        assert abs(actual[name]["value"] - value) < 1.5 * actual[name]["half_width_95"], name
     # Another step is another speed, by more than the noise hides.
-    assert found["initial.speed"]["value"] == pytest.approx(15.0, abs=0.01)
-    assert found["front.tyre.grip"]["half_width_95"] < 0.02
+    assert actual["initial.speed"]["value"] == pytest.approx(15.0, abs=0.01)
+    assert actual["front.tyre.grip"]["half_width_95"] < 0.02
     assert values(record, "fitted_measures")["chassis.wz.rms"] == pytest.approx(0.004, rel=0.15)
 
 
@@ -197,8 +197,8 @@ def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path, capsys:
     assert pedals > 2.0
     assert held < 0.1
     # It takes more of the throttle than the 0.2 of the car in the log, and from the start on.
-    said = capsys.readouterr().out
-    started = float(said.rpartition("The driver starts with ")[2].partition(" of the throttle.")[0])
+    output = capsys.readouterr().out
+    started = float(output.rpartition("The driver starts with ")[2].partition(" of the throttle.")[0])
     assert 0.2 < started < 0.9
 
 
@@ -220,7 +220,7 @@ def test_a_log_that_begins_in_a_turn_starts_in_it(
 
 
 @pytest.mark.slow
-def test_a_set_of_all_parameters_leaves_the_measured_start_and_another_speed_is_told(
+def test_a_set_of_all_parameters_leaves_the_measured_start_and_another_speed_is_reported(
     car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     log = logged(car, tmp_path, {"initial.speed": 15.0})
@@ -247,9 +247,9 @@ def test_windows_begin_as_measured_each(car: Path, tmp_path: Path, capsys: pytes
     rms = [w["rms"]["chassis.wz"] for w in record["windows"]]
     assert values(record)["chassis.wz.rms"] == pytest.approx(np.sqrt(np.mean(np.square(rms))), rel=0.02)
     assert max(rms) < 0.02
-    told = [b for b in record["bins"] if b["quantity"] == "lateral acceleration"]
-    assert sum(b["samples"] for b in told) == 4 * 101
-    assert {(b["low"], b["high"]) for b in told} >= {(0.0, 2.0), (2.0, 4.0)}
+    reported = [b for b in record["bins"] if b["quantity"] == "lateral acceleration"]
+    assert sum(b["samples"] for b in reported) == 4 * 101
+    assert {(b["low"], b["high"]) for b in reported} >= {(0.0, 2.0), (2.0, 4.0)}
     # Processes share the windows; not one digit depends on their number.
     _, shared = compared(car, log, *parts, "--jobs", "2", signals="chassis.wz")
     assert values(shared) == values(record)
@@ -265,7 +265,7 @@ def test_windows_are_fitted_and_left_out_in_turn(car: Path, tmp_path: Path, caps
     _, record = compared(
         car, log, *windows, "--fit", "front.tyre.grip", "--fit", "rear.tyre.grip=0.5:1.5", signals="chassis.wz"
     )
-    said, fit = capsys.readouterr().out, record["fit"]
+    output, fit = capsys.readouterr().out, record["fit"]
     front, rear = fit["found"]
     assert abs(front["value"] - 0.8) < 1.5 * front["half_width_95"]
     assert front["half_width_95"] < 0.2
@@ -274,7 +274,7 @@ def test_windows_are_fitted_and_left_out_in_turn(car: Path, tmp_path: Path, caps
     ends = np.array([start["end"] for start in fit["starts"]])
     np.testing.assert_allclose(ends[0], ends[1], atol=0.05)
     assert fit["remains"]["chassis.wz"] <= fit["left_out"]["chassis.wz"] < 1.2 * fit["remains"]["chassis.wz"]
-    assert "Fitted with inner steps of 4 ms" in said
+    assert "Fitted with inner steps of 4 ms" in output
 
 
 @pytest.mark.slow
@@ -299,7 +299,7 @@ def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("options", "words"),
+    ("options", "message"),
     [
         (("--seconds", "3:1"), "its times must be finite and in their order"),
         (("--seconds", "now"), "it must be of the form A:B,C:D"),
@@ -311,12 +311,12 @@ def test_angles_of_the_wheels_on_the_road_are_replayed(car: Path, tmp_path: Path
     ],
 )
 def test_windows_that_cannot_be_are_refused(
-    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: tuple[str, ...], words: str
+    car: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: tuple[str, ...], message: str
 ) -> None:
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     arguments = [str(car), str(log), "--log-aliases", str(log.with_suffix(".toml")), "--out", str(tmp_path / "out")]
     assert main([*arguments, *options]) == 2
-    assert words in capsys.readouterr().err
+    assert message in capsys.readouterr().err
 
 
 def test_an_angle_of_the_steering_wheel_drives_at_any_ratio(prototype_fmu: Path, tmp_path: Path) -> None:
@@ -324,16 +324,16 @@ def test_an_angle_of_the_steering_wheel_drives_at_any_ratio(prototype_fmu: Path,
     t = np.array([0.0, 0.1, 0.3, 1.0])
     start = {"initial.speed": 15.0, "steering.rack_per_turn": 0.06}
     with Fmu(prototype_fmu) as fmu:
-        found = run(fmu, Manoeuvre("step", t, {"steering": np.array([0.0, 0.0, 0.2, 0.2])}, 1.0, start), 0.01)
+        result = run(fmu, Manoeuvre("step", t, {"steering": np.array([0.0, 0.0, 0.2, 0.2])}, 1.0, start), 0.01)
     log, record = tmp_path / "step.csv", tmp_path / "record.json"
     names = ("steering_wheel_angle", "speed", "chassis.wz")
-    table = np.column_stack([found.time, *(found[n] for n in names)])
+    table = np.column_stack([result.time, *(result[n] for n in names)])
     np.savetxt(log, table, delimiter=",", header=",".join(("time", *names)), comments="", fmt="%.9g")
     chosen = ["--signals", "chassis.wz", "--out", str(tmp_path / "out"), "--json", str(record)]
     chosen += ["--set", "initial.settling=0"]
     assert main([str(prototype_fmu), str(log), *chosen, "--set", "steering.rack_per_turn=0.06"]) == 0
     measures = {m["name"]: m["value"] for m in json.loads(record.read_text())["measures"]}
-    assert measures["chassis.wz.rms"] < 0.01 * np.abs(found["chassis.wz"]).max()
+    assert measures["chassis.wz.rms"] < 0.01 * np.abs(result["chassis.wz"]).max()
     assert main([str(prototype_fmu), str(log), *chosen, "--fit", "steering.rack_per_turn=0.03:0.09"]) == 0
     sought = json.loads(record.read_text())["fit"]["starts"][0]["end"]
     assert sought == pytest.approx([0.06], rel=0.01)

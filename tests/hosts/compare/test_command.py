@@ -59,10 +59,10 @@ class TestCommand:
 
         monkeypatch.setattr("hosts.compare.fitting.fit", stopped)
         assert main([str(tuned), str(log), "--out", str(tmp_path), "--fit", "spring.stiffness"]) == 130
-        said = capsys.readouterr()
-        assert said.err.endswith("stopped by Ctrl-C\n")
-        assert "drive.html" in said.out
-        assert "drive.ssv" not in said.out
+        captured = capsys.readouterr()
+        assert captured.err.endswith("stopped by Ctrl-C\n")
+        assert "drive.html" in captured.out
+        assert "drive.ssv" not in captured.out
         assert "The fit was stopped after " in (tmp_path / "drive.html").read_text()
         assert not (tmp_path / "drive.ssv").exists()
 
@@ -70,7 +70,7 @@ class TestCommand:
         self, tuned: Path, log: Path, tmp_path: Path
     ) -> None:
         (tmp_path / "names.toml").write_text('rate = { name = "spring.stiffness", factor = 1000.0 }\n')
-        found = []
+        results = []
         for k, more in enumerate(([], ["--aliases", str(tmp_path / "names.toml")])):
             record = tmp_path / f"{k}.json"
             main(
@@ -86,8 +86,8 @@ class TestCommand:
                     *more,
                 ]
             )
-            found.append(json.loads(record.read_text())["measures"])
-        assert found[0] == found[1]
+            results.append(json.loads(record.read_text())["measures"])
+        assert results[0] == results[1]
 
     @pytest.mark.slow
     @pytest.mark.drawn
@@ -96,12 +96,12 @@ class TestCommand:
         assert (
             main([*arguments, "--fit", "spring.stiffness", "--fit", "spring.damping=0.2:5", "--nuisance", "bias"]) == 0
         )
-        said = capsys.readouterr().out
-        assert "residuals over noise" in said
+        output = capsys.readouterr().out
+        assert "residuals over noise" in output
         record = json.loads((tmp_path / "all.json").read_text())
-        found = {f["name"]: f for f in record["fit"]["found"]}
+        results = {f["name"]: f for f in record["fit"]["found"]}
         for name, true in zip(("spring.stiffness", "spring.damping"), TRUE, strict=True):
-            assert abs(found[name]["value"] - true) < 1.5 * found[name]["half_width_95"]
+            assert abs(results[name]["value"] - true) < 1.5 * results[name]["half_width_95"]
         rms = {m["name"]: m["value"] for m in record["fitted_measures"]}
         assert rms["bob.x.rms"] == pytest.approx(0.01, rel=0.15)  # the noise, and nothing else
         assert rms["bob.y.rms"] == pytest.approx(0.005, rel=0.15)
@@ -132,15 +132,15 @@ class TestCommand:
             return {f["name"]: f for f in record["found"]}, record["starts"]
 
         columns = log_columns()
-        found, starts = fitted(columns)
+        result, starts = fitted(columns)
         assert "without a fold" in capsys.readouterr().out
         assert len(starts) == 3
         for name, true in zip(("spring.stiffness", "spring.damping"), TRUE, strict=True):
-            value, half, folds = (found[name][k] for k in ("value", "half_width_95", "folds"))
+            value, half, folds = (result[name][k] for k in ("value", "half_width_95", "folds"))
             assert abs(value - true) < half
             assert len(folds) == 4
             assert all(abs(fold - true) < 2.0 * half for fold in folds)
-            k = list(found).index(name)
+            k = list(result).index(name)
             assert all(start["end"][k] == pytest.approx(value, abs=0.2 * half) for start in starts)
         assert len({start["begin"][0] for start in starts}) == 3
         late, moved = columns["time"] > 3.0, motion(1.15 * TRUE[0], TRUE[1])(columns["time"])
@@ -148,13 +148,13 @@ class TestCommand:
             f"bob.{c}": np.where(late, values, columns[f"bob.{c}"]) for c, values in zip("xy", moved, strict=True)
         }
         other, _ = fitted(columns | changed)
-        before, after = (np.ptp(f["spring.stiffness"]["folds"]) for f in (found, other))
+        before, after = (np.ptp(f["spring.stiffness"]["folds"]) for f in (result, other))
         assert after > 5.0 * before  # what the seconds do not agree on is seen
-        assert other["spring.stiffness"]["half_width_95"] > 3.0 * found["spring.stiffness"]["half_width_95"]
+        assert other["spring.stiffness"]["half_width_95"] > 3.0 * result["spring.stiffness"]["half_width_95"]
 
     @pytest.mark.slow
     @pytest.mark.parametrize(
-        ("change", "words"),
+        ("change", "message"),
         [
             (lambda c: c | {"bob.x": 1000.0 * c["bob.x"]}, 'it looks like mm in place of m: unit = "mm"'),
             (lambda c: c | {"bob.x": -c["bob.x"]}, "has the opposite sign"),
@@ -175,12 +175,12 @@ class TestCommand:
         tmp_path: Path,
         capsys: pytest.CaptureFixture[str],
         change: Callable[[Columns], Columns],
-        words: str,
+        message: str,
     ) -> None:
         file = write(tmp_path / "odd.csv", change(log_columns()))
         common = [str(tuned), str(file), "--out", str(tmp_path / "out"), "--set", "spring.stiffness=120"]
         assert main(common) == 1
-        assert words in capsys.readouterr().out
+        assert message in capsys.readouterr().out
         assert main([*common, "--fit", "spring.stiffness"]) == 2
         assert "Nothing was fitted" in capsys.readouterr().err
 
@@ -189,11 +189,11 @@ class TestCommand:
         columns = log_columns()
         file = write(tmp_path / "flat.csv", columns | {"bob.y": 0.0 * columns["bob.y"] - 1.0})
         main([str(tuned), str(file), "--out", str(tmp_path)])
-        said = capsys.readouterr().out
-        assert "bob.y: the measured signal is constant: no correlation" in said
+        output = capsys.readouterr().out
+        assert "bob.y: the measured signal is constant: no correlation" in output
 
     @pytest.mark.parametrize(
-        ("options", "words"),
+        ("options", "message"),
         [
             (["--signals", "bob.z"], "--signals: 'bob.z' is not an output of the FMU; did you mean"),
             (["--signals", "solver.status"], "'solver.status' is not in the log"),
@@ -221,12 +221,18 @@ class TestCommand:
         ],
     )
     def test_wrong_wishes(
-        self, tuned: Path, log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: list[str], words: str
+        self,
+        tuned: Path,
+        log: Path,
+        tmp_path: Path,
+        capsys: pytest.CaptureFixture[str],
+        options: list[str],
+        message: str,
     ) -> None:
         assert main([str(tuned), str(log), "--out", str(tmp_path), *options]) == 2
-        said = capsys.readouterr().err
-        assert words in said
-        assert said.count("\n") == 1
+        errors = capsys.readouterr().err
+        assert message in errors
+        assert errors.count("\n") == 1
         assert not list(tmp_path.iterdir())
 
     @pytest.mark.slow
@@ -235,9 +241,9 @@ class TestCommand:
         hole = (columns["time"] > 2.0) & (columns["time"] < 3.0)
         file = write(tmp_path / "gap.csv", columns | {"pull": np.where(hole, np.nan, columns["pull"])})
         assert main([str(tuned), str(file), "--out", str(tmp_path)]) == 2
-        said = capsys.readouterr().err
-        assert "no samples of the input 'pull' (pull) from 2 s to 3 s (1 s; usual are 0.02 s)" in said
-        assert "--to 2" in said
+        errors = capsys.readouterr().err
+        assert "no samples of the input 'pull' (pull) from 2 s to 3 s (1 s; usual are 0.02 s)" in errors
+        assert "--to 2" in errors
         assert main([str(tuned), str(file), "--out", str(tmp_path), "--longest-gap", "1.01"]) == 0
         assert "is bridged by a straight line" in capsys.readouterr().out
         assert main([str(tuned), str(file), "--out", str(tmp_path), "--to", "2"]) == 0

@@ -46,9 +46,9 @@ def inside(replay: Replay, count: int, memory: float) -> np.ndarray:
     """How often stiffness, damping and delay lie within their intervals of 95 %."""
     hits = np.zeros(3)
     for seed in range(count):
-        found = fitted(replay, seed, memory).found
+        result = fitted(replay, seed, memory).found
         hits += [
-            abs(f.value - true) <= f.half_width for f, true in zip(found, (STIFFNESS, DAMPING, DELAY), strict=True)
+            abs(f.value - true) <= f.half_width for f, true in zip(result, (STIFFNESS, DAMPING, DELAY), strict=True)
         ]
     return hits
 
@@ -90,7 +90,7 @@ def test_white_noise_would_promise_too_much(replay: Replay) -> None:
 
 @pytest.mark.slow
 def test_a_drift_of_the_clock_comes_back(replay: Replay) -> None:
-    found = {f.unknown.name: f for f in fitted(replay, 3, 0.0, ("delay", "drift"), drift=4e-3).found}
-    assert abs(found["drift"].value - 4e-3) < 1.5 * found["drift"].half_width
-    assert found["drift"].half_width < 4e-3
-    assert abs(found["spring.stiffness"].value - STIFFNESS) < 1.5 * found["spring.stiffness"].half_width
+    results = {f.unknown.name: f for f in fitted(replay, 3, 0.0, ("delay", "drift"), drift=4e-3).found}
+    assert abs(results["drift"].value - 4e-3) < 1.5 * results["drift"].half_width
+    assert results["drift"].half_width < 4e-3
+    assert abs(results["spring.stiffness"].value - STIFFNESS) < 1.5 * results["spring.stiffness"].half_width

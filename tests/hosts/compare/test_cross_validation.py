@@ -22,14 +22,14 @@ def linear(begins: np.ndarray, seed: int = 3) -> tuple[np.ndarray, np.ndarray, P
 @pytest.mark.parametrize("every", [10.0, 5.0])
 def test_what_is_left_of_a_part_is_that_of_a_fit_without_it_and_without_its_neighbours(every: float) -> None:
     jacobian, residual, parts = linear(every * np.arange(8))
-    found = left_out(jacobian, residual, parts)
+    actual = left_out(jacobian, residual, parts)
     for k, begin in enumerate(parts.begins):
         near = np.abs(parts.begins - begin) < LENGTH
         kept = ~near[parts.number]
         change = np.linalg.lstsq(jacobian[kept], -residual[kept], rcond=None)[0]
         rows = parts.number == k
-        np.testing.assert_allclose(found[rows], residual[rows] + jacobian[rows] @ change, rtol=1e-9)
-    assert np.mean(found**2) > np.mean(residual**2)
+        np.testing.assert_allclose(actual[rows], residual[rows] + jacobian[rows] @ change, rtol=1e-9)
+    assert np.mean(actual**2) > np.mean(residual**2)
 
 
 @pytest.mark.parametrize("every", [10.0, 5.0])
@@ -37,9 +37,9 @@ def test_the_parameters_without_a_fold_are_those_of_a_fit_without_it(every: floa
     """Of windows that are given in any order."""
     begins = every * np.random.default_rng(1).permutation(12)
     jacobian, residual, parts = linear(begins)
-    found = folds(jacobian, residual, parts)
-    assert found.shape == (FOLDS, 3)
-    for change, group in zip(found, np.split(np.argsort(begins), FOLDS), strict=True):
+    actual = folds(jacobian, residual, parts)
+    assert actual.shape == (FOLDS, 3)
+    for change, group in zip(actual, np.split(np.argsort(begins), FOLDS), strict=True):
         near = np.abs(begins[:, None] - begins[group]).min(axis=1) < LENGTH
         kept = ~near[parts.number]
         wanted = np.linalg.lstsq(jacobian[kept], -residual[kept], rcond=None)[0]

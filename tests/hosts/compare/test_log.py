@@ -49,15 +49,15 @@ def test_names_of_the_fmu_need_no_aliases(fmu: NamedFmu, tmp_path: Path) -> None
     assert_read(read(fmu, tmp_path, "time,pull,bob.x\n" + rows("{t},{f},{x}")))
 
 
-@pytest.mark.parametrize(("used", "told"), [((), 1), (("bob.x",), 1), (("speed",), 0)])
-def test_a_sample_left_out_is_told_of_what_is_used(
-    fmu: NamedFmu, tmp_path: Path, used: tuple[str, ...], told: int
+@pytest.mark.parametrize(("used", "reported"), [((), 1), (("bob.x",), 1), (("speed",), 0)])
+def test_a_sample_left_out_is_reported_of_what_is_used(
+    fmu: NamedFmu, tmp_path: Path, used: tuple[str, ...], reported: int
 ) -> None:
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012", "0.12,6.0,9.9")
     (tmp_path / "log.csv").write_text(text)
     log = log_for(fmu, read_log(tmp_path / "log.csv", LogAliases().dialect), LogAliases(), used=used)
     assert len(log.outputs["bob.x"].values) == ROWS - 1
-    assert sum("no neighbour supports" in note for note in log.notes) == told
+    assert sum("no neighbour supports" in note for note in log.notes) == reported
 
 
 @pytest.mark.parametrize("second", [0.5 * 12, 30.0])
@@ -74,7 +74,7 @@ def test_an_input_jumps_between_two_rows_of_one_time(fmu: NamedFmu, tmp_path: Pa
     assert log.inputs["pull"].interval == pytest.approx(0.01)
 
 
-def test_a_sample_that_no_neighbour_supports_is_left_out_and_told(fmu: NamedFmu, tmp_path: Path) -> None:
+def test_a_sample_that_no_neighbour_supports_is_left_out_and_reported(fmu: NamedFmu, tmp_path: Path) -> None:
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.2,10.0,", "0.2,99.0,")
     log = read(fmu, tmp_path, text)
     assert log.inputs["pull"].values == pytest.approx(0.5 * np.delete(np.arange(ROWS), 20))
@@ -95,7 +95,9 @@ def test_times_of_a_clock_and_over_midnight(fmu: NamedFmu, tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize(("time", "unit"), [("{t}", ""), ("{ms}", " [ms]")])
-def test_a_heading_that_is_repeated_is_told_by_its_line(fmu: NamedFmu, tmp_path: Path, time: str, unit: str) -> None:
+def test_a_heading_that_is_repeated_is_reported_by_its_line(
+    fmu: NamedFmu, tmp_path: Path, time: str, unit: str
+) -> None:
     """Empty lines are counted; a word among numbers is told as what it is."""
     heading = f"time{unit},pull,bob.x\n"
     lines = (heading + rows(time + ",{f},{x}")).splitlines()
@@ -114,7 +116,7 @@ def test_a_heading_that_is_repeated_is_told_by_its_line(fmu: NamedFmu, tmp_path:
 
 
 @pytest.mark.parametrize("form", ["{t} s,{f} N,{x} m", "{t}s;{f}N;{x}m", "{t},{f} N,{x} m"])
-def test_units_behind_numbers_are_told(fmu: NamedFmu, tmp_path: Path, form: str) -> None:
+def test_units_behind_numbers_are_reported(fmu: NamedFmu, tmp_path: Path, form: str) -> None:
     mark = ";" if ";" in form else ","
     text = mark.join(("time", "pull", "bob.x")) + "\n" + rows(form)
     with pytest.raises(HostError, match=r"line 2.*: '0\.0 ?[sN]' has its unit behind its number; .* 'name \[[sN]\]'"):
@@ -232,9 +234,9 @@ def test_stamps_with_a_decimal_comma_and_of_two_zones(fmu: NamedFmu, tmp_path: P
     lines = stamped("{0};{1}").splitlines()
     lines[20:] = [line.replace("T02:", "T03:").replace("+00:00", "+01:00") for line in lines[20:]]
     for text in (with_comma, "\n".join(["stamp;x", *lines])):
-        found = read(fmu, tmp_path, text, alias).outputs["bob.x"]
-        assert found.time == pytest.approx(0.01 * np.arange(ROWS))
-        assert found.values == pytest.approx(0.001 * np.arange(ROWS))
+        actual = read(fmu, tmp_path, text, alias).outputs["bob.x"]
+        assert actual.time == pytest.approx(0.01 * np.arange(ROWS))
+        assert actual.values == pytest.approx(0.001 * np.arange(ROWS))
 
 
 @pytest.mark.parametrize(("rate", "jitter"), [(10, 0), (10, 1), (5, 0), (100, 3)])
@@ -247,11 +249,11 @@ def test_a_signal_that_is_repeated_row_by_row_counts_where_it_is_new(
     held = np.sin(new)[np.searchsorted(new, np.arange(count), side="right") - 1]
     lines = [f"{0.01 * k:.2f},{0.5 * k},{float(held[k])!r},{0.25 * (k // rate)}" for k in range(count)]
     log = read(fmu, tmp_path, "time,pull,bob.x,bob.y\n" + "\n".join(lines))
-    found = log.outputs["bob.x"]
-    assert found.time == pytest.approx(0.01 * new)
-    assert found.values == pytest.approx(np.sin(new))
-    (told,) = [note for note in log.notes if "has a new value every" in note]
-    assert f"every {rate} rows" in told
+    actual = log.outputs["bob.x"]
+    assert actual.time == pytest.approx(0.01 * new)
+    assert actual.values == pytest.approx(np.sin(new))
+    (reported,) = [note for note in log.notes if "has a new value every" in note]
+    assert f"every {rate} rows" in reported
     assert len(log.outputs["bob.y"].time) == count  # a ramp of a coarse signal
 
 
@@ -304,12 +306,14 @@ BAD = [
 ]
 
 
-@pytest.mark.parametrize(("text", "aliases", "words"), BAD)
-def test_bad_logs_are_told_in_a_sentence(fmu: NamedFmu, tmp_path: Path, text: str, aliases: str, words: str) -> None:
-    with pytest.raises(HostError) as told:
+@pytest.mark.parametrize(("text", "aliases", "message"), BAD)
+def test_bad_logs_are_reported_in_a_sentence(
+    fmu: NamedFmu, tmp_path: Path, text: str, aliases: str, message: str
+) -> None:
+    with pytest.raises(HostError) as refusal:
         read(fmu, tmp_path, text, aliases)
-    assert words in str(told.value)
-    assert "\n" not in str(told.value)
+    assert message in str(refusal.value)
+    assert "\n" not in str(refusal.value)
 
 
 def test_what_pandas_has_written_besides_does_not_matter(tmp_path: Path) -> None:
@@ -334,7 +338,7 @@ def test_what_squares_to_no_number_is_refused_with_its_line(fmu: NamedFmu, tmp_p
 
 
 def test_a_file_of_another_kind(tmp_path: Path) -> None:
-    for name, content, words in (
+    for name, content, message in (
         ("a.mf4", b"MDF     4.10", "asammdf"),
         ("a.parquet", b"PAR1 no", "is not a Parquet file"),
         ("a.csv", b"\x00\x01\x02", "is not text"),
@@ -342,5 +346,5 @@ def test_a_file_of_another_kind(tmp_path: Path) -> None:
     ):
         if content is not None:
             (tmp_path / name).write_bytes(content)
-        with pytest.raises(HostError, match=words):
+        with pytest.raises(HostError, match=message):
             read_log(tmp_path / name, LogAliases().dialect)

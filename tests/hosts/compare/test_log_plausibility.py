@@ -123,10 +123,10 @@ PLANTED = {
 
 
 @pytest.mark.parametrize("case", PLANTED)
-def test_a_mistake_is_told_with_what_would_mend_it(case: str) -> None:
-    change, words = PLANTED[case]
-    told = log_plausibility("log.csv", change(drive(len(case)))).warnings()
-    assert any(words in sentence for sentence in told), told
+def test_a_mistake_is_reported_with_what_would_mend_it(case: str) -> None:
+    change, message = PLANTED[case]
+    reported = log_plausibility("log.csv", change(drive(len(case)))).warnings()
+    assert any(message in sentence for sentence in reported), reported
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -145,12 +145,12 @@ def test_a_signal_of_the_other_sign_is_not_consistent(name: str) -> None:
 
 
 @pytest.mark.parametrize("factor", [0.5, 2.0, 1.8])
-def test_a_factor_without_a_name_is_told_with_its_interval(factor: float) -> None:
+def test_a_factor_without_a_name_is_reported_with_its_interval(factor: float) -> None:
     """A hint names a signal only if correcting it alone mends all relations it is in."""
     (sentence,) = log_plausibility("log.csv", scaled("chassis.wz", factor)(drive())).warnings()
-    found = re.search(r"a factor of (\S+) \((\S+) to (\S+)\) of 'wz' \(chassis\.wz\) would explain", sentence)
-    assert found is not None, sentence
-    middle, low, high = map(float, found.groups())
+    match = re.search(r"a factor of (\S+) \((\S+) to (\S+)\) of 'wz' \(chassis\.wz\) would explain", sentence)
+    assert match is not None, sentence
+    middle, low, high = map(float, match.groups())
     assert low < 1.0 / factor < high
     assert middle == pytest.approx(1.0 / factor, rel=0.05)
 
@@ -164,21 +164,21 @@ def test_a_car_that_stands_at_lights_has_no_frozen_sensors() -> None:
     for name in ("chassis.x", "chassis.y"):
         level[name] = np.full(len(t), log[name].values[stands][0])
     still = {n: replace(log[n], values=np.where(stands, v, log[n].values)) for n, v in level.items()}
-    told = log_plausibility("log.csv", log | still).warnings()
-    assert not any("longest time without a change" in sentence for sentence in told), told
+    reported = log_plausibility("log.csv", log | still).warnings()
+    assert not any("longest time without a change" in sentence for sentence in reported), reported
 
 
-def test_a_speed_of_0_is_told_unless_all_others_stand_too() -> None:
+def test_a_speed_of_0_is_reported_unless_all_others_stand_too() -> None:
     """A car on a rig or parked is a log like others; a speed that is 0 while something moves is a dead channel."""
     moving = drive()
     dead = moving | {"speed": replace(moving["speed"], values=0.0 * moving["speed"].values)}
     still = {n: replace(s, values=1e-3 * s.values) for n, s in dead.items()}
-    words = "largest speed is 0 m/s"
-    assert not any(words in sentence for sentence in log_plausibility("log.csv", still).warnings())
+    message = "largest speed is 0 m/s"
+    assert not any(message in sentence for sentence in log_plausibility("log.csv", still).warnings())
     for name in UNITS.keys() - {"speed", "chassis.yaw"}:
-        told = log_plausibility("log.csv", still | {name: dead[name]}).warnings()
-        assert any(words in sentence for sentence in told), name
-    assert any(words in sentence for sentence in log_plausibility("log.csv", {"speed": dead["speed"]}).warnings())
+        reported = log_plausibility("log.csv", still | {name: dead[name]}).warnings()
+        assert any(message in sentence for sentence in reported), name
+    assert any(message in sentence for sentence in log_plausibility("log.csv", {"speed": dead["speed"]}).warnings())
 
 
 @pytest.mark.parametrize("step", [0.2, 0.1, 0.02, 0.01])
@@ -186,7 +186,7 @@ def test_peaks_that_are_rounded_are_no_range_that_a_sensor_reaches(step: float) 
     """A robot steers to both sides alike; the sensor tells whole steps."""
     time = np.asarray(0.01 * np.arange(2000), dtype=np.float64)
     wave = np.asarray(np.sin(np.pi * time), dtype=np.float64)
-    made = {
+    result = {
         n: Signal(n, n, unit, time, values)
         for n, unit, values in (
             ("speed", "m/s", 20.0 + 0.01 * np.sin(time)),
@@ -194,25 +194,25 @@ def test_peaks_that_are_rounded_are_no_range_that_a_sensor_reaches(step: float) 
             ("chassis.ay", "m/s2", np.asarray(step * np.round(4.2 * wave / step), dtype=np.float64)),
         )
     }
-    assert log_plausibility("log.csv", made).warnings() == []
+    assert log_plausibility("log.csv", result).warnings() == []
     for round_to in (step, 1e-9):
         ay = np.clip(round_to * np.round(4.2 * wave / round_to), -3.8, 3.8)
-        clipped = replace(made["chassis.ay"], values=ay)
-        (told,) = log_plausibility("log.csv", made | {clipped.name: clipped}).warnings()
-        assert "'chassis.ay', samples at both ends of a range" in told
-        assert "offset" not in told, "it would make the ends unlike, and mend nothing"
+        clipped = replace(result["chassis.ay"], values=ay)
+        (reported,) = log_plausibility("log.csv", result | {clipped.name: clipped}).warnings()
+        assert "'chassis.ay', samples at both ends of a range" in reported
+        assert "offset" not in reported, "it would make the ends unlike, and mend nothing"
 
 
 def test_the_steering_wheel_tells_the_sign_of_the_yaw_rate_and_no_factor() -> None:
-    made = {n: s for n, s in drive().items() if n in ("speed", "chassis.wz")}
-    wz = made["chassis.wz"]
+    result = {n: s for n, s in drive().items() if n in ("speed", "chassis.wz")}
+    wz = result["chassis.wz"]
     turn = replace(wz, name="steering_wheel_angle", source="wheel", unit="rad", values=12.0 * wz.values)
-    plausibility = log_plausibility("log.csv", made | {turn.name: turn})
+    plausibility = log_plausibility("log.csv", result | {turn.name: turn})
     assert (plausibility.warnings(), consistent(plausibility)) == ([], set())
-    (told,) = log_plausibility("log.csv", made | {turn.name: replace(turn, values=-turn.values)}).warnings()
-    assert "the other sign of 'wheel' (steering_wheel_angle)" in told
+    (reported,) = log_plausibility("log.csv", result | {turn.name: replace(turn, values=-turn.values)}).warnings()
+    assert "the other sign of 'wheel' (steering_wheel_angle)" in reported
     alike = np.tile(np.sin(np.linspace(0.0, 2.0 * np.pi, 250, endpoint=False)), len(wz.time) // 250)
     robot = replace(turn, values=alike)
     assert not any(
-        "come again" in sentence for sentence in log_plausibility("log.csv", made | {turn.name: robot}).warnings()
+        "come again" in sentence for sentence in log_plausibility("log.csv", result | {turn.name: robot}).warnings()
     )

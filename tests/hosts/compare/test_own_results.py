@@ -29,8 +29,8 @@ def test_held_inputs_and_parameters_that_change(
     log = next(tmp_path.glob("*_drive.csv"))
     capsys.readouterr()
     assert main([str(tuned), str(log), "--step", "0.05", "--out", str(tmp_path / "compared")]) == 0
-    said = capsys.readouterr().out
-    assert "Tunable parameters that the log drives, each kept up to its next row: spring.stiffness." in said
+    output = capsys.readouterr().out
+    assert "Tunable parameters that the log drives, each kept up to its next row: spring.stiffness." in output
     assert _largest(tmp_path / "compared" / log.name) < 1e-9
 
 
@@ -86,9 +86,9 @@ def test_a_set_parameter_is_not_driven_by_the_log(
     rows = [f"{0.02 * k},{np.sin(0.02 * k)},{100 + k},{0.1 * np.sin(0.02 * k)}" for k in range(100)]
     log.write_text("time,pull,spring.stiffness,bob.x\n" + "\n".join(rows) + "\n")
     assert main([str(tuned), str(log), "--set", "spring.stiffness=120", "--out", str(tmp_path / "out")]) == 0
-    said = capsys.readouterr().out
-    assert "In the log, and set or sought instead: spring.stiffness." in said
-    assert "Tunable parameters" not in said
+    output = capsys.readouterr().out
+    assert "In the log, and set or sought instead: spring.stiffness." in output
+    assert "Tunable parameters" not in output
 
 
 def test_a_car_starts_as_the_run_did(prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

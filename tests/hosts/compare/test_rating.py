@@ -80,12 +80,12 @@ def test_a_known_factor_gives_the_slope_score() -> None:
 def test_like_an_independent_program() -> None:
     """Values of objective-rating-metrics 1.3 (TU Graz), which follows ISO/TS 18571, for these signals."""
     y, x = np.sin(9.0 * T), 1.1 * np.sin(9.0 * (T - 0.02))
-    found = rating(y, x)
-    assert found.corridor == pytest.approx(0.6696063537309731, rel=1e-12)
-    assert found.phase == pytest.approx(0.9, rel=1e-12)
-    assert found.magnitude == pytest.approx(0.9502108470849571, rel=1e-12)
-    assert found.slope == pytest.approx(0.9500064356170399, rel=1e-12)
-    assert found.overall == pytest.approx(0.8278859980327884, rel=1e-12)
+    actual = rating(y, x)
+    assert actual.corridor == pytest.approx(0.6696063537309731, rel=1e-12)
+    assert actual.phase == pytest.approx(0.9, rel=1e-12)
+    assert actual.magnitude == pytest.approx(0.9502108470849571, rel=1e-12)
+    assert actual.slope == pytest.approx(0.9500064356170399, rel=1e-12)
+    assert actual.overall == pytest.approx(0.8278859980327884, rel=1e-12)
 
 
 def test_against_that_program_where_it_is_installed() -> None:

@@ -37,16 +37,16 @@ def fitted(start: float, starts: int):  # type: ignore[no-untyped-def]
     return fit({"y": signal}, [Unknown("rate", "1/s", start, 0.5, 5.0, 1.0)], decaying, starts=starts)
 
 
-def test_refused_starts_are_left_out_and_told() -> None:
-    found = fitted(1.0, 4)
-    assert len(found.starts) + len(found.refused) == 4
-    assert len(found.refused) >= 1
-    assert all(start.begin[0] <= REFUSED for start in found.starts)
-    assert abs(found.found[0].value - RATE) < 2.0 * found.found[0].half_width
-    notes = [note for note in fit_notes(found) if note.startswith("Another start (--starts) is left out.")]
-    assert len(notes) == len(found.refused)
+def test_refused_starts_are_left_out_and_reported() -> None:
+    actual = fitted(1.0, 4)
+    assert len(actual.starts) + len(actual.refused) == 4
+    assert len(actual.refused) >= 1
+    assert all(start.begin[0] <= REFUSED for start in actual.starts)
+    assert abs(actual.found[0].value - RATE) < 2.0 * actual.found[0].half_width
+    notes = [note for note in fit_notes(actual) if note.startswith("Another start (--starts) is left out.")]
+    assert len(notes) == len(actual.refused)
     assert float(notes[0].rpartition("rate = ")[2].split()[0]) > REFUSED
-    assert found.found[0].value == pytest.approx(fitted(1.0, 1).found[0].value, abs=1e-4)
+    assert actual.found[0].value == pytest.approx(fitted(1.0, 1).found[0].value, abs=1e-4)
 
 
 def test_a_log_that_the_start_meets_to_the_last_bit_is_fitted() -> None:
@@ -67,9 +67,9 @@ def test_values_with_which_no_run_starts_are_left_out(prototype_fmu: Path, tmp_p
     t = np.array([0.0, 0.1, 0.2, 1.0])
     steered = {"steering": np.array([0.0, 0.0, 0.3, 0.3])}
     with Fmu(prototype_fmu) as fmu:
-        found = run(fmu, Manoeuvre("step", t, steered, 1.0, {"initial.speed": 15.0}), 0.01)
+        result = run(fmu, Manoeuvre("step", t, steered, 1.0, {"initial.speed": 15.0}), 0.01)
     log, record = tmp_path / "step.csv", tmp_path / "record.json"
-    columns = np.column_stack([found.time, *(found[n] for n in ("steering", "speed", "chassis.wz"))])
+    columns = np.column_stack([result.time, *(result[n] for n in ("steering", "speed", "chassis.wz"))])
     np.savetxt(log, columns, delimiter=",", header="time,steering,speed,chassis.wz", comments="", fmt="%.9g")
     chosen = ["--signals", "chassis.wz", "--set", "chassis.inertia.z=400", "--set", "initial.settling=0"]
     chosen += ["--fit", "chassis.inertia.z=300:900"]
@@ -78,5 +78,5 @@ def test_values_with_which_no_run_starts_are_left_out(prototype_fmu: Path, tmp_p
     fitted = json.loads(record.read_text())["fit"]
     assert len(fitted["starts"]) + len(fitted["refused_starts"]) == 3
     assert fitted["refused_starts"]
-    assert all("moments of inertia" in words for words in fitted["refused_starts"])
+    assert all("moments of inertia" in message for message in fitted["refused_starts"])
     assert [start["end"][0] for start in fitted["starts"]] == pytest.approx([457.7] * len(fitted["starts"]), rel=0.002)

@@ -23,9 +23,9 @@ def log(prototype_fmu: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     t = np.array([0.0, 1.0, 5.0])
     inputs = {"steering": np.array([0.0, 0.1, 0.1]), "throttle": 0.1 + 0.0 * t}
     with Fmu(prototype_fmu) as fmu:
-        found = run(fmu, Manoeuvre("turn", t, inputs, BEGIN + 1.0, {"initial.speed": 15.0}), 0.01)
-    rows = found.time >= BEGIN - 1e-9
-    columns = [found.time[rows] - BEGIN, *(found[n][rows] for n in ("steering", "throttle", *NAMES))]
+        result = run(fmu, Manoeuvre("turn", t, inputs, BEGIN + 1.0, {"initial.speed": 15.0}), 0.01)
+    rows = result.time >= BEGIN - 1e-9
+    columns = [result.time[rows] - BEGIN, *(result[n][rows] for n in ("steering", "throttle", *NAMES))]
     path = tmp_path_factory.mktemp("log") / "turn.csv"
     header = ",".join(("time", "steering", "throttle", *NAMES))
     np.savetxt(path, np.column_stack(columns), delimiter=",", header=header, comments="", fmt="%.9g")
@@ -61,8 +61,8 @@ def test_the_acceleration_that_a_driver_follows_is_without_noise() -> None:
     t = np.arange(0.0, 5.0, 0.01)
     noise = 0.03 * np.random.default_rng(1).standard_normal(len(t))
     true = Signal("speed", "speed", "m/s", t, 20.0 - 6.0 * t + 1.5 * t**2)
-    found = smoothed(Signal("speed", "speed", "m/s", t, true.values + noise))
-    assert np.gradient(found.values - true.values, t).std() < 0.2 * np.gradient(noise, t).std()
+    result = smoothed(Signal("speed", "speed", "m/s", t, true.values + noise))
+    assert np.gradient(result.values - true.values, t).std() < 0.2 * np.gradient(noise, t).std()
     np.testing.assert_allclose(smoothed(true).values, true.values, atol=1e-9)  # a parabola stays
     for some in (slice(3), slice(15)):
         short = Signal("speed", "speed", "m/s", t[some], noise[some])
@@ -71,5 +71,5 @@ def test_the_acceleration_that_a_driver_follows_is_without_noise() -> None:
 
 def test_a_gap_is_no_edge_of_the_speed() -> None:
     t = np.concatenate([np.arange(0.0, 2.0, 0.01), np.arange(4.0, 6.0, 0.01)])
-    found = smoothed(Signal("speed", "speed", "m/s", t, 50.0 - 6.0 * t))
-    np.testing.assert_allclose(found.values, 50.0 - 6.0 * t, atol=1e-9)
+    actual = smoothed(Signal("speed", "speed", "m/s", t, 50.0 - 6.0 * t))
+    np.testing.assert_allclose(actual.values, 50.0 - 6.0 * t, atol=1e-9)

@@ -39,15 +39,15 @@ def test_deviations_are_in_degrees(comparison: Comparison) -> None:
     assert gear.split()[:2] == ["gear", "0.2"]
 
 
-def test_a_drift_is_told_where_it_is_one(comparison: Comparison) -> None:
+def test_a_drift_is_reported_where_it_is_one(comparison: Comparison) -> None:
     """In the terminal and on the page by the same sentence."""
     clock = replace(comparison.common, delay=0.01, delay_error=1e-4, drift=-3e-4, drift_error=1e-5, explained=0.9)
-    words = common_sentence(Comparison(comparison.signals, clock))
-    assert words == (
+    message = common_sentence(Comparison(comparison.signals, clock))
+    assert message == (
         "All signals together: the log is 10 ± 0.1 ms late; the clock of its outputs runs 300 ± 10 ppm slow against "
         "that of its inputs, which explains 90 % of what a delay leaves."
     )
-    assert common_text(Comparison(comparison.signals, clock))[-1] == words
+    assert common_text(Comparison(comparison.signals, clock))[-1] == message
     model = Comparison(comparison.signals, replace(clock, explained=0.05))
     assert common_sentence(model) == (
         "All signals together: the log is 10 ± 0.1 ms late. "
@@ -62,9 +62,9 @@ def test_a_signal_that_tells_no_delay_has_no_say_in_the_common_one() -> None:
     result = Result(["turn", "noise"], {}, TIME, np.column_stack([turn, other]), 1.0, 2.0, 0, [])
     late = np.sin(3.0 * (TIME - 0.03)) + np.sin(7.0 * (TIME - 0.03))
     signals = {n: Signal(n, n, "1", TIME, y) for n, y in {"turn": late, "noise": noise}.items()}
-    found = compare(signals, {n: Curve(result, n) for n in signals}, 0.1).common
-    assert found.delay == pytest.approx(0.03, abs=1e-5)
-    assert found.correlation == pytest.approx(1.0, abs=1e-6)
+    actual = compare(signals, {n: Curve(result, n) for n in signals}, 0.1).common
+    assert actual.delay == pytest.approx(0.03, abs=1e-5)
+    assert actual.correlation == pytest.approx(1.0, abs=1e-6)
 
 
 def test_deviations_by_speed_are_in_the_same_units(comparison: Comparison) -> None:

@@ -50,9 +50,9 @@ def test_short_and_constant_signals_have_none() -> None:
 
 
 def test_words_count_and_name_them() -> None:
-    words = spike_text("'angle' (wheel_FL.steer)", "rad", TIME[[5, 7, 9, 11]], np.array([0.1, 0.2, 0.3, 0.4]))
-    assert words.startswith("4 samples of 'angle' (wheel_FL.steer)")
-    assert "0.1 rad at 0.05 s, 0.2 rad at 0.07 s, 0.3 rad at 0.09 s and 1 more" in words
+    message = spike_text("'angle' (wheel_FL.steer)", "rad", TIME[[5, 7, 9, 11]], np.array([0.1, 0.2, 0.3, 0.4]))
+    assert message.startswith("4 samples of 'angle' (wheel_FL.steer)")
+    assert "0.1 rad at 0.05 s, 0.2 rad at 0.07 s, 0.3 rad at 0.09 s and 1 more" in message
 
 
 def test_simple_models_do_not_see_it_either(tmp_path: Path) -> None:

@@ -63,20 +63,20 @@ def test_every_run_is_sent_once_and_in_order_and_chunks_end_small() -> None:
 @pytest.mark.parametrize("breaks", [1, 2])
 def test_a_chunk_that_breaks_is_sent_once_more(breaks: int) -> None:
     client = Client(breaks)
-    found = dict(runs_on(client, 3, ChunkSize(10.0, 2)).results([2, 1, 4]))
-    assert (found[0], found[2]) == (-2, -4)
+    actual = dict(runs_on(client, 3, ChunkSize(10.0, 2)).results([2, 1, 4]))
+    assert (actual[0], actual[2]) == (-2, -4)
     assert client.chunks.count([1]) == 2
     if breaks == 1:
-        assert found[1] == -1
+        assert actual[1] == -1
     else:
-        assert found[1] == Lost("has failed on its worker: KeyError: 'gone'")
+        assert actual[1] == Lost("has failed on its worker: KeyError: 'gone'")
 
 
 def test_an_error_of_a_worker_is_no_lost_scheduler() -> None:
     """Errors of the system too, as where a worker has no memory for a process."""
     full = OSError(12, "no memory")
-    found = dict(runs_on(Client(2, full), 3, ChunkSize(10.0, 2)).results([2, 1, 4]))
-    assert found == {0: -2, 1: Lost("has failed on its worker: OSError: [Errno 12] no memory"), 2: -4}
+    actual = dict(runs_on(Client(2, full), 3, ChunkSize(10.0, 2)).results([2, 1, 4]))
+    assert actual == {0: -2, 1: Lost("has failed on its worker: OSError: [Errno 12] no memory"), 2: -4}
     with pytest.raises(SchedulerLostError):
         dict(runs_on(Client(2, full, "finished"), 3, ChunkSize(10.0, 2)).results([2, 1, 4]))
 
@@ -84,10 +84,10 @@ def test_an_error_of_a_worker_is_no_lost_scheduler() -> None:
 def test_a_run_that_ends_its_workers_is_given_up_and_the_others_of_its_chunk_are_made() -> None:
     """Dask sends a chunk to four workers before it gives it back; alone the run ends four more."""
     client = Client(math.inf, KilledWorker("task", None, 3))  # type: ignore[arg-type]
-    found = dict(runs_on(client, 4, ChunkSize(0.1, 1)).results([2, 1, 4, 6]))
+    actual = dict(runs_on(client, 4, ChunkSize(0.1, 1)).results([2, 1, 4, 6]))
     assert client.chunks == [[2, 1], [4], [2], [1], [6]]
-    lost = found.pop(1)
-    assert found == {0: -2, 2: -4, 3: -6}
+    lost = actual.pop(1)
+    assert actual == {0: -2, 2: -4, 3: -6}
     assert isinstance(lost, Lost)
     assert "was lost with its worker 8 times" in lost.how
 

@@ -24,16 +24,16 @@ def half(task: float, tell: Callable[[Any], None]) -> float:
     return -task
 
 
-def test_what_is_done_is_told_and_what_is_lost_has_its_part() -> None:
+def test_progress_is_reported_and_a_lost_task_is_a_result() -> None:
     experiment: Experiment[float, float] = Experiment("halves", half, float, str, size=lambda task: task)
-    told: list[tuple[int, float]] = []
-    with closing(experiment.results([2.0, 3.0], experiment.pool(), lambda *word: told.append(word))) as results:
-        found = {number: (task, result) for number, task, result in results}
-    assert found[0] == (2.0, -2.0)
-    assert found[1][0] == 3.0
-    assert isinstance(found[1][1], Lost)
-    assert [done for number, done in told if number == 0] == [1.0, 2.0]  # never more than there is
-    assert [done for number, done in told if number == 1] == [1.5]
+    reported: list[tuple[int, float]] = []
+    with closing(experiment.results([2.0, 3.0], experiment.pool(), lambda *word: reported.append(word))) as results:
+        actual = {number: (task, result) for number, task, result in results}
+    assert actual[0] == (2.0, -2.0)
+    assert actual[1][0] == 3.0
+    assert isinstance(actual[1][1], Lost)
+    assert [done for number, done in reported if number == 0] == [1.0, 2.0]  # never more than there is
+    assert [done for number, done in reported if number == 1] == [1.5]
 
 
 def tenths(task: float, tell: Callable[[Any], None]) -> float:
@@ -68,26 +68,26 @@ def test_a_result_is_finished_out_of_the_store_and_of_a_lost_one_that_is_kept() 
 
     experiment: Experiment[float, Any] = Experiment("stores", stored, float, str, finish=finish)
     with closing(experiment.results(iter([2.0, 3.0, 4.0]), experiment.pool(), whole=3.0)) as results:
-        found = [result.kept if isinstance(result, Lost) else result for _, _, result in results]
-    assert found == ["2.0 0.0 2.0", "3.0 None 3.0", "4.0 0.0 4.0"]
+        actual = [result.kept if isinstance(result, Lost) else result for _, _, result in results]
+    assert actual == ["2.0 0.0 2.0", "3.0 None 3.0", "4.0 0.0 4.0"]
 
 
 def test_a_result_is_found_by_its_name_while_its_key_is_the_same(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    with ResultStore[float](tmp_path, float, "counts") as kept:
-        kept.add("a", "key", 1.0)
-        kept.add("b", "key", 2.0)
-        kept.add("b", "other", 3.0)
+    with ResultStore[float](tmp_path, float, "counts") as store:
+        store.add("a", "key", 1.0)
+        store.add("b", "key", 2.0)
+        store.add("b", "other", 3.0)
         with pytest.raises(FileError, match=r"Another program counts in .*; wait for it, or give another --out\."):
             ResultStore[float](tmp_path, float, "counts")
-    with ResultStore[float](tmp_path, float, "counts") as kept:
-        assert [kept.find("a", "key"), kept.find("b", "key"), kept.find("b", "other")] == [1.0, None, 3.0]
-    with ResultStore[float](tmp_path, float, "counts", again=True) as kept:
-        assert kept.find("a", "key") is None
-        kept.add("a", "key", 4.0)
-    with ResultStore[float](tmp_path, float, "counts") as kept:
-        assert [kept.find("a", "key"), kept.find("b", "other")] == [4.0, 3.0]
+    with ResultStore[float](tmp_path, float, "counts") as store:
+        assert [store.find("a", "key"), store.find("b", "key"), store.find("b", "other")] == [1.0, None, 3.0]
+    with ResultStore[float](tmp_path, float, "counts", again=True) as store:
+        assert store.find("a", "key") is None
+        store.add("a", "key", 4.0)
+    with ResultStore[float](tmp_path, float, "counts") as store:
+        assert [store.find("a", "key"), store.find("b", "other")] == [4.0, 3.0]
     report_resumed(0, 2, "counts")
     report_resumed(1, 2, "counts")
     assert capsys.readouterr().out == "1 of 2 counts are there; --again repeats them.\n"

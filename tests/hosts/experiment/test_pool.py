@@ -80,16 +80,16 @@ def threads(task: int, tell: Tell) -> int:
 def test_runs_are_asked_for_as_processes_become_free(monkeypatch: pytest.MonkeyPatch) -> None:
     """And each process computes with one thread, whatever the environment says."""
     monkeypatch.setenv("OMP_NUM_THREADS", "7")
-    asked, told = [0], []
+    requested, reported = [0], []
 
     def tasks() -> Iterator[int]:
         for k in range(12):
-            asked[0] += 1
+            requested[0] += 1
             yield k
 
     with Pool(threads, int, 2) as pool:
-        for count, (number, result) in enumerate(pool.results(tasks(), lambda *word: told.append(word))):
-            assert asked[0] <= count + 4
+        for count, (number, result) in enumerate(pool.results(tasks(), lambda *word: reported.append(word))):
+            assert requested[0] <= count + 4
             assert result == 1
-            assert (number, float(number)) in told
-    assert asked[0] == 12
+            assert (number, float(number)) in reported
+    assert requested[0] == 12

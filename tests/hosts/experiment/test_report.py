@@ -25,7 +25,7 @@ def test_links_end_at_the_sections_of_their_titles() -> None:
     links = {link.get("href"): link.text for link in tree.iter("a")}
     titles = {f"#{part.get('id')}": part.findtext("h2") for part in tree.iter("section")}
     assert links == titles == {"#section-1": "A & b", "#named": "A b", "#section-3": "c"}
-    assert [words.text for words in tree.iter("p")][:3] == ["fact", "first", "foot"]
+    assert [message.text for message in tree.iter("p")][:3] == ["fact", "first", "foot"]
     assert next(p.text for p in reversed([*tree.iter("p")])).partition(", by ALi3 ")[1]
 
 
@@ -37,11 +37,11 @@ def test_a_figure_is_laid_out_and_drawn_once(monkeypatch: pytest.MonkeyPatch) ->
     drawn = []
     draw = Figure.draw
     monkeypatch.setattr(Figure, "draw", lambda self, renderer: (drawn.append(1), draw(self, renderer)))
-    found = drawing(figure_of(3), "words")
+    actual = drawing(figure_of(3), "words")
     assert len(drawn) == 1
-    assert found.size == (384, 288)
-    assert found.svg == drawing(figure_of(3), "words").svg
-    assert found.svg != drawing(figure_of(4), "words").svg
+    assert actual.size == (384, 288)
+    assert actual.svg == drawing(figure_of(3), "words").svg
+    assert actual.svg != drawing(figure_of(4), "words").svg
 
 
 def test_plots_stand_in_the_page_and_in_the_folder(tmp_path: Path) -> None:

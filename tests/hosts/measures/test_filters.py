@@ -11,9 +11,9 @@ from hosts.measures.peak import top
 def test_low_pass_leaves_the_square_of_a_butterworth_without_a_shift(frequency: float, part: float) -> None:
     t = np.arange(0.0, 20.0, 1e-3)
     wave = np.sin(2 * np.pi * frequency * t)
-    made = phaseless_low_pass(wave, 1e-3, 6.0)
+    result = phaseless_low_pass(wave, 1e-3, 6.0)
     inner = slice(5000, 15000)
-    assert made[inner] == pytest.approx(part * wave[inner], abs=2e-4)
+    assert result[inner] == pytest.approx(part * wave[inner], abs=2e-4)
 
 
 def test_low_pass_keeps_a_straight_line_to_its_ends() -> None:
@@ -26,10 +26,10 @@ def test_low_pass_of_a_short_signal_is_possible() -> None:
 
 
 @pytest.mark.parametrize(
-    ("interval", "poles", "words"), [(0.1, 12, "closer than 0.08"), (0.01, 7, "even number of poles")]
+    ("interval", "poles", "message"), [(0.1, 12, "closer than 0.08"), (0.01, 7, "even number of poles")]
 )
-def test_an_impossible_low_pass_is_told(interval: float, poles: int, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
+def test_an_impossible_low_pass_is_reported(interval: float, poles: int, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         phaseless_low_pass(np.zeros(100), interval, 6.0, poles)
 
 
@@ -42,15 +42,15 @@ def test_resampling_of_uneven_times_keeps_lines_and_ends() -> None:
 
 
 @pytest.mark.parametrize(
-    ("time", "values", "words"),
+    ("time", "values", "message"),
     [
         ([0.0], [1.0], "two samples"),
         ([0.0, 0.0], [1.0, 2.0], "increasing"),
         ([0.0, 1.0], [1.0, np.nan], "finite at 1 s"),
     ],
 )
-def test_a_wrong_signal_is_told(time: list[float], values: list[float], words: str) -> None:
-    with pytest.raises(ValueError, match=words):
+def test_a_wrong_signal_is_reported(time: list[float], values: list[float], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         resample(time, values, 0.1)
 
 

@@ -35,24 +35,24 @@ def of(response: np.ndarray, coherence: float = 1.0) -> FrequencyResponse:
 
 
 def test_gain_and_phase_are_those_of_the_system() -> None:
-    found = frequency_response(SWEEP, answer(), INTERVAL, F)
-    error = found.response / exact(F) - 1.0
+    result = frequency_response(SWEEP, answer(), INTERVAL, F)
+    error = result.response / exact(F) - 1.0
     assert np.abs(error).max() < 0.03
     assert np.sqrt(np.mean(np.abs(error) ** 2)) < 0.01
-    assert found.coherence.min() > 0.995
+    assert result.coherence.min() > 0.995
 
 
 def test_noise_lowers_the_coherence_but_does_not_bias_the_response() -> None:
     noisy = answer() + np.random.default_rng(3).normal(0.0, 1.0, len(T))
-    found = frequency_response(SWEEP, noisy, INTERVAL, F)
-    assert found.coherence.mean() < 0.98
-    assert abs(np.mean(found.response / exact(F)) - 1.0) < 0.02
+    result = frequency_response(SWEEP, noisy, INTERVAL, F)
+    assert result.coherence.mean() < 0.98
+    assert abs(np.mean(result.response / exact(F)) - 1.0) < 0.02
 
 
 def test_noise_alone_has_no_coherence() -> None:
     rng = np.random.default_rng(5)
-    found = frequency_response(SWEEP, rng.normal(0.0, 1.0, len(T)), INTERVAL, F[F > 1.0])
-    assert found.coherence.mean() < 0.4
+    result = frequency_response(SWEEP, rng.normal(0.0, 1.0, len(T)), INTERVAL, F[F > 1.0])
+    assert result.coherence.mean() < 0.4
 
 
 def test_the_fit_finds_the_system_of_second_order() -> None:
@@ -94,15 +94,15 @@ def test_resonance_of_a_mass_on_a_spring_of_either_sign() -> None:
 def test_phase_of_a_response_of_the_other_sign_begins_at_a_half_turn() -> None:
     lag = 1.0 / (1.0 + 1j * F / 0.5)
     for sign in (1.0, -1.0):
-        found = of(sign * lag)
-        assert found.phase[0] == pytest.approx((0.0 if sign > 0 else math.pi) - math.atan(0.4))
-        assert (np.diff(found.phase) < 0.0).all()
+        actual = of(sign * lag)
+        assert actual.phase[0] == pytest.approx((0.0 if sign > 0 else math.pi) - math.atan(0.4))
+        assert (np.diff(actual.phase) < 0.0).all()
     assert math.isnan(of(lag).phase_at(9.0))
 
 
 @pytest.mark.parametrize(
-    ("n", "interval", "words"), [(500, 0.01, "needs a record of 15 s, not 5 s"), (6400, 0.2, "samples each 0.2 s")]
+    ("n", "interval", "message"), [(500, 0.01, "needs a record of 15 s, not 5 s"), (6400, 0.2, "samples each 0.2 s")]
 )
-def test_a_record_that_cannot_do_is_told(n: int, interval: float, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
+def test_a_record_that_cannot_do_is_reported(n: int, interval: float, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         frequency_response(SWEEP[:n], SWEEP[:n], interval, F)

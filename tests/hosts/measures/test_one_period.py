@@ -18,18 +18,18 @@ def wave(t: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("lag", [0.0, 0.1234, 0.3])
 def test_a_pure_delay(side: float, lag: float) -> None:
-    found = one_period(T, side * 0.4 * wave(T), side * 3.0 * wave(T - lag))
-    assert found.correlation_lag == pytest.approx(lag, abs=1e-3)
-    assert found.correlation == pytest.approx(1.0, abs=1e-3)
-    assert (found.first_lag, found.second_lag) == pytest.approx((lag, lag), abs=1e-3)
-    assert (found.first_ratio, found.second_ratio) == pytest.approx((7.5, 7.5), rel=1e-4)
+    actual = one_period(T, side * 0.4 * wave(T), side * 3.0 * wave(T - lag))
+    assert actual.correlation_lag == pytest.approx(lag, abs=1e-3)
+    assert actual.correlation == pytest.approx(1.0, abs=1e-3)
+    assert (actual.first_lag, actual.second_lag) == pytest.approx((lag, lag), abs=1e-3)
+    assert (actual.first_ratio, actual.second_ratio) == pytest.approx((7.5, 7.5), rel=1e-4)
 
 
-def test_peaks_that_differ_are_told_apart() -> None:
+def test_peaks_that_differ_are_reported_apart() -> None:
     late = np.where(T < 1.1, wave(T - 0.1), 1.2 * wave(T - 0.1))
-    found = one_period(T, wave(T), 2.0 * late)
-    assert found.first_ratio == pytest.approx(2.0, rel=1e-4)
-    assert found.second_ratio == pytest.approx(2.4, rel=1e-4)
+    actual = one_period(T, wave(T), 2.0 * late)
+    assert actual.first_ratio == pytest.approx(2.0, rel=1e-4)
+    assert actual.second_ratio == pytest.approx(2.4, rel=1e-4)
 
 
 @pytest.mark.parametrize("phase", [0.1, 0.5, 1.0])

@@ -25,21 +25,21 @@ def second_order(t: float | np.ndarray, w: float, zeta: float) -> np.ndarray:
 def test_times_and_overshoot_are_those_of_the_closed_form(zeta: float, size: float) -> None:
     w = 6.0
     # an offset, as a sensor may have it, must not count
-    found = step_response(T, 0.2 + size * second_order(T, w, zeta), 0.0, BEFORE, STEADY)
-    assert found.steady == pytest.approx(size, rel=1e-6)
-    assert found.overshoot == pytest.approx(math.exp(-math.pi * zeta / math.sqrt(1 - zeta**2)), rel=1e-4)
-    assert found.peak_response_time == pytest.approx(math.pi / (w * math.sqrt(1 - zeta**2)), abs=1e-4)
-    assert found.peak == pytest.approx(size * (1.0 + found.overshoot))
+    actual = step_response(T, 0.2 + size * second_order(T, w, zeta), 0.0, BEFORE, STEADY)
+    assert actual.steady == pytest.approx(size, rel=1e-6)
+    assert actual.overshoot == pytest.approx(math.exp(-math.pi * zeta / math.sqrt(1 - zeta**2)), rel=1e-4)
+    assert actual.peak_response_time == pytest.approx(math.pi / (w * math.sqrt(1 - zeta**2)), abs=1e-4)
+    assert actual.peak == pytest.approx(size * (1.0 + actual.overshoot))
     exact = brentq(lambda t: float(second_order(t, w, zeta)) - 0.9, 1e-3, 0.6)
-    assert found.response_time == pytest.approx(exact, abs=1e-4)
-    assert found.unsteadiness < 1e-6
+    assert actual.response_time == pytest.approx(exact, abs=1e-4)
+    assert actual.unsteadiness < 1e-6
 
 
 def test_a_response_of_first_order_has_no_peak() -> None:
-    found = step_response(T, 1.0 - np.exp(-np.maximum(T, 0.0) / 0.3), 0.0, BEFORE, STEADY)
-    assert found.response_time == pytest.approx(0.3 * math.log(10.0), abs=1e-4)
-    assert found.overshoot == 0.0
-    assert math.isnan(found.peak_response_time)
+    actual = step_response(T, 1.0 - np.exp(-np.maximum(T, 0.0) / 0.3), 0.0, BEFORE, STEADY)
+    assert actual.response_time == pytest.approx(0.3 * math.log(10.0), abs=1e-4)
+    assert actual.overshoot == 0.0
+    assert math.isnan(actual.peak_response_time)
 
 
 def test_the_reference_is_half_of_the_steering() -> None:

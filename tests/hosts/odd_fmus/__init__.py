@@ -71,9 +71,9 @@ def odd_fmu(name: str, folder: Path, *defines: str, changes: Mapping[str, str] |
     for old, new in (changes or {}).items():
         description = description.replace(old, new)
     library = folder / f"{name}{fmpy.sharedLibraryExtension}"
-    what = f"the FMU {name}"
+    label = f"the FMU {name}"
     include = (HERE, _HEADERS)
-    build.compile_c([HERE / f"{name}.c"], build.host_target(), library, include=include, defines=defines, what=what)
+    build.compile_c([HERE / f"{name}.c"], build.host_target(), library, include=include, defines=defines, what=label)
     fmu = folder / f"{name}.fmu"
     with zipfile.ZipFile(fmu, "w") as archive:
         archive.writestr("modelDescription.xml", description)

@@ -25,11 +25,11 @@ WAYS = ("`ali3 check`", "FMPy's validation", "FMPy's run fails")
 def looked_at(case: tuple[str, bool]) -> tuple[str, tuple[bool, ...]]:
     """The check that a fault is of, and in which of `WAYS` it is found."""
     plant, three = case
-    check, verdict, words = PLANTS.get(plant) or ("messages", "note" if three else "BAD", ALSO[plant])
+    check, verdict, message = PLANTS.get(plant) or ("messages", "note" if three else "BAD", ALSO[plant])
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         fmu = planted_fmu(Path(folder), plant, three)
         _, lines = found(fmu)
-        ours = lines[check][0] == verdict and words in lines[check][1]
+        ours = lines[check][0] == verdict and message in lines[check][1]
         command = [sys.executable, "-c", _BY_FMPY, str(fmu)]
         done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60, cwd=folder)
     problems = next((line for line in done.stdout.splitlines() if line.isdigit()), "0")

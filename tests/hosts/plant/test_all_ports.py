@@ -58,7 +58,7 @@ def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
     values = [np.nan, np.inf, -np.inf, 1e6, -1e6, 0.0, 1.0, -1.0, 1e-300]
     with Car(ported, step=0.005) as car:
         ports = [name for name in ports_of(car) if name != "gear_request"]
-        told = 0
+        reported = 0
         for seed in range(4):
             random = np.random.default_rng(seed)
             car.reset(**{"initial.speed": 10.0})
@@ -75,8 +75,8 @@ def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
                     given = level(car)
                 state = car.read(("chassis.x", "chassis.z", "speed", "energy.total"))
                 assert np.isfinite(state).all()
-            told += len(car.messages)
-        assert told > 10
+            reported += len(car.messages)
+        assert reported > 10
 
 
 @pytest.mark.slow
@@ -86,15 +86,15 @@ def test_each_port_tells_once_that_it_is_silent_or_no_number(ported: Path) -> No
         ports = ports_of(car)
         for port in ports:
             car.reset(**{"initial.speed": 10.0})
-            told = len(car.messages)
+            reported = len(car.messages)
             given = level(car)
             others = [name for name in car.inputs if name != port]
             car.fmu.setter(others)([given[name] for name in others])
             car.fmu.step(0.0, 0.002)
-            (silent,) = (m for m in car.messages[told:] if "not set before" in m)
+            (silent,) = (m for m in car.messages[reported:] if "not set before" in m)
             assert f"'{port}'" in silent
             car.reset(**{"initial.speed": 10.0})
-            told = len(car.messages)
+            reported = len(car.messages)
             for bad in (np.nan, np.inf, np.nan):
                 row = [bad if name == port else given[name] for name in car.inputs]
                 if port == "gear_request":  # a whole number, which has no NaN
@@ -102,16 +102,16 @@ def test_each_port_tells_once_that_it_is_silent_or_no_number(ported: Path) -> No
                         car.step(row)
                 else:
                     car.step(row)
-            said = [m for m in car.messages[told:] if f"'{port}'" in m]
-            assert len(said) == (port != "gear_request"), port
-            assert all("was set to nan and holds its last value" in m for m in said)
+            messages = [m for m in car.messages[reported:] if f"'{port}'" in m]
+            assert len(messages) == (port != "gear_request"), port
+            assert all("was set to nan and holds its last value" in m for m in messages)
             assert np.isfinite(car.read(("chassis.z", "energy.total"))).all()
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS[1:2], indirect=True)
 @pytest.mark.parametrize(
-    ("speed", "step", "slope", "words"),
+    ("speed", "step", "slope", "message"),
     [
         (10.0, 0.002, 0.0, None),
         (10.0, 0.003, 0.0, "are held for longer than 7.4 ms may shake it, {at_once} 2.5 ms"),
@@ -122,8 +122,8 @@ def test_each_port_tells_once_that_it_is_silent_or_no_number(ported: Path) -> No
         (30.0, 0.003, 1.0, None),
     ],
 )
-def test_a_step_that_is_long_for_a_tyre_is_told_once_at_each_wheel(
-    ported: Path, speed: float, step: float, slope: float, words: str | None
+def test_a_step_that_is_long_for_a_tyre_is_reported_once_at_each_wheel(
+    ported: Path, speed: float, step: float, slope: float, message: str | None
 ) -> None:
     """By the tyres left out, in words of the front ones; in the first step no host knows a derivative."""
     with Car(ported, step=step) as car:
@@ -135,16 +135,16 @@ def test_a_step_that_is_long_for_a_tyre_is_told_once_at_each_wheel(
                 follow([slope] * len(hubs))
             car.step([given[name] for name in car.inputs])
             car.read(("speed",))
-        said = [m for m in car.messages if "may shake it" in m]
-        assert len(said) == (0 if words is None else len(WHEELS))
-        wanted = (words or "").format(at_once="where all programs step at once for longer than")
-        assert all(wanted in m for m in said[:2])
+        messages = [m for m in car.messages if "may shake it" in m]
+        assert len(messages) == (0 if message is None else len(WHEELS))
+        wanted = (message or "").format(at_once="where all programs step at once for longer than")
+        assert all(wanted in m for m in messages[:2])
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS[1:2], indirect=True)
 @pytest.mark.parametrize(
-    ("every", "first", "words"),
+    ("every", "first", "message"),
     [
         (1, 150, None),
         (
@@ -155,8 +155,8 @@ def test_a_step_that_is_long_for_a_tyre_is_told_once_at_each_wheel(
         (600, 0, "are those of 0 s, and its wheel went 1"),
     ],
 )
-def test_a_tyre_that_answers_seldom_or_no_more_is_told_once_at_each_wheel(
-    ported: Path, every: int, first: int, words: str | None
+def test_a_tyre_that_answers_seldom_or_no_more_is_reported_once_at_each_wheel(
+    ported: Path, every: int, first: int, message: str | None
 ) -> None:
     """Steps of 2 ms would be short enough, and the master gives forces at each; one rest of 3 m is none to tell."""
     with Car(ported, step=0.002) as car:
@@ -166,15 +166,15 @@ def test_a_tyre_that_answers_seldom_or_no_more_is_told_once_at_each_wheel(
             if k >= first and k % every == 0:
                 given |= {f"wheel_{w}.hub_Fz": 3065.0 + k % 7 for w in WHEELS}
             car.step([given[name] for name in car.inputs])
-        said = [m for m in car.messages if "the hub at" in m or "may shake it" in m]
-        assert len(said) == (0 if words is None else len(WHEELS))
-        assert all(words is None or words in m for m in said[:2])
+        messages = [m for m in car.messages if "the hub at" in m or "may shake it" in m]
+        assert len(messages) == (0 if message is None else len(WHEELS))
+        assert all(message is None or message in m for m in messages[:2])
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS[3:], indirect=True)
-@pytest.mark.parametrize(("silent", "told"), [("gear_request", 0), ("clutch", 1)])
-def test_a_whole_number_is_set_where_it_changes_alone(ported: Path, silent: str, told: int) -> None:
+@pytest.mark.parametrize(("silent", "reported"), [("gear_request", 0), ("clutch", 1)])
+def test_a_whole_number_is_set_where_it_changes_alone(ported: Path, silent: str, reported: int) -> None:
     with Car(ported, step=0.002) as car:
         car.reset(**{"initial.speed": 10.0})
         given, most = level(car), [name for name in car.inputs if name != silent]
@@ -185,7 +185,7 @@ def test_a_whole_number_is_set_where_it_changes_alone(ported: Path, silent: str,
             else:
                 others([given[n] for n in most])
             car.fmu.step(0.002 * k, 0.002)
-        assert sum("again and again" in m and f"'{silent}'" in m for m in car.messages) == told
+        assert sum("again and again" in m and f"'{silent}'" in m for m in car.messages) == reported
 
 
 @pytest.mark.slow
@@ -218,26 +218,26 @@ def test_a_normal_that_is_none_is_a_sentence_at_each_wheel(ported: Path, normal:
     with Car(ported, step=0.004) as car:
         for wheel in WHEELS:
             car.reset(**{"initial.speed": 10.0})
-            told, given = len(car.messages), level(car)
+            reported, given = len(car.messages), level(car)
             given |= {f"wheel_{wheel}.road_normal_{c}": x for c, x in zip("xyz", normal, strict=True)}
             for _ in range(3):
                 car.step([given[name] for name in car.inputs])
-            (said,) = car.messages[told:]
-            assert f"'wheel_{wheel}.road_normal_x'" in said
-            assert "must be a unit vector that points up" in said
+            (messages,) = car.messages[reported:]
+            assert f"'wheel_{wheel}.road_normal_x'" in messages
+            assert "must be a unit vector that points up" in messages
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS[:1], indirect=True)
 def test_road_answers_from_python_are_those_of_the_closed_car_on_level_ground(ported: Path) -> None:
     """Asked in turn every 2 ms, it rolls out as one on its own level road does: straight, at its height of rest."""
-    asked = tuple(f"wheel_{w}.contact_{c}" for c in "xy" for w in WHEELS)
+    requested = tuple(f"wheel_{w}.contact_{c}" for c in "xy" for w in WHEELS)
     with Car(ported, step=0.002) as car:
         car.reset(**{"initial.speed": 12.0})
         begin, first = car.read(("chassis.x", "chassis.z"))
         given = level(car)
         for _ in range(250):
-            places = car.read(asked).reshape(2, 4)
+            places = car.read(requested).reshape(2, 4)
             for w, x, y in zip(WHEELS, *places, strict=True):
                 given |= {f"wheel_{w}.road_x": float(x), f"wheel_{w}.road_y": float(y)}
             car.step([given[name] for name in car.inputs])

@@ -121,15 +121,15 @@ def test_values_go_into_an_array_that_is_given(car: Car) -> None:
 def test_warnings_are_those_of_the_fmu(car: Car) -> None:
     car.reset(**SPEED)
     car.step([3.0, 0.0])
-    words = "'steering' was set to 3 and is held at 1"
-    assert [m for m in car.messages if words in m]
+    message = "'steering' was set to 3 and is held at 1"
+    assert [m for m in car.messages if message in m]
     car.reset(**SPEED)
-    assert not [m for m in car.messages if words in m]  # those of the start before are gone
+    assert not [m for m in car.messages if message in m]  # those of the start before are gone
     car.step([3.0, 0.0])
-    assert len([m for m in car.messages if words in m]) == 1
+    assert len([m for m in car.messages if message in m]) == 1
 
 
-def test_what_does_not_fit_is_one_sentence(car: Car, rigid_fmu: Path) -> None:
+def test_inconsistent_arguments_are_refused_in_one_sentence(car: Car, rigid_fmu: Path) -> None:
     cases = {
         "no start yet": lambda: car.step([0.0, 0.0]),
         "no input 'pedal'": lambda: Car(rigid_fmu, inputs=("pedal",)),
@@ -138,8 +138,8 @@ def test_what_does_not_fit_is_one_sentence(car: Car, rigid_fmu: Path) -> None:
         "positive number": lambda: Car(rigid_fmu, step=0.0),
         "no parameter or input 'mass'": lambda: car.reset(mass=3.0),
     }
-    for words, call in cases.items():
-        with pytest.raises(HostError, match=words):
+    for message, call in cases.items():
+        with pytest.raises(HostError, match=message):
             call()
     car.reset()
     with pytest.raises(HostError, match="3 inputs are given; the car takes 2"):
@@ -158,13 +158,13 @@ def test_what_does_not_fit_is_one_sentence(car: Car, rigid_fmu: Path) -> None:
     locked = np.zeros(2)
     locked.flags.writeable = False
     for into in (np.zeros(3), np.zeros((2, 1)), np.zeros(2, int), [0.0, 0.0], locked):
-        with pytest.raises(HostError, match="it must be an array of 2 floats") as told:
+        with pytest.raises(HostError, match="it must be an array of 2 floats") as refusal:
             car.read(("speed", "chassis.x"), into)
-        assert "\n" not in str(told.value)
+        assert "\n" not in str(refusal.value)
 
 
 @pytest.mark.parametrize(
-    ("seed", "parameters", "words"),
+    ("seed", "parameters", "message"),
     [
         (1, {"initial.speed": (20.0, 10.0)}, "'initial.speed' is [20.0, 10.0]; a range is two numbers, the smaller"),
         (1, {"initial.speed": (10.0, 20.0, 30.0)}, "a range is two numbers"),
@@ -178,13 +178,13 @@ def test_what_does_not_fit_is_one_sentence(car: Car, rigid_fmu: Path) -> None:
     ],
 )
 def test_a_start_that_there_is_not_is_one_sentence_and_no_start(
-    car: Car, seed: int, parameters: dict[str, object], words: str
+    car: Car, seed: int, parameters: dict[str, object], message: str
 ) -> None:
-    with pytest.raises(HostError) as told:
+    with pytest.raises(HostError) as refusal:
         car.reset(seed, **parameters)
-    assert words in str(told.value)
-    assert "\n" not in str(told.value)
-    if words.endswith("nan"):
+    assert message in str(refusal.value)
+    assert "\n" not in str(refusal.value)
+    if message.endswith("nan"):
         with pytest.raises(HostError, match="has no start yet"):
             car.step([0.0, 0.0])
     car.reset(**SPEED)
@@ -209,7 +209,7 @@ def test_a_car_without_a_start_or_closed_says_so(rigid_fmu: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("options", "words"),
+    ("options", "message"),
     [
         ({"car": 1}, "The car is 1; it must be a name, a folder or a file."),
         ({"car": "a\x00b"}, r"The car is 'a\\x00b'"),
@@ -219,13 +219,13 @@ def test_a_car_without_a_start_or_closed_says_so(rigid_fmu: Path) -> None:
         ({"step": "0.01"}, "The communication step of a car is '0.01'; it must be a positive number, in s."),
     ],
 )
-def test_options_of_another_type_are_one_sentence(options: dict[str, object], words: str) -> None:
-    with pytest.raises(HostError, match=words):
+def test_options_of_another_type_are_refused_in_one_sentence(options: dict[str, object], message: str) -> None:
+    with pytest.raises(HostError, match=message):
         Car(**options)
 
 
 @pytest.mark.parametrize(
-    ("inputs", "words"),
+    ("inputs", "message"),
     [
         ("steering", "The names are 'steering'; they must be a list or tuple of texts."),
         (5, "The names are 5; they must be a list or tuple of texts."),
@@ -233,6 +233,6 @@ def test_options_of_another_type_are_one_sentence(options: dict[str, object], wo
         (("steering", "throttle", "steering"), "'steering' is named 2 times"),
     ],
 )
-def test_inputs_that_there_are_not(rigid_fmu: Path, inputs: tuple[str, ...], words: str) -> None:
-    with pytest.raises(HostError, match=words.replace("?", "[?]")):
+def test_inputs_that_there_are_not(rigid_fmu: Path, inputs: tuple[str, ...], message: str) -> None:
+    with pytest.raises(HostError, match=message.replace("?", "[?]")):
         Car(rigid_fmu, inputs=inputs)

@@ -23,10 +23,10 @@ def named(request: pytest.FixtureRequest) -> tuple[str, str]:
 
 def test_they_pass_the_checker(named: tuple[str, Path]) -> None:
     name, path = named
-    made = gymnasium.make(name, car=str(path)).unwrapped
-    made.spec = None  # else the checker makes a second one by its name, of the car of the package
-    check_env(made, skip_render_check=True)
-    made.close()
+    result = gymnasium.make(name, car=str(path)).unwrapped
+    result.spec = None  # else the checker makes a second one by its name, of the car of the package
+    check_env(result, skip_render_check=True)
+    result.close()
 
 
 def test_a_seed_gives_the_same_episode(named: tuple[str, Path]) -> None:
@@ -35,30 +35,30 @@ def test_a_seed_gives_the_same_episode(named: tuple[str, Path]) -> None:
 
 
 def test_several_run_beside_each_other(rigid_fmu: Path) -> None:
-    made = gymnasium.make_vec(LANE, 2, vectorization_mode="sync", car=str(rigid_fmu))
-    seen, _ = made.reset(seed=1)
-    assert seen.shape == (2, 9)
-    assert (seen[0] != seen[1]).any()
+    result = gymnasium.make_vec(LANE, 2, vectorization_mode="sync", car=str(rigid_fmu))
+    observation, _ = result.reset(seed=1)
+    assert observation.shape == (2, 9)
+    assert (observation[0] != observation[1]).any()
     for _ in range(5):
-        seen, reward, *_ = made.step(np.zeros((2, 1), np.float32))
-    assert np.isfinite(seen).all()
+        observation, reward, *_ = result.step(np.zeros((2, 1), np.float32))
+    assert np.isfinite(observation).all()
     assert reward.shape == (2,)
-    made.close()
+    result.close()
 
 
 @pytest.mark.slow
 def test_a_driver_keeps_the_lane_and_none_leaves_it(rigid_fmu: Path) -> None:
     ends = {}
     for gain in (1.0, 0.0):
-        made = environments.LaneKeeping(str(rigid_fmu), speed=(12.0, 12.0), seconds=12.0)
-        seen, _ = made.reset(seed=0)
-        ended = left = False
-        while not (ended or left):
-            offset, heading, bend = seen[0], seen[1], seen[6]
+        keeping = environments.LaneKeeping(str(rigid_fmu), speed=(12.0, 12.0), seconds=12.0)
+        observation, _ = keeping.reset(seed=0)
+        ended = remaining = False
+        while not (ended or remaining):
+            offset, heading, bend = observation[0], observation[1], observation[6]
             steering = gain * (9.0 * bend - 0.25 * offset - 1.2 * heading)
-            seen, _, left, ended, _ = made.step(np.array([steering], np.float32))
-        ends[gain] = bool(left)
-        made.close()
+            observation, _, remaining, ended, _ = keeping.step(np.array([steering], np.float32))
+        ends[gain] = bool(remaining)
+        keeping.close()
     assert ends == {1.0: False, 0.0: True}
 
 
@@ -93,7 +93,7 @@ def test_options_of_a_reset_are_parameters_of_that_start(rigid_fmu: Path) -> Non
 
 
 @pytest.mark.parametrize(
-    ("made", "options", "words"),
+    ("made", "options", "message"),
     [
         (environments.LaneKeeping, {"speed": 12.0}, "speeds at the start of an environment are 12.0; they must be two"),
         (environments.AntiLockBraking, {"torque": (np.nan, 5.0)}, "torques of the brakes of an environment are"),
@@ -104,25 +104,25 @@ def test_options_of_a_reset_are_parameters_of_that_start(rigid_fmu: Path) -> Non
     ],
 )
 def test_an_environment_that_cannot_be_is_one_sentence(
-    made: type[environments.CarEnvironment], options: dict[str, object], words: str, rigid_fmu: Path
+    made: type[environments.CarEnvironment], options: dict[str, object], message: str, rigid_fmu: Path
 ) -> None:
-    with pytest.raises(HostError, match=words):
+    with pytest.raises(HostError, match=message):
         made(str(rigid_fmu), **options)
 
 
 def test_brakes_that_let_go_stop_earlier_than_locked_ones(braked_fmu: Path) -> None:
     ways = {}
     for controlled in (True, False):
-        made = environments.AntiLockBraking(str(braked_fmu), speed=(15.0, 15.0), friction=(0.5, 0.5))
-        seen, _ = made.reset(seed=0)
+        braking = environments.AntiLockBraking(str(braked_fmu), speed=(15.0, 15.0), friction=(0.5, 0.5))
+        observation, _ = braking.reset(seed=0)
         action, way, ended, cut = np.zeros(4, np.float32), 0.0, False, False
         while not (ended or cut):
-            slips = -seen[1:5]
+            slips = -observation[1:5]
             change = np.where(slips > 0.1, -0.2, 0.05) if controlled else 0.2
             action = np.clip(action + change, 0.0, 1.0).astype(np.float32)
-            seen, reward, ended, cut, _ = made.step(action)
+            observation, reward, ended, cut, _ = braking.step(action)
             way -= reward
         assert ended
         ways[controlled] = way
-        made.close()
+        braking.close()
     assert ways[True] < 0.97 * ways[False]

@@ -52,14 +52,14 @@ def test_a_course_of_cones_is_a_lane_along_its_path() -> None:
         assert curvature[0] == pytest.approx(bend, abs=1e-3)
 
 
-def test_what_is_no_line_is_one_sentence() -> None:
-    for points, words in (
+def test_an_invalid_line_is_refused_in_one_sentence() -> None:
+    for points, message in (
         (np.zeros((3, 2)), "shape"),
         (np.zeros((5, 2)), "lies on the one before"),
         ("road", "The points of a lane are 'road'; they must be numbers up to 1e.09 m"),
         (1e300 * POINTS, "they must be numbers up to"),
     ):
-        with pytest.raises(HostError, match=words):
+        with pytest.raises(HostError, match=message):
             Lane(points)
     for width in (0.0, np.nan, "wide", True, np.float32(np.inf)):
         with pytest.raises(HostError, match="width of a lane"):

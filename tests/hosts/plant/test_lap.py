@@ -42,52 +42,52 @@ def test_the_ring_is_that_of_the_world() -> None:
 
 
 def test_it_passes_the_checker(rigid_fmu: Path) -> None:
-    made = gymnasium.make(LAP, car=str(rigid_fmu), road=LEVEL).unwrapped
-    made.spec = None  # else the checker makes a second one by its name, of the car of the package
-    check_env(made, skip_render_check=True)
-    made.close()
+    result = gymnasium.make(LAP, car=str(rigid_fmu), road=LEVEL).unwrapped
+    result.spec = None  # else the checker makes a second one by its name, of the car of the package
+    check_env(result, skip_render_check=True)
+    result.close()
 
 
 def test_a_seed_gives_the_same_episode_and_several_run_beside_each_other(rigid_fmu: Path) -> None:
     check_seeds(LAP, car=str(rigid_fmu), road=LEVEL)
     several = gymnasium.make_vec(LAP, 2, vectorization_mode="sync", car=str(rigid_fmu), road=LEVEL)
-    seen, _ = several.reset(seed=1)
-    assert (seen[0] != seen[1]).any()
-    seen, reward, *_ = several.step(np.zeros((2, 2), np.float32))
-    assert np.isfinite(seen).all()
+    observation, _ = several.reset(seed=1)
+    assert (observation[0] != observation[1]).any()
+    observation, reward, *_ = several.step(np.zeros((2, 2), np.float32))
+    assert np.isfinite(observation).all()
     assert reward.shape == (2,)
     several.close()
 
 
 def test_beside_the_road_it_ends(rigid_fmu: Path) -> None:
     """Straight on in the first curve: it ends 6 m beside the middle; the rewards are way over 20 m/s less time."""
-    made = ProvingGroundLap(str(rigid_fmu), road=LEVEL, speed=(30.0, 30.0))
-    seen, _ = made.reset(seed=0)
+    lap = ProvingGroundLap(str(rigid_fmu), road=LEVEL, speed=(30.0, 30.0))
+    seen, _ = lap.reset(seed=0)
     total, ended, cut = 0.0, False, False
     while not (ended or cut):
-        seen, reward, ended, cut, told = made.step(np.array([0.0, 0.5], np.float32))
+        seen, reward, ended, cut, observation = lap.step(np.array([0.0, 0.5], np.float32))
         total += reward
     assert ended
-    assert "lap_time" not in told
+    assert "lap_time" not in observation
     assert seen[0] < -6.0
-    assert 620.0 < made.driven < 700.0
-    assert total == pytest.approx(made.driven / 20.0 - made.car.time - 20.0, abs=1e-9)
-    made.close()
+    assert 620.0 < lap.driven < 700.0
+    assert total == pytest.approx(lap.driven / 20.0 - lap.car.time - 20.0, abs=1e-9)
+    lap.close()
 
 
 @pytest.mark.slow
 def test_the_driver_makes_a_lap(rigid_fmu: Path) -> None:
     """On the proving ground, within 1 m of the middle; the time is that of his speed, the sum of rewards that of it."""
-    made = ProvingGroundLap(str(rigid_fmu), speed=(20.0, 20.0), step=0.04)
-    seen, _ = made.reset(seed=0)
-    driver, total, worst, ended, cut = LapDriver(made, 20.0), 0.0, 0.0, False, False
+    lap = ProvingGroundLap(str(rigid_fmu), speed=(20.0, 20.0), step=0.04)
+    seen, _ = lap.reset(seed=0)
+    driver, total, worst, ended, cut = LapDriver(lap, 20.0), 0.0, 0.0, False, False
     while not (ended or cut):
-        seen, reward, ended, cut, told = made.step(driver.act(seen))
+        seen, reward, ended, cut, observation = lap.step(driver.act(seen))
         total, worst = total + reward, max(worst, abs(float(seen[0])))
     assert worst < 1.5
-    assert told["lap_time"] == pytest.approx(made.lane.length / 20.0, rel=0.02)
-    assert total == pytest.approx(made.lane.length / 20.0 - told["lap_time"], abs=0.05)
-    made.close()
+    assert observation["lap_time"] == pytest.approx(lap.lane.length / 20.0, rel=0.02)
+    assert total == pytest.approx(lap.lane.length / 20.0 - observation["lap_time"], abs=0.05)
+    lap.close()
 
 
 def test_a_refused_step_ends_the_lap_and_costs_what_the_end_beside_the_road_does(rigid_fmu: Path, monkeypatch) -> None:
@@ -99,8 +99,8 @@ def test_a_refused_step_ends_the_lap_and_costs_what_the_end_beside_the_road_does
             raise StepRefusedError("the solver cannot")
 
         monkeypatch.setattr(lap.car, "step", refuse)
-        _, reward, ended, cut, told = lap.step(np.zeros(2, np.float32))
-    assert told["refused"] == "the solver cannot"
+        _, reward, ended, cut, observation = lap.step(np.zeros(2, np.float32))
+    assert observation["refused"] == "the solver cannot"
     assert ended
     assert not cut
     assert reward == pytest.approx(-lap.OUT - lap.car.step_length)

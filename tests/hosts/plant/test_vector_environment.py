@@ -34,21 +34,21 @@ def test_they_are_single_ones_to_the_last_bit(named: tuple[str, dict[str, Any]])
     assert isinstance(several, VectorEnvironment)
     singles = [gymnasium.make(name, **options) for _ in range(MANY)]
     several.action_space.seed(1)
-    seen = several.reset(seed=7)[0]
+    observation = several.reset(seed=7)[0]
     alone = [single.reset(seed=7 + k)[0] for k, single in enumerate(singles)]
-    assert (seen == np.array(alone)).all()
+    assert (observation == np.array(alone)).all()
     ended, starts = [False] * MANY, 0
     for _ in range(STEPS):
         actions = several.action_space.sample()
-        seen, reward, left, cut, _ = several.step(actions)
+        observation, reward, remaining, cut, _ = several.step(actions)
         for k, single in enumerate(singles):
             if ended[k]:  # the step after an end is the new start
                 row = (single.reset()[0], 0.0, False, False)
                 starts += 1
             else:
                 row = single.step(actions[k])[:4]
-            assert (seen[k] == row[0]).all()
-            assert (reward[k], left[k], cut[k]) == row[1:]
+            assert (observation[k] == row[0]).all()
+            assert (reward[k], remaining[k], cut[k]) == row[1:]
             ended[k] = bool(row[2] or row[3])
     assert starts >= 2 * MANY
     several.close()
@@ -65,15 +65,15 @@ def test_new_starts_are_those_of_gymnasium(rigid_fmu: Path, mode: AutoresetMode)
 
     rows: list[list[Any]] = []
     for kind, more in ((SyncVectorEnv, {}), (VectorEnvironment, {"threads": 2})):
-        made = kind([make] * 3, autoreset_mode=mode, **more)
-        made.action_space.seed(1)
-        mine: list[Any] = [made.reset(seed=[3, 1, 4])]
+        result = kind([make] * 3, autoreset_mode=mode, **more)
+        result.action_space.seed(1)
+        mine: list[Any] = [result.reset(seed=[3, 1, 4])]
         for _ in range(12):
-            mine.append(made.step(made.action_space.sample()))
+            mine.append(result.step(result.action_space.sample()))
             if mode == AutoresetMode.DISABLED and (ended := mine[-1][2] | mine[-1][3]).any():
-                mine.append(made.reset(options={"reset_mask": ended}))
+                mine.append(result.reset(options={"reset_mask": ended}))
         rows.append(mine)
-        made.close()
+        result.close()
     assert len(rows[0]) == len(rows[1])
     for one, other in zip(*rows, strict=True):
         assert data_equivalence(one, other, exact=True)
@@ -81,19 +81,19 @@ def test_new_starts_are_those_of_gymnasium(rigid_fmu: Path, mode: AutoresetMode)
 
 def test_steps_are_under_way_at_once(rigid_fmu: Path) -> None:
     """Steps that wait for another one end, so two are made at once; what one raises is raised, and all go on."""
-    made = gymnasium.make_vec(LANE, 4, threads=2, car=str(rigid_fmu))
-    assert isinstance(made, VectorEnvironment)
-    made.reset(seed=0)
+    result = gymnasium.make_vec(LANE, 4, threads=2, car=str(rigid_fmu))
+    assert isinstance(result, VectorEnvironment)
+    result.reset(seed=0)
     meeting = threading.Barrier(2, timeout=20.0)
-    for env in made.envs:
+    for env in result.envs:
         car = env.unwrapped.car
         car.step = lambda inputs, inner=car.step: (meeting.wait(), inner(inputs))[1]
-    made.step(np.zeros((4, 1), np.float32))
+    result.step(np.zeros((4, 1), np.float32))
     with pytest.raises(HostError, match="must be 1 finite numbers"):
-        made.step(np.array([[0.0], [0.0], [np.nan], [np.nan]], np.float32))
-    seen, *_ = made.step(np.zeros((4, 1), np.float32))
-    assert np.isfinite(seen).all()
-    made.close()
+        result.step(np.array([[0.0], [0.0], [np.nan], [np.nan]], np.float32))
+    observation, *_ = result.step(np.zeros((4, 1), np.float32))
+    assert np.isfinite(observation).all()
+    result.close()
 
 
 def test_threads_that_are_none_are_a_sentence(rigid_fmu: Path) -> None:
@@ -105,11 +105,11 @@ def test_threads_that_are_none_are_a_sentence(rigid_fmu: Path) -> None:
             VectorEnvironment(functions)  # type: ignore[arg-type]
     with pytest.raises(HostError, match="number of environments is 0; it must be a whole number from 1"):
         gymnasium.make_vec(LANE, 0, car=str(rigid_fmu))
-    made = gymnasium.make_vec(LANE, 2, car=str(rigid_fmu))
-    made.reset(seed=0)
+    result = gymnasium.make_vec(LANE, 2, car=str(rigid_fmu))
+    result.reset(seed=0)
     for actions in (None, np.array(0.1), np.zeros((3, 1), np.float32)):
         with pytest.raises(HostError, match="they must be 2, one an environment"):
-            made.step(actions)
-    made.close()
+            result.step(actions)
+    result.close()
     with pytest.raises(HostError, match="The environments are closed"):
-        made.step(np.zeros((2, 1), np.float32))
+        result.step(np.zeros((2, 1), np.float32))

@@ -9,13 +9,13 @@ HEADER = "<4I10d"
 
 def frames(page, count):
     """The next frames, each acknowledged."""
-    found = []
-    while len(found) < count:
+    results = []
+    while len(results) < count:
         data = page.recv(timeout=10)
         if isinstance(data, bytes):
-            found.append(data)
+            results.append(data)
             page.send(json.dumps({"type": "seen", "count": struct.unpack_from(HEADER, data)[4]}))
-    return found
+    return results
 
 
 def texts(page, kind):

@@ -37,11 +37,11 @@ def request(
             data += line.recv(65536)
         head, _, body = data.partition(b"\r\n\r\n")
         first, *rest = head.decode().split("\r\n")
-        found = {name.lower(): value.strip() for name, value in (text.split(":", 1) for text in rest)}
+        results = {name.lower(): value.strip() for name, value in (text.split(":", 1) for text in rest)}
         status = int(first.split()[1])
-        while status != 101 and len(body) < int(found["content-length"]):
+        while status != 101 and len(body) < int(results["content-length"]):
             body += line.recv(65536)
-        return status, found, body
+        return status, results, body
 
 
 class RawClient:

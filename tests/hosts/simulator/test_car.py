@@ -157,7 +157,7 @@ def test_a_step_while_it_runs_pauses_it(make: Made) -> None:
     assert steps(car, 1).count == at + 1
 
 
-def test_jumps_raise_the_epoch_and_are_said(make: Made) -> None:
+def test_jumps_raise_the_epoch_and_are_reported(make: Made) -> None:
     car = make(start={"initial.speed": 10.0})
     first = car.latest()
     moment = steps(car, 1000)
@@ -253,8 +253,8 @@ def test_nobody_takes_the_events_and_the_car_drives_on(make: Made) -> None:
     lost = [e for e in events if e.kind == "overflow"]
     assert len(lost) == 1
     assert car.events() == []  # said once
-    told = int(lost[0].text.split()[0]) + len(events) - 1
-    assert 200 * 20 <= told <= 200 * 20 + 5  # the FMU has a word of its own on its step
+    reported = int(lost[0].text.split()[0]) + len(events) - 1
+    assert 200 * 20 <= reported <= 200 * 20 + 5  # the FMU has a word of its own on its step
 
 
 def for_ever(ask: Callable[[], None]) -> None:
@@ -367,7 +367,9 @@ def gone_now(pid: int) -> bool:
         ({"fmu": Path("nowhere.fmu")}, "There is no file"),
     ],
 )
-def test_what_cannot_be_started(fmu: Callable[[str], Path], settings: dict[str, object], sentence: str) -> None:
+def test_a_start_that_is_impossible_is_refused(
+    fmu: Callable[[str], Path], settings: dict[str, object], sentence: str
+) -> None:
     with pytest.raises(HostError, match=sentence):
         Car(CarSettings(**({"fmu": fmu("sledge"), "start": {}} | settings)))
 

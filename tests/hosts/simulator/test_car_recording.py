@@ -44,10 +44,10 @@ def steps(car: Car, count: int) -> None:
 
 def counts(folder: Path) -> list[tuple[int, int]]:
     """Epoch and count of every row."""
-    found = []
+    results = []
     for rows in read_recording(folder).blocks():
-        found += [(int(epoch), int(count)) for _, count, epoch, _ in zip(*(c.tolist() for c in rows), strict=True)]
-    return found
+        results += [(int(epoch), int(count)) for _, count, epoch, _ in zip(*(c.tolist() for c in rows), strict=True)]
+    return results
 
 
 @pytest.mark.slow
@@ -91,13 +91,13 @@ def test_states_between_lead_to_the_same_bits(fmu: Callable[[str], Path], tmp_pa
         steps(car, 12_000)
     drive = read_recording(folder)
     assert drive.saved == {(10_000, 1)}
-    last, found = last_drive(drive), []
+    last, actual = last_drive(drive), []
     for there in (True, False):
         with Repeater(drive) as repeater:
             assert len(list(repeater.along(last, 9700))) == (200 if there else 9700)
-            found.append(repeater.fmu.state_bytes())
+            actual.append(repeater.fmu.state_bytes())
         shutil.rmtree(folder / "states", ignore_errors=True)
-    assert found[0] == found[1]
+    assert actual[0] == actual[1]
     # Another build has other states: the drive is repeated from its start.
     meta = json.loads((folder / "recording.json").read_text())
     (folder / "states").mkdir()

@@ -49,7 +49,7 @@ def test_a_clock_that_goes_leaves_no_file_open() -> None:
 
 @pytest.mark.parametrize("other", [True, False])
 @_LINUX
-def test_time_that_others_ran_is_told_apart_from_sleep(other: bool) -> None:
+def test_time_that_others_ran_is_reported_apart_from_sleep(other: bool) -> None:
     """On one processor, beside a program that never sleeps and without it."""
     mine = os.sched_getaffinity(0)
     os.sched_setaffinity(0, {min(mine)})
@@ -79,8 +79,8 @@ def test_time_that_others_ran_is_told_apart_from_sleep(other: bool) -> None:
 
 def test_priority_says_what_was_got(monkeypatch: pytest.MonkeyPatch) -> None:
     tried = []
-    for name, words in (("_fifo", ""), ("_nice", ""), ("_keep_memory", "")):
-        monkeypatch.setattr(room, name, lambda name=name, words=words: tried.append(name) or words)
+    for name, message in (("_fifo", ""), ("_nice", ""), ("_keep_memory", "")):
+        monkeypatch.setattr(room, name, lambda name=name, message=message: tried.append(name) or message)
     if sys.platform == "win32":
         pytest.skip("the calls of POSIX")
     assert "no priority above the usual" in ask_for_priority()

@@ -50,8 +50,8 @@ def told(capsys):
 
     def run(*arguments):
         code = main([str(a) for a in arguments])
-        said = capsys.readouterr()
-        return code, said.out, said.err.strip().splitlines()[-1] if said.err.strip() else ""
+        captured = capsys.readouterr()
+        return code, captured.out, captured.err.strip().splitlines()[-1] if captured.err.strip() else ""
 
     return run
 
@@ -61,7 +61,7 @@ def test_a_run_without_a_page_ends_with_its_report(fmus, told, tmp_path):
         fmus["sledge"], "--headless", "--stop-time", 0.5, "--step", 0.005, "--json", tmp_path / "r.json"
     )
     assert code == 0
-    for words in (
+    for message in (
         "100 steps of 5 ms: 0.500 s simulated in ",
         "median",
         "p99.9",
@@ -69,7 +69,7 @@ def test_a_run_without_a_page_ends_with_its_report(fmus, told, tmp_path):
         "missed deadlines: ",
         "<= ",
     ):
-        assert words in out
+        assert message in out
     report = json.loads((tmp_path / "r.json").read_text())
     assert report["steps"]["steps"] == 100
     assert report["steps"]["simulated"] == pytest.approx(0.5)
@@ -90,10 +90,10 @@ def test_a_run_without_a_page_that_is_ended_ends_with_its_report(name, fmus, tmp
         assert any(line.startswith("Ready") for line in program.stdout)
         time.sleep(0.5)
         os.killpg(program.pid, getattr(signal, name))  # as a terminal and `timeout` do
-        said, error = program.communicate(timeout=30)
+        output, error = program.communicate(timeout=30)
     assert (program.returncode, error) == (0, "")
-    assert "Ended by Ctrl-C or a signal." in said
-    assert " steps of 5 ms: " in said
+    assert "Ended by Ctrl-C or a signal." in output
+    assert " steps of 5 ms: " in output
     assert sum(len(rows) for rows in read_recording(tmp_path / "drive").blocks()) > 20
 
 
@@ -108,9 +108,9 @@ def test_a_terminal_that_is_closed_leaves_a_whole_recording(fmus, tmp_path):
         [sys.executable, "-c", take, *command], stdin=theirs, stdout=theirs, stderr=theirs, start_new_session=True
     )
     os.close(theirs)
-    said = b""
-    while b"Ready" not in said:
-        said += os.read(ours, 1000)
+    reported = b""
+    while b"Ready" not in reported:
+        reported += os.read(ours, 1000)
     time.sleep(0.5)
     os.close(ours)
     assert program.wait(timeout=60) == 0
@@ -131,7 +131,7 @@ def test_a_recording_of_many_parts_is_joined_with_a_bar(fmus, capsys, tmp_path, 
     assert len(shares) > 2
 
 
-def test_a_recording_that_cannot_be_finished_is_said_in_the_report(fmus, told, tmp_path, monkeypatch):
+def test_a_recording_that_cannot_be_finished_is_reported_in_the_report(fmus, told, tmp_path, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
@@ -236,8 +236,10 @@ def renamed(fmus, tmp_path):
 def test_an_fmu_with_other_names_says_what_it_lacks_and_runs_all_the_same(renamed, told):
     code, out, _ = told(renamed, "--headless", "--stop-time", 0.1)
     assert code == 0
-    words = "foreign.fmu has no input steering, throttle, brake and no output chassis.x, chassis.z, chassis.yaw, which"
-    assert words in out
+    message = (
+        "foreign.fmu has no input steering, throttle, brake and no output chassis.x, chassis.z, chassis.yaw, which"
+    )
+    assert message in out
     assert "(--aliases FILE). Its inputs are StrAng, Acc_ped, Brk; its outputs X," in out
     assert "is not drawn" in out
     assert "20 steps" in told(renamed, "--headless", "--stop-time", 0.1, "--step", 0.005)[1]
@@ -267,8 +269,8 @@ def test_an_alias_file_gives_it_our_names(renamed, told, tmp_path):
 
 def test_a_hello_has_our_names(renamed, tmp_path):
     (tmp_path / "names.toml").write_text(ALIASES)
-    asked = DriveRequest(renamed, None, None, None, FmuOptions([], []), tmp_path / "names.toml", None)
-    prepared = prepare(asked, lambda text: None)
+    requested = DriveRequest(renamed, None, None, None, FmuOptions([], []), tmp_path / "names.toml", None)
+    prepared = prepare(requested, lambda text: None)
     hello = prepared.hello({}, ("steering",), 0.002, "")
     names = {v["name"] for v in hello["description"]["variables"]}
     assert names >= set(NAMES)
@@ -277,7 +279,7 @@ def test_a_hello_has_our_names(renamed, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "message"),
     [
         (["--headless"], "needs its length: --headless --stop-time T, or a --manoeuvre"),
         (["--stop-time", 3], "--stop-time is for a run without a page; add --headless"),
@@ -298,11 +300,11 @@ def test_a_hello_has_our_names(renamed, tmp_path):
         (["--listen", "203.0.113.1"], "cannot listen on 203.0.113.1"),
     ],
 )  # fmt: skip
-def test_what_cannot_be_done_is_one_sentence(fmus, told, arguments, words):
+def test_an_impossible_request_is_refused_in_one_sentence(fmus, told, arguments, message):
     code, _, error = told(fmus["sledge"], *arguments)
     assert code == 2
     assert error.startswith("error: ")
-    assert words in error
+    assert message in error
 
 
 def test_a_folder_that_cannot_be_written_is_refused_before_the_run(fmus, told, tmp_path):
@@ -330,8 +332,8 @@ def test_files_that_are_no_fmu_and_an_fmu_of_fmi_3(told, scene_fmu, tmp_path):
     assert "There is no file none.fmu" in told("none.fmu", "--headless", "--stop-time", 1)[2]
     (tmp_path / "text.fmu").write_text("text")
     assert "is not an FMU" in told(tmp_path / "text.fmu", "--headless", "--stop-time", 1)[2]
-    made = scene_fmu(f"{TESTS / 'hosts' / 'scenes.py'}:sledge", "fmi3")
-    code, out, error = told(made, "--headless", "--stop-time", 1)
+    result = scene_fmu(f"{TESTS / 'hosts' / 'scenes.py'}:sledge", "fmi3")
+    code, out, error = told(result, "--headless", "--stop-time", 1)
     assert (code, error) == (0, "")
     assert "simulated" in out
 
@@ -372,8 +374,8 @@ def test_a_build_that_fails_is_one_sentence(told, tmp_path, monkeypatch):
 
 
 def test_packages_that_are_missing_are_named_with_their_extra(fmus, told, monkeypatch):
-    there = importlib.util.find_spec
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "websockets" else there(name))
+    present = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name == "websockets" else present(name))
     code, _, error = told(fmus["sledge"])
     assert (code, error) == (
         2,

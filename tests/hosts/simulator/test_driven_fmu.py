@@ -51,8 +51,13 @@ class Hands:
 @pytest.mark.parametrize("back", [1, 40, 120, 249, 250, 251, 999])
 def test_back_and_on_is_as_without(fmu: Callable[[str], Path], sledge: DrivenFmu, back: int) -> None:
     rows = Hands(sledge).drive(0, 1000)
-    told = sledge.rewind(back * H)
-    assert (told.kind, told.details["back_to"], sledge.epoch, sledge.count) == ("rewind", 1001 - back, 1, 1001)
+    observation = sledge.rewind(back * H)
+    assert (observation.kind, observation.details["back_to"], sledge.epoch, sledge.count) == (
+        "rewind",
+        1001 - back,
+        1,
+        1001,
+    )
     assert sledge.time == (1001 - back) * H
     assert np.array_equal(sledge.values, rows[1000 - back])
     # The hands are elsewhere by now: the drive goes on with what is wanted now, from the inputs held then.
@@ -73,9 +78,9 @@ def test_back_and_on_is_as_without(fmu: Callable[[str], Path], sledge: DrivenFmu
 def test_more_than_is_kept_goes_as_far_as_it_can_and_says_so(sledge: DrivenFmu) -> None:
     first = sledge.values.copy()
     Hands(sledge).drive(0, 99)
-    told = sledge.rewind(12.0)
-    assert "went back by 0.2 s" in told.text
-    assert "12 s were asked for" in told.text
+    observation = sledge.rewind(12.0)
+    assert "went back by 0.2 s" in observation.text
+    assert "12 s were asked for" in observation.text
     assert np.array_equal(sledge.values, first)
     with pytest.raises(HostError, match="nothing to go back to"):
         sledge.rewind(1.0)
@@ -84,8 +89,8 @@ def test_more_than_is_kept_goes_as_far_as_it_can_and_says_so(sledge: DrivenFmu) 
 def test_a_reset_is_the_start_and_can_be_taken_back(sledge: DrivenFmu) -> None:
     start, hands = sledge.values.copy(), Hands(sledge)
     rows = hands.drive(0, 299)
-    told = sledge.reset(request=hands.request)
-    assert told.details["start"] == {"initial.speed": 10.0}
+    observation = sledge.reset(request=hands.request)
+    assert observation.details["start"] == {"initial.speed": 10.0}
     assert (sledge.time, sledge.epoch, sledge.count) == (0.0, 1, 300)
     assert np.array_equal(sledge.values, start)
     sledge.advance()  # what was wanted before does not count
@@ -112,11 +117,11 @@ def test_upright_stays_where_it_is_and_time_goes_on(sledge: DrivenFmu) -> None:
     Hands(sledge).drive(0, 700)
     places = [sledge.names.index(n) for n in ("chassis.x", "chassis.y", "chassis.yaw")]
     before, time = sledge.values[places], sledge.time
-    told = sledge.upright(request=100.0)
+    observation = sledge.upright(request=100.0)
     assert sledge.values[places] == pytest.approx(before, abs=1e-9)
     assert sledge.values[sledge.names.index("speed")] == 0.0
     assert (sledge.time, sledge.epoch) == (time, 2)
-    assert told.details["start"]["initial.speed"] == 0.0
+    assert observation.details["start"]["initial.speed"] == 0.0
     hands = Hands(sledge)
     hands.request = 100
     hands.drive(0, 20)

@@ -36,13 +36,13 @@ def test_upright_after_a_roll_over(fmu: Callable[[str], Path]) -> None:
     car.inputs.want(wants.ravel())
     rows = drive(car, 3000)
     assert np.abs(rows[:, roll]).max() > 3.0  # on its roof
-    told = car.upright(request=1.0)
+    observation = car.upright(request=1.0)
     start = car.values.copy()
     assert start[[x, y]] == pytest.approx(rows[-1, [x, y]], abs=1e-6)
     assert math.remainder(start[yaw] - rows[-1, yaw], 2.0 * math.pi) == pytest.approx(0.0, abs=1e-6)
     assert start[[roll, speed]] == pytest.approx([0.0, 0.0], abs=1e-6)
     assert start[z] == pytest.approx(standing, abs=1e-6)
-    assert told.details["start"]["front.tyre.grip"] == 1.5  # the parameters are those of the start
+    assert observation.details["start"]["front.tyre.grip"] == 1.5  # the parameters are those of the start
     assert car.time == pytest.approx(6.0)
     after = drive(car, 500)
     assert np.abs(after[:, roll]).max() < 0.01
@@ -61,14 +61,14 @@ def test_full_lock_is_where_the_ratio_that_is_set_has_it(fmu: Callable[[str], Pa
     """The constant by which a wheel of a device steers, against the angle of the car's steering wheel at full lock."""
     start = {"steering.rack_per_turn": 0.03}
     with Car(CarSettings(fmu("prototype_car"), start, paced=False, priority=False)) as made:
-        told = made.constants["vehicle.steering_wheel_angle_max"]
+        reported = made.constants["vehicle.steering_wheel_angle_max"]
     car = DrivenFmu(fmu("prototype_car"), start, H)
     wants = np.zeros((len(car.inputs.values), 3))
     wants[car.names.index("steering")] = 1.0, math.inf, 1.0
     car.inputs.want(wants.ravel())
     angle = drive(car, 500)[-1, car.names.index("steering_wheel_angle")]
     car.close()
-    assert angle == pytest.approx(told, rel=1e-3)
+    assert angle == pytest.approx(reported, rel=1e-3)
 
 
 @pytest.mark.slow

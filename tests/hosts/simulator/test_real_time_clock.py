@@ -29,9 +29,9 @@ class Drive:
                 pass
             self.begins.append(self.clock.time)
             self.clock.work(cost)
-            words = self.pace.done()
-            if words:
-                self.said.append(words)
+            message = self.pace.done()
+            if message:
+                self.said.append(message)
 
 
 @pytest.fixture
@@ -61,7 +61,7 @@ def test_a_long_step_is_caught_up_without_moving_the_schedule(drive: Drive) -> N
     assert drive.said == []
 
 
-def test_a_computer_that_is_too_slow_is_said_with_the_factor_that_is_reached(drive: Drive) -> None:
+def test_a_computer_that_is_too_slow_is_reported_with_the_factor_that_is_reached(drive: Drive) -> None:
     drive.step(3e-3, 6000)
     wall = drive.clock.time - drive.begins[0]
     assert drive.times["skipped"] >= 10.0
@@ -69,7 +69,7 @@ def test_a_computer_that_is_too_slow_is_said_with_the_factor_that_is_reached(dri
     assert drive.times["missed"] > 5999.0
     assert drive.times["scheduled"] / wall == pytest.approx(2.0 / 3.0, abs=0.02)
     assert drive.pace.behind
-    factors = [float(found[1]) for text in drive.said if (found := re.search(r"reaches (\S+) of", text))]
+    factors = [float(match[1]) for text in drive.said if (match := re.search(r"reaches (\S+) of", text))]
     assert len(factors) == 4  # at once, then every 5 s of the 18 s
     assert factors == pytest.approx([2.0 / 3.0] * 4, abs=0.02)
 
@@ -77,7 +77,7 @@ def test_a_computer_that_is_too_slow_is_said_with_the_factor_that_is_reached(dri
 def test_the_factor_said_is_that_since_the_last_time(drive: Drive) -> None:
     for cost, count in ((3e-3, 1000), (4e-3, 3000)):
         drive.step(cost, count)
-    factors = [float(found[1]) for text in drive.said if (found := re.search(r"reaches (\S+) of", text))]
+    factors = [float(match[1]) for text in drive.said if (match := re.search(r"reaches (\S+) of", text))]
     # At once; 2.9 s at 3 ms and 2.1 s at 4 ms; then 4 ms only.
     assert factors == pytest.approx([0.67, 0.60, 0.50], abs=0.02)
 

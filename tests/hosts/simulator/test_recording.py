@@ -108,9 +108,9 @@ def test_outputs_are_recorded_seldom_and_states_between(fmus: dict[str, Path], t
     everything, some = joined(list(whole.blocks()), 0), joined(list(drive.blocks()), 0)
     begins = np.diff(everything.epoch, prepend=-1) != 0
     for k, name in enumerate(drive.names):
-        there = (everything.steps % every[name] == 0) | begins
-        assert np.array_equal(np.isfinite(some.values[:, k]), there), name
-        assert np.array_equal(some.values[there, k], everything.values[there, whole.names.index(name)]), name
+        present = (everything.steps % every[name] == 0) | begins
+        assert np.array_equal(np.isfinite(some.values[:, k]), present), name
+        assert np.array_equal(some.values[present, k], everything.values[present, whole.names.index(name)]), name
     assert len(drive.rows()) == np.sum((everything.steps % 4 == 0) | begins)
     assert len(drive.rows(2)) == np.sum((everything.steps % 8 == 0) | begins)
 
@@ -205,9 +205,9 @@ def test_a_step_that_was_refused_is_refused_again(fmus: dict[str, Path], tmp_pat
     assert [str(d) for d in found.first] == [
         "the next step, at 0.2 s, after 20 steps, was refused when it was recorded only"
     ]
-    made = load_manoeuvre(str(tmp_path / "drive"))
-    assert made.stop_time == pytest.approx(0.21)
-    assert made.at(0.2)["steering"] == 0.1
+    result = load_manoeuvre(str(tmp_path / "drive"))
+    assert result.stop_time == pytest.approx(0.21)
+    assert result.at(0.2)["steering"] == 0.1
 
 
 @pytest.mark.slow

@@ -131,7 +131,9 @@ def test_a_recording_is_read_while_its_parts_are_joined(tmp_path: Path) -> None:
     assert shares[-1] == 1.0
 
 
-def test_without_pyarrow_the_table_is_text_and_that_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_pyarrow_the_table_is_text_and_that_is_reported(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("hosts.recordings.recording.find_spec", lambda name: None)
     meta = {"fmu": "f", "guid": "g", "inputs": 1, "step": 0.01, "start": {}}
     with Recorder(tmp_path / "drive", ["u"], {}, meta) as recorder:
@@ -221,14 +223,14 @@ def _with_a_gap(fmu: Path, folder: Path) -> RecordedDrive:
 
 def test_a_view_tells_of_rows_that_are_missing(fmus: dict[str, Path], tmp_path: Path) -> None:
     step = _with_a_gap(fmus["sledge"], tmp_path / "drive").step
-    _, told = recorded_view(tmp_path / "drive", "drive")
+    _, reported = recorded_view(tmp_path / "drive", "drive")
     gap = f"first from {10 * step:g} s to {14 * step:g} s"
-    assert [gap in sentence for sentence in told].count(True) == 1
+    assert [gap in sentence for sentence in reported].count(True) == 1
     whole_drive(fmus["sledge"], tmp_path / "whole")
     assert not any("are missing" in sentence for sentence in recorded_view(tmp_path / "whole", "whole")[1])
 
 
-def test_a_row_that_is_missing_is_told(fmus: dict[str, Path], tmp_path: Path) -> None:
+def test_a_row_that_is_missing_is_reported(fmus: dict[str, Path], tmp_path: Path) -> None:
     recorded = _with_a_gap(fmus["sledge"], tmp_path / "drive")
     assert len(recorded.rows()) == 16
     for use in (replay, to_manoeuvre):
@@ -236,14 +238,14 @@ def test_a_row_that_is_missing_is_told(fmus: dict[str, Path], tmp_path: Path) ->
             use(recorded, tmp_path / "m.csv") if use is to_manoeuvre else use(recorded)
 
 
-def test_another_build_of_the_fmu_is_told(fmus: dict[str, Path], tmp_path: Path, capfd: Any) -> None:
+def test_another_build_of_the_fmu_is_reported(fmus: dict[str, Path], tmp_path: Path, capfd: Any) -> None:
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     meta = json.loads((folder / "recording.json").read_text())
     (folder / "recording.json").write_text(json.dumps(meta | {"guid": "{another}"}))
     assert main(["--recording", str(folder), "--replay"]) == 0
-    told = capfd.readouterr().out
-    assert "was recorded from another build of the FMU: its GUID is {another}" in told
-    assert "183 rows, the same bits in all of them" in told
+    output = capfd.readouterr().out
+    assert "was recorded from another build of the FMU: its GUID is {another}" in output
+    assert "183 rows, the same bits in all of them" in output
 
 
 def test_the_command_shows_repeats_and_makes_a_manoeuvre(
@@ -284,15 +286,15 @@ def test_options_of_driving_are_refused_beside_a_recording(tmp_path: Path, capfd
         ["--fidelity", "1"],
     ):
         assert main(["--recording", str(tmp_path), *option]) == 2
-        told = capfd.readouterr().err
-        assert f"{option[0]} is for driving; with --recording nothing is driven, so leave it out." in told
+        errors = capfd.readouterr().err
+        assert f"{option[0]} is for driving; with --recording nothing is driven, so leave it out." in errors
 
 
 def test_a_recording_is_viewed_in_the_time_of_the_driver(fmus: dict[str, Path], tmp_path: Path) -> None:
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     fmu_options = ViewRunOptions(None, None, None, FmuOptions([], []))
-    (recording,), told, _ = recordings_of([folder], None, fmu_options)
-    assert told == []
+    (recording,), recordings, _ = recordings_of([folder], None, fmu_options)
+    assert recordings == []
     assert recording.scene is not None
     assert len(recording.t) == 183
     assert recording.t[-1] == pytest.approx(1.73)
@@ -319,16 +321,16 @@ def test_a_view_draws_straight_between_outputs_within_an_epoch(
     values = rows.values[:, list(every).index(other)]
     for k in range(int(rows.epoch[-1]) + 1):
         part = rows.epoch == k
-        known = part & np.isfinite(values)
-        straight = np.interp(shown.t[part], shown.t[known], values[known])
+        finite = part & np.isfinite(values)
+        straight = np.interp(shown.t[part], shown.t[finite], values[finite])
         assert np.array_equal(shown.columns[other][part], straight)
     assert np.array_equal(shown.epoch, rows.epoch)
     keys = list(zip(all_rows.steps, all_rows.epoch, strict=True))
-    there = [keys.index(key) for key in zip(rows.steps, rows.epoch, strict=True)]
+    present = [keys.index(key) for key in zip(rows.steps, rows.epoch, strict=True)]
     column = rows.values[:, list(every).index(drawn)]
-    known = np.isfinite(column)
-    assert np.array_equal(column[known], all_rows.values[there, whole.names.index(drawn)][known])
-    assert np.array_equal(shown.columns[drawn][known], column[known])
+    finite = np.isfinite(column)
+    assert np.array_equal(column[finite], all_rows.values[present, whole.names.index(drawn)][finite])
+    assert np.array_equal(shown.columns[drawn][finite], column[finite])
     monkeypatch.setattr("hosts.recordings.recorded_view._MOST_VALUES", 60 * len(every))
     shown, _ = recorded_view(folder, "drive")
     assert len(shown.t) == len(read_recording(folder).rows(2))  # thinned: every value that is left stays

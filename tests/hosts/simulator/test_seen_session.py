@@ -48,16 +48,16 @@ def running(fmu: Path, world: str, *more: str) -> Iterator[str]:
     ]
     host = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     assert host.stdout is not None
-    said = []
+    reported = []
     try:
         until = time.monotonic() + _STARTS
         for line in host.stdout:
-            said.append(line)
-            found = re.search(r"http://\S+", line)
-            if found or time.monotonic() > until:
+            reported.append(line)
+            match = re.search(r"http://\S+", line)
+            if match or time.monotonic() > until:
                 break
-        assert found, "".join(said)
-        yield found[0]
+        assert match, "".join(reported)
+        yield match[0]
     finally:
         host.send_signal(2)
         try:
@@ -234,10 +234,10 @@ def cones_are_seen(driver: Driver) -> None:
     cones = [t["at"] for t in driver.ask("player.cockpit.plan.scenery.filter(t => t.kind === 'cone')")]
     near = [at for at in cones if 8.0 < at[0] - x < 45.0 and abs(at[1] - y) < 4.0]
     assert near, "no cones before the car"
-    found = 0
+    result = 0
     for at in near:
         place = driver.ask("point => player.view.project(point)", [at[0], at[1], at[2] + 0.2])
         assert place is not None
         px, py = (int(p) for p in place)
-        found += bool(orange[py - 4 : py + 5, px - 4 : px + 5].any())
-    assert found >= 0.6 * len(near), f"{found} of {len(near)} cones are seen"  # the car hides some
+        result += bool(orange[py - 4 : py + 5, px - 4 : px + 5].any())
+    assert result >= 0.6 * len(near), f"{result} of {len(near)} cones are seen"  # the car hides some

@@ -125,7 +125,7 @@ def test_devices_are_shown_to_pages_that_watch_and_get_their_messages(car, serve
     assert "The wheel was pulled out." in served.told
 
 
-def test_every_page_is_told_of_a_device_that_comes(car, served):
+def test_every_page_is_reported_of_a_device_that_comes(car, served):
     served.server.devices = devices = Devices()
     with connect(served.url) as page:
         for _ in range(2):  # with the hello, and as devices that are new to all pages
@@ -256,9 +256,9 @@ def test_a_port_that_is_taken_names_the_next_free_one():
         port = taken.getsockname()[1]
         with pytest.raises(
             HostError, match=rf"The port {port} of 127.0.0.1 is taken .*; the port (\d+) is free"
-        ) as told:
+        ) as refusal:
             web.listening_socket("127.0.0.1", port)
-        free = int(str(told.value).rsplit(" ", 1)[1].rstrip("."))
+        free = int(str(refusal.value).rsplit(" ", 1)[1].rstrip("."))
         web.listening_socket("127.0.0.1", free).close()
     with pytest.raises(HostError, match=r"The port is 70000; it must be"):
         web.listening_socket("127.0.0.1", 70000)

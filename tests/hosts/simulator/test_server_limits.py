@@ -21,7 +21,7 @@ from tests.hosts.simulator.served import WORLD, FakeCar, serving
 
 
 @pytest.mark.parametrize(
-    ("headers", "words"),
+    ("headers", "message"),
     [
         ({"Host": "evil.example"}, "by its own address"),
         ({"Host": "evil.example:{port}"}, "by its own address"),
@@ -35,11 +35,11 @@ from tests.hosts.simulator.served import WORLD, FakeCar, serving
     ],
 )
 @pytest.mark.parametrize("path", ["/", "/drive"])
-def test_foreign_pages_and_names_are_refused(served, path, headers, words):
+def test_foreign_pages_and_names_are_refused(served, path, headers, message):
     sent = {name: value.format(port=served.port) for name, value in headers.items()}
     status, _, body = request(served.port, path + served.key, sent, upgrade=path == "/drive")
     assert status == 403
-    assert words in body.decode()
+    assert message in body.decode()
 
 
 def test_a_header_that_stands_twice_is_refused(served):
@@ -149,17 +149,17 @@ def test_one_page_too_many_is_refused_with_a_sentence(served):
         until(lambda: request(served.port, f"/drive{served.key}", {}, upgrade=True)[0] == 101)
 
 
-@pytest.mark.parametrize("said", [b"", b"GET / HTTP/1.1\r\n"])
-def test_connections_that_say_nothing_are_bounded_and_keep_nobody_away(served, said):
+@pytest.mark.parametrize("message", [b"", b"GET / HTTP/1.1\r\n"])
+def test_connections_that_say_nothing_are_bounded_and_keep_nobody_away(served, message):
     """The oldest are ended; who has the token is served at once, and stays."""
     most = web.MOST_STRANGERS
     with RawClient(served.port, f"/drive{served.key}") as page, ExitStack() as opened:
         silent = [opened.enter_context(RawClient.silent(served.port)) for _ in range(2 * most)]
         for line in silent:
             with suppress(OSError):
-                line.sendall(said)
+                line.sendall(message)
         until(lambda: len(select.select(silent, [], [], 0)[0]) >= most)  # closed ones can be read
-        assert set(select.select(silent, [], [], 0)[0]) == set(silent[:most]) or not said
+        assert set(select.select(silent, [], [], 0)[0]) == set(silent[:most]) or not message
         assert request(served.port, f"/{served.key}", {})[0] == 200
         with connect(served.url) as another:
             texts(another, "hello")
@@ -214,8 +214,8 @@ def test_what_is_no_request_for_a_page(served):
             assert first_line(served.port, text) == "HTTP/1.1 405 Method Not Allowed"
     with RawClient.silent(served.port) as line:
         line.sendall(f"HEAD /world{served.key} HTTP/1.1\r\n{host}\r\n".encode())
-        said = b"".join(iter(lambda: line.recv(4096), b""))
-        head, _, body = said.partition(b"\r\n\r\n")
+        reported = b"".join(iter(lambda: line.recv(4096), b""))
+        head, _, body = reported.partition(b"\r\n\r\n")
         assert head.startswith(b"HTTP/1.1 200 OK")
         assert f"Content-Length: {len(json.dumps(WORLD))}".encode() in head
         assert body == b""
@@ -226,11 +226,11 @@ def test_answers_that_nobody_reads_are_few_and_end(car, monkeypatch):
     monkeypatch.setattr(web, "READ_WITHIN", 1.0)
     monkeypatch.setattr("tests.hosts.simulator.served.WORLD", {"name": os.urandom(3_000_000).hex()})
     with serving(car) as served, ExitStack() as opened:
-        asked = f"GET /world{served.key} HTTP/1.1\r\nHost: 127.0.0.1:{served.port}\r\n\r\n".encode()
+        requested = f"GET /world{served.key} HTTP/1.1\r\nHost: 127.0.0.1:{served.port}\r\n\r\n".encode()
         lines = [opened.enter_context(RawClient.silent(served.port)) for _ in range(2 * web.MOST_ANSWERS)]
         for line in lines:
             line.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-            line.sendall(asked)
+            line.sendall(requested)
         until(lambda: all(select.select([line], [], [], 0)[0] for line in lines))
         heads = [line.recv(20).split(b" ")[1] for line in lines]
         assert (heads.count(b"200"), heads.count(b"503")) == (web.MOST_ANSWERS, web.MOST_ANSWERS)
@@ -248,11 +248,11 @@ def test_a_flood_of_strangers_keeps_no_page_away(car, monkeypatch):
     """Of those without the token so many a second are taken; who has it is served."""
     monkeypatch.setattr(web, "STRANGERS_PER_SECOND", 1)
     with serving(car) as served:
-        asked = f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{served.port}\r\n\r\n".encode()
+        requested = f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{served.port}\r\n\r\n".encode()
         ended = 0
         for _ in range(100):
             with RawClient.silent(served.port) as line, suppress(OSError):
-                line.sendall(asked)
+                line.sendall(requested)
                 ended += line.recv(1) == b""
         assert ended < 100
         with connect(served.url) as page:

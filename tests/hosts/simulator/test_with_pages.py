@@ -47,8 +47,8 @@ class Program:
         self.lines = []
         for line in self.process.stdout:
             self.lines.append(line)
-            if found := re.search(r"Drive at (http://\S+:(\d+)/\S*)", line):
-                self.address, self.port = found[1], int(found[2])
+            if match := re.search(r"Drive at (http://\S+:(\d+)/\S*)", line):
+                self.address, self.port = match[1], int(match[2])
                 self.url = self.address.replace("http", "ws").replace("/?", "/drive?")
                 self.key = f"?{self.address.partition('?')[2]}"
                 return
@@ -133,8 +133,8 @@ def test_a_drive_from_a_page_and_the_report_at_ctrl_c(sledge, tmp_path):
             page.until(lambda p: any(text["type"] == "report" for text in p.texts))
         assert running.end() == 0
     assert "speed" in page.values
-    for words in ("Ready ", "First frame sent to a page ", "simulated in ", "histogram", "rewind 1"):
-        assert words in running.said
+    for message in ("Ready ", "First frame sent to a page ", "simulated in ", "histogram", "rewind 1"):
+        assert message in running.said
     assert "Traceback" not in running.said
     report = json.loads((tmp_path / "r.json").read_text())
     assert report["steps"]["steps"] > 100

@@ -30,11 +30,11 @@ def saltelli(blocks: int, seed: int = 3) -> NDArray[np.float64]:
 
 def test_ishigami() -> None:
     y = ishigami(saltelli(1024))
-    found = saltelli_indices(NAMES, np.arange(len(y)), y)
-    assert isinstance(found, Indices)
-    assert found.first == pytest.approx(FIRST, abs=0.02)
-    assert found.total == pytest.approx(TOTAL, abs=0.02)
-    assert (found.first_conf < 0.1).all()
+    indices = saltelli_indices(NAMES, np.arange(len(y)), y)
+    assert isinstance(indices, Indices)
+    assert indices.first == pytest.approx(FIRST, abs=0.02)
+    assert indices.total == pytest.approx(TOTAL, abs=0.02)
+    assert (indices.first_conf < 0.1).all()
 
 
 @pytest.mark.parametrize("blocks", [64, 128, 512])
@@ -43,9 +43,11 @@ def test_intervals_hold_the_truth_for_most_seeds(blocks: int) -> None:
     held = []
     for seed in range(100):
         y = ishigami(saltelli(blocks, seed))
-        found = saltelli_indices(NAMES, np.arange(len(y)), y)
-        assert isinstance(found, Indices)
-        held.append([np.abs(found.first - FIRST) < found.first_conf, np.abs(found.total - TOTAL) < found.total_conf])
+        indices = saltelli_indices(NAMES, np.arange(len(y)), y)
+        assert isinstance(indices, Indices)
+        held.append(
+            [np.abs(indices.first - FIRST) < indices.first_conf, np.abs(indices.total - TOTAL) < indices.total_conf]
+        )
     assert np.mean(held) > 0.93
     assert np.mean(held, axis=0).min() > 0.75
 
@@ -54,10 +56,10 @@ def test_rows_in_any_order_and_blocks_with_a_missing_run() -> None:
     y = ishigami(saltelli(1024))
     rng = np.random.default_rng(5)
     points = rng.permutation(np.delete(np.arange(len(y)), [7, 8, 100, 4001]))
-    found = saltelli_indices(NAMES, points, y[points])
-    assert isinstance(found, Indices)
-    assert "from 1021 blocks of 5 runs; blocks with a missing or failed run left out: 3" in found.how
-    assert found.first == pytest.approx(FIRST, abs=0.02)
+    indices = saltelli_indices(NAMES, points, y[points])
+    assert isinstance(indices, Indices)
+    assert "from 1021 blocks of 5 runs; blocks with a missing or failed run left out: 3" in indices.how
+    assert indices.first == pytest.approx(FIRST, abs=0.02)
     # Not left out but moved up, the rows after the first gap would belong to other columns.
     moved = saltelli_indices(NAMES, np.arange(len(y) - 4), np.delete(y, [7, 8, 100, 4001]))
     assert isinstance(moved, Indices)
@@ -66,11 +68,11 @@ def test_rows_in_any_order_and_blocks_with_a_missing_run() -> None:
 
 def test_a_study_half_done() -> None:
     y = ishigami(saltelli(1024))
-    found = saltelli_indices(NAMES, np.arange(2503), y[:2503])
-    assert isinstance(found, Indices)
-    assert "from 500 blocks" in found.how
-    assert (np.abs(found.total - TOTAL) < found.total_conf).all()
-    assert (found.total_conf < 0.2).all()
+    indices = saltelli_indices(NAMES, np.arange(2503), y[:2503])
+    assert isinstance(indices, Indices)
+    assert "from 500 blocks" in indices.how
+    assert (np.abs(indices.total - TOTAL) < indices.total_conf).all()
+    assert (indices.total_conf < 0.2).all()
     few = saltelli_indices(NAMES, np.arange(22), y[:22])
     assert few == "Only 4 blocks of 5 runs of the design are whole; from 64 on indices are given."
 
@@ -80,10 +82,10 @@ def test_linear_model() -> None:
     x = saltelli(256) / (2.0 * np.pi) * widths + 10.0
     y = x @ slopes - 40.0
     expected = (slopes * widths) ** 2 / ((slopes * widths) ** 2).sum()
-    found = saltelli_indices(NAMES, np.arange(len(y)), y)
-    assert isinstance(found, Indices)
-    assert found.first == pytest.approx(expected, abs=0.01)
-    assert found.total == pytest.approx(expected, abs=0.01)
+    indices = saltelli_indices(NAMES, np.arange(len(y)), y)
+    assert isinstance(indices, Indices)
+    assert indices.first == pytest.approx(expected, abs=0.01)
+    assert indices.total == pytest.approx(expected, abs=0.01)
     latin = qmc.LatinHypercube(3, rng=1).random(4000) * widths + 10.0
     estimate = estimated_indices(NAMES, latin, latin @ slopes)
     assert isinstance(estimate, Indices)
@@ -94,10 +96,10 @@ def test_linear_model() -> None:
 
 def test_an_estimate_of_ishigami() -> None:
     x = (2.0 * qmc.LatinHypercube(3, rng=2).random(4000) - 1.0) * np.pi
-    found = estimated_indices(NAMES, x, ishigami(x))
-    assert isinstance(found, Indices)
-    assert found.first == pytest.approx(FIRST, abs=0.03)
-    assert "estimate" in found.how
+    actual = estimated_indices(NAMES, x, ishigami(x))
+    assert isinstance(actual, Indices)
+    assert actual.first == pytest.approx(FIRST, abs=0.03)
+    assert "estimate" in actual.how
     assert estimated_indices(NAMES, x[:50], ishigami(x[:50])) == (
         "50 runs yield the measure; from 64 on indices are estimated."
     )
@@ -109,18 +111,18 @@ def test_a_grid_is_exact() -> None:
     # A product of centred levels: each alone makes nothing, both together all but the part of c.
     y = 3.0 * a * b + 0.4 * c
     product, linear = 9.0 * 2.0 / 3.0, 0.4**2 * 2.5**2
-    found = grid_indices(NAMES, x[order], y[order])
-    assert isinstance(found, Indices)
-    assert found.first * (product + linear) == pytest.approx([0.0, 0.0, linear], abs=1e-12)
-    assert found.total * (product + linear) == pytest.approx([product, product, linear], abs=1e-12)
+    actual = grid_indices(NAMES, x[order], y[order])
+    assert isinstance(actual, Indices)
+    assert actual.first * (product + linear) == pytest.approx([0.0, 0.0, linear], abs=1e-12)
+    assert actual.total * (product + linear) == pytest.approx([product, product, linear], abs=1e-12)
     assert grid_indices(NAMES, x[1:], y[1:]) == "The grid is not full: 11 of 12 points yield the measure."
 
 
 def test_a_constant_measure_has_no_indices() -> None:
     points, x = np.arange(500), qmc.LatinHypercube(3, rng=2).random(500)
     y = np.full(500, 2.5)
-    for found in (saltelli_indices(NAMES, points, y), estimated_indices(NAMES, x, y)):
-        assert found == "The measure is 2.5 in all runs."
+    for actual in (saltelli_indices(NAMES, points, y), estimated_indices(NAMES, x, y)):
+        assert actual == "The measure is 2.5 in all runs."
 
 
 def test_main_effects_of_an_additive_function() -> None:

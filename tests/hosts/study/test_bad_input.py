@@ -61,7 +61,7 @@ def test_a_wrong_row_of_a_table_is_named(told: Callable[..., str], tmp_path: Pat
     assert error.startswith(case["begins"])
 
 
-def test_what_the_command_line_asks(
+def test_wrong_options_and_study_files_are_refused(
     study_file: Callable[..., Path], spring: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main([str(tmp_path / "none.toml")]) == 2

@@ -47,20 +47,20 @@ def test_no_bit_of_a_part_is_read_as_other_rows(made: Callable[..., Path], tmp_p
     file, seed = part_files(folder)[0], random.SystemRandom().randrange(2**32)
     print("seed", seed)
     data, whole = file.read_bytes(), read_part(file, record)
-    odd, told = tmp_path / "odd.parquet", 0
+    odd, reported = tmp_path / "odd.parquet", 0
     for bit in random.Random(seed).sample(range(8 * len(data)), 2000):
         odd.write_bytes(turned(data, bit))
         try:
             same = read_part(odd, record).equals(whole)
         except HostError:
-            told += 1
+            reported += 1
             continue
         assert same, bit
-    assert 1000 < told < 2000  # names of columns, statistics and the like stand in the rest of a file
+    assert 1000 < reported < 2000  # names of columns, statistics and the like stand in the rest of a file
 
 
 @pytest.mark.slow
-def test_a_damaged_file_is_told_and_its_runs_are_made_again(
+def test_a_damaged_file_is_reported_and_its_runs_are_made_again(
     made: Callable[..., Path], scheduler: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     folder = made(more=SIGNALS)
@@ -79,9 +79,9 @@ def test_a_damaged_file_is_told_and_its_runs_are_made_again(
             write_report(folder)
         capfd.readouterr()
         assert run_study(tmp_path / "study.toml", folder, scheduler, None) is not None
-        told = capfd.readouterr().err
-        assert "is damaged (" in told
-        assert "its runs are repeated" in told
+        errors = capfd.readouterr().err
+        assert "is damaged (" in errors
+        assert "its runs are repeated" in errors
         assert read_study(folder).drop(columns="wall_seconds").equals(rows)
         assert np.array_equal(open_signals(folder)["bob.y"].to_numpy(), samples)
     assert len(list((folder / "runs").glob(".damaged-part-*"))) == 1

@@ -18,12 +18,12 @@ from hosts.study.store import read_study
 
 def listening() -> set[int]:
     """Ports at which this process and its children listen."""
-    own, found = psutil.Process(), set[int]()
+    own, results = psutil.Process(), set[int]()
     for process in (own, *own.children(recursive=True)):
         with suppress(psutil.Error):  # it may end meanwhile
             lines = process.net_connections("inet")
-            found |= {line.laddr.port for line in lines if line.status == psutil.CONN_LISTEN}
-    return found
+            results |= {line.laddr.port for line in lines if line.status == psutil.CONN_LISTEN}
+    return results
 
 
 @pytest.mark.slow
@@ -48,7 +48,7 @@ def test_a_study_on_this_machine_opens_no_port(study_file: Callable[..., Path], 
 def test_another_scheduler_with_certificates_of_the_configuration(
     study_file, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    made = Security.temporary()
+    result = Security.temporary()
     names = {"ca-file": "tls_ca_file"}
     names |= {
         f"{role}.{part}": f"tls_{role}_{part}" for role in ("client", "scheduler", "worker") for part in ("key", "cert")
@@ -56,7 +56,7 @@ def test_another_scheduler_with_certificates_of_the_configuration(
     settings = {}
     for name, field in names.items():
         file = tmp_path / f"{name}.pem"
-        file.write_text(getattr(made, field))
+        file.write_text(getattr(result, field))
         settings[f"distributed.comm.tls.{name}"] = str(file)
     with (
         dask.config.set(settings | {"distributed.comm.require-encryption": True}),
@@ -85,6 +85,6 @@ def test_certificates_that_are_missing_are_one_sentence(tmp_path: Path) -> None:
 
 def test_an_address_without_end_is_not_quoted_whole(capsys: pytest.CaptureFixture[str]) -> None:
     _check_encryption(100_000 * "x")
-    told = capsys.readouterr().err
-    assert "is used without TLS" in told
-    assert len(told) < 1000
+    errors = capsys.readouterr().err
+    assert "is used without TLS" in errors
+    assert len(errors) < 1000

@@ -16,8 +16,8 @@ def test_the_example_is_a_plan(
     monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
     for _ in range(2):
         assert main([str(EXAMPLE), "--dry-run", "--out", str(tmp_path / "out")]) == 0
-        told = capsys.readouterr()
-        assert "192 points x 1 = 192 runs" in told.out
+        captured = capsys.readouterr()
+        assert "192 points x 1 = 192 runs" in captured.out
         assert "192 runs" in EXAMPLE.read_text(encoding="utf-8")
-    assert told.err == ""  # the second time the car is there
+    assert captured.err == ""  # the second time the car is there
     assert not (tmp_path / "out").exists()

@@ -92,9 +92,9 @@ def test_a_refused_step_is_a_reason(scene_fmu: Callable[..., Path]) -> None:
     assert outcome.reason.startswith(f"The FMU refused the step at {outcome.simulated:g} s: ")
     assert 0.0 < outcome.simulated < 1.0
     assert outcome.signals is not None
-    there = int(outcome.simulated / 0.1 + 1e-6) + 1
-    assert np.isfinite(outcome.signals[:there]).all()
-    assert np.isnan(outcome.signals[there:]).all()
+    present = int(outcome.simulated / 0.1 + 1e-6) + 1
+    assert np.isfinite(outcome.signals[:present]).all()
+    assert np.isnan(outcome.signals[present:]).all()
     # the next run is not harmed by it
     still = replace(job, manoeuvre=replace(manoeuvre, inputs={"pull": np.zeros(2)}))
     assert bench.run(still, {}, 0).status == "done"

@@ -36,8 +36,8 @@ def folder(study_file: Callable[..., Path], spring: Path, tmp_path: Path) -> Pat
 
 
 def fmu_in(folder: Path) -> Path:
-    (found,) = folder.glob("*.fmu")
-    return found
+    (result,) = folder.glob("*.fmu")
+    return result
 
 
 @pytest.mark.parametrize("number", [float("nan"), float("inf")])
@@ -59,14 +59,14 @@ def test_a_report_opens_no_fmu(folder: Path) -> None:
     assert write_report(folder) == files
 
 
-def test_another_fmu_is_told_and_not_opened(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_another_fmu_is_reported_and_not_opened(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     repeater(folder)(3)
     with fmu_in(folder).open("ab") as file:
         file.write(b"\0")
     assert main([str(folder), "--run", "3"]) == 2
-    told = capsys.readouterr().err
-    assert told.count("\n") == 1
-    assert f"{fmu_in(folder)} is another FMU than the one that made the rows: its SHA-256 is " in told
+    errors = capsys.readouterr().err
+    assert errors.count("\n") == 1
+    assert f"{fmu_in(folder)} is another FMU than the one that made the rows: its SHA-256 is " in errors
     fmu_in(folder).unlink()
     with pytest.raises(HostError, match="It made the runs of this study; put it back"):
         repeater(folder)
@@ -121,11 +121,11 @@ def test_each_altered_record_is_read_or_one_sentence(folder: Path) -> None:
             read_study(folder)
         except HostError as error:
             refused += 1
-            told = str(error)
+            message = str(error)
         else:
             taken += 1
             continue
-        assert (told.count("\n"), told.count(str(folder))) == (0, 1), where
+        assert (message.count("\n"), message.count(str(folder))) == (0, 1), where
     assert refused > 3 * taken > 0
     (folder / "study.json").write_text(json.dumps(record | {"fmu": "../../bin/x.fmu"}))
     with pytest.raises(HostError, match="fmu is '../../bin/x.fmu'; it must be the name of a file in this folder"):

@@ -84,12 +84,12 @@ def wait_for_part(folder: Path, process: subprocess.Popen[str], parts: int) -> N
 
 def rows(folder: Path) -> dict[int, tuple[object, ...]]:
     """All rows as they are on the disk; fails if a run occurs twice."""
-    found: dict[int, tuple[object, ...]] = {}
+    results: dict[int, tuple[object, ...]] = {}
     for file in part_files(folder):
         for row in pq.ParquetFile(file).read().to_pylist():
-            assert row["index"] not in found
-            found[row["index"]] = tuple(row.values())
-    return found
+            assert row["index"] not in results
+            results[row["index"]] = tuple(row.values())
+    return results
 
 
 def check_complete(folder: Path) -> None:
@@ -108,20 +108,20 @@ def test_the_command_is_killed(slow_study: Path, tmp_path: Path) -> None:
     process.send_signal(signal.SIGKILL)
     process.communicate()
     before = rows(out)
-    made = len(before) + len(Journal[ResultStore](out / "done", ResultStore).read())
+    count = len(before) + len(Journal[ResultStore](out / "done", ResultStore).read())
     assert 0 < len(before) < RUNS
     assert psutil.wait_procs(children, timeout=30.0)[1] == []  # the workers end with the command
     process = command(slow_study, "--out", out, "--jobs", 2)
-    told, error = process.communicate(timeout=120.0)
+    output, error = process.communicate(timeout=120.0)
     assert (process.returncode, said(error)) == (0, [])
-    assert f"{made} of {RUNS} runs are there" in told
+    assert f"{count} of {RUNS} runs are there" in output
     now = rows(out)
     assert {index: now[index] for index in before} == before
     check_complete(out)
 
 
 @pytest.mark.slow
-def test_a_kill_loses_only_the_runs_in_hand(
+def test_a_kill_loses_only_the_runs_in_progress(
     slow_study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """The command is killed before a part is written: the journal has the runs, which are not made again."""
@@ -132,12 +132,12 @@ def test_a_kill_loses_only_the_runs_in_hand(
         time.sleep(0.01)
     process.kill()
     process.communicate()
-    made = len(Journal[ResultStore](journal, ResultStore).read()) + len(rows(out))
-    assert made > 0
+    count = len(Journal[ResultStore](journal, ResultStore).read()) + len(rows(out))
+    assert count > 0
     assert main([str(slow_study), "--out", str(out), "--jobs", "2", "--no-report"]) == 0
-    told = capsys.readouterr().out
-    assert f"{made} of {RUNS} runs are there" in told
-    assert f"{RUNS - made} runs in " in told
+    output = capsys.readouterr().out
+    assert f"{count} of {RUNS} runs are there" in output
+    assert f"{RUNS - count} runs in " in output
     assert not journal.exists()
     check_complete(out)
 
@@ -148,13 +148,13 @@ def test_a_run_whose_process_is_killed_is_a_row(slow_study: Path, tmp_path: Path
     process = command(slow_study, "--out", out, "--jobs", 2)
     wait_for_part(out, process, 1)
     psutil.Process(process.pid).children(recursive=True)[-1].kill()
-    told, error = process.communicate(timeout=120.0)
+    output, error = process.communicate(timeout=120.0)
     assert (process.returncode, said(error)) == (0, [])
-    assert f"{RUNS} runs in " in told
-    assert "1 failed" in told
-    found = [row for row in rows(out).values() if "failed" in row]
-    assert len(found) == 1
-    assert any("killed (SIGKILL)" in str(value) for value in found[0])
+    assert f"{RUNS} runs in " in output
+    assert "1 failed" in output
+    actual = [row for row in rows(out).values() if "failed" in row]
+    assert len(actual) == 1
+    assert any("killed (SIGKILL)" in str(value) for value in actual[0])
     process = command(slow_study, "--out", out, "--jobs", 2, "--again")
     process.communicate(timeout=120.0)
     assert process.returncode == 0
@@ -235,7 +235,7 @@ def test_the_scheduler_is_killed(slow_study: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("count", [9, 16])
-def test_whatever_dask_raises_the_exit_code_says_whether_all_rows_are_there(
+def test_the_exit_code_depends_on_missing_rows_and_not_on_errors_of_dask(
     count: int, study_file: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
@@ -265,15 +265,15 @@ def test_whatever_dask_raises_the_exit_code_says_whether_all_rows_are_there(
     ("number", "name"),
     [("SIGINT", "Ctrl-C"), ("SIGTERM", "SIGTERM"), pytest.param("SIGHUP", "SIGHUP", marks=pytest.mark.proof)],
 )
-def test_ctrl_c_keeps_what_has_come(number: str, name: str, slow_study: Path, tmp_path: Path) -> None:
+def test_ctrl_c_keeps_finished_runs(number: str, name: str, slow_study: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     process = command(slow_study, "--out", out, "--jobs", 2)
     wait_for_part(out, process, 1)
     os.killpg(process.pid, getattr(signal, number))  # as a terminal does
     _, error = process.communicate(timeout=60.0)
     assert process.returncode == 128 + getattr(signal, number)
-    words = f"{len(rows(out))} of {RUNS} runs are written and stay; the same command makes the others."
-    assert error.strip().splitlines()[-2:] == [words, f"stopped by {name}"]
+    message = f"{len(rows(out))} of {RUNS} runs are written and stay; the same command makes the others."
+    assert error.strip().splitlines()[-2:] == [message, f"stopped by {name}"]
     assert 0 < len(rows(out)) < RUNS
 
 
@@ -295,7 +295,7 @@ def test_ctrl_c_leaves_nothing_on_workers_that_stay(slow_study: Path, tmp_path: 
         assert given() == []
 
 
-def test_a_worker_that_ends_too_early_is_told_as_such() -> None:
+def test_a_worker_that_ends_too_early_is_reported_as_such() -> None:
     class Lost:
         def register_plugin(self, _: object) -> None:
             raise CommClosedError("in <TCP local=...>: Stream is closed")

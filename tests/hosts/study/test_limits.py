@@ -40,7 +40,7 @@ def test_counts_by_hand() -> None:
     assert (all_limits.measure, all_limits.within, all_limits.outside) == (ALL, 3, 7)
 
 
-def test_a_measure_that_does_not_exist_is_told_from_one_that_is_missing() -> None:
+def test_a_measure_that_does_not_exist_is_distinguished_from_one_that_is_missing() -> None:
     """Two runs lack another measure: in the first there is no speed either, in the second it should be there."""
     frame = made_frame()
     frame["missing"] = ""
@@ -83,7 +83,7 @@ def test_runs_that_are_no_random_sample_have_no_interval(method: str) -> None:
     assert share_notes(found, frame.attrs)[0].startswith("There is no interval: ")
 
 
-def test_words_are_in_the_units_of_the_field() -> None:
+def test_texts_are_in_display_units() -> None:
     frame = made_frame()
     rows = share_rows(shares(frame), frame.attrs)
     assert rows[0][:4] == ("gradient", "0 to 1123.8 deg/g", "3 of 10 runs, 2 without a result", "30.0 %")

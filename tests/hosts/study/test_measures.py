@@ -69,9 +69,9 @@ SINE_RMS = math.sqrt(0.5 * 3.0**2 + 1.0)
 def test_closed_forms_and_units(result: Result, text: str, expected: float, unit: str) -> None:
     measure = pickle.loads(pickle.dumps(parse_measure(text)))
     assert list(measure.columns(result.units, END).values()) == [unit]
-    (found,) = measure.evaluate(result)
-    assert found.value == pytest.approx(expected, rel=1e-6)
-    assert (found.unit, found.note) == (unit, "")
+    (actual,) = measure.evaluate(result)
+    assert actual.value == pytest.approx(expected, rel=1e-6)
+    assert (actual.unit, actual.note) == (unit, "")
 
 
 def test_means_do_not_change_where_more_samples_lie(result: Result) -> None:
@@ -129,7 +129,7 @@ def test_what_no_run_can_yield(result: Result, text: str, sentence: str) -> None
         parse_measure(text).columns(result.units, END)
 
 
-def test_what_a_run_does_not_yield_is_nan_with_a_reason(result: Result) -> None:
+def test_measures_that_a_run_does_not_yield_are_nan_with_a_reason(result: Result) -> None:
     def note(text: str, run: Result) -> str:
         (found,) = parse_measure(text).evaluate(run)
         assert math.isnan(found.value)
@@ -201,8 +201,8 @@ def test_a_users_functions(functions: Path, result: Result) -> None:
     both = parse_measure("mine.py:both", "mine", functions)
     assert both.columns(result.units) == {"mine.work": "kg.m", "mine.last": "m"}
     (functions / "mine.py").unlink()  # it carries its source
-    found = pickle.loads(pickle.dumps(both)).evaluate(result, {"mass": 3.0})
-    assert {m.name: m.value for m in found} == {"mine.work": 30.0, "mine.last": 1.0}
+    actual = pickle.loads(pickle.dumps(both)).evaluate(result, {"mass": 3.0})
+    assert {m.name: m.value for m in actual} == {"mine.work": 30.0, "mine.last": 1.0}
 
 
 @pytest.mark.parametrize(

@@ -102,28 +102,28 @@ def test_all_runs_failed(frame: pd.DataFrame, tmp_path: Path) -> None:
 
 
 def test_a_measure_that_never_changes(tmp_path: Path) -> None:
-    made = frame_of({"mass": np.arange(100.0)}, {"peak": np.full(100, 3.0)}, UNITS)
-    text = report_of(made, tmp_path, commands)[0].read_text(encoding="utf-8")
+    frame = frame_of({"mass": np.arange(100.0)}, {"peak": np.full(100, 3.0)}, UNITS)
+    text = report_of(frame, tmp_path, commands)[0].read_text(encoding="utf-8")
     assert "It is 3 m/s² in all runs, but for rounding: nothing that was varied changes it." in text
 
 
 def test_round_off_is_no_effect(tmp_path: Path) -> None:
     rng = np.random.default_rng(1)
     peaks = 3.0 * (1.0 + 1e-15 * rng.integers(-2, 3, 100))
-    made = frame_of({"mass": np.arange(100.0)}, {"peak": peaks}, UNITS)
-    data = study_data(made)
+    frame = frame_of({"mass": np.arange(100.0)}, {"peak": peaks}, UNITS)
+    data = study_data(frame)
     assert np.isnan(rank_correlations(data, data.responses)).all()
-    assert "It is 3 m/s² in all runs" in report_of(made, tmp_path, commands)[0].read_text(encoding="utf-8")
-    made["peak"] = 3.0 * (1.0 + 1e-6 * rng.random(100))
-    assert study_data(made).responses[0].varies
+    assert "It is 3 m/s² in all runs" in report_of(frame, tmp_path, commands)[0].read_text(encoding="utf-8")
+    frame["peak"] = 3.0 * (1.0 + 1e-6 * rng.random(100))
+    assert study_data(frame).responses[0].varies
 
 
 def test_a_parameter_that_changes_round_off_only_has_no_effect() -> None:
     """Beside one that does; and a lateral acceleration of a car that drives straight is none."""
     a, b = (g.ravel() for g in np.meshgrid([0.0, 1.0, 2.0], [0.0, 1.0, 2.0], indexing="ij"))
     columns = {"peak": 3.0 + a + 2e-9 * b, "straight": 5e-11 * (1.0 + a)}
-    made = frame_of({"mass": a, "toe": b}, columns, UNITS | {"straight": "m/s2"}, method="grid")
-    data = study_data(made)
+    frame = frame_of({"mass": a, "toe": b}, columns, UNITS | {"straight": "m/s2"}, method="grid")
+    data = study_data(frame)
     assert [r.varies for r in data.responses] == [True, False]
     assert rank_correlations(data, data.responses)[0] == pytest.approx([1.0, 0.0], abs=1e-12)
     indices = indices_of(data, data.responses[0])
@@ -133,9 +133,9 @@ def test_a_parameter_that_changes_round_off_only_has_no_effect() -> None:
 
 def test_units_are_those_of_the_field() -> None:
     x = np.linspace(0.1, 0.2, 20)
-    made = frame_of({"toe": x}, {"roll": 2.0 * x}, {"toe": "rad", "roll": "rad"})
-    made.attrs["limits"] = {"roll": {"min": None, "max": np.pi / 10, "unit": "rad"}}
-    data = study_data(made)
+    frame = frame_of({"toe": x}, {"roll": 2.0 * x}, {"toe": "rad", "roll": "rad"})
+    frame.attrs["limits"] = {"roll": {"min": None, "max": np.pi / 10, "unit": "rad"}}
+    data = study_data(frame)
     assert (data.parameters[0].unit, data.responses[0].unit) == ("deg", "deg")
     assert data.x[:, 0] == pytest.approx(np.degrees(x))
     assert data.responses[0].values == pytest.approx(np.degrees(2.0 * x))
@@ -197,8 +197,8 @@ def test_indices_that_are_noise_are_hollow_points() -> None:
 
 def test_where_runs_fail(frame: pd.DataFrame) -> None:
     data = study_data(frame)
-    found = failed_share(data.x[:, 0], data.failed)
-    at, share, low, high = found.at, found.mean, found.low, found.high
+    result = failed_share(data.x[:, 0], data.failed)
+    at, share, low, high = result.at, result.mean, result.low, result.high
     # A fifth of the range fails: the first two of ten classes wholly, the others not at all.
     assert share.tolist() == [1.0, 1.0, *[0.0] * 8]
     assert at[1] < 2.8e4 < at[2]
@@ -221,20 +221,20 @@ def test_extremes_reasons_and_statistics(frame: pd.DataFrame) -> None:
 
 
 @pytest.mark.slow
-def test_what_the_fmu_said(frame: pd.DataFrame, tmp_path: Path) -> None:
-    told = frame.iloc[:70].copy()
-    told["messages"] = [f"The step {1 + k} ms is coarse." if k % 7 == 0 else "" for k in range(70)]
-    told.attrs = frame.attrs
-    assert said(study_data(told)) == [("The step 1 to 64 ms is coarse.", list(range(0, 70, 7)))]
-    text = report_of(told, tmp_path, commands)[0].read_text(encoding="utf-8")
+def test_messages_of_the_fmu(frame: pd.DataFrame, tmp_path: Path) -> None:
+    reported = frame.iloc[:70].copy()
+    reported["messages"] = [f"The step {1 + k} ms is coarse." if k % 7 == 0 else "" for k in range(70)]
+    reported.attrs = frame.attrs
+    assert said(study_data(reported)) == [("The step 1 to 64 ms is coarse.", list(range(0, 70, 7)))]
+    text = report_of(reported, tmp_path, commands)[0].read_text(encoding="utf-8")
     assert "Messages of the FMU" in text
     assert "The step 1 to 64 ms is coarse." in text
 
 
 def test_two_manoeuvres_are_two_responses() -> None:
     x = np.linspace(1.0, 2.0, 50)
-    made = frame_of({"mass": x}, {"peak": np.stack([x, -x], axis=1).ravel()}, UNITS, manoeuvres=("slalom", "drop"))
-    data = study_data(made)
+    frame = frame_of({"mass": x}, {"peak": np.stack([x, -x], axis=1).ravel()}, UNITS, manoeuvres=("slalom", "drop"))
+    data = study_data(frame)
     assert [r.label for r in data.responses] == ["peak (slalom)", "peak (drop)"]
     assert data.responses[1].values == pytest.approx(-x)
     assert data.points(data.responses[1]).tolist() == list(range(50))
@@ -247,8 +247,10 @@ def test_a_design_of_saltellis_with_failed_runs(tmp_path: Path) -> None:
     problem = {"num_vars": 2, "names": ["a", "b"], "bounds": [[0.0, 1.0]] * 2}
     x = sobol.sample(problem, 256, calc_second_order=False, seed=4)
     y = 3.0 * x[:, 0] - x[:, 1]
-    made = frame_of({"a": x[:, 0], "b": x[:, 1]}, {"y": y}, {}, method="saltelli", failed=lambda f: f.index % 100 == 50)
-    text = report_of(made, tmp_path, commands)[0].read_text(encoding="utf-8")
+    frame = frame_of(
+        {"a": x[:, 0], "b": x[:, 1]}, {"y": y}, {}, method="saltelli", failed=lambda f: f.index % 100 == 50
+    )
+    text = report_of(frame, tmp_path, commands)[0].read_text(encoding="utf-8")
     assert "blocks with a missing or failed run left out: 10." in text
     table = pd.read_csv(tmp_path / "analysis" / "effects.csv").set_index("parameter")
     assert table["first"].tolist() == pytest.approx([0.9, 0.1], abs=0.03)

@@ -74,7 +74,7 @@ def test_an_fmu_of_the_same_guid_and_other_content_is_refused(half: Path) -> Non
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "words"),
+    ("old", "new", "message"),
     [
         ("50.0, 80.0", "50.0, 81.0", "parameters.'spring.stiffness'.high was 80.0 and is 81.0."),
         ("seed = 7", "seed = 8", "seed was 7 and is 8; sampling.seed was 7 and is 8."),
@@ -83,10 +83,10 @@ def test_an_fmu_of_the_same_guid_and_other_content_is_refused(half: Path) -> Non
         ("runs = 16", "runs = 32", "sampling.runs was 16 and is 32."),
     ],
 )
-def test_a_changed_study_is_refused(half: Path, old: str, new: str, words: str) -> None:
+def test_a_changed_study_is_refused(half: Path, old: str, new: str, message: str) -> None:
     text = (half / "study.toml").read_text()
     (half / "study.toml").write_text(text.replace(old, new))
-    assert f"rows stay as they are: {words} Put it back" in refused(half)
+    assert f"rows stay as they are: {message} Put it back" in refused(half)
 
 
 @pytest.mark.slow
@@ -102,9 +102,9 @@ def test_only_what_is_missing_is_made(
     table = pq.ParquetFile(runs / "part-000001.parquet").read()
     pq.write_table(table.slice(3, 9), runs / "part-000001.parquet")
     assert main([*again, scheduler]) == 0
-    told = capsys.readouterr().out
-    there = 16 - len(table) + len(table.slice(3, 9))  # a slow machine writes more than one part
-    assert f"{there} of 16 runs are there" in told
+    output = capsys.readouterr().out
+    present = 16 - len(table) + len(table.slice(3, 9))  # a slow machine writes more than one part
+    assert f"{present} of 16 runs are there" in output
     now = read_study(half / "out")
     assert now.drop(columns="wall_seconds").equals(before.drop(columns="wall_seconds"))
     (half / "out" / "study.json").unlink()

@@ -9,25 +9,25 @@ from hosts.study.target_search import SearchResult, seek
 
 
 def sought(function: Callable[[float], float], wanted: float, low: float, high: float, **more: float) -> SearchResult:
-    found = seek(lambda x: (function(x), "" if math.isfinite(function(x)) else "failed"), wanted, low, high, **more)
-    assert len({run.x for run in found.runs}) == len(found.runs)  # no run twice
-    return found
+    result = seek(lambda x: (function(x), "" if math.isfinite(function(x)) else "failed"), wanted, low, high, **more)
+    assert len({run.x for run in result.runs}) == len(result.runs)  # no run twice
+    return result
 
 
 def test_a_monotone_measure_is_met_by_few_runs() -> None:
-    found = sought(lambda x: x**3, 20.0, 1.0, 4.0)
-    assert found.met
-    assert found.best is not None
-    assert found.best.x == pytest.approx(20.0 ** (1 / 3), rel=1e-3)
-    assert len(found.runs) <= 8
-    assert found.slope == pytest.approx(3.0 * 20.0 ** (2 / 3), rel=0.05)
-    assert (found.rises, found.falls) == (True, False)
+    actual = sought(lambda x: x**3, 20.0, 1.0, 4.0)
+    assert actual.met
+    assert actual.best is not None
+    assert actual.best.x == pytest.approx(20.0 ** (1 / 3), rel=1e-3)
+    assert len(actual.runs) <= 8
+    assert actual.slope == pytest.approx(3.0 * 20.0 ** (2 / 3), rel=0.05)
+    assert (actual.rises, actual.falls) == (True, False)
 
 
 def test_the_slope_has_its_sign() -> None:
-    found = sought(lambda x: 5.0 - 2.0 * x, 1.0, 0.0, 5.0)
-    assert found.met
-    assert found.slope == pytest.approx(-2.0)
+    actual = sought(lambda x: 5.0 - 2.0 * x, 1.0, 0.0, 5.0)
+    assert actual.met
+    assert actual.slope == pytest.approx(-2.0)
 
 
 @pytest.mark.parametrize(
@@ -36,11 +36,11 @@ def test_the_slope_has_its_sign() -> None:
 )
 def test_the_slope_is_that_of_a_run_beside_it(top: float, law: Callable[[float], float]) -> None:
     """The secant of the ends meets the first, with a slope of 5; in the second it is another one at the left."""
-    found = sought(law, 1.3, 0.0, top)
-    assert found.best is not None
-    h = 1e-4 * found.best.x
-    assert found.slope == pytest.approx((law(found.best.x + h) - law(found.best.x - h)) / (2.0 * h), rel=0.02)
-    assert abs(found.between[1] - found.between[0]) == pytest.approx(0.01 * found.between[0])
+    actual = sought(law, 1.3, 0.0, top)
+    assert actual.best is not None
+    h = 1e-4 * actual.best.x
+    assert actual.slope == pytest.approx((law(actual.best.x + h) - law(actual.best.x - h)) / (2.0 * h), rel=0.02)
+    assert abs(actual.between[1] - actual.between[0]) == pytest.approx(0.01 * actual.between[0])
 
 
 def test_what_is_far_off_is_not_what_a_change_is_measured_by() -> None:
@@ -55,20 +55,20 @@ def test_what_is_far_off_is_not_what_a_change_is_measured_by() -> None:
 
 def test_two_solutions_inside_the_range_and_the_one_near_the_start() -> None:
     for start, x in ((0.5, 1.0), (3.5, 3.0)):
-        found = sought(lambda x: (x - 2.0) ** 2, 1.0, 0.0, 4.0, start=start)
-        assert found.met
-        assert found.best is not None
-        assert found.best.x == pytest.approx(x, abs=2e-3)
-        assert found.rises
-        assert found.falls
+        actual = sought(lambda x: (x - 2.0) ** 2, 1.0, 0.0, 4.0, start=start)
+        assert actual.met
+        assert actual.best is not None
+        assert actual.best.x == pytest.approx(x, abs=2e-3)
+        assert actual.rises
+        assert actual.falls
 
 
 def test_a_value_that_is_not_reached_gives_the_nearest() -> None:
-    found = sought(lambda x: 2.0 + (x - 1.0) ** 2, 1.0, 0.0, 4.0)
-    assert (found.met, found.crossed) == (False, False)
-    assert found.best is not None
-    assert found.best.x == pytest.approx(1.0, abs=0.1)
-    assert found.best.y == pytest.approx(2.0, abs=0.01)
+    actual = sought(lambda x: 2.0 + (x - 1.0) ** 2, 1.0, 0.0, 4.0)
+    assert (actual.met, actual.crossed) == (False, False)
+    assert actual.best is not None
+    assert actual.best.x == pytest.approx(1.0, abs=0.1)
+    assert actual.best.y == pytest.approx(2.0, abs=0.01)
     end = sought(lambda x: x, 5.0, 0.0, 4.0)
     assert end.best is not None
     assert end.best.x == 4.0
@@ -79,35 +79,35 @@ def test_a_value_that_is_not_reached_gives_the_nearest() -> None:
     "law", [lambda x: x, lambda x: -(x**2), lambda x: 1.0, lambda x: 0.1 * x + 1e-4 * math.sin(9.0 * x)]
 )
 def test_few_runs_show_that_a_value_is_not_reached(law: Callable[[float], float]) -> None:
-    found = sought(law, 5.0, 0.0, 4.0)
-    assert len(found.runs) <= 12
-    assert (found.met, found.crossed) == (False, False)
-    assert found.best is not None
-    assert abs(found.best.y - 5.0) == min(abs(law(x) - 5.0) for x in (0.0, 4.0))
-    assert math.isnan(found.slope)
+    actual = sought(law, 5.0, 0.0, 4.0)
+    assert len(actual.runs) <= 12
+    assert (actual.met, actual.crossed) == (False, False)
+    assert actual.best is not None
+    assert abs(actual.best.y - 5.0) == min(abs(law(x) - 5.0) for x in (0.0, 4.0))
+    assert math.isnan(actual.slope)
 
 
 def test_an_extremum_that_no_line_through_the_ends_shows_is_sought() -> None:
     """Beyond the value between ends that are alike, in the middle or beside it; and short of it by a little."""
     for top in (1.7, 2.0, 3.1):
-        found = sought(lambda x, top=top: 5.3 - (x - top) ** 2, 5.0, 0.0, 4.0)
-        assert found.met
+        result = sought(lambda x, top=top: 5.3 - (x - top) ** 2, 5.0, 0.0, 4.0)
+        assert result.met
     short = sought(lambda x: 4.9 - (x - 1.4) ** 2, 5.0, 0.0, 4.0)
     assert short.best is not None
     assert short.best.x == pytest.approx(1.4, abs=0.1)
 
 
 def test_a_jump_is_not_taken_for_a_solution() -> None:
-    found = sought(lambda x: -1.0 if x < math.pi / 4 else 3.0, 1.0, 0.0, 1.0)
-    assert (found.met, found.crossed) == (False, True)
-    assert found.best is not None
-    assert found.best.x == pytest.approx(math.pi / 4, abs=1e-3)
+    actual = sought(lambda x: -1.0 if x < math.pi / 4 else 3.0, 1.0, 0.0, 1.0)
+    assert (actual.met, actual.crossed) == (False, True)
+    assert actual.best is not None
+    assert actual.best.x == pytest.approx(math.pi / 4, abs=1e-3)
 
 
 def test_runs_that_fail_at_the_ends_and_between() -> None:
-    found = sought(lambda x: math.nan if x < 0.5 or abs(x - 2.0) < 0.3 else x, 3.0, 0.0, 4.0)
-    assert found.met
-    assert found.runs[0].reason == "failed"
+    actual = sought(lambda x: math.nan if x < 0.5 or abs(x - 2.0) < 0.3 else x, 3.0, 0.0, 4.0)
+    assert actual.met
+    assert actual.runs[0].reason == "failed"
     nothing = sought(lambda x: math.nan, 3.0, 0.0, 4.0)
     assert nothing.best is None
     assert len(nothing.runs) == 7
@@ -115,14 +115,14 @@ def test_runs_that_fail_at_the_ends_and_between() -> None:
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_measure_that_only_the_far_part_of_the_range_yields_is_found_there(sign: float) -> None:
-    found = sought(lambda x: x if sign * x > 0.3 else math.nan, 0.7 * sign, -1.0, 1.0)
-    assert found.met
-    assert found.best is not None
-    assert found.best.x == pytest.approx(0.7 * sign, abs=1e-3)
+    actual = sought(lambda x: x if sign * x > 0.3 else math.nan, 0.7 * sign, -1.0, 1.0)
+    assert actual.met
+    assert actual.best is not None
+    assert actual.best.x == pytest.approx(0.7 * sign, abs=1e-3)
 
 
 def test_zero_is_wanted_with_a_range_by_the_logarithm() -> None:
-    found = sought(lambda x: math.log10(x), 0.0, 0.01, 1000.0, log=True)
-    assert found.met
-    assert found.best is not None
-    assert found.best.x == pytest.approx(1.0, rel=0.02)
+    actual = sought(lambda x: math.log10(x), 0.0, 0.01, 1000.0, log=True)
+    assert actual.met
+    assert actual.best is not None
+    assert actual.best.x == pytest.approx(1.0, rel=0.02)

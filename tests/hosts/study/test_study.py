@@ -111,7 +111,7 @@ def test_a_study_under_the_names_of_an_alias_file_makes_the_same_runs(
         ("min(bob.y)", "min(chassis.z)"),
         ("max(bob.y)", "max(chassis.z)"),
     )
-    found = []
+    results = []
     for file, stiffness in (
         (study_file(), {"spring.stiffness": 60.0}),
         (study_file(*ours, name="named.toml"), {"rate": 6.0}),
@@ -119,9 +119,9 @@ def test_a_study_under_the_names_of_an_alias_file_makes_the_same_runs(
         plan = make_plan(read_study_file(file)[0], file, spring)
         assert set(plan.work.parameters) == {*stiffness, "spring.free_length"}
         bench = Bench(plan.work, spring)
-        found.append(bench.run(plan.work.jobs[0], {**stiffness, "spring.free_length": 0.7}, 1).measures)
+        results.append(bench.run(plan.work.jobs[0], {**stiffness, "spring.free_length": 0.7}, 1).measures)
         bench.close()
-    theirs, named = found
+    theirs, named = results
     assert theirs["highest"] - theirs["lowest"] > 0.02
     assert named == {"lowest": -theirs["highest"], "highest": -theirs["lowest"]}
     wrong = study_file(*ours, ('"rate"', '"chassis.z"'))

@@ -108,12 +108,12 @@ def test_sobol_indices_of_a_linear_model_and_of_ishigami(effects: pd.DataFrame) 
     # Means over the outer tenths of a range of -1 to 1 are 1.8 apart.
     assert linear["main_effect_span"].to_numpy() == pytest.approx(1.8 * np.abs(slopes), abs=0.4)
     v1, v2, v13 = 0.5 * (1 + 0.1 * np.pi**4 / 5) ** 2, 49 / 8, 0.01 * np.pi**8 * 8 / 225
-    found = effects.loc["ishigami"]
+    result = effects.loc["ishigami"]
     variance = v1 + v2 + v13
     for column, values in (("first", (v1, v2, 0.0)), ("total", (v1 + v13, v2, v13))):
         # How often the interval of 95 % holds the truth over many seeds is in test_analysis.py; this is one.
-        assert (np.abs(found[column] - np.array(values) / variance) < 2.0 * found[f"{column}_conf"]).all()
-        assert (found[f"{column}_conf"] < 0.2).all()
+        assert (np.abs(result[column] - np.array(values) / variance) < 2.0 * result[f"{column}_conf"]).all()
+        assert (result[f"{column}_conf"] < 0.2).all()
 
 
 def test_what_the_fmu_has_done_is_in_the_table(folder: Path, effects: pd.DataFrame) -> None:
@@ -132,9 +132,9 @@ def test_the_worst_run_is_repeated_to_the_bit(folder: Path, capsys: pytest.Captu
     worst = int(frame["lowest"].idxmin())
     text = (folder / "report.html").read_text(encoding="utf-8")
     lines = [html.unescape(line) for line in re.findall(r"<code>(.*?)</code>", text)]
-    (asked,) = {line for line in lines if line.endswith(f"--run {worst}")}
+    (requested,) = {line for line in lines if line.endswith(f"--run {worst}")}
     capsys.readouterr()
-    words = shlex.split(asked)
+    words = shlex.split(requested)
     assert main(words[words.index("study") + 1 :]) == 0
     lines = capsys.readouterr().out.splitlines()
     drives = [line for line in lines if f"run-{worst}." in line and " run " in line]

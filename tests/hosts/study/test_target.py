@@ -33,7 +33,7 @@ def test_the_stiffness_for_a_lowest_place(
 ) -> None:
     """At rest at y = -1 the mass swings about -(free length + m g / k), as far on the other side."""
     assert seek("--target", "lowest=-1200 mm") == 0
-    words = capsys.readouterr().out
+    message = capsys.readouterr().out
     record = json.loads((tmp_path / "out" / f"{STEM}.json").read_text(encoding="utf-8"))
     assert record["value"] == pytest.approx(2.0 * GRAVITY / 0.3, rel=0.01)
     assert record["reached"] == pytest.approx(-1.2, abs=1.2e-3)
@@ -41,10 +41,10 @@ def test_the_stiffness_for_a_lowest_place(
     # d lowest / d k = 2 m g / k^2
     assert record["sensitivity"] == pytest.approx(4.0 * GRAVITY / record["value"] ** 2, rel=0.05)
     assert len(record["runs"]) <= 6
-    assert "spring.stiffness = 65." in words
-    assert " mm" in words
-    assert f"{len(record['runs'])} runs of fall" in words
-    assert sum(line.startswith("run ") for line in words.splitlines()) == len(record["runs"])
+    assert "spring.stiffness = 65." in message
+    assert " mm" in message
+    assert f"{len(record['runs'])} runs of fall" in message
+    assert sum(line.startswith("run ") for line in message.splitlines()) == len(record["runs"])
     assert (tmp_path / "out" / f"{STEM}.svg").stat().st_size > 5000
     # the parameter set has what was found and what the study sets, and another command takes it
     file = tmp_path / "out" / f"{STEM}.ssv"
@@ -66,19 +66,19 @@ def test_a_value_that_cannot_be_met(
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / f"{STEM}.ssv").write_text("of an earlier search")
     assert seek("--target", "lowest=-3") == 1
-    words = capsys.readouterr().out
-    assert "lowest = -3 m is not met with spring.stiffness from 50 N/m to 80 N/m." in words
-    assert "The nearest is -1.38" in words
-    assert ", at 50 N/m" in words
-    assert "runs from end to end the measure only rises with it and does not reach what is wanted; try" in words
-    assert "Sensitivity" not in words
-    assert "a wider range, --between (the FMU allows 10 to 900" in words
+    message = capsys.readouterr().out
+    assert "lowest = -3 m is not met with spring.stiffness from 50 N/m to 80 N/m." in message
+    assert "The nearest is -1.38" in message
+    assert ", at 50 N/m" in message
+    assert "runs from end to end the measure only rises with it and does not reach what is wanted; try" in message
+    assert "Sensitivity" not in message
+    assert "a wider range, --between (the FMU allows 10 to 900" in message
     assert not (tmp_path / "out" / f"{STEM}.ssv").exists()
     assert not json.loads((tmp_path / "out" / f"{STEM}.json").read_text(encoding="utf-8"))["met"]
     assert seek("--target", "lowest=-30", "--between", "10:80") == 1
-    words = capsys.readouterr().out
-    assert "at 10 N/m" in words
-    assert "try another parameter (--by)." in words, "the FMU allows no smaller value"
+    message = capsys.readouterr().out
+    assert "at 10 N/m" in message
+    assert "try another parameter (--by)." in message, "the FMU allows no smaller value"
 
 
 @pytest.mark.slow
@@ -87,13 +87,13 @@ def test_what_changes_by_rounding_alone_does_not_change(
 ) -> None:
     """The mass begins at rest at y = -1, its highest place."""
     assert seek("--target", "highest=-0.5") == 1
-    words = capsys.readouterr().out
-    assert "the measure does not change with it and does not reach what is wanted; try another parameter" in words
-    assert "Sensitivity" not in words
+    message = capsys.readouterr().out
+    assert "the measure does not change with it and does not reach what is wanted; try another parameter" in message
+    assert "Sensitivity" not in message
 
 
 @pytest.mark.parametrize(
-    ("options", "by", "words"),
+    ("options", "by", "message"),
     [
         (("--target", "lowest=-1.2 deg"), "spring.stiffness", "values in 'deg' cannot be converted to m by a factor"),
         (("--target", "lowst=-1.2"), "spring.stiffness", "there is no measure 'lowst'; did you mean 'lowest'?"),
@@ -117,16 +117,16 @@ def test_what_changes_by_rounding_alone_does_not_change(
         (("--target", "lowest=1e999"), "spring.stiffness", "--target lowest=1e999: '1e999' is too large"),
     ],
 )
-def test_what_cannot_be_sought_is_one_sentence(
-    seek: Callable[..., int], capsys: pytest.CaptureFixture[str], options: tuple[str, ...], by: str, words: str
+def test_a_target_that_cannot_be_sought_is_refused_in_one_sentence(
+    seek: Callable[..., int], capsys: pytest.CaptureFixture[str], options: tuple[str, ...], by: str, message: str
 ) -> None:
     assert seek(*options, by=by) == 2
     error = capsys.readouterr().err
-    assert words in error
+    assert message in error
     assert error.count("\n") == 1
 
 
-def test_a_parameter_that_the_fmu_has_not_is_told_before_its_range(
+def test_a_parameter_that_the_fmu_has_not_is_reported_before_its_range(
     study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     old = '"spring.free_length" = { range = [0.5, 0.8] }'
@@ -141,14 +141,14 @@ def test_a_parameter_that_the_fmu_has_not_is_told_before_its_range(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "words"), [("String", "it is a text; only"), ("Integer", "it is a whole number")])
+@pytest.mark.parametrize(("kind", "message"), [("String", "it is a text; only"), ("Integer", "it is a whole number")])
 def test_what_is_no_real_number_is_not_sought(
     study_file: Callable[..., Path],
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
     kind: str,
-    words: str,
+    message: str,
 ) -> None:
     """Told before a range that nobody gave."""
     before = Variables.settable
@@ -160,7 +160,7 @@ def test_what_is_no_real_number_is_not_sought(
     monkeypatch.setattr(Variables, "settable", of_kind)
     wanted = ["--target", "lowest=-1.2", "--by", "spring.stiffness", "--out", str(tmp_path / "out")]
     assert main([str(study_file()), *wanted]) == 2
-    assert f"--by spring.stiffness: {words}" in capsys.readouterr().err
+    assert f"--by spring.stiffness: {message}" in capsys.readouterr().err
 
 
 def test_a_range_that_is_open_above_is_none(

@@ -16,29 +16,29 @@ from hosts.study.worker_data import Run, Work
 
 
 @pytest.mark.slow
-def test_a_function_that_raises_is_told_before_the_study(
+def test_a_function_that_raises_is_reported_before_the_study(
     study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "own.py").write_text("def value(result):\n    raise ArithmeticError('no such number')\n")
     run_study(study_file(more='own = "own.py:value"\n'), tmp_path / "out", None, None, dry=True)
-    said = capsys.readouterr().err
-    assert "note: Run 0, fall, is incomplete: " in said
-    assert "no such number" in said
+    errors = capsys.readouterr().err
+    assert "note: Run 0, fall, is incomplete: " in errors
+    assert "no such number" in errors
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("workers", "words"), [(1, "in all on one worker"), (2, "in all with 2 workers")])
+@pytest.mark.parametrize(("workers", "message"), [(1, "in all on one worker"), (2, "in all with 2 workers")])
 def test_the_plan_tells_its_workers(
-    study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str], workers: int, words: str
+    study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str], workers: int, message: str
 ) -> None:
     run_study(study_file(), tmp_path / "out", None, workers, dry=True)
-    assert words in capsys.readouterr().out
+    assert message in capsys.readouterr().out
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("x", "told"), [(550.0, 0), (0.0, 1)])
-def test_a_start_is_told_where_a_run_has_it(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str], x: float, told: int
+@pytest.mark.parametrize(("x", "reported"), [(550.0, 0), (0.0, 1)])
+def test_a_start_is_reported_where_a_run_has_it(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], x: float, reported: int
 ) -> None:
     (tmp_path / "far.csv").write_text("x,-5,0,5\n500,0,0,0\n550,0,0,0\n600,0,0,0\n")
     start = {"road.file": road_value(str(tmp_path / "far.csv"), tmp_path)}
@@ -46,4 +46,4 @@ def test_a_start_is_told_where_a_run_has_it(
     work = Work(FmuSource(Path("none.fmu")), "", "", "", (job,), ("initial.x",), (), (), ())
     with OneProcess(work, tmp_path / "none.fmu") as processes:
         assert "none.fmu" in processes.run(Run(0, {"initial.x": x})).reason
-    assert capfd.readouterr().err.count("warning: ") == told
+    assert capfd.readouterr().err.count("warning: ") == reported

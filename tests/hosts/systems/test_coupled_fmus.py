@@ -56,13 +56,13 @@ def test_an_oscillator_of_two_fmus_is_the_scheme_that_its_order_makes(partners: 
     assert 1.8 < errors[0] / errors[1] < 2.2
 
 
-def test_a_value_that_is_none_is_told_with_its_part_once(partners: dict[str, Path]) -> None:
+def test_a_nan_is_reported_once_with_its_part(partners: dict[str, Path]) -> None:
     parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
     with CoupledFmus(parts, WIRES, step=0.1) as system:
         system.initialise(**{"mass.start": 1.0, "spring.break_at": 0.25})
         system.run(0.5, ("mass.position",))
-        told = [m for m in system.messages if "spring: at" in m]
-        assert told == ["spring: at 0.3 s 'force' is nan. This is reported once."]
+        messages = [m for m in system.messages if "spring: at" in m]
+        assert messages == ["spring: at 0.3 s 'force' is nan. This is reported once."]
 
 
 @pytest.mark.parametrize(("first", "slopes"), [("source", [10.0, 0.0, 0.0]), ("sink", [0.0, 10.0, 0.0])])
@@ -72,14 +72,14 @@ def test_a_followed_source_that_jumps_and_stays(partners: dict[str, Path], first
     with CoupledFmus(
         {first: parts[first], **parts}, {"sink.position": "source.value"}, step=0.1, inputs="followed"
     ) as system:
-        found: list[float] = []
+        results: list[float] = []
         sink = next(p for p in system._parts if p.name == "sink")
-        sink.set_slopes = lambda given: found.extend(given)  # PythonFMU's FMUs take no derivatives
+        sink.set_slopes = lambda given: results.extend(given)  # PythonFMU's FMUs take no derivatives
         for _ in range(2):  # a second start does not go on with the run before
             system.initialise()
             system.run(0.3, ("source.value",))
-            assert found == pytest.approx(slopes)
-            found.clear()
+            assert results == pytest.approx(slopes)
+            results.clear()
 
 
 REFUSED = {"source.refuse_from": 0.15}
@@ -94,8 +94,8 @@ def test_after_a_refused_step_all_parts_are_where_they_were(partners: dict[str, 
         system.initialise(**REFUSED)
         system.run(0.2, ("mass.position",))
         before = system.read(("mass.position", "source.value"))
-        words = r"The part 'source' refused the step from 0.2 s: .* All parts are back at 0.2 s\."
-        with pytest.raises(StepRefusedError, match=words):
+        message = r"The part 'source' refused the step from 0.2 s: .* All parts are back at 0.2 s\."
+        with pytest.raises(StepRefusedError, match=message):
             system.step()
         assert list(system.read(("mass.position", "source.value"))) == list(before)
         system.fmu("source").setter(["given"])([1.0])
@@ -136,7 +136,7 @@ def test_what_a_system_cannot_do_is_one_sentence(partners: dict[str, Path]) -> N
     """Not after it is closed either, where the library of the FMU is gone."""
     parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
     with CoupledFmus(parts, WIRES, step=0.1) as system:
-        for act, words in (
+        for act, message in (
             (lambda: system.read(["mass.position"]), "must be initialised before its values are read"),
             (lambda: system.initialise(**{"mas.start": 1.0}), "'mas.start' names no part; did you mean 'mass'"),
             (lambda: system.initialise(**{"mass.start": "a"}), "The part 'mass': 'start' is 'a'; it must be a Real"),
@@ -150,13 +150,13 @@ def test_what_a_system_cannot_do_is_one_sentence(partners: dict[str, Path]) -> N
             (lambda: system.fmu(1), "There is no part 1"),
             (lambda: system.fmu("sprin"), "There is no part 'sprin'; did you mean 'spring'"),
         ):
-            with pytest.raises(HostError, match=words):
+            with pytest.raises(HostError, match=message):
                 act()
         system.initialise()
         with pytest.raises(HostError, match="The part 'mass' has no number 'positio'; did you mean 'position'"):
             system.read(["mass.positio"])
-        for names, words in (("mass.position", "The variables are 'mass.position'"), ([1], "have 1 among them")):
-            with pytest.raises(HostError, match=words):
+        for names, message in (("mass.position", "The variables are 'mass.position'"), ([1], "have 1 among them")):
+            with pytest.raises(HostError, match=message):
                 system.read(names)
         for duration in (0.25, -0.1, math.nan, "1"):
             with pytest.raises(HostError, match=rf"A run of {duration!r} s is .* it must be a whole number of them"):
@@ -168,7 +168,7 @@ def test_what_a_system_cannot_do_is_one_sentence(partners: dict[str, Path]) -> N
 
 
 @pytest.mark.parametrize(
-    ("options", "words"),
+    ("options", "message"),
     [
         ({"step": "0.01"}, r"The communication step is '0.01'; it must be a positive number, in s\."),
         ({"step": True}, "The communication step is True"),
@@ -180,11 +180,11 @@ def test_what_a_system_cannot_do_is_one_sentence(partners: dict[str, Path]) -> N
         ({"connections": {"mass.force": None}}, "None names no part"),
     ],
 )
-def test_options_of_another_type_are_one_sentence(
-    partners: dict[str, Path], options: dict[str, object], words: str
+def test_options_of_another_type_are_refused_in_one_sentence(
+    partners: dict[str, Path], options: dict[str, object], message: str
 ) -> None:
     usual = {"parts": {"mass": partners["half_mass"]}, "connections": {}, "step": 0.1}
-    with pytest.raises(HostError, match=words):
+    with pytest.raises(HostError, match=message):
         CoupledFmus(**(usual | options))
 
 
@@ -198,7 +198,7 @@ def test_an_angle_is_no_plain_number(partners: dict[str, Path], scene_fmu: Calla
 
 
 @pytest.mark.parametrize(
-    ("wires", "words"),
+    ("wires", "message"),
     [
         ({"spring": "mass.position"}, "'spring' names a part and no variable"),
         ({"spring.position": "car.x"}, "'car.x' names no part"),
@@ -206,9 +206,9 @@ def test_an_angle_is_no_plain_number(partners: dict[str, Path], scene_fmu: Calla
         ({"spring.position": "mass.force"}, "The part 'mass' has no output 'force'"),
     ],
 )
-def test_wires_that_cannot_be(partners: dict[str, Path], wires: dict[str, str], words: str) -> None:
+def test_invalid_wires_are_refused(partners: dict[str, Path], wires: dict[str, str], message: str) -> None:
     parts = {"mass": partners["half_mass"], "spring": partners["half_spring"]}
-    with pytest.raises(HostError, match=words):
+    with pytest.raises(HostError, match=message):
         CoupledFmus(parts, wires, step=0.1)
 
 
@@ -236,7 +236,7 @@ def test_repeated_steps_halve_the_error_of_a_controller_that_does_not_switch(nam
 
 
 @pytest.mark.slow
-def test_a_law_that_is_on_or_off_comes_late_by_the_step_whatever_the_inputs_do() -> None:
+def test_a_switching_law_is_late_by_a_step_for_all_kinds_of_inputs() -> None:
     """Against steps of 0.1 ms: held inputs are the nearer the shorter the step, others are not nearer."""
     held = [error(h, "held") for h in (0.001, 0.002, 0.004, 0.01)]
     assert held == sorted(held)
@@ -247,7 +247,7 @@ def test_a_law_that_is_on_or_off_comes_late_by_the_step_whatever_the_inputs_do()
 
 
 @pytest.mark.proof
-def test_the_stored_way_is_that_of_steps_of_a_tenth_of_a_millisecond() -> None:
+def test_the_stored_distance_is_that_of_steps_of_a_tenth_of_a_millisecond() -> None:
     assert way(SHORT) == pytest.approx(WAY, rel=1e-6)
     assert 20.0 < WAY < 23.0, "it would coast 30 m"
 
@@ -262,23 +262,23 @@ def test_gears_that_another_program_asks_for_are_held_whatever_other_inputs_do()
 
 
 @pytest.mark.slow
-def test_a_partner_that_falls_silent_or_gives_no_number_is_told(partners: dict[str, Path]) -> None:
+def test_a_silent_partner_or_one_that_gives_nan_is_reported(partners: dict[str, Path]) -> None:
     """Three ports that nobody sets, and one whose partner breaks: it holds the last value, and the car drives on."""
     parts = {"car": car_fmu("prototype", "torque"), "spring": partners["half_spring"]}
     wires = {"spring.position": "car.chassis.x", "car.wheel_RL.drive_torque": "spring.force"}
     with CoupledFmus(parts, wires, step=0.01) as system:
         system.initialise(**{"car.initial.speed": 5.0, "spring.break_at": 0.205})
         rows = system.run(0.5, ("car.used.wheel_RL.drive_torque", "car.chassis.x"))
-        said = " ".join(system.messages)
-    for words in ("3 ports were not set", "'wheel_RL.drive_torque' was set to nan and holds", "'force' is nan"):
-        assert said.count(words) == 1, system.messages
+        messages = " ".join(system.messages)
+    for message in ("3 ports were not set", "'wheel_RL.drive_torque' was set to nan and holds", "'force' is nan"):
+        assert messages.count(message) == 1, system.messages
     assert np.isfinite(rows).all()
     assert np.ptp(rows[25:, 0]) == 0.0
     assert np.ptp(rows[:20, 0]) > 0.1
 
 
 @pytest.mark.slow
-def test_repeated_steps_that_a_stiff_hitch_does_not_bear_are_told() -> None:
+def test_repeated_steps_that_diverge_at_a_stiff_hitch_are_reported() -> None:
     """At 10 ms each pass makes the force of the ball larger: it ends at the range of the ports, which is said."""
     load, _, messages = coupled("trailer", 0.01, inputs="repeated")
     assert load > 0.01
@@ -321,14 +321,14 @@ def test_other_masters_run_the_ssp_as_the_own_one_does(name: str, master: str, t
         parts, wires, start = controlled.parts_of(SYSTEMS[name]), SYSTEMS[name].wires, controlled.start_of(name)
     names = ("chassis.x", "chassis.y", "chassis.wz", "speed")
     ssp = write_ssp(tmp_path / "system.ssp", parts, wires, start)
-    found = MASTERS[master](ssp, Path(parts["car"]), step, count, names)
+    actual = MASTERS[master](ssp, Path(parts["car"]), step, count, names)
     with CoupledFmus(parts, wires, step=step, order="at once") as system:
         system.initialise(**start)
         before = system.read([f"car.{n}" for n in names])
         for _ in range(count):
             system.step()
         own = system.read([f"car.{n}" for n in names])
-    assert found == pytest.approx(own, rel=1e-9, abs=1e-11)
+    assert actual == pytest.approx(own, rel=1e-9, abs=1e-11)
     assert own[0] > before[0] + 2.0
 
 
@@ -358,16 +358,16 @@ def test_on_split_friction_the_car_is_steered_while_it_brakes() -> None:
 def test_yaw_control_passes_the_sine_with_dwell_in_which_the_car_spins() -> None:
     """Limits of FMVSS 126: yaw rate over its peak 35 % and 20 % 1 and 1.75 s after the steering; 1.83 m aside."""
     end = 0.5 + 1.0 / 0.7 + 0.5
-    left = []
+    remaining = []
     for on in (True, False):
         columns = run("yaw control", 0.004, on=on)
         times = 0.004 * np.arange(len(columns["car.chassis.wz"]))
         peak = columns["car.chassis.wz"][(times > 1.0) & (times < end)].min()
-        left.append([np.interp(end + late, times, columns["car.chassis.wz"]) / peak for late in (1.0, 1.75)])
+        remaining.append([np.interp(end + late, times, columns["car.chassis.wz"]) / peak for late in (1.0, 1.75)])
         assert np.interp(0.5 + 1.07, times, columns["car.chassis.y"]) > 1.83
-    assert abs(left[0][0]) < 0.35
-    assert abs(left[0][1]) < 0.20
-    assert min(left[1]) > 0.5, "without control it does not stop turning"
+    assert abs(remaining[0][0]) < 0.35
+    assert abs(remaining[0][1]) < 0.20
+    assert min(remaining[1]) > 0.5, "without control it does not stop turning"
 
 
 @pytest.mark.slow
@@ -395,8 +395,8 @@ def test_the_code_of_the_page_stops_where_it_says(tmp_path: Path) -> None:
     (tmp_path / "examples").symlink_to(root / "examples")
     environment = os.environ | {"PYTHONPATH": str(root)}
     command = [sys.executable, "-c", code]
-    told = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
-    assert told.returncode == 0, told.stderr[-2000:]
-    way = told.stdout.split("stands after ")[1].split(" m")[0]
-    assert f"It stands after {way} m" in page
+    completed = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+    assert completed.returncode == 0, completed.stderr[-2000:]
+    distance = completed.stdout.split("stands after ")[1].split(" m")[0]
+    assert f"It stands after {distance} m" in page
     assert (tmp_path / "dist" / "anti_lock_brakes.ssp").is_file()

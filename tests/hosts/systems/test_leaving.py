@@ -33,10 +33,10 @@ def test_the_record_of_python_is_freed_once(partners: dict[str, Path], end: str)
     memory = ("--num-callers=8", "--undef-value-errors=no", "--leak-check=no")  # what is freed, in half the time
     command = ["valgrind", *memory, sys.executable, "-c", PROGRAM, str(partners["half_mass"]), end]
     environment = os.environ | {"PYTHONMALLOC": "malloc", "PYTHONPATH": str(ROOT)}
-    told = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    assert told.returncode == 0, told.stderr[-2000:]
-    assert told.stdout.strip() == "stepped"
-    assert "finalizePythonInterpreter" not in told.stderr
+    completed = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert completed.returncode == 0, completed.stderr[-2000:]
+    assert completed.stdout.strip() == "stepped"
+    assert "finalizePythonInterpreter" not in completed.stderr
 
 
 def test_what_was_unpacked_goes_with_a_process_that_does_not_close(
@@ -46,14 +46,14 @@ def test_what_was_unpacked_goes_with_a_process_that_does_not_close(
     fmu = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:sledge")
     environment = os.environ | {"TMPDIR": str(tmp_path), "TEMP": str(tmp_path), "PYTHONPATH": str(ROOT)}
     program = f"{PROGRAM}print(*__import__('os').listdir({str(tmp_path)!r}))"
-    told = subprocess.run(
+    completed = subprocess.run(
         [sys.executable, "-c", program, str(fmu), "left open"],
         env=environment,
         capture_output=True,
         text=True,
         check=True,
     )
-    assert PREFIX in told.stdout
+    assert PREFIX in completed.stdout
     assert list(tmp_path.iterdir()) == []
 
 
@@ -74,5 +74,5 @@ fmu.close()
 print(len(os.listdir({str(tmp_path)!r})))
 """
     command = [sys.executable, "-u", "-c", program, str(fmu), "left open"]
-    told = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
-    assert told.stdout.split() == ["stepped", "1", "0"]
+    completed = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert completed.stdout.split() == ["stepped", "1", "0"]

@@ -32,9 +32,9 @@ def test_fmpy_reads_what_was_wired(partners: dict[str, Path], tmp_path: Path) ->
     file = write_ssp(tmp_path / "oscillator.ssp", halves(partners), WIRES, {"mass.start": 0.5})
     system = fmpy.ssp.ssd.read_ssd(str(file)).system
     assert [c.name for c in system.elements] == ["mass", "spring"]
-    found = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
+    actual = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
     wanted = {tuple(end.split(".")): tuple(start.split(".")) for end, start in WIRES.items()}
-    assert found == wanted
+    assert actual == wanted
 
 
 def description(file: Path) -> Any:
@@ -90,8 +90,8 @@ def test_start_values_of_all_types(partners: dict[str, Path], tmp_path: Path) ->
     file = write_ssp(tmp_path / "all.ssp", {"all": partners["settings"]}, {}, start)
     with zipfile.ZipFile(file) as archive:
         archive.extract("resources/all.ssv", tmp_path)
-    found = read_parameter_set(tmp_path / "resources" / "all.ssv").entries
-    assert [(e.name, e.kind, e.value) for e in found] == [
+    actual = read_parameter_set(tmp_path / "resources" / "all.ssv").entries
+    assert [(e.name, e.kind, e.value) for e in actual] == [
         ("file", "String", "a.road"),
         ("count", "Integer", "3"),
         ("on", "Boolean", "true"),
@@ -100,7 +100,7 @@ def test_start_values_of_all_types(partners: dict[str, Path], tmp_path: Path) ->
 
 
 @pytest.mark.parametrize(
-    ("name", "file", "start", "words"),
+    ("name", "file", "start", "message"),
     [
         ("all", "a.ssp", {"all.stop": 0.5}, "The part 'all': the FMU has no parameter or input 'stop'"),
         ("all", "a.ssp", {"al.size": 0.5}, "'al.size' names no part; did you mean 'all'"),
@@ -113,10 +113,10 @@ def test_start_values_of_all_types(partners: dict[str, Path], tmp_path: Path) ->
         ("a.b", "a.ssp", {}, r"A part is named 'a\.b'; its name must be of letters"),
     ],
 )
-def test_what_cannot_be_is_one_sentence_and_writes_nothing(
-    partners: dict[str, Path], tmp_path: Path, name: str, file: str, start: dict[str, float | str], words: str
+def test_impossible_options_are_refused_and_write_nothing(
+    partners: dict[str, Path], tmp_path: Path, name: str, file: str, start: dict[str, float | str], message: str
 ) -> None:
-    with pytest.raises(HostError, match=words):
+    with pytest.raises(HostError, match=message):
         write_ssp(tmp_path / file, {name: partners["settings"]}, {}, start)
     assert list(tmp_path.iterdir()) == []
 
@@ -127,8 +127,10 @@ def test_a_file_and_a_name_that_cannot_be_are_one_sentence(partners: dict[str, P
         write_ssp(1, halves(partners), WIRES, {})  # type: ignore[arg-type]
     with pytest.raises(HostError, match=r"The version of SSP is '3\.0'; it must be 1\.0 or 2\.0"):
         write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {}, version="3.0")
-    for name, told in ((1, "1"), ("a\x00b", r"'a\\x00b'"), ("\ud800", r"'\\ud800'")):
-        with pytest.raises(HostError, match=f"The name of the system is {told}; it must be a text that can be printed"):
+    for name, reported in ((1, "1"), ("a\x00b", r"'a\\x00b'"), ("\ud800", r"'\\ud800'")):
+        with pytest.raises(
+            HostError, match=f"The name of the system is {reported}; it must be a text that can be printed"
+        ):
             write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {}, name=name)
     assert list(tmp_path.iterdir()) == []
     assert write_ssp(str(tmp_path / "a.ssp"), halves(partners), WIRES, {}, name="<&>").is_file()  # type: ignore[arg-type]

@@ -101,9 +101,9 @@ def passing_folder() -> Path:
 @cache
 def fmus() -> dict[str, Path]:
     """FMUs of the car and the trailer, built once a process."""
-    made = {}
+    results = {}
     for name, model in (("car", car_with_hitch().model()), ("trailer", trailer())):
         folder = passing_folder()
         build_fmu(mbs.compile(model), name, folder, [platform])
-        made[name] = next(folder.glob("*.fmu"))
-    return made
+        results[name] = next(folder.glob("*.fmu"))
+    return results

@@ -202,8 +202,8 @@ def lines(errors: Errors) -> Iterator[str]:
     yield "| --- | --- | --- |" + " --- |" * (len(STEPS) + 1)
     for name in CASES:
         for order, inputs in WAYS:
-            found = [coupled(name, h, order, inputs) for h in STEPS]
-            errors[name, order, inputs] = [(load, path) for load, path, _ in found]
-            rate = np.log(found[1][0] / found[0][0]) / np.log(2.0)
-            cells = " | ".join(f"{percent(a)}, {percent(b)}" for a, b, _ in found)
+            results = [coupled(name, h, order, inputs) for h in STEPS]
+            errors[name, order, inputs] = [(load, path) for load, path, _ in results]
+            rate = np.log(results[1][0] / results[0][0]) / np.log(2.0)
+            cells = " | ".join(f"{percent(a)}, {percent(b)}" for a, b, _ in results)
             yield f"| {name} | {order} | {inputs} | {cells} | {rate:.1f} |"

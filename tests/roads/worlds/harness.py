@@ -62,8 +62,8 @@ def opened(path) -> Iterator[object]:
     grid = Grid(head.nx, head.ny, *head.real[:4], None, None, file)
 
     def at(x, y):
-        found = [lib.ali3_grid_at(ctypes.byref(grid), float(a), float(b)) for a, b in zip(x, y, strict=True)]
-        return np.array([s.height for s in found]), np.array([s.friction for s in found])
+        results = [lib.ali3_grid_at(ctypes.byref(grid), float(a), float(b)) for a, b in zip(x, y, strict=True)]
+        return np.array([s.height for s in results]), np.array([s.friction for s in results])
 
     yield at
     lib.ali3_road_file_close(file)

@@ -48,8 +48,8 @@ def own_cache(tmp_path, monkeypatch):
 def test_the_example_of_the_page_is_a_world_to_drive_in(folder, own_cache, tmp_path, capsys):
     out = tmp_path / "worlds"
     assert main(["--world", str(folder / "mine.toml"), "--out", str(out), "--picture", str(out / "mine.png")]) == 0
-    said = capsys.readouterr()
-    assert "mine: road ..." in said.err
+    captured = capsys.readouterr()
+    assert "mine: road ..." in captured.err
     assert {path.name for path in out.iterdir()} == {"mine.road", "mine.json", "mine.png"}
     record = json.loads((out / "mine.json").read_text(encoding="utf-8"))
     random = np.random.default_rng(2)
@@ -97,13 +97,13 @@ def test_the_course_is_carved_into_the_map(folder):
     (layer,) = terrain.layers
     s = np.linspace(0.0, layer.line.length, 200)
     p, first, _ = layer.line.at(s)
-    left = np.stack([-first[1], first[0]]) / np.hypot(*first)
+    remaining = np.stack([-first[1], first[0]]) / np.hypot(*first)
     middle = terrain.at(*p)
     for offset in (-3.4, 3.4):  # level across, 7 m wide
-        beside = terrain.at(*(p + offset * left))
+        beside = terrain.at(*(p + offset * remaining))
         away = np.abs(p[0] - 256.0) + np.abs(p[1] - 100.0) > 20.0  # from the kerb
         assert np.abs(beside - middle)[away].max() < 1e-6
-    far = terrain.ground.at(*(p + 24.0 * left)) - terrain.at(*(p + 24.0 * left))
+    far = terrain.ground.at(*(p + 24.0 * remaining)) - terrain.at(*(p + 24.0 * remaining))
     assert np.abs(far[np.abs(p[1] - 100.0) < 40.0]).max() < 1e-3
 
 
@@ -161,7 +161,7 @@ _LEGS = "x,y,width\n-40,-5,{0}\n10,-9,{0}\n30,-10,{0}\n40,0,{0}\n30,10,{0}\n10,9
         (_LEGS.format(14), "crosses or touches itself at x = -3"),
     ],
 )
-def test_what_is_wrong_with_a_course_is_said(tmp_path, course, sentence):
+def test_an_invalid_course_is_refused(tmp_path, course, sentence):
     assert re.search(sentence, refused(tmp_path, LAP, course)), refused(tmp_path, LAP, course)
 
 
@@ -189,7 +189,7 @@ def test_what_is_wrong_with_a_course_is_said(tmp_path, course, sentence):
         ("[frictions]\nice = -1.0\n", "frictions.ice is -1.0"),
     ],
 )
-def test_what_is_wrong_with_a_description_is_said(tmp_path, text, sentence):
+def test_errors_of_a_description_are_reported(tmp_path, text, sentence):
     assert re.search(sentence, refused(tmp_path, text)), refused(tmp_path, text)
 
 
@@ -201,13 +201,13 @@ BAD_WORLDS = [
 """Heads of worlds, and what is said of them before anything is made."""
 
 
-@pytest.mark.parametrize(("head", "words"), BAD_WORLDS)
-def test_a_world_of_another_version_or_of_100_km_is_refused_at_once(tmp_path, own_cache, capsys, head, words):
+@pytest.mark.parametrize(("head", "message"), BAD_WORLDS)
+def test_a_world_of_another_version_or_of_100_km_is_refused_at_once(tmp_path, own_cache, capsys, head, message):
     (tmp_path / "w.toml").write_text(f'kind = "world"\nname = "w"\n{head}\n', encoding="utf-8")
     assert main(["--world", str(tmp_path / "w.toml"), "--out", str(tmp_path / "out")]) == 2
-    said = capsys.readouterr().err.strip().splitlines()
-    assert len(said) == 1, "nothing was begun"
-    assert words in said[0]
+    errors = capsys.readouterr().err.strip().splitlines()
+    assert len(errors) == 1, "nothing was begun"
+    assert message in errors[0]
     assert not [*tmp_path.glob("out/*.road")]
 
 
@@ -223,9 +223,9 @@ def test_parts_of_a_course_that_cut_into_each_other_are_refused(tmp_path):
     """Two straights 14 m apart, one of them 5 m higher."""
     points = [(-40, 0, 0), (0, 0, 0), (30, 0, 0), (40, 7, 2.5), (30, 14, 5), (0, 14, 5), (-40, 14, 5)]
     course = "x,y,z\n" + "".join(f"{x},{y},{z}\n" for x, y, z in points)
-    words = refused(tmp_path, LAP + "width = 5.0\nblend = 20.0\nsmoothing = 1.0\n", course)
-    assert "comes so near to itself" in words
-    assert "make its blend smaller or move it" in words
+    message = refused(tmp_path, LAP + "width = 5.0\nblend = 20.0\nsmoothing = 1.0\n", course)
+    assert "comes so near to itself" in message
+    assert "make its blend smaller or move it" in message
 
 
 def test_columns_of_a_course_without_names(tmp_path):
@@ -262,20 +262,24 @@ def test_the_bank_of_a_line_that_moves_keeps_its_height(tmp_path):
     assert terrain.at(np.zeros(3), y) == pytest.approx(2.0 - 0.1 * y, abs=1e-6)
 
 
-def test_a_course_that_climbs_like_no_road_is_told_before_it_is_made_and_when_it_is_kept(tmp_path, own_cache, capsys):
+def test_a_course_that_climbs_like_no_road_is_reported_before_it_is_made_and_when_it_is_kept(
+    tmp_path, own_cache, capsys
+):
     def course(height):
         return "".join(f"{x},0,{height * np.sin(x / 4.0):.4f}\n" for x in range(-40, 41, 2))
 
     (tmp_path / "w.toml").write_text(WORLD + LAP + "smoothing = 1.0\n", encoding="utf-8")
     (tmp_path / "course.csv").write_text(course(2.0), encoding="utf-8")
-    for words in ("made: ", "kept from before: "):
+    for message in ("made: ", "kept from before: "):
         assert main(["--world", str(tmp_path / "w.toml"), "--out", str(tmp_path / "out")]) == 0
-        said = capsys.readouterr()
-        assert words in said.out
-        told = re.search(r"warning: The course 'lap' climbs by (\d+) % at station .*; it lies between -", said.err)
-        assert told
-        assert 45 <= int(told[1]) <= 50
-    first = said.err.splitlines()
+        captured = capsys.readouterr()
+        assert message in captured.out
+        reported = re.search(
+            r"warning: The course 'lap' climbs by (\d+) % at station .*; it lies between -", captured.err
+        )
+        assert reported
+        assert 45 <= int(reported[1]) <= 50
+    first = captured.err.splitlines()
     assert len(first) == 1
     (tmp_path / "course.csv").write_text(course(0.5), encoding="utf-8")
     assert main(["--world", str(tmp_path / "w.toml"), "--out", str(tmp_path / "out")]) == 0
@@ -305,14 +309,14 @@ def test_heights_widths_and_banks_of_a_course_file(tmp_path):
         (["bad.road"], "bad.road is not a road file"),
     ],
 )
-def test_what_is_no_world_is_said_in_one_sentence(tmp_path, monkeypatch, capsys, own_cache, arguments, sentence):
+def test_an_invalid_world_is_refused_in_one_sentence(tmp_path, monkeypatch, capsys, own_cache, arguments, sentence):
     monkeypatch.chdir(tmp_path)
     for name, text in (("a.txt", "1"), ("broken.toml", "a = ="), ("empty.toml", ""), ("bad.road", "x" * 300)):
         (tmp_path / name).write_text(text)
     assert main(["--world", *arguments, "--out", "out"]) == 2
-    said = capsys.readouterr()
-    assert sentence in said.err
-    assert said.err.count("\n") == 1
+    captured = capsys.readouterr()
+    assert sentence in captured.err
+    assert captured.err.count("\n") == 1
     assert not list(Path("out").glob("*.road")) if Path("out").exists() else True
 
 
@@ -327,7 +331,7 @@ def test_roads_of_the_package_are_worlds(tmp_path, own_cache, name):
         assert record["bounds"] == pytest.approx([-50.0, -10.05, 950.0, 10.05])
 
 
-def test_a_cache_that_cannot_be_written_is_said(tmp_path, monkeypatch, capsys):
+def test_a_cache_that_cannot_be_written_is_reported(tmp_path, monkeypatch, capsys):
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "file" / "cache"))
     assert main(["--world", "plane", "--out", str(tmp_path / "out")]) == 2
@@ -336,24 +340,24 @@ def test_a_cache_that_cannot_be_written_is_said(tmp_path, monkeypatch, capsys):
 
 @pytest.mark.slow
 def test_a_thin_world_is_off_by_what_it_says(folder, own_cache, tmp_path, capsys):
-    made = {}
+    results = {}
     for kind, more in (("whole", []), ("thin", ["--thin"])):
         assert main(["--world", str(folder / "mine.toml"), "--out", str(tmp_path / kind), *more]) == 0
-        made[kind] = tmp_path / kind / "mine.road"
+        results[kind] = tmp_path / kind / "mine.road"
     most, nearly_all = map(float, re.findall(r"(?:at most|and by) ([0-9.e-]+) mm", capsys.readouterr().out))
     random = np.random.default_rng(5)
     x, y = 10.0 + 280.0 * random.random(20000), 10.0 + 180.0 * random.random(20000)
     heights = {}
-    for kind, path in made.items():
+    for kind, path in results.items():
         with opened(path) as at:
             heights[kind] = at(x, y)[0]
     off = 1e3 * np.abs(heights["thin"] - heights["whole"])
     assert 0.01 < np.quantile(off, 0.99) < 1.5 * nearly_all < 5.0
     assert off.max() < 1.2 * most
-    assert made["thin"].stat().st_size < 0.5 * made["whole"].stat().st_size
+    assert results["thin"].stat().st_size < 0.5 * results["whole"].stat().st_size
 
 
-def test_another_range_of_what_is_told_makes_another_world(tmp_path, monkeypatch):
+def test_another_range_of_what_is_reported_makes_another_world(tmp_path, monkeypatch):
     for place in world_cache.CODE:
         source, copy = world_cache.ROOT / place, tmp_path / place
         copy.parent.mkdir(parents=True, exist_ok=True)

@@ -150,7 +150,7 @@ def test_the_cones_stand_along_the_gates_that_are_driven(terrain, name):
     (cones,) = (c for c in terrain.world.cones if c.lane_change == TRACKS[name])
     gates = course_of(name, cones.vehicle_width, x_start=cones.start[0]).gates
     drawn = {tuple(part["at"][:2]) for part in scenery_of(terrain) if part["kind"] == "cone"}
-    found = set()
+    actual = set()
     for gate in gates:
         for edge in (gate.y_right, gate.y_left):
             y = round(cones.start[1] + edge, 4)
@@ -158,8 +158,8 @@ def test_the_cones_stand_along_the_gates_that_are_driven(terrain, name):
             x = sorted(at[0] for at in along)
             assert (x[0], x[-1]) == (gate.x_start, gate.x_end), edge
             assert np.diff(x).max() < 7.0
-            found |= set(along)
-    assert found == {at for at in drawn if gates[0].x_start <= at[0] <= gates[-1].x_end and abs(at[1] + 40.0) < 20.0}
+            actual |= set(along)
+    assert actual == {at for at in drawn if gates[0].x_start <= at[0] <= gates[-1].x_end and abs(at[1] + 40.0) < 20.0}
 
 
 def test_the_slalom_has_cones_every_18_m(terrain):

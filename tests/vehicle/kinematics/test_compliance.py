@@ -38,18 +38,18 @@ def flexible():
 @pytest.mark.parametrize("car", ["prototype", "hatchback"])
 @pytest.mark.parametrize("fidelity", [Fidelity.RIGID, Fidelity.QUASI_STATIC, Fidelity.TABLE])
 def test_a_rigid_car_does_not_give(car, fidelity):
-    found = compliance(load(car), fidelity)
-    assert found.freedoms == 0
-    assert "exactly zero" in found.sentence
-    for values in found.values.values():
+    actual = compliance(load(car), fidelity)
+    assert actual.freedoms == 0
+    assert "exactly zero" in actual.sentence
+    for values in actual.values.values():
         assert {v for name, v in values.items() if "rate" not in name} == {0.0}
 
 
 @pytest.mark.parametrize("car", ["prototype", "hatchback"])
 def test_its_wheel_rates_are_those_of_the_curves(car):
     """By the stiffness of small motions with the multipliers here, by the bending of the ways there."""
-    found = compliance(load(car), "rigid")
-    for axle, values in found.values.items():
+    result = compliance(load(car), "rigid")
+    for axle, values in result.values.items():
         linkage = Linkage(load(car), axle)
         for name, direction in (("wheel_rate", HEAVE), ("roll_wheel_rate", ROLL)):
             slope = wheel_loads(linkage, linkage.drawn, direction)[1][0]
@@ -57,10 +57,10 @@ def test_its_wheel_rates_are_those_of_the_curves(car):
 
 
 def test_a_flexible_frame_gives():
-    found, rigid = flexible(), compliance(load("prototype"), 0)
-    assert (found.fidelity, found.sentence) == (Fidelity.DYNAMIC, "")
-    assert found.freedoms > 50
-    for axle, values in found.values.items():
+    actual, rigid = flexible(), compliance(load("prototype"), 0)
+    assert (actual.fidelity, actual.sentence) == (Fidelity.DYNAMIC, "")
+    assert actual.freedoms > 50
+    for axle, values in actual.values.items():
         for load_ in LOADS:  # a load moves what it acts on its own way
             moved = {"lateral_force": "contact_y", "aligning_torque": "steer_angle"}.get(load_, "centre_x")
             if load_ != "longitudinal_force":
@@ -91,9 +91,9 @@ def test_the_engine_finds_the_same_in_static_equilibrium():
         m.force(f"lateral {name}", carrier, (centre[0], centre[1], 0.0), inputs=(None, loads[0], None))
         m.torque(f"torque {name}", carrier, inputs=(None, None, loads[1]))
     carrier = carriers["FL"][0]
-    left = carrier.vector((0.0, 1.0, 0.0))
-    m.sense_coordinate("ax", left[0], unit="1")
-    m.sense_coordinate("az", left[2], unit="1")
+    remaining = carrier.vector((0.0, 1.0, 0.0))
+    m.sense_coordinate("ax", remaining[0], unit="1")
+    m.sense_coordinate("az", remaining[2], unit="1")
     system = compile(m)
 
     def at(lateral, torque):
@@ -101,32 +101,32 @@ def test_the_engine_finds_the_same_in_static_equilibrium():
         simulation.static_equilibrium()
         return simulation.sensors
 
-    found = flexible().values["front"]
+    actual = flexible().values["front"]
     for name, size in (("lateral_force", 200.0), ("aligning_torque", 50.0)):
         pair = (size, 0.0) if name == "lateral_force" else (0.0, size)
         ahead, back = at(*pair), at(-pair[0], -pair[1])
         steer, lean = (sign * (ahead[a] - back[a]) / (2.0 * size) for a, sign in (("ax", -1.0), ("az", 1.0)))
-        assert found[f"{name}.same.steer_angle"] == pytest.approx(steer, rel=0.01)
-        assert found[f"{name}.same.inclination_angle"] == pytest.approx(lean, rel=0.01)
+        assert actual[f"{name}.same.steer_angle"] == pytest.approx(steer, rel=0.01)
+        assert actual[f"{name}.same.inclination_angle"] == pytest.approx(lean, rel=0.01)
 
 
 def test_a_torsion_bar_gives_by_the_square_of_the_steering_ratio():
     """Both torques act on the pinion over the ratio; the assistance carries its part."""
     car = load("hatchback").changed({"steering": COLUMN})
-    found = compliance(car)
-    assert (found.fidelity, found.freedoms, found.sentence) == (Fidelity.RIGID, 1, "")
+    actual = compliance(car)
+    assert (actual.fidelity, actual.freedoms, actual.sentence) == (Fidelity.RIGID, 1, "")
     linkage = Linkage(car, "front")
     curve = steer_curve(linkage, np.array([-0.001, 0.0, 0.001]), wheel_by_rack(car))
     ratio = curve.drawn()["steering_ratio"]
     by_hand = 2.0 / ratio**2 / (115.0 * (1.0 + 1.5))
-    values = found.values["front"]
+    values = actual.values["front"]
     assert values["aligning_torque.same.steer_angle"] == pytest.approx(by_hand, rel=0.01)
     assert values["aligning_torque.opposed.steer_angle"] == pytest.approx(0.0, abs=1e-6 * by_hand)
     trail = curve.drawn()["caster_trail_left"]  # a force to the left at the contact behind the axis turns it right
     assert values["lateral_force.same.steer_angle"] == pytest.approx(-trail * by_hand, rel=0.03)
 
 
-def test_what_cannot_be_asked_for():
+def test_invalid_requests_are_refused():
     with pytest.raises(ModelError, match="The fidelity of the car is 7"):
         compliance(load("prototype"), 7)
     car = load("hatchback").changed({"steering": COLUMN})

@@ -37,12 +37,12 @@ def test_the_car_in_motion_goes_through_the_same_positions(car, axle, motion):
         travel = np.array([done[f"wheel_{name}.travel"][k] for name in names])
         rack = float(done["steering_rack"][k]) if axle == "front" else 0.0
         at = linkage.solve(at.q, travel, rack)
-        found = wheel_measures(linkage, at)
+        actual = wheel_measures(linkage, at)
         for name, side in zip(names, ("left", "right"), strict=True):
-            assert found[f"steer_angle_{side}"] == pytest.approx(done[f"wheel_{name}.steer"][k], abs=1e-7)
-            assert found[f"spring_length_{side}"] == pytest.approx(done[f"spring_{name}.length"][k], abs=1e-7)
+            assert actual[f"steer_angle_{side}"] == pytest.approx(done[f"wheel_{name}.steer"][k], abs=1e-7)
+            assert actual[f"spring_length_{side}"] == pytest.approx(done[f"spring_{name}.length"][k], abs=1e-7)
             if motion != "roll":  # there the road leans against the chassis
-                assert found[f"inclination_angle_{side}"] == pytest.approx(
+                assert actual[f"inclination_angle_{side}"] == pytest.approx(
                     done[f"wheel_{name}.inclination"][k], abs=1e-7
                 )
         farthest = max(farthest, abs(rack) if motion == "steer" else float(np.abs(travel).max()))
@@ -55,6 +55,6 @@ def test_the_wheel_rate_is_that_of_the_loads_on_the_ground():
     for axle, name in (("front", "FL"), ("rear", "RL")):
         linkage = Linkage(load("prototype"), axle)
         measured = slope(done[f"wheel_{name}.travel"], done[f"wheel_{name}.Fz"], NEAR["travel"])
-        found = travel_measures(linkage, linkage.drawn, BOTH)
-        assert found["wheel_rate_left"] == pytest.approx(measured, rel=0.012)
+        actual = travel_measures(linkage, linkage.drawn, BOTH)
+        assert actual["wheel_rate_left"] == pytest.approx(measured, rel=0.012)
     assert HEAVE == 0.04

@@ -76,9 +76,9 @@ def test_page_table_and_json(made, found):
 @pytest.mark.slow
 def test_the_page_of_the_documentation_prints_what_it_says(capsys):
     text = (Path(__file__).parents[3] / "docs" / "kinematics.md").read_text(encoding="utf-8")
-    code, said = (re.search(rf"```{kind}\n(.*?)```", text, re.DOTALL)[1] for kind in ("python", "text"))
+    code, reported = (re.search(rf"```{kind}\n(.*?)```", text, re.DOTALL)[1] for kind in ("python", "text"))
     exec(compile(code, "docs/kinematics.md", "exec"), {})
-    assert capsys.readouterr().out == said
+    assert capsys.readouterr().out == reported
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_arms_end_where_they_stand_upright():
     assert "front axle, parallel wheel travel: the links allow no more than +300.0 mm" in up
 
 
-def test_a_range_into_the_stops_is_told(found):
+def test_a_range_into_the_stops_is_reported(found):
     assert found.notes == ()
     wide = kinematics(load("hatchback"), travel=(-0.12, 0.12), points=5)
     assert [note.split()[0] for note in wide.notes] == ["front", "front", "rear", "rear"]

@@ -26,11 +26,11 @@ def test_parallel_equal_arms_carry_the_wheel_on_a_circle_without_turning_it(link
     for name in ("camber_angle_left", "camber_gradient_left", "toe_angle_left", "toe_gradient_left"):
         np.testing.assert_allclose(curve[name], 0.0, atol=1e-12)
     y, z = np.subtract(linkage.lower_ball, linkage.lower_pivot)
-    way = np.sqrt(y**2 + z**2 - (z + TRAVEL) ** 2) - y
-    np.testing.assert_allclose(curve["track_change"], 2.0 * way, atol=1e-12)
+    distance = np.sqrt(y**2 + z**2 - (z + TRAVEL) ** 2) - y
+    np.testing.assert_allclose(curve["track_change"], 2.0 * distance, atol=1e-12)
     # the arms stay parallel, so the way to their pole is that of the arms; it rises inwards from the contact centre
     slope = -(z + TRAVEL) / np.sqrt(y**2 + z**2 - (z + TRAVEL) ** 2)
-    np.testing.assert_allclose(curve["roll_centre_height"], (TRACK_HALF + way) * slope, atol=1e-12)
+    np.testing.assert_allclose(curve["roll_centre_height"], (TRACK_HALF + distance) * slope, atol=1e-12)
 
 
 def test_level_equal_arms_have_their_roll_centre_on_the_ground():

@@ -1,4 +1,4 @@
-// What a page can ask for: pictures of a scene, recordings.
+// Entry points of the script for pages: pictures of a scene, recordings.
 export { playPage } from "./player/play.js";
 export { SceneView } from "./scene/scene_view.js";
 // An FMU that runs in the page; `serve` is its other side, in the worker.

@@ -30,14 +30,14 @@ def attach(sdl_started: None) -> Iterator[Attach]:
     """Plugs in a virtual device; all are pulled out at the end."""
     from tests.hosts.simulator.devices.virtual import VirtualDevice
 
-    made: list[VirtualDevice] = []
+    results: list[VirtualDevice] = []
 
     def attach(*arguments: Any, **named: Any) -> VirtualDevice:
-        made.append(VirtualDevice(*arguments, **named))
-        return made[-1]
+        results.append(VirtualDevice(*arguments, **named))
+        return results[-1]
 
     yield attach
-    for device in made:
+    for device in results:
         device.pull_out()
 
 

@@ -60,8 +60,8 @@ def test_everything_is_found_whatever_way_the_device_counts(left, right, rest, m
     person = Person(WHEEL_AND_PEDALS, way * rest, press * up, -1.0)
     person.move(0, way * left, way * right, way * rest)
     person.move(1, press * down, press * up)
-    mapping, found, still = person.calibration.result()
-    assert (found, still) == (["steering", "throttle"], ["brake"])
+    mapping, actual, still = person.calibration.result()
+    assert (actual, still) == (["steering", "throttle"], ["brake"])
     assert mapping.inputs["brake"] == WHEEL_AND_PEDALS.inputs["brake"]
     steering, throttle = mapping.inputs["steering"], mapping.inputs["throttle"]
     for place, value in ((left, 1.0), (rest, 0.0), (right, -1.0)):
@@ -79,8 +79,8 @@ def test_two_pedals_on_one_axis_keep_their_halves():
     )
     person = Person(halves, 0.1)
     person.move(0, -0.8, 0.1, 0.9, 0.1)
-    mapping, found, _ = person.calibration.result()
-    assert found == ["throttle", "brake"]
+    mapping, actual, _ = person.calibration.result()
+    assert actual == ["throttle", "brake"]
     values = [[m.value(name, at(place)) for place in (-0.8, 0.1, 0.9)] for name, m in mapping.inputs.items()]
     assert values == [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
 

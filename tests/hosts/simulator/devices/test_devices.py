@@ -54,16 +54,16 @@ def test_a_device_that_lies_untouched_moves_nothing(attach, start):
     assert list(run.arbiter.by_source[WHEEL]) == ["throttle"]
 
 
-def test_wishes_are_said_again_for_who_comes_later(attach, start):
+def test_wishes_are_reported_again_for_who_comes_later(attach, start):
     wheel = rested(attach())
     run = start()
     wheel.axis(2, -1.0)
     until(lambda: run.arbiter.value(WHEEL, "throttle"))
     run.arbiter.by_source.clear()
     assert until(lambda: run.arbiter.value(WHEEL, "throttle")) == 1.0
-    said, begin = [], time.monotonic()
-    run.arbiter.listen = lambda source, values: said.append(values)
-    until(lambda: len(said) == 3)
+    reported, begin = [], time.monotonic()
+    run.arbiter.listen = lambda source, values: reported.append(values)
+    until(lambda: len(reported) == 3)
     assert time.monotonic() - begin >= 0.45, "what does not move is not said at every reading"
 
 
@@ -118,7 +118,7 @@ def test_a_wheel_and_separate_pedals_drive_together(attach, start):
     assert run.arbiter.value(PEDALS, "brake") == 1.0
 
 
-def test_two_of_a_model_are_told_apart(attach, start):
+def test_two_of_a_model_are_reported_apart(attach, start):
     first, second = rested(attach()), rested(attach())
     run = start()
     ids = {state["name"]: state["id"] for state in run.devices.state()}
@@ -163,21 +163,21 @@ def test_a_press_moves_the_selector_once(attach, start):
 
 
 def test_through_real_hands_a_device_shares_the_car_with_keys_and_lets_go(attach, start):
-    asked = {}
+    requested = {}
     wheel = rested(attach())
     run = start()
-    arbiter = InputArbiter(asked.update, INPUTS)
+    arbiter = InputArbiter(requested.update, INPUTS)
     run.devices._reader._arbiter = arbiter
     wheel.axis(2, -1.0)
-    until(lambda: asked.get("throttle") == (1.0, math.inf))
+    until(lambda: requested.get("throttle") == (1.0, math.inf))
     arbiter.want("page 1 keys", {"throttle": (0.4, 2.5)})
-    assert asked["throttle"] == (0.4, 2.5)
+    assert requested["throttle"] == (0.4, 2.5)
     wheel.axis(3, -1.0)
-    until(lambda: asked.get("brake") == (1.0, math.inf))
-    assert asked["throttle"] == (0.4, 2.5), "the pedal was not moved again"
+    until(lambda: requested.get("brake") == (1.0, math.inf))
+    assert requested["throttle"] == (0.4, 2.5), "the pedal was not moved again"
     wheel.pull_out()
     until(lambda: run.said("Wheel was pulled out; brake let go."))
-    assert asked["brake"] == (0.0, LET_GO["brake"])
+    assert requested["brake"] == (0.0, LET_GO["brake"])
 
 
 def test_an_input_is_assigned_by_moving_it(attach, start):
@@ -246,7 +246,7 @@ def test_a_mapping_is_kept_and_reset(attach, start, tmp_path):
     assert not file.exists()
 
 
-def test_a_damaged_file_is_said_and_kept_and_the_kind_drives(attach, start, tmp_path):
+def test_a_damaged_file_is_reported_and_kept_and_the_kind_drives(attach, start, tmp_path):
     run = start()
     rested(attach())
     until(run.devices.state)
@@ -262,7 +262,7 @@ def test_a_damaged_file_is_said_and_kept_and_the_kind_drives(attach, start, tmp_
     assert 'format = "ALi3 device"' in file.read_text(encoding="utf-8")
 
 
-def test_a_file_with_a_source_that_the_device_lacks_is_said(attach, start, tmp_path):
+def test_a_file_with_a_source_that_the_device_lacks_is_reported(attach, start, tmp_path):
     run = start()
     rested(attach())
     until(run.devices.state)
@@ -275,7 +275,7 @@ def test_a_file_with_a_source_that_the_device_lacks_is_said(attach, start, tmp_p
     assert again.said("Wheel has no axis 9, as its file says; it has axes: 4")
 
 
-def test_a_folder_that_cannot_be_written_is_said_and_the_mapping_holds(attach, start, tmp_path):
+def test_a_folder_that_cannot_be_written_is_reported_and_the_mapping_holds(attach, start, tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("", encoding="utf-8")
     rested(attach())
@@ -343,7 +343,7 @@ def test_no_message_does_more_than_be_refused(attach, start):
     assert not run.said("no longer read")
 
 
-def test_without_sdl_a_sentence_is_said_and_the_rest_goes_on(monkeypatch, tmp_path, start):
+def test_without_sdl_a_sentence_is_reported_and_the_rest_goes_on(monkeypatch, tmp_path, start):
     monkeypatch.setitem(sys.modules, "sdl2", None)
     run = start()
     assert run.told == [
@@ -355,14 +355,14 @@ def test_without_sdl_a_sentence_is_said_and_the_rest_goes_on(monkeypatch, tmp_pa
         run.devices.message({"type": "test force", "device": "x"})
 
 
-def test_where_sdl_cannot_start_a_sentence_is_said(monkeypatch, start):
+def test_where_sdl_cannot_start_a_sentence_is_reported(monkeypatch, start):
     monkeypatch.setattr(sdl2, "SDL_InitSubSystem", lambda what: -1)
     run = start()
     assert len(run.told) == 1
     assert run.said("SDL says")
 
 
-def test_an_error_in_the_thread_lets_go_and_is_said(attach, start):
+def test_an_error_in_the_thread_lets_go_and_is_reported(attach, start):
     wheel = rested(attach())
     run = start()
 

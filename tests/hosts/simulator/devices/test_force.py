@@ -171,7 +171,7 @@ def test_an_error_of_the_torque_ends_the_force_with_one_sentence(attach, start, 
     assert run.only()["force"] is False
 
 
-def test_a_refused_update_is_said_once_and_the_wheel_still_steers(attach, start, haptics):
+def test_a_refused_update_is_reported_once_and_the_wheel_still_steers(attach, start, haptics):
     wheel = attach()
     run = start(Torque(6.0))
     until(lambda: haptics.levels and haptics.levels[-1] < 0)
@@ -202,7 +202,7 @@ def test_a_motor_that_hangs_holds_nothing_up(attach, start, haptics):
 
 
 @pytest.mark.parametrize(
-    ("refused", "can", "words"),
+    ("refused", "can", "message"),
     [
         ("OpenFromJoystick", CONSTANT, "its motor cannot be opened: SDL says"),
         ("", SPRING | DAMPER, "its motor has no constant force"),
@@ -210,11 +210,11 @@ def test_a_motor_that_hangs_holds_nothing_up(attach, start, haptics):
         ("RunEffect", CONSTANT, "its motor does not start a constant force: SDL says"),
     ],
 )
-def test_a_motor_that_cannot_is_said_and_closed(attach, start, haptics, refused, can, words):
+def test_a_motor_that_cannot_is_reported_and_closed(attach, start, haptics, refused, can, message):
     haptics.refuse, haptics.can = {refused}, can
     attach()
     run = start(Torque(6.0))
-    until(lambda: run.said(f"Wheel goes on without force: {words}"))
+    until(lambda: run.said(f"Wheel goes on without force: {message}"))
     assert not haptics.open
     with pytest.raises(HostError, match="Wheel has no force: its motor"):
         run.devices.test_force(run.only()["id"])
@@ -229,7 +229,7 @@ def test_a_motor_without_damper_and_spring_has_the_force_alone(attach, start, ha
     assert run.only()["force"] is True
 
 
-def test_a_car_without_the_torque_is_said(attach, start, haptics):
+def test_a_car_without_the_torque_is_reported(attach, start, haptics):
     attach()
     run = start(None)
     until(lambda: run.said("has a motor, but the car has no steering_wheel_torque"))

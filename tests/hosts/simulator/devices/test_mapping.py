@@ -64,11 +64,11 @@ def test_its_ends_are_exact(mapping, name):
 @given(mappings(), INPUT, POSITION)
 def test_inverted_is_the_other_way_round(mapping, name, at):
     other = dataclasses.replace(mapping, inverted=not mapping.inverted)
-    there, back = mapping.value(name, axis(at)), other.value(name, axis(at))
+    present, back = mapping.value(name, axis(at)), other.value(name, axis(at))
     if name in CENTRED:
-        assert there == -back
+        assert present == -back
     elif mapping.dead_zone == 0.0:
-        assert there + back == pytest.approx(1.0, abs=1e-12)
+        assert present + back == pytest.approx(1.0, abs=1e-12)
 
 
 @UNHURRIED
@@ -107,7 +107,7 @@ def test_a_source_is_read_as_it_is_written(text):
 
 
 @pytest.mark.parametrize(
-    ("name", "table", "words"),
+    ("name", "table", "message"),
     [
         ("throttle", {"source": "axis -1"}, "'axis -1' is not a source"),
         ("throttle", {"source": 3}, "3 is not a source"),
@@ -126,13 +126,13 @@ def test_a_source_is_read_as_it_is_written(text):
         ("wipers", {"source": "axis 0"}, "'wipers' cannot be driven by a device"),
     ],
 )
-def test_a_wrong_mapping_is_refused_in_a_sentence(name, table, words):
-    with pytest.raises(HostError, match=words):
+def test_a_wrong_mapping_is_refused_in_a_sentence(name, table, message):
+    with pytest.raises(HostError, match=message):
         read_input(name, table)
 
 
 @pytest.mark.parametrize(
-    ("table", "words"),
+    ("table", "message"),
     [
         ({"rotation": 9000}, "rotation = 9000; it must be a number from 0 to 3600"),
         ({"full_torque": 0}, "full_torque = 0"),
@@ -142,8 +142,8 @@ def test_a_wrong_mapping_is_refused_in_a_sentence(name, table, words):
         ("loud", "must be a table"),
     ],
 )
-def test_wrong_settings_are_refused_in_a_sentence(table, words):
-    with pytest.raises(HostError, match=words):
+def test_wrong_settings_are_refused_in_a_sentence(table, message):
+    with pytest.raises(HostError, match=message):
         read_settings(table)
 
 
@@ -160,23 +160,23 @@ def test_only_inputs_of_the_car_can_be_driven():
 def test_a_gamepad_is_driven_by_the_table_of_sdl():
     bindings = "03000000,Pad,a:b1,leftx:a0,lefttrigger:a4,righttrigger:+a3~,dpup:h0.1,platform:Linux,"
     inputs = ["steering", "throttle", "brake", "hand_brake", *SELECTOR]
-    found = default_mapping("gamepad", Reading(), bindings, inputs).inputs
-    assert {name: m.source for name, m in found.items()} == {
+    actual = default_mapping("gamepad", Reading(), bindings, inputs).inputs
+    assert {name: m.source for name, m in actual.items()} == {
         "steering": "axis 0",
         "throttle": "axis 3",
         "brake": "axis 4",
         "hand_brake": "button 1",
         "selector drive": "hat 0 up",
     }
-    assert found["steering"].inverted, "an axis grows to the right, the steering to the left"
-    assert (found["throttle"].low, found["throttle"].high, found["throttle"].inverted) == (0.0, 1.0, True)
-    assert (found["brake"].low, found["brake"].high, found["brake"].inverted) == (-1.0, 1.0, False)
+    assert actual["steering"].inverted, "an axis grows to the right, the steering to the left"
+    assert (actual["throttle"].low, actual["throttle"].high, actual["throttle"].inverted) == (0.0, 1.0, True)
+    assert (actual["brake"].low, actual["brake"].high, actual["brake"].inverted) == (-1.0, 1.0, False)
 
 
 def of_kind(kind: str, *rests: float, buttons: int = 4) -> dict[str, tuple[str, bool]]:
     reading = Reading(rests, (True,) * len(rests), (False,) * buttons)
-    found = default_mapping(kind, reading, "", ["steering", "throttle", "brake"]).inputs
-    return {name: (m.source, m.inverted) for name, m in found.items()}
+    result = default_mapping(kind, reading, "", ["steering", "throttle", "brake"]).inputs
+    return {name: (m.source, m.inverted) for name, m in result.items()}
 
 
 def test_a_wheel_begins_with_its_pedals_as_they_rest():

@@ -59,7 +59,7 @@ GOOD = 'format = "ALi3 device"\nversion = 1\n'
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "message"),
     [
         ("", "format = .* are missing"),
         ("version = ", "Invalid value"),
@@ -72,10 +72,10 @@ GOOD = 'format = "ALi3 device"\nversion = 1\n'
         ("#" * 1_000_001, "at most 1000000"),
     ],
 )
-def test_a_damaged_file_is_named_with_what_is_wrong(tmp_path, text, words):
+def test_a_damaged_file_is_named_with_what_is_wrong(tmp_path, text, message):
     files = MappingFiles(tmp_path)
     files.file("0300").write_bytes(text.encode("utf-8", "surrogateescape"))
-    with pytest.raises(HostError, match=rf"0300\.toml .*{words}"):
+    with pytest.raises(HostError, match=rf"0300\.toml .*{message}"):
         files.read("0300")
 
 

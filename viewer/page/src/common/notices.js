@@ -1,4 +1,4 @@
-// What there is to say over pictures, the same on all pages: states that hold, events, which fade, and notes, which stay.
+// Notices over pictures, the same on all pages: states that hold, events, which fade, and notes, which stay.
 import { el } from "./dom.js";
 import { styled } from "../styles.js";
 import style from "./notices.css";

@@ -1,4 +1,4 @@
-// Tyre marks, dust and sound of the car, as far as this computer has them.
+// Tyre marks, dust and sound of the car, as far as this computer supports them.
 import { Dust } from "./dust.js";
 import { CarSound } from "./sound/car_sound.js";
 import { TyreMarks } from "./tyre_marks.js";

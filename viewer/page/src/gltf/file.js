@@ -1,4 +1,4 @@
-// A binary glTF file in the making: nodes and their motion; three.js' exporter writes it.
+// Collects the nodes of a binary glTF file and their motion; the exporter of three.js writes it.
 import { Buffer } from "node:buffer";
 import fs from "node:fs";
 import * as THREE from "three";

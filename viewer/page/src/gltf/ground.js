@@ -1,4 +1,4 @@
-// Roads, terrain and the paths over them, as triangles near the way.
+// Roads, terrain and the paths over them, as triangles near the path of the run.
 import * as THREE from "three";
 import looks from "../../../looks.json" with { type: "json" };
 import { ribbonEdges, ribbonTriangles, waysOf } from "../effects/path.js";

@@ -1,4 +1,4 @@
-// The meshes of the page's shapes: as few as there are frames and materials, and how those move that lie between frames.
+// Meshes of the page's shapes, one for each frame and material, and the motion of shapes between two frames.
 import * as THREE from "three";
 import { mergeGeometries, mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { length, rotate, subtract, transpose } from "../scene/math.js";

@@ -1,4 +1,4 @@
-// The motion of a node: thinned, and how far what is between the kept times is from what was recorded.
+// The motion of a node: thinned, and the largest error of the interpolated motion.
 import { Quaternion, Vector3 } from "three";
 import { linear, place } from "../sources/sampler.js";
 

@@ -1,4 +1,4 @@
-// The scenery of a world by the way, as triangles.
+// The scenery of a world near the path of the run, as triangles.
 import * as THREE from "three";
 import looks from "../../../looks.json" with { type: "json" };
 import { addLine, addStrip } from "../looks/scenery/index.js";

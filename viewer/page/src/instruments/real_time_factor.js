@@ -1,4 +1,4 @@
-// How a run keeps to the clock, in words.
+// The real-time factor of a run as text.
 import { short } from "../common/dom.js";
 
 /** Beyond this the machine does not keep up. */

@@ -1,4 +1,4 @@
-// What the ground of a world is made of at a place, and how it looks from above.
+// The surface of a world at a point, and its colour on the map.
 import { el } from "../common/dom.js";
 import { floats } from "../scene/data.js";
 import { SurfaceRaster, gripOf, nearest, slickness } from "../looks/heights.js";

@@ -1,4 +1,4 @@
-// Time of a run and whether it keeps to the clock; behind a key what its steps cost and how pictures come.
+// Time of a run and its real-time factor; a key shows the cost of steps and the frame rate.
 import { el, write } from "../common/dom.js";
 import { styled } from "../styles.js";
 import { Gauge } from "./gauges.js";

@@ -1,4 +1,4 @@
-// The page's side of the worker: starts it from the script of the page itself, so that one file from a disk is enough.
+// The main thread's side of the worker, which is started from the script of the page, so that one file is enough.
 import { Runner } from "./worker.js";
 
 // While the script of the page runs; later it is no longer known.

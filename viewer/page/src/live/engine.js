@@ -1,4 +1,4 @@
-// FMUs of one page, stepped side by side with the same inputs; saved states to go back to. Knows no page.
+// FMUs of one page, stepped side by side with the same inputs; saved states to rewind to. It has no access to the page.
 import { place } from "../sources/sampler.js";
 import { LimitedInputs } from "./input_rates.js";
 

@@ -1,4 +1,4 @@
-// Hands on keys and on a gamepad: what they want of the inputs of a car. Who moved last has the word.
+// Arbitrates between keys and a gamepad at the inputs of a car: the source that moved last has control.
 import { Keyboard, RATES } from "./keyboard.js";
 import { Gamepad } from "./gamepad.js";
 

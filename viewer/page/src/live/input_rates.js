@@ -1,4 +1,4 @@
-// Inputs as a hand moves them: a wanted value is approached at a limited rate of the simulated time.
+// Rate-limited inputs: each approaches its requested value at a limited rate in simulated time.
 
 /** The values of inputs, step by step. */
 export class LimitedInputs {

@@ -1,4 +1,4 @@
-// Ranges of sliders: those of the variable, or a guess that is said to be one.
+// Ranges of sliders: those of the variable, or a guess that is marked as one.
 
 /** Guessed half-widths around 0 by unit, for variables that start at 0. */
 const GUESSES = { m: 10, "m/s": 40, "m/s2": 10, rad: Math.PI, "rad/s": 10, N: 1000, "N.m": 100, kg: 100, s: 10, "1": 1 };

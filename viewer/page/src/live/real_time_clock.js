@@ -1,4 +1,4 @@
-// Holds a simulation to a clock by absolute deadlines: what is late is made up for, what cannot be is told.
+// Holds a simulation to a clock by absolute deadlines: lateness is made up for, or reported if it cannot be.
 import { Factor } from "../sources/factor.js";
 
 /** Lag beyond which it is not made up for, s of the clock. */

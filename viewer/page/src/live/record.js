@@ -1,4 +1,4 @@
-// What a run has been: a row for each communication step, for plots, the picture between two steps, and a table.
+// The record of a run: a row for each communication step, for plots, pictures between two steps, and a table.
 
 const ROWS = 1024; // in a block
 

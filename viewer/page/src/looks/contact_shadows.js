@@ -1,4 +1,4 @@
-// Where sky light does not reach the ground: soft dark places below the body and below every wheel, at every quality.
+// Contact shadows: soft dark areas of the ground below the body and below each wheel, at every quality.
 import * as THREE from "three";
 import { add, dot, scale, subtract, unit, cross, rotate } from "../scene/math.js";
 import { discard } from "./discard.js";

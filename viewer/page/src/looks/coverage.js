@@ -1,4 +1,4 @@
-// How much of each surface lies where, as a picture for the graphics card: soft edges and no shimmer far away.
+// A texture with the share of each surface at each point of the ground: soft edges and no shimmer far away.
 import { SURFACES } from "./heights.js";
 import { smoothTexture } from "./noise.js";
 

@@ -1,4 +1,4 @@
-// What lies on the ground is drawn nearer to the eye than it is: at its place in the picture, and never in the ground.
+// Depth offset of things on the ground, so that the ground never covers them.
 import * as THREE from "three";
 import { atEachPixel, atEachPoint } from "./vertex_code.js";
 

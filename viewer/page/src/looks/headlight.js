@@ -1,4 +1,4 @@
-// Materials lit from where one looks: what faces the eye has exactly the colour that is meant.
+// Materials lit from the camera: a surface that faces it has exactly its given colour.
 import * as THREE from "three";
 
 const VERTEX = /* glsl */ `

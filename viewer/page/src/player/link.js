@@ -1,4 +1,4 @@
-// What the address of the page says of the player: #t=1.25&camera=chase&plots=a,b
+// Settings of the player in the address of the page: #t=1.25&camera=chase&plots=a,b
 
 /** @param {string} hash @returns {{time?: number, camera?: string, plots?: string[], speed?: number}} */
 export function fromHash(hash) {

@@ -1,4 +1,4 @@
-// What a run leaves on the ground: the paths of its reference point and its wheels, tyre marks and dust.
+// Traces of a run on the ground: the paths of its reference point and its wheels, tyre marks and dust.
 import looks from "../../../looks.json" with { type: "json" };
 import { Dust } from "../effects/dust.js";
 import { Path, waysOf } from "../effects/path.js";

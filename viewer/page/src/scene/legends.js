@@ -1,4 +1,4 @@
-// What colours, arrows and grid mean: small tables over the picture.
+// Legends of colours, arrows and grid over the picture.
 import { gradient } from "../looks/colour_map.js";
 import { el } from "../common/dom.js";
 import { niceStep, parted, worded } from "./forces.js";

@@ -1,4 +1,4 @@
-// Words at places of the picture: gauges with their values, the tube that is stressed most, what was clicked.
+// Labels at points of the picture: gauges with their values, the tube that is stressed most, what was clicked.
 import * as THREE from "three";
 import { el, write } from "../common/dom.js";
 import { besides } from "../common/labels.js";

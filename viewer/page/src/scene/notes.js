@@ -1,4 +1,4 @@
-// Over a picture of a scene: legends, marks, and what is said of it.
+// Overlays of a picture of a scene: legends, labels and notices.
 import { el } from "../common/dom.js";
 import { instead } from "../common/notices.js";
 

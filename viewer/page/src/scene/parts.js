@@ -1,4 +1,4 @@
-// What moves: the shapes of one scene, placed by its frames.
+// The shapes of one scene, placed by its frames.
 import * as THREE from "three";
 import { Materials } from "../looks/materials.js";
 import { Arrows } from "../shapes/arrows.js";

@@ -1,4 +1,4 @@
-// One maker a kind of shape. A maker gives {object, frame} for a shape fixed in a frame, or {object, update} otherwise.
+// A function for each kind of shape: returns {object, frame} if it is fixed in a frame, else {object, update}.
 import { box } from "./box.js";
 import { cylinder } from "./cylinder.js";
 import { damper } from "./damper.js";

@@ -1,4 +1,4 @@
-// Where things stand: from numbers in double precision to the matrices of three.js.
+// Matrices of three.js from poses in double precision.
 import * as THREE from "three";
 import { across, cross, fromColumns, subtract, toQuaternion, unit } from "../scene/math.js";
 

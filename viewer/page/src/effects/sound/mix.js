@@ -1,4 +1,4 @@
-// From the numbers of a car to what is to be heard.
+// Computes the levels and pitches of all sounds from the signals of a car.
 import * as signals from "./signals.js";
 
 const PREFIX = /^(.+)\.slip_angle$/;

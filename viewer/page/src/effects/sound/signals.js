@@ -1,4 +1,4 @@
-// What a car sounds like, by its numbers: pitches in Hz and levels from 0 to 1; pure numbers.
+// Pitches and levels of the sounds of a car from its signals: pitches in Hz and levels from 0 to 1; pure numbers.
 import { LIGHT, use } from "../wheels.js";
 
 /** Firings of a four-stroke engine of four cylinders a revolution. */

@@ -1,4 +1,4 @@
-// The rest of what sounds: whine, squeal, rolling, wind, thumps.
+// The sounds of a car except its engine: gear whine, tyre squeal, rolling, wind, impacts.
 import { randomNumbers } from "../../common/random.js";
 
 /** White noise of two seconds, made by code. @param {BaseAudioContext} context @returns {AudioBuffer} */
