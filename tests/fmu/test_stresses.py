@@ -173,6 +173,15 @@ def test_payloads_inputs_and_road_follow() -> None:
     following_it.follow(rigid)
     assert following_it.get_parameter(parameters["road.friction"]) == 0.4
 
+    # a model that cannot take the mass stays as it is
+    mass, scale = parameters["payload.passenger.mass"], np.array(follower.arrays["par_scale"])
+    scale[follower.arrays["par_ptr"][mass] : follower.arrays["par_ptr"][mass + 1]] *= -1.0
+    refusing = loaded(follower.with_arrays({"par_scale": scale}))
+    before = [refusing.get_parameter(k) for k in parameters.values()]
+    with pytest.raises(KernelError, match="argument"):
+        refusing.follow(rigid)
+    assert [refusing.get_parameter(k) for k in parameters.values()] == before
+
 
 def test_only_the_same_model_is_followed() -> None:
     without, ported, follower = pair(lambda fidelity: prototype_car.build(fidelity=fidelity))

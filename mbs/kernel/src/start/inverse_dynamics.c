@@ -47,10 +47,9 @@ static ali3_status take_state(ali3_instance *in, const ali3_instance *without) {
   const ali3_sizes *z = &S->size;
   const ali3_vectors *from = &without->now;
   ali3_vectors *v = &in->now;
-  if (z->np > 0 && memcmp(in->parameters.value, without->parameters.value, (size_t)z->np * sizeof(double)) != 0) {
-    copy(in->parameters.value, without->parameters.value, z->np);
-    if (ali3_parameters_apply(in) != ALI3_OK) return ALI3_BAD_ARGUMENT;
-  }
+  if (z->np > 0 && memcmp(in->parameters.value, without->parameters.value, (size_t)z->np * sizeof(double)) != 0 &&
+      !ali3_parameters_take(in, without->parameters.value))
+    return ALI3_BAD_ARGUMENT;
   follow(S, from->q, S->ported_const, v->q);
   follow(S, from->qd, NULL, v->qd);
   follow(S, from->qdd, NULL, v->qdd);

@@ -1,6 +1,9 @@
 /* Parameters of an instance: what they write to its copies of the data of elements, guides, roads, payloads, armatures,
  * bodies and sensors, and the switches with which it starts. */
 #include "parameters.h"
+
+#include <string.h>
+
 #include "../algebra/real.h"
 #include "../instance.h"
 #include "../rows/guides.h"
@@ -69,6 +72,18 @@ ali3_status ali3_parameters_apply(ali3_instance *in) {
   ali3_masses_apply(in);
   if (!in->start.initialised) ali3_parameters_switch(in);
   return check(in, -1) == NULL ? ALI3_OK : ALI3_BAD_ARGUMENT;
+}
+
+/* Whether elements, guides and roads take these values, size.np doubles at any address; if not, the instance keeps its
+ * own, which parameters.work has after this in both cases. */
+bool ali3_parameters_take(ali3_instance *in, const void *values) {
+  const size_t size = (size_t)in->system->size.np * sizeof(double);
+  memcpy(in->parameters.work, in->parameters.value, size);
+  memcpy(in->parameters.value, values, size);
+  if (ali3_parameters_apply(in) == ALI3_OK) return true;
+  memcpy(in->parameters.value, in->parameters.work, size);
+  ali3_parameters_apply(in);
+  return false;
 }
 
 /* One of them, and the checks of what it writes to. */

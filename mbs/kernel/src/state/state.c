@@ -121,17 +121,6 @@ static bool vectors_valid(const ali3_instance *in, const unsigned char *vectors)
          within(parameters, S->size.np, S->par_min, S->par_max);
 }
 
-/* Whether elements, guides and roads take these parameters; if not, the instance keeps its own. */
-static bool take_parameters(ali3_instance *in, const unsigned char *parameters) {
-  const size_t size = (size_t)in->system->size.np * sizeof(double);
-  memcpy(in->parameters.work, in->parameters.value, size);
-  memcpy(in->parameters.value, parameters, size);
-  if (ali3_parameters_apply(in) == ALI3_OK) return true;
-  memcpy(in->parameters.value, in->parameters.work, size);
-  ali3_parameters_apply(in);
-  return false;
-}
-
 ali3_status ali3_snapshot_check(ali3_instance *in, const void *snapshot) {
   ali3_snapshot_head head;
   if (in == NULL || snapshot == NULL) return ALI3_BAD_ARGUMENT;
@@ -143,7 +132,7 @@ ali3_status ali3_snapshot_check(ali3_instance *in, const void *snapshot) {
     return ALI3_BAD_STATE;
   const unsigned char *parameters = vectors + (in->kept.n + (size_t)in->system->size.nu) * sizeof(double);
   if (memcmp(parameters, in->parameters.value, size) == 0) return ALI3_OK;
-  if (!take_parameters(in, parameters)) return ALI3_BAD_STATE;
+  if (!ali3_parameters_take(in, parameters)) return ALI3_BAD_STATE;
   memcpy(in->parameters.value, in->parameters.work, size);
   return ali3_parameters_apply(in);
 }
@@ -172,7 +161,7 @@ ali3_status ali3_state_restore(ali3_instance *in, const void *bytes, size_t size
   get(&report, &p, sizeof report);
   const unsigned char *times = (const unsigned char *)bytes + fixed, *vectors = times + 2 * sizeof(double);
   if (!ali3_settings_valid(&settings) || !report_valid(S, &report) || !numbers_valid(times, 2) ||
-      !vectors_valid(in, vectors) || !take_parameters(in, vectors + (in->kept.n + (size_t)z->nu) * sizeof(double)))
+      !vectors_valid(in, vectors) || !ali3_parameters_take(in, vectors + (in->kept.n + (size_t)z->nu) * sizeof(double)))
     return ALI3_BAD_STATE;
   in->settings = settings;
   in->report = report;
