@@ -153,7 +153,7 @@ def read_model(
     nodes : str or Path
         CSV file with the columns ``name,x,y,z`` (m) and a header line.
     total_mass : float, optional
-        As in `external_model`.
+        Mass of the body known from another source, kg; see `external_model`.
 
     Returns
     -------
