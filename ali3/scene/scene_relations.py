@@ -20,22 +20,22 @@ _UNIT = 1e-3  # by how much the axes of a shape may miss those of a turn
 @np.errstate(over="ignore", invalid="ignore")  # products of numbers above 1e154 are no unit vectors and no plane
 def relation_errors(scene: Mapping[str, Any]) -> list[str]:
     """Sentences on a scene whose parts have the right types. `scene`: checked by the types."""
-    result = list(_frames(scene))
+    errors = list(_frames(scene))
     for k, shape in enumerate(scene["shapes"]):
-        result += _shape(scene, shape, ("shapes", k))
+        errors += _shape(scene, shape, ("shapes", k))
     for name, mesh in (scene.get("meshes") or {}).items():
-        result += _mesh(mesh, ("meshes", name))
+        errors += _mesh(mesh, ("meshes", name))
     for k, part in enumerate(scene.get("flexible") or []):
-        result += _flexible(scene, part, ("flexible", k))
+        errors += _flexible(scene, part, ("flexible", k))
     for k, arrow in enumerate(scene.get("arrows") or []):
-        result += _users(scene, arrow, ("arrows", k))
+        errors += _users(scene, arrow, ("arrows", k))
     for k, road in enumerate(scene.get("roads") or []):
-        result += _road(road, ("roads", k))
+        errors += _road(road, ("roads", k))
     if not any(scene.get("up") or (0.0, 0.0, 1.0)):
-        result.append("up is [0, 0, 0]; it must have a direction.")
+        errors.append("up is [0, 0, 0]; it must have a direction.")
     if scene.get("focus") and scene["focus"] not in _known(scene):
-        result.append(_no_frame(scene, ("focus",), scene["focus"]))
-    return result
+        errors.append(_no_frame(scene, ("focus",), scene["focus"]))
+    return errors
 
 
 def _known(scene: Mapping[str, Any]) -> list[str]:

@@ -95,7 +95,7 @@ def grip_of(car: Car) -> dict[str, str]:
 
 
 def car_text(car: str) -> str:
-    """Description of the car that will be built: of the package or of a folder, which may have the same name.
+    """Description of the car that will be built: one of the package and one of a folder may have the same name.
 
     `car`: as for `build_car`.
     """

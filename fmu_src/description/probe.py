@@ -34,7 +34,7 @@ _POSE = {
     "initial.yaw_rate": 0.5,
 }
 _OPEN_RANGE = 10.0
-# Shares of the ranges, used in turn: a mechanism may not assemble at extreme values.
+# Shares of the ranges, used in turn: a start may fail with values from the whole range.
 _SHARES = (1.0, 0.1, 0.01)
 # Types of sensors, see docs/system_file.md.
 _WITH_ORDER = (SensorType.COMPONENT, SensorType.CARRIED, SensorType.DIRECTION)
@@ -125,7 +125,9 @@ class _Tries:
     def close(self, systems: Sequence[mbs.System]) -> None:
         """Add dependencies that trials may not have shown: those of forces and of a settled start."""
         kinds = {i: {_kind(system, self.table[i].index) for system in systems} for i in self.sensed}
-        kind = {i: next(k for k in (_FORCE, _MOTION, _FEEDTHROUGH) if k in of) for i, of in kinds.items()}
+        kind = {
+            i: next(k for k in (_FORCE, _MOTION, _FEEDTHROUGH) if k in of_systems) for i, of_systems in kinds.items()
+        }
         placed = {i for i, v in enumerate(self.table) if v.source in ("parameter", "pose")}
         forced = {k for i in self.sensed if kind[i] == _FORCE for k in self.initial[i]}
         on_road = {i for i in self.sensed if any(_meets_road(system, self.table[i].index) for system in systems)}

@@ -41,7 +41,7 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
     shapes += [tube for part in parts if part not in bending for tube in _stiff(part)]
     used = {shape["mesh"] for shape in shapes if shape["kind"] == "mesh"}
     drawn = {frame for shape in scene["shapes"] for frame in frames_of(shape)}
-    made = scene | {
+    fmu_scene = scene | {
         "name": name,
         "description": description,
         "frames": bound.frames,
@@ -56,8 +56,8 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
             *({"name": frame, "why": why} for frame, why in bound.lost.items() if frame in drawn),
         ],
     }
-    other = {own: v for own, v in named.items() if own != v.name}
-    return with_renamed_columns(made, other) if other else made
+    renamed = {own: v for own, v in named.items() if own != v.name}
+    return with_renamed_columns(fmu_scene, renamed) if renamed else fmu_scene
 
 
 def _stiff(part: Mapping[str, Any]) -> list[dict[str, Any]]:

@@ -11,10 +11,10 @@ _COLUMNS = ("position", "quaternion", "amplitudes", "angle", "way", "value", "co
 
 
 def with_renamed_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]) -> dict[str, Any]:
-    """The scene with its columns as they are called.
+    """The scene with the names of the FMU's variables as its columns.
 
-    `scene`: as `fmu_src.geometry.geometry.geometry` gives it; `named`: variables that have another name, by its names.
-    A scene is in SI units: what reads one that has another is left out, frames with a word in ``missing``.
+    `scene`: as `fmu_src.geometry.geometry.geometry` gives it; `named`: variables that have another name, by their names
+    in it. A scene is in SI units: what reads one that has another is left out, frames with a word in ``missing``.
     """
     odd = {ours for ours, v in named.items() if v.scale != 1.0}
     frames, missing = dict(scene["frames"]), list(scene["missing"])

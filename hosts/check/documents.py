@@ -27,9 +27,9 @@ def description(subject: Subject) -> Finding:
 
 def binaries(subject: Subject) -> Finding:
     """Whether there is a binary for this machine."""
-    result = supported_platforms(str(subject.path))
-    message = ", ".join(result) or "none"
-    return Finding("binaries", "good" if platform in result else "bad", message)
+    platforms = supported_platforms(str(subject.path))
+    message = ", ".join(platforms) or "none"
+    return Finding("binaries", "good" if platform in platforms else "bad", message)
 
 
 def functions(subject: Subject) -> Finding:

@@ -56,24 +56,24 @@ def about_the_file(subject: Subject) -> Finding:
     """Rights, date, descriptions, typical sizes, dependencies of the initial state."""
     root = subject.root
     missing = [name for name in ("author", "copyright", "license") if not root.get(name)]
-    message = [f"no {', '.join(missing)}"] if missing else []
+    faults = [f"no {', '.join(missing)}"] if missing else []
     if not any((subject.folder / "documentation" / "licenses" / name).exists() for name in _LICENCES):
-        message.append("no documentation/licenses/license.txt")
+        faults.append("no documentation/licenses/license.txt")
     if root.get("generationDateAndTime", "").startswith(("2000-01-01", "1970-01-01", "1980-01-01")):
-        message.append(f"made on {root.get('generationDateAndTime')}")
+        faults.append(f"made on {root.get('generationDateAndTime')}")
     variables = subject.description.modelVariables
     shared = [text for text, count in Counter(v.description for v in variables).items() if text and count > 1]
     if shared:
-        message.append(f"{len(shared)} descriptions stand at several variables, such as '{shared[0]}'")
+        faults.append(f"{len(shared)} descriptions stand at several variables, such as '{shared[0]}'")
     if not any(v.nominal is not None for v in variables):
-        message.append("no typical sizes (nominal)")
+        faults.append("no typical sizes (nominal)")
     unknowns = subject.description.initialUnknowns
     initial = [u.dependencies for u in unknowns if u.dependencies]
     if len(initial) > 8 and all(len(d) == len(initial[0]) > 1 for d in initial):
-        message.append("every initial output is said to depend on everything")
-    if message:
+        faults.append("every initial output is said to depend on everything")
+    if faults:
         clause = subject.clause("2.2.1, 2.2.7, 2.3", "2.4.1, 2.4.7, 2.5.1")
-        return Finding("about the file", "note", f"{'; '.join(message)}; all of it is optional {clause}")
+        return Finding("about the file", "note", f"{'; '.join(faults)}; all of it is optional {clause}")
     left_out = sum(u.dependencies is None for u in unknowns)
     reported = (
         f"{left_out} of {len(unknowns)} initial outputs depend on all that is set"

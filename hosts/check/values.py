@@ -36,13 +36,13 @@ def start_values(subject: Subject) -> Finding:
     known = [v for v in _scalars(subject, "input", "parameter") if v.start not in (None, "")]
     instance, rounded = _initialising(subject), ""
     for v in known:
-        stated, results = (float if v.type in REAL else int)(v.start), instance.get([v])[0]
-        if results != stated:
+        stated, value = (float if v.type in REAL else int)(v.start), instance.get([v])[0]
+        if value != stated:
             message = (
-                f"{v.name} reads {results:.17g} before it is set, and its start is {stated:.17g}; give it that value"
+                f"{v.name} reads {value:.17g} before it is set, and its start is {stated:.17g}; give it that value"
             )
             message += f" {subject.clause('2.2.7', '2.4.7')}"
-            if not math.isclose(results, stated, rel_tol=_ROUND):
+            if not math.isclose(value, stated, rel_tol=_ROUND):
                 return Finding("start values", "bad", message)
             rounded = rounded or message
     if rounded:

@@ -66,10 +66,10 @@ def _print_failures(task: Task, outcome: Outcome, prog: str, worlds: Sequence[st
         road = failure.road or "the built-in road"
         print(f"{where}, run {failure.run}, {failure.time:g} s on {road}: {failure.kind}: {failure.text}")
         if failure.manoeuvre:
-            message = [task.fmu, "-m", failure.manoeuvre, "--step", repr(task.step)]
-            print(f"  the last seconds again: {command_name('run')} {shlex.join(message)}")
+            arguments = [task.fmu, "-m", failure.manoeuvre, "--step", repr(task.step)]
+            print(f"  the last seconds again: {command_name('run')} {shlex.join(arguments)}")
     if outcome.failures or outcome.memory_growth > LARGEST_GROWTH:
-        message = [task.fmu, "--seed", str(task.seed), "--stop-time", repr(task.seconds), "--drives", "1", "--again"]
-        message += [] if outcome.fidelity is None else ["--fidelity", str(outcome.fidelity)]
-        message += ["--step", repr(task.step), *(part for name in worlds for part in ("--world", name))]
-        print(f"  the whole drive again: {prog} {shlex.join([*message, *set_arguments(task.start)])}")
+        arguments = [task.fmu, "--seed", str(task.seed), "--stop-time", repr(task.seconds), "--drives", "1", "--again"]
+        arguments += [] if outcome.fidelity is None else ["--fidelity", str(outcome.fidelity)]
+        arguments += ["--step", repr(task.step), *(part for name in worlds for part in ("--world", name))]
+        print(f"  the whole drive again: {prog} {shlex.join([*arguments, *set_arguments(task.start)])}")

@@ -71,16 +71,16 @@ def _alias_file(name: str, file: Path) -> str:
 def _test(job: Job, fmu: Path, values: Mapping[str, Value], aliases: Sequence[str], out: Path) -> Repeat:
     step = [] if math.isnan(job.step) else ["--step", repr(job.step)]
     settings = [part for n, x in job.settings.items() for part in ("--test-setting", f"{job.test}.{n}={x!r}")]
-    message = [str(fmu), "--tests", job.test, *set_arguments({**job.start, **values}), *settings, *step, *aliases]
-    return Repeat(_line("catalogue", [*message, "--out", str(out)]), "")
+    arguments = [str(fmu), "--tests", job.test, *set_arguments({**job.start, **values}), *settings, *step, *aliases]
+    return Repeat(_line("catalogue", [*arguments, "--out", str(out)]), "")
 
 
 def _drive(job: Job, fmu: Path, values: Mapping[str, Value], file: Path) -> Repeat:
     assert job.manoeuvre is not None
     write_manoeuvre(job.manoeuvre, file)
-    message = [str(fmu), "-m", str(file), "--step", repr(job.step), *set_arguments(values), "--out", str(file.parent)]
-    return Repeat(_line("run", message), _line("view", message))
+    arguments = [str(fmu), "-m", str(file), "--step", repr(job.step), *set_arguments(values), "--out", str(file.parent)]
+    return Repeat(_line("run", arguments), _line("view", arguments))
 
 
-def _line(command: str, message: list[str]) -> str:
-    return f"{command_name(command)} {shlex.join(message)}"
+def _line(command: str, arguments: list[str]) -> str:
+    return f"{command_name(command)} {shlex.join(arguments)}"

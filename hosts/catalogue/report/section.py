@@ -61,17 +61,17 @@ def section(
 
 def command_of(command: Sequence[str], test: str) -> list[str]:
     """The command for one test: without the list of tests and without settings of others."""
-    results: list[str] = []
-    message = iter(command)
-    for word in message:
+    kept: list[str] = []
+    remaining = iter(command)
+    for word in remaining:
         name, equals, value = word.partition("=")
         if name not in (_OF_TESTS, _OF_SETTINGS):
-            results.append(word)
+            kept.append(word)
             continue
-        value = value if equals else next(message, "")
+        value = value if equals else next(remaining, "")
         if name == _OF_SETTINGS and value.startswith(f"{test}."):
-            results += [_OF_SETTINGS, value]
-    return [*results, _OF_TESTS, test]
+            kept += [_OF_SETTINGS, value]
+    return [*kept, _OF_TESTS, test]
 
 
 def _standard(standard: Standard) -> HtmlElement:

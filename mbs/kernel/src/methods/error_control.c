@@ -155,10 +155,9 @@ static void take_back(ali3_instance *in, const ali3_report *before) {
 
 /* The longest step, s: as given, and shorter where the motion may hold more than its error shows. */
 static double longest(const ali3_instance *in, const ali3_measure *measure) {
-  /* of closed loops h w, lengths or radians of a drive, which leaves no error: half of what steps resolve, as of a
-   * refined run */
   const double given = measure->control->longest;
   if (in->system->nr > 0) return fmin(given, ON_A_ROAD / ali3_rate(in, measure, false));
+  /* In closed loops what a drive turns or moves in a step, h w, shows in no error: half of what steps resolve. */
   return in->system->n_mode_triad > 0 ? fmin(given, ALI3_RESOLVED / ali3_rate(in, measure, true)) : given;
 }
 
