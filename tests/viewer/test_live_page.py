@@ -7,7 +7,6 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
-from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -359,20 +358,6 @@ def test_a_table_moves_inputs_until_a_hand_does_and_a_result_goes_along(
     assert opened.get("pull") == [0.1]
     assert not ended.is_visible()
     assert opened.wrong == []
-    opened.close()
-
-
-@pytest.mark.slow
-def test_no_instrument_lies_over_another_in_a_small_window(car: Path, chromium: Any, tmp_path: Path) -> None:
-    opened = Page(chromium, written([car], tmp_path, "--paused"))
-    for width, height, tyres in ((390, 780, True), (320, 568, False), (568, 320, False)):
-        opened.page.set_viewport_size({"width": width, "height": height})
-        boxes = [opened.page.locator(f".a3-{part}").bounding_box() for part in ("timing", "cluster", "tyres")]
-        assert (boxes[2] is not None) is tyres, (width, height)
-        for one, other in combinations([box for box in boxes if box], 2):
-            beside = one["x"] + one["width"] <= other["x"] or other["x"] + other["width"] <= one["x"]
-            above = one["y"] + one["height"] <= other["y"] or other["y"] + other["height"] <= one["y"]
-            assert beside or above, (width, height)
     opened.close()
 
 
