@@ -19,7 +19,6 @@ from fmu_src.build.progress_line import watched
 from fmu_src.description.nominal_values import drive_sizes, with_nominal
 from fmu_src.description.probe import probe
 from fmu_src.geometry.geometry import geometry, geometry_file
-from fmu_src.geometry.renamed_columns import with_renamed_columns
 from fmu_src.native.early_compilation import compiled_ahead
 from fmu_src.native.fmi_versions import FMI2, FMI3, FMI3_SCALAR
 from fmu_src.native.package import NativeContents, Telling, pack_native
@@ -27,7 +26,7 @@ from fmu_src.native.platforms import able_platforms
 from fmu_src.native.reference import ReferenceRun, reference_runs, with_other_names
 from fmu_src.variables.renamed_variables import Renamed, renamed
 from fmu_src.variables.texts import check_texts
-from fmu_src.variables.variables import check_fidelities, variable_table, with_names_of_model, with_uncomputed
+from fmu_src.variables.variables import by_name_in_system, check_fidelities, variable_table, with_uncomputed
 from mbs.common.checks import instance_of
 from mbs.compiler.generated.library import named_code_of
 from mbs.compiler.ports import following
@@ -189,17 +188,12 @@ class FmuBuilder:
         version = importlib.metadata.version("ali3")
         with told("writing C for the model"):
             code = [] if plain else [named_code_of(s) for s in systems]
-        scene = geometry(systems[fidelity], table, fmu_name(name), description)
-        own = [v.name for v in with_names_of_model(table, meta)]
         self.renamed = Renamed(table, {}) if names is None else renamed(table, names)
         table = self.renamed.table
-        self._called = dict(zip(own, table, strict=True))
-        if scene is not None and names is not None:
-            scene = with_renamed_columns(scene, self.renamed.named)
         self._contents = NativeContents(
             "", description, version, systems, table, reach, fidelity, followers, *rights, origin or {}, code
         )
-        self._scene = scene
+        self._scene = geometry(systems[fidelity], table, fmu_name(name), description)
         self._libraries: dict[tuple[str, str], bytes] = {}
         self._runs: tuple[ReferenceRun, ...] = ()
 
@@ -234,7 +228,8 @@ class FmuBuilder:
             if not self._runs:
                 with self._told("running the default experiment"):
                     runs = reference_runs(contents.system, contents.follower)
-                self._runs = tuple(with_other_names(run, self._called) for run in runs)
+                named = by_name_in_system(contents.table, contents.system.meta)
+                self._runs = tuple(with_other_names(run, named) for run in runs)
             pack_native(contents, _FACES[kind], self._runs, platforms, file, self._told, self._libraries)
         return file
 

@@ -11,7 +11,7 @@ from fmu_src.geometry.binding import bind
 from fmu_src.geometry.renamed_columns import with_renamed_columns
 from fmu_src.geometry.roads import with_parameters
 from fmu_src.geometry.shifted_shapes import moved_part
-from fmu_src.variables.variables import Variable, with_names_of_model
+from fmu_src.variables.variables import Variable, by_name_in_system
 
 FRAME_TUBE = "frame tube"
 """Name of rigid shapes that stand for a flexible part; left out where that part is drawn deformed."""
@@ -23,7 +23,7 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
         return None
     scene = system.scene
     bound = bind(system, scene["frames"], system.drawing.shared)
-    named = {own.name: v for own, v in zip(with_names_of_model(table, system.meta), table, strict=True)}
+    named = by_name_in_system(table, system.meta)
     variable_names = set(named)
     available_frames = {"ground", *bound.frames}
 
@@ -56,8 +56,7 @@ def geometry(system: mbs.System, table: Sequence[Variable], name: str, descripti
             *({"name": frame, "why": why} for frame, why in bound.lost.items() if frame in drawn),
         ],
     }
-    renamed = {own: v for own, v in named.items() if own != v.name}
-    return with_renamed_columns(fmu_scene, renamed) if renamed else fmu_scene
+    return with_renamed_columns(fmu_scene, {own: v for own, v in named.items() if own != v.name or v.scale != 1.0})
 
 
 def _stiff(part: Mapping[str, Any]) -> list[dict[str, Any]]:

@@ -220,12 +220,11 @@ def variable_table(
     return _distinct(table)
 
 
-def with_names_of_model(table: Sequence[Variable], meta: Mapping[str, Any]) -> tuple[Variable, ...]:
-    """The table with the names that inputs, parameters and sensors have in the System; `meta`: of the System."""
-    return tuple(
-        replace(v, name=str(meta[_IN_SYSTEM[v.source]][v.index]["name"])) if v.source in _IN_SYSTEM else v
-        for v in table
-    )
+def by_name_in_system(table: Sequence[Variable], meta: Mapping[str, Any]) -> dict[str, Variable]:
+    """Variables by their names in the System, those that it does not have by our names; `meta`: of the System."""
+    return {
+        meta[_IN_SYSTEM[v.source]][v.index]["name"] if v.source in _IN_SYSTEM else v.ours or v.name: v for v in table
+    }
 
 
 def with_uncomputed(table: Sequence[Variable], metas: Sequence[Mapping[str, Any]]) -> tuple[Variable, ...]:

@@ -20,7 +20,7 @@ from fmu_src.description.probe import Dependencies
 from fmu_src.geometry.geometry import geometry
 from fmu_src.native.package import NativeContents
 from fmu_src.native.reference import reference_runs, with_other_names
-from fmu_src.variables.variables import Variable, variable_table, with_names_of_model
+from fmu_src.variables.variables import Variable, by_name_in_system, variable_table
 from mbs.compiler.ports import following
 from mbs.scenes import cart_pole, prototype_car
 from tests import kinds
@@ -69,7 +69,7 @@ def test_columns_of_names_with_blanks_are_variables() -> None:
     table = variable_table(system.meta, pose=False, step_size=0.01)
     known = {v.name for v in table}
     assert known > {"long_rod.angle_1", "motor_torque", "spring_stiffness"}
-    named = dict(zip([v.name for v in with_names_of_model(table, system.meta)], table, strict=True))
+    named = by_name_in_system(table, system.meta)
     default, in_turn = (with_other_names(run, named) for run in reference_runs(system))
     assert "long_rod.angle_1" in default.columns
     assert known > set(default.columns)
