@@ -34,6 +34,7 @@ _ENTRY = 46 + 200
 """Bytes of an entry in the directory of an archive, with a long name."""
 _LONGEST_NAME = 255  # bytes, on all usual file systems
 _METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
+# What `zipfile` raises of damaged archives, of other methods and of passwords.
 _DAMAGED = (zipfile.BadZipFile, zlib.error, EOFError, ValueError, KeyError, RuntimeError, NotImplementedError)
 
 

@@ -1,1 +1,1 @@
-"""Draws scenes and recordings in a page (three.js); it knows neither models nor FMUs."""
+"""Draws scenes and recordings, given as JSON and arrays, in a page (three.js); it knows neither models nor FMUs."""

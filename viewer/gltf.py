@@ -142,11 +142,11 @@ def _bent(part: Mapping[str, Any], number: int, columns: dict[str, NDArray[np.fl
 def _as_text(binary: bytes) -> bytes:
     """A binary file as JSON with its numbers in it: not by Node, whose strings end at 512 MiB."""
     length = int.from_bytes(binary[12:16], "little")
-    made = json.loads(binary[20 : 20 + length])
-    (buffer,) = made["buffers"]
+    description = json.loads(binary[20 : 20 + length])
+    (buffer,) = description["buffers"]
     numbers = binary[28 + length :][: buffer["byteLength"]]
     buffer["uri"] = f"data:application/octet-stream;base64,{b64encode(numbers).decode()}"
-    return json.dumps(made, ensure_ascii=False, separators=(",", ":")).encode()
+    return json.dumps(description, ensure_ascii=False, separators=(",", ":")).encode()
 
 
 def _answer(question: Mapping[str, Any], numbers: NDArray[np.float64]) -> tuple[dict[str, Any], bytes]:

@@ -11,12 +11,12 @@ def columns_of(part: Mapping[str, Any]) -> list[str]:
 
     `part`: of a scene that was checked.
     """
-    results = [*part.get("position", ()), *part.get("quaternion", ()), *part.get("amplitudes", ())]
-    results += [part[key] for key in ("angle", "way", "value", "computed") if key in part]
-    results += [name for name in part.get("vector", ()) if name is not None]
+    columns = [*part.get("position", ()), *part.get("quaternion", ()), *part.get("amplitudes", ())]
+    columns += [part[key] for key in ("angle", "way", "value", "computed") if key in part]
+    columns += [name for name in part.get("vector", ()) if name is not None]
     for names in part.get("tyre", {}).values():
-        results += names
-    return results
+        columns += names
+    return columns
 
 
 def pose_columns(scene: Mapping[str, Any]) -> list[str]:

@@ -47,7 +47,7 @@ class Mechanism:
         return np.array(v["phi"]), jacobian, np.array(v["gamma"]), np.array(v["force"])
 
     def rank(self, t: float, q: Array) -> str:
-        """The rank of the constraint rows at a position, in words."""
+        """The smallest singular values of the constraint rows at a position, in words."""
         if not np.isfinite(q).all():
             return "positions are infinite"
         values = np.linalg.svd(self.evaluate(t, q, np.zeros(self.nq))[1], compute_uv=False)

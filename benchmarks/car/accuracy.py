@@ -133,9 +133,9 @@ def _errors(row: Row, way: str = "") -> str | None:
 def car_blocks(rows: Sequence[Row]) -> dict[str, str]:
     """Speed and accuracy by manoeuvre, and what held inputs cost."""
     order = list(TITLES)
-    known_names = sorted((r for r in rows if r["manoeuvre"] in TITLES), key=lambda r: order.index(r["manoeuvre"]))
+    known_rows = sorted((r for r in rows if r["manoeuvre"] in TITLES), key=lambda r: order.index(r["manoeuvre"]))
     lines: list[dict[str, Any]] = []
-    for r in known_names:
+    for r in known_rows:
         if r["h_s"] in (0.01, 0.005, *SMALLER.get(r["manoeuvre"], ())):
             lines.append(
                 {
@@ -154,7 +154,7 @@ def car_blocks(rows: Sequence[Row]) -> dict[str, str]:
             "FMU with derivatives": _errors(r, "_fmpy_followed"),
             "FMU, inputs held": _errors(r, "_fmpy_held"),
         }
-        for r in known_names
+        for r in known_rows
         if r["h_s"] in (0.01, 0.002) and r["manoeuvre"] not in WITHOUT_INPUTS and _errors(r, "_fmpy_held")
     ]
     blocks = {"car": table(lines, dict.fromkeys(lines[0], ""))}

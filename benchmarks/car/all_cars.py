@@ -50,7 +50,7 @@ def row_of(car: str, repeats: int, program: Path, folder: Path) -> dict[str, Any
             finer = (accuracy.measure(row["manoeuvre"], h, None, 1, car) for h in SMALLER)
             needs[row["manoeuvre"]] = next((r["h_s"] for r in finer if inside(r)), None)
     worst = load["manoeuvre"]
-    results, fine = (manoeuvres.run(worst, h, car=car) for h in (STEP, FINE))
+    result, fine = (manoeuvres.run(worst, h, car=car) for h in (STEP, FINE))
     slowest = min(rows, key=lambda row: row["realtime_factor"])
     scene = Scene(car, STEP, COUNTED, lambda: manoeuvres.system_of("slalom", car), "slalom")
     return {
@@ -58,7 +58,7 @@ def row_of(car: str, repeats: int, program: Path, folder: Path) -> dict[str, Any
         "manoeuvres": len(rows),
         "path": {key: path[key] for key in ("manoeuvre", "path_error_rel")},
         "load": {key: load[key] for key in ("manoeuvre", "wheel_load_error_rel")},
-        "load_in_time": trajectories.load_error_in_time(results, fine, 0.5 * STEP),
+        "load_in_time": trajectories.load_error_in_time(result, fine, 0.5 * STEP),
         "needs": needs,
         "realtime": {key: slowest[key] for key in ("manoeuvre", "realtime_factor")},
         "instructions": count(scene, program, folder)["instructions"],

@@ -55,9 +55,9 @@ def deck(frame: Frame, steps: str) -> str:
         start, end = frame.positions[beam.i], frame.positions[beam.j]
         nodes.append((start + end) / 2)
         outer, wall = _pipe(beam.section)
-        remaining = ",".join(f"{v:.9g}" for v in beam_axes(start, end)[1][1])
+        left_axis = ",".join(f"{v:.9g}" for v in beam_axes(start, end)[1][1])
         lines += [f"*ELEMENT,TYPE=B32R,ELSET=E{number}", f"{number},{beam.i + 1},{len(nodes)},{beam.j + 1}"]
-        lines += [f"*BEAM SECTION,ELSET=E{number},MATERIAL=STEEL,SECTION=PIPE", f"{outer:.9g},{wall:.9g}", remaining]
+        lines += [f"*BEAM SECTION,ELSET=E{number},MATERIAL=STEEL,SECTION=PIPE", f"{outer:.9g},{wall:.9g}", left_axis]
     for node in np.flatnonzero(frame.masses):
         number = len(frame.beams) + int(node) + 1
         lines += [f"*ELEMENT,TYPE=MASS,ELSET=M{number}", f"{number},{node + 1}"]

@@ -35,10 +35,10 @@ def stiffness(car: Car) -> Stiffness:
     flexible = car.flexible_frame
     model = flexible.model
     middle = 0.5 * (car.front.wheel.centre[0] + car.rear.wheel.centre[0])
-    remaining = [name for name in flexible.interfaces if flexible.place(name)[1] > 0.0]
+    left_side = [name for name in flexible.interfaces if flexible.place(name)[1] > 0.0]
     front, rear = (
         max(
-            (n for n in remaining if (flexible.place(n)[0] > middle) == ahead),
+            (n for n in left_side if (flexible.place(n)[0] > middle) == ahead),
             key=lambda n: float(flexible.place(n)[2]),
         )
         for ahead in (True, False)

@@ -33,7 +33,7 @@ def measured(fmus: dict[str, Path], names: Sequence[str] = MANOEUVRES) -> list[d
     """A row for each manoeuvre and step, with the errors of the three ways; `fmus`: by kind."""
     return [
         {"manoeuvre": TITLES[name], "H, ms": 1000.0 * step}
-        | {message: error(fmus[kind], name, step, follow) for kind, follow, message in WAYS.values()}
+        | {title: error(fmus[kind], name, step, follow) for kind, follow, title in WAYS.values()}
         for name in names
         for step in STEPS
     ]
@@ -41,7 +41,7 @@ def measured(fmus: dict[str, Path], names: Sequence[str] = MANOEUVRES) -> list[d
 
 def blocks(rows: Sequence[Row]) -> dict[str, str]:
     """The table of the page."""
-    forms = {"manoeuvre": "", "H, ms": "g"} | {message: ".1e" for *_, message in WAYS.values()}
+    forms = {"manoeuvre": "", "H, ms": "g"} | {title: ".1e" for *_, title in WAYS.values()}
     return {"errors over the communication step": table(rows, forms)}
 
 
@@ -51,8 +51,8 @@ def draw(rows: Sequence[Row], file: Path) -> None:
     figure, axes = pyplot().subplots(1, len(names), figsize=(4.2 * len(names), 3.6), sharey=True, layout="constrained")
     for name, ax in zip(names, axes, strict=True):
         mine = [row for row in rows if row["manoeuvre"] == name]
-        for (*_, message), mark in zip(WAYS.values(), ("o-", "s-", "x--"), strict=True):
-            ax.loglog([row["H, ms"] for row in mine], [row[message] for row in mine], mark, label=message)
+        for (*_, title), mark in zip(WAYS.values(), ("o-", "s-", "x--"), strict=True):
+            ax.loglog([row["H, ms"] for row in mine], [row[title] for row in mine], mark, label=title)
         ax.set_title(name)
         ax.set_xlabel("communication step, ms")
         ax.set_xticks([1000.0 * step for step in STEPS], [f"{1000.0 * step:g}" for step in STEPS])

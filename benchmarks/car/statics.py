@@ -117,6 +117,6 @@ def rear_forces() -> dict[str, np.ndarray]:
 
 def interface_forces(names: Sequence[str], front_factor: float = 1.0, rear_factor: float = 1.0) -> np.ndarray:
     """Forces on all interfaces in the order of `names` (node names with side), shape (3 n,), N."""
-    remaining = {n: front_factor * f for n, f in front_forces().items()}
-    remaining |= {n: rear_factor * f for n, f in rear_forces().items()}
-    return np.concatenate([remaining[n[:-1]] * (np.array([1, -1, 1]) if n[-1] == "R" else 1) for n in names])
+    left_side = {n: front_factor * f for n, f in front_forces().items()}
+    left_side |= {n: rear_factor * f for n, f in rear_forces().items()}
+    return np.concatenate([left_side[n[:-1]] * (np.array([1, -1, 1]) if n[-1] == "R" else 1) for n in names])

@@ -1,4 +1,4 @@
-"""Cost of each step of an FMU in random driving, such as processor time of its thread and iterations."""
+"""Costs of each step of an FMU in random driving: processor time of its thread, iterations, capped residual."""
 
 import gc
 import time

@@ -67,7 +67,7 @@ def table_of(rows: Sequence[Row]) -> str:
 
 
 def verdict(rows: Sequence[Row]) -> str:
-    """Rows in which the car by tables differs by more than 1 % in its path or 3 % in its loads."""
+    """A sentence with the cars and manoeuvres in which tables are outside of 1 % of the path and 3 % of the loads."""
     outside = [
         f"{r['car']}, {r['manoeuvre'].replace('_', ' ')}"
         for r in rows

@@ -109,5 +109,5 @@ def write_replay(car: str = manoeuvres.PROTOTYPE) -> None:
     folder = manoeuvres.FOLDER if car == manoeuvres.PROTOTYPE else manoeuvres.FOLDER / car
     name = manoeuvres.OWN[0]
     manoeuvre = Manoeuvre(name, rows[:, 0], inputs, float(rows[-1, 0]), dict(closed.start))
-    message = "What the host's driver did in the double lane change; made by python -m benchmarks.car references"
-    write_manoeuvre(manoeuvre, folder / f"{name}.toml", message)
+    comment = "What the host's driver did in the double lane change; made by python -m benchmarks.car references"
+    write_manoeuvre(manoeuvre, folder / f"{name}.toml", comment)

@@ -30,7 +30,7 @@ class Shown:
 
     @property
     def cars(self) -> list[str]:
-        """The cars that have a variable."""
+        """The cars that have the variable."""
         return list(self.starts)
 
 

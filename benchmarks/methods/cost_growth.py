@@ -15,11 +15,10 @@ from mbs.flexible.component_modes import craig_bampton
 from mbs.scenes import double_four_bar
 from mbs.vehicle import load
 
-# s: up to before the first singular position
-STEP = 0.01
-END = 0.6
+STEP = 0.01  # s
+END = 0.6  # s: before the first singular position
 CHASSIS_STEP = 0.005  # s
-CHASSIS_STEPS = 100  # s
+CHASSIS_STEPS = 100
 FITTED_FROM = 10  # N: below it the fixed cost of a step shows
 WINDOWS = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 REPEATS = 9

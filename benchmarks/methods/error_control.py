@@ -21,9 +21,8 @@ SLOW = 1e-3
 """Below this tolerance ALi3-P, of order two, is left out where others can be used."""
 MOST_ERROR = 10.0
 MOST_TIME = 2.0
-# s: longer runs are made once
 REPEATS = 5
-LONG = 0.5
+LONG = 0.5  # s: longer runs are made once
 
 
 def measure(scene: str, tolerance: float, method: str, repeats: int) -> dict[str, Any]:

@@ -57,8 +57,8 @@ def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p", t
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             checked = mbs.simulate(system, steps * STEP, STEP, **options)
-        message = {w.category.__name__ for w in caught} | {"notice" for _ in checked.notices}
-        row["told"] = ", ".join(sorted(message))
+        kinds = {w.category.__name__ for w in caught} | {"notice" for _ in checked.notices}
+        row["told"] = ", ".join(sorted(kinds))
     if free.angles:
         way = {end: r[end] - r[end][0] for end in {*free.angles, *(end for tie in free.ties for end in tie[:2])}}
         slips = [np.max(np.abs(way[a] - i * way[b])) / np.max(np.abs(way[a])) for a, b, i in free.ties]

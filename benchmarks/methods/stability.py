@@ -65,12 +65,12 @@ def _energy_scale(scene: str) -> float:
         settings = mbs.Settings(max_halvings=16)  # the light cart needs them
         simulation, case = mbs.Simulation(system, settings=settings), CASES[scene]
         mass = _mass(system)
-        results, h = 0.0, case.end / 5000.0
+        largest, h = 0.0, case.end / 5000.0
         for _ in range(200):
             qd = simulation.state.qd
-            results = max(results, 0.5 * float(qd @ mass @ qd))
+            largest = max(largest, 0.5 * float(qd @ mass @ qd))
             simulation.step(h, n=25)
-        _SCALES[scene] = results
+        _SCALES[scene] = largest
     return _SCALES[scene]
 
 

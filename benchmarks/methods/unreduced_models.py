@@ -33,7 +33,7 @@ class WholeJoint(Joint):
 
 
 class NaiveModel(Model):
-    """A model without elimination of coordinates."""
+    """A model whose joint equations all stay rows, with rods and wheels as bodies."""
 
     def _join(self, joint: Joint) -> Joint:
         whole = WholeJoint(joint.name, joint.type, joint.equations, joint.rows_weight)

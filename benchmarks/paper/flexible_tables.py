@@ -34,8 +34,8 @@ def kerb_table() -> str:
     titles = ("coordinates, rows, modes", "Newton iterations, mean (most)", *PEAKS)
     rows = [{"": title} for title in titles]
     for fidelity in KERB:
-        size, results = size_of("kerb_test", fidelity), fidelity_runs.run("kerb_test", fidelity, kerb_test.STEP)
-        report, peaks = results.report, changes(results, kerb_test.STEP)
+        size, result = size_of("kerb_test", fidelity), fidelity_runs.run("kerb_test", fidelity, kerb_test.STEP)
+        report, peaks = result.report, changes(result, kerb_test.STEP)
         assert report is not None
         cells = [
             f"{size['coordinates']}, {size['rows']}, {size['modes']}",

@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 GRAVITY = 9.81  # m/s2
 RATE = 0.01  # s between samples
 FINE = 0.002  # step of the measured run, s
-CUT = 40.0  # frequency of the filter before, Hz
+CUT = 40.0  # frequency of the filter before sampling, Hz
 NOISE = 3.0  # standard deviation, m/s2
 OFFSET = 0.2  # standard deviation, m/s2
 DRIFT = 0.02  # standard deviation, m/s3
@@ -172,7 +172,7 @@ _MEASURED = "#d55e00"
 _SIGNAL = "#b0b0b0"
 PAPER = {"guide": "the paper's, measured", "iterations": 2.0, "most": 3}
 _LATEST = 0.5  # largest shift that is tried, s
-_EDGE = 0.1  # cut off at the ends, s
+_EDGE = 0.1  # cut off at the end, s
 
 
 def moments(run: Trajectory) -> Array:

@@ -129,7 +129,7 @@ def _tree(mbs: Any, tree: Tree) -> tuple[int, int]:
         coms.Append(R.T @ link.centre)
         transformations.Append(R_before.T @ R)
         places.Append(R_before.T @ link.place)
-    object = mbs.AddObject(
+    kinematic_tree = mbs.AddObject(
         itemInterface.ObjectKinematicTree(
             nodeNumber=node,
             jointTypes=[exu.JointType.RevoluteZ] * n,
@@ -145,14 +145,14 @@ def _tree(mbs: Any, tree: Tree) -> tuple[int, int]:
     )
     sensor = mbs.AddSensor(
         itemInterface.SensorKinematicTree(
-            objectNumber=object,
+            objectNumber=kinematic_tree,
             linkNumber=tree.body - 1,
             localPosition=frames[tree.body - 1].T @ tree.point,
             storeInternal=True,
             outputVariableType=exu.OutputVariableType.Position,
         )
     )
-    return int(object), int(sensor)
+    return int(kinematic_tree), int(sensor)
 
 
 def _on_link(mbs: Any, made: int, tree: Tree, body: int, place: Vector) -> int:

@@ -82,8 +82,8 @@ def _add_options(parser: ArgumentParser, part: Part) -> None:
             "--only", nargs="+", choices=part.names, default=[*part.names], metavar="NAME",
             help=f"of {', '.join(part.names)}",
         )  # fmt: skip
-    for key, (default, message) in part.options.items():
-        flag, help_text = f"--{key.replace('_', '-')}", message.replace("%", "%%")
+    for key, (default, description) in part.options.items():
+        flag, help_text = f"--{key.replace('_', '-')}", description.replace("%", "%%")
         if default is False:
             parser.add_argument(flag, action="store_true", help=help_text)
         elif default is Path:

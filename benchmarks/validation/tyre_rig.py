@@ -55,9 +55,9 @@ def published(coefficients: Sequence[float], lateral: bool, load: float, slip: f
 def read_within(lateral: bool, load: float, slip: float) -> float:
     """Largest change of the force by half of the last digit of each coefficient, N."""
     of, digits = (LATERAL, LAST_DIGITS[0]) if lateral else (LONGITUDINAL, LAST_DIGITS[1])
-    present = published(of, lateral, load, slip)
+    nominal = published(of, lateral, load, slip)
     changed = ([*of[:k], of[k] + 0.5 * digits[k], *of[k + 1 :]] for k in range(len(of)))
-    return sum(abs(published(each, lateral, load, slip) - present) for each in changed)
+    return sum(abs(published(each, lateral, load, slip) - nominal) for each in changed)
 
 
 def magic() -> MagicTyre:

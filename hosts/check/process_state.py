@@ -209,14 +209,14 @@ def outside(subject: Subject) -> Finding:
     changed = [name for name in after if after[name] != before.get(name)]
     gone = [name for name in before if name not in after]
     text = printed[0].decode("utf-8", "replace").strip()
-    message = []
+    faults = []
     if changed or gone:
         one = (changed or gone)[0]
-        message.append(f"{len(changed) + len(gone)} files were written, such as {Path(one).name}; keep state in memory")
+        faults.append(f"{len(changed) + len(gone)} files were written, such as {Path(one).name}; keep state in memory")
     if text:
-        message.append(f"prints {text.splitlines()[0][:60]!r}; give messages to the host's logger")
-    if message:
-        return Finding("files and prints", "note", f"{'; '.join(message)} {subject.clause('2.1.5', '2.3.1')}")
+        faults.append(f"prints {text.splitlines()[0][:60]!r}; give messages to the host's logger")
+    if faults:
+        return Finding("files and prints", "note", f"{'; '.join(faults)} {subject.clause('2.1.5', '2.3.1')}")
     return Finding("files and prints", "good", "none")
 
 

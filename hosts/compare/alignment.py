@@ -163,8 +163,8 @@ def _fine(pairs: Sequence[tuple[Signal, Curve]], delay: float, drift: bool) -> A
     sums = [float(solution.fun[r] @ solution.fun[r]) - _SCATTER * w for r, w in zip(rows, white, strict=True)]
     alone = np.sqrt(np.diag(np.linalg.pinv(jacobian.T @ jacobian)))
     errors = np.maximum(errors, _ALIKE * math.sqrt(sum(max(x, 0.0) for x in sums)) * alone)
-    remaining = float(np.mean(solution.fun**2))
-    correlation = math.sqrt(max(0.0, 1.0 - remaining))
+    unexplained = float(np.mean(solution.fun**2))
+    correlation = math.sqrt(max(0.0, 1.0 - unexplained))
     if not drift:
         return Alignment(float(solution.x[0]), float(errors[0]), 0.0, 0.0, correlation)
     # To first order: the delay takes the best part of the drift's place when the drift is left out.

@@ -115,8 +115,8 @@ def held_text(result: Result, segments: Sequence[Segment]) -> list[str]:
     pedals = np.max([result[n] for n in PEDALS if n in result], axis=0)
     full = np.interp(time, result.time, pedals) > _FULL
     if full.any() and not full.all():
-        remaining = f"{rms(error[~full]):.2g} m/s rms elsewhere"
-        text += f", a pedal at its end for {100.0 * np.mean(full):.0f} % of the time and {remaining}"
+        elsewhere = f"{rms(error[~full]):.2g} m/s rms elsewhere"
+        text += f", a pedal at its end for {100.0 * np.mean(full):.0f} % of the time and {elsewhere}"
     if (slid := _sliding(result)).any():
         eased = np.mean(np.interp(time, result.time, slid))
         text += f", eased the throttle over a sliding axle for {100.0 * eased:.2g} % of the time"

@@ -141,10 +141,10 @@ def fmu_of_folder(folder: Path, record: Mapping[str, Any]) -> Path:
     file = folder / str(record["fmu"])
     if not file.is_file():
         raise HostError(f"{no_file(file)} It made the runs of this study; put it back.")
-    result = hashlib.sha256(read_bytes(file, LARGEST_ARCHIVE, HostError)).hexdigest()
-    if result != record["fmu_sha256"]:
+    sha256 = hashlib.sha256(read_bytes(file, LARGEST_ARCHIVE, HostError)).hexdigest()
+    if sha256 != record["fmu_sha256"]:
         raise HostError(
-            f"{file} is another FMU than the one that made the rows: its SHA-256 is {result[:12]}..., that in {RECORD} "
+            f"{file} is another FMU than the one that made the rows: its SHA-256 is {sha256[:12]}..., that in {RECORD} "
             f"is {record['fmu_sha256'][:12]}...; it is not run. Put the FMU back that was there."
         )
     return file

@@ -67,7 +67,7 @@ def to_tolerance(
     grid = np.union1d(times[1:], t0 + (t_end - t0) * np.arange(1, INSTANTS + 1) / INSTANTS)
     grid[-1] = t_end
     task = Task(t0, t_end, grid, signals_of(inputs, first))
-    # of the first run: by the last one's tolerance what it errs is known to what would be wrong
+    # the first run: its error is known to a share of `WRONG_ERROR` by a last one that keeps the tolerance
     coarse, made = min(tolerance.share * (1.0 / WRONG_ERROR), WRONG_ERROR), _Made()
     if method != "auto":
         settings = replace(settings, method=method)

@@ -52,7 +52,7 @@ def laps() -> Drive:
     return Drive(time, 0.0 * time, vx, 0.0 * time, curvature * vx)
 
 
-def test_seconds_are_reported_apart_by_corner_speed_and_acceleration() -> None:
+def test_seconds_are_distinguished_by_corner_speed_and_acceleration() -> None:
     drive = laps()
     actual = omitted_seconds.families(drive)
     corners = actual["corners"]

@@ -50,7 +50,7 @@ class Counter:
         return self.count, os.getpid()
 
 
-def test_an_error_of_who_is_reported_is_his_and_the_next_task_is_done(worker: Isolated[str, tuple[int, int]]) -> None:
+def test_an_error_of_a_callback_is_raised_and_the_next_task_is_done(worker: Isolated[str, tuple[int, int]]) -> None:
     def full(word: object) -> None:
         raise OSError(28, "No space left on device")
 

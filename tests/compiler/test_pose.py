@@ -48,11 +48,11 @@ def test_pose_moves_turns_and_starts_the_whole_scene():
 
 def test_pose_slides_and_turns_the_whole_scene():
     """Each point has the velocity of the origin and that of the turn about it; the hinge and the spin stay."""
-    yaw, speed, remaining, rate = 0.9, 7.0, -1.5, 0.6
-    s = Simulation(compile(trolley()), pose=Pose(3.0, -2.0, 0.4, yaw, speed, remaining, rate)).sensors
+    yaw, speed, lateral, rate = 0.9, 7.0, -1.5, 0.6
+    s = Simulation(compile(trolley()), pose=Pose(3.0, -2.0, 0.4, yaw, speed, lateral, rate)).sensors
     c, d = np.cos(yaw), np.sin(yaw)
     turn = np.array([[c, -d, 0], [d, c, 0], [0, 0, 1]])
-    expected = turn @ (np.array([speed, remaining, 0.0]) + np.cross([0.0, 0.0, rate], [0.5, 0.7, 0.3]))
+    expected = turn @ (np.array([speed, lateral, 0.0]) + np.cross([0.0, 0.0, rate], [0.5, 0.7, 0.3]))
     np.testing.assert_allclose([s["vx"], s["vy"], s["vz"]], expected, rtol=0, atol=EXACT)
     assert s["turn"] == pytest.approx(rate, abs=EXACT)
     assert s["hinge"] == pytest.approx(0.0, abs=EXACT)

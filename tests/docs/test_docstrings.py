@@ -72,9 +72,9 @@ def _entries(text: str, section: str = "Parameters") -> dict[str, str]:
     names: list[str] = []
     for line in SECTION.split(text.split(head, 1)[1])[0].splitlines():
         if line and not line.startswith(" "):
-            reported, _, type = line.partition(" :")
-            names = [name.strip().lstrip("*") for name in reported.split(",")]
-            results |= dict.fromkeys(names, type)
+            listed, _, kind = line.partition(" :")
+            names = [name.strip().lstrip("*") for name in listed.split(",")]
+            results |= dict.fromkeys(names, kind)
         else:
             results |= {name: f"{results[name]}\n{line.strip()}" for name in names}
     return results

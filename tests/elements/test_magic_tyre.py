@@ -355,9 +355,9 @@ def test_moments_act_on_the_wheel_about_normal_heading_and_axis(gamma: float) ->
     t = tyre_file(OWN[1]).tyre()
     u, ud = pose(t, t.nominal_load, 0.03, 0.05, gamma, 20.0)
     r = settled(element_of(t), u, ud)
-    forward, remaining, up = np.eye(3)
+    forward, leftward, up = np.eye(3)
     axis, out = u[3:6], r.out
-    force = out["longitudinal_force"] * forward + out["lateral_force"] * remaining + out["vertical_force"] * up
+    force = out["longitudinal_force"] * forward + out["lateral_force"] * leftward + out["vertical_force"] * up
     rho = np.array([out[f"contact_{k}"] for k in "xyz"]) - u[:3]
     longer = rolling_radius(t, ud[6], out["deflection"]) / out["loaded_radius"]
     lever = np.cross(rho, force) + (longer - 1.0) * (np.cross(rho, force) @ axis) * axis

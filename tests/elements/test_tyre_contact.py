@@ -31,8 +31,8 @@ def test_on_level_ground_it_lies_below_the_centre_within_the_wheel_plane(height:
     centre = np.array([3.0, -2.0, 0.1 + height])
     for toe, camber in ((0.0, 0.0), (0.3, 0.0), (0.2, 0.15), (-0.4, -0.2)):
         point, normal, force = contact(PlaneRoad(0.1), centre, axis_of(toe, camber))
-        remaining = np.array([-np.sin(toe), np.cos(toe), 0.0])
-        expected = centre + height * (np.tan(camber) * remaining - np.array([0.0, 0.0, 1.0]))
+        leftward = np.array([-np.sin(toe), np.cos(toe), 0.0])
+        expected = centre + height * (np.tan(camber) * leftward - np.array([0.0, 0.0, 1.0]))
         assert np.allclose(point, expected, atol=ROUND_OFF * (1.0 + height))
         assert np.array_equal(normal, [0.0, 0.0, 1.0])
         assert (force > 0.0) == (height / np.cos(camber) < R)

@@ -157,7 +157,7 @@ def test_a_mass_matrix_in_another_order_is_reported() -> None:
         )
 
 
-def test_all_orders_and_axes_of_a_bar_of_solids_are_reported_apart() -> None:
+def test_all_orders_and_axes_of_a_bar_of_solids_are_distinguished() -> None:
     """Of 3 freedoms a node: axes, signs and orders are named where they contradict."""
     K, M, x = of_bar()
     for order in itertools.permutations(range(3)):

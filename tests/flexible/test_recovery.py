@@ -68,8 +68,8 @@ def test_a_push_to_the_left_presses_the_left_fibre() -> None:
     section = rectangle(0.03, 0.05)
     frame = straight(2, 1.0, section)
     u = clamped(frame, 2, np.array([0.0, 40.0, 0.0, 0.0, 0.0, 0.0]))
-    (remaining,) = fibre_stresses(frame, 0, 0.0, np.array([[0.015, 0.0]])) @ u
-    assert remaining == pytest.approx(-40.0 * 1.0 * 0.015 / section.Iz, rel=ROUND_OFF)
+    (left_stress,) = fibre_stresses(frame, 0, 0.0, np.array([[0.015, 0.0]])) @ u
+    assert left_stress == pytest.approx(-40.0 * 1.0 * 0.015 / section.Iz, rel=ROUND_OFF)
 
 
 def test_half_bridge_does_not_see_pull_twist_or_sideways_bending() -> None:

@@ -316,7 +316,7 @@ def test_nothing_is_made_twice_where_no_output_is_compared(
     assert len([m for m in driven.messages if "second motion" in m]) == times
 
 
-def test_a_host_that_sets_a_state_before_each_step_is_reported_that_nothing_is_checked(
+def test_a_host_that_sets_a_state_before_each_step_is_informed_that_nothing_is_checked(
     prototype_fmu: Path, host: HostMaker
 ) -> None:
     """In its log, if it asks for all of it: no second motion lives long enough there."""

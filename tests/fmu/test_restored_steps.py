@@ -104,7 +104,7 @@ def test_what_was_set_takes_effect_with_the_next_step(pair: tuple[Any, Any], cha
 
 
 @pytest.mark.parametrize("change", list(CHANGES))
-def test_settings_can_be_undone(pair: tuple[Any, Any], change: str) -> None:
+def test_values_set_in_a_refused_step_can_be_undone(pair: tuple[Any, Any], change: str) -> None:
     """Inputs, parameters and slopes of the refused step leave nothing behind in the kernel."""
     tried, other = pair
     CHANGES[change](tried)

@@ -53,12 +53,12 @@ def orders(found: Array) -> Array:
 @pytest.mark.slow
 def test_every_impact_keeps_order_two_where_whole_steps_have_it_on_the_mean_only() -> None:
     whole = mbs.Settings(max_halvings=0)
-    located, remaining = [], []
+    located, unlocated = [], []
     for gap in GAPS:
         system = between_stops(float(gap))
         located.append(errors(system, float(gap)))
-        remaining.append(errors(system, float(gap), whole))
-    kept, lost = orders(np.array(located))[:, 1:], orders(np.array(remaining))[:, 1:]
+        unlocated.append(errors(system, float(gap), whole))
+    kept, lost = orders(np.array(located))[:, 1:], orders(np.array(unlocated))[:, 1:]
     assert np.median(kept) > 1.8
     assert np.quantile(kept, 0.25) > 1.7
     assert np.ptp(kept) < 0.5 * np.ptp(lost)

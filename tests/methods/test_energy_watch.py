@@ -281,7 +281,7 @@ def sprung(damping=0.0, pushed=False):
     return compile(m)
 
 
-def test_a_swing_of_the_energy_is_reported_from_a_drift():
+def test_a_swing_of_the_energy_is_distinguished_from_a_drift():
     swings = simulate(sprung(), 400.0, 0.2, progress=False, estimate_error=False)
     assert swings.report.free_states == 2001
     assert swings.report.energy_growth == 0.0

@@ -346,7 +346,7 @@ def test_a_moment_sensor_changes_no_motion():
         ),
     ],
 )
-def test_an_unreadable_file_is_refused_with_the_formats_that_can_be_read(act, sentence):
+def test_an_invalid_joint_sensor_is_refused_with_the_valid_choices(act, sentence):
     m = Model("words")
     a, b, c, d = (m.body(n, mass=1.0, com=(k, 0, 0), inertia=(1, 1, 1)) for k, n in enumerate("abcd"))
     m.spherical("ball", m.ground, a, point=(0, 0, 0))

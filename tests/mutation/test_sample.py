@@ -118,7 +118,7 @@ def test_a_mutant_is_found_where_its_file_was_moved_and_its_lines_wrapped(tree: 
         swapped.apply(tree)
 
 
-def test_a_line_that_stands_twice_is_reported_apart_by_its_function_or_told(tree: Path) -> None:
+def test_a_line_that_stands_twice_is_distinguished_by_its_function_or_reported(tree: Path) -> None:
     (mutant,) = (m for m in mutants_in(tree, "order") if m.line.strip().startswith("return"))
     assert mutant.apply(tree)[0] == tree / "mbs/room/area.py"
     moved = replace(mutant, file="mbs/room/gone.py")

@@ -45,8 +45,8 @@ def at_rest(car: Car, fidelity: int) -> mbs.Simulation:
 
 def test_the_prototype_finds_its_joints_by_place() -> None:
     joints = PROTOTYPE.flexible_frame.joints
-    remaining = ("LF", "LR", "UF", "UR", "RK", "TF", "AF", "AR", "TL", "TR")
-    assert tuple(joints.interfaces) == tuple(f"{joint}{side}" for joint in remaining for side in "LR")
+    joint_names = ("LF", "LR", "UF", "UR", "RK", "TF", "AF", "AR", "TL", "TR")
+    assert tuple(joints.interfaces) == tuple(f"{joint}{side}" for joint in joint_names for side in "LR")
     pairs = (("LF", "LR"), ("UF", "UR"), ("AF", "AR"))
     assert joints.held == tuple((f"{a}{side}", f"{b}{side}") for a, b in pairs for side in "LR")
     assert joints.drive == tuple((f"{joint}L", f"{joint}R") for joint in ("AF", "AR", "TR"))

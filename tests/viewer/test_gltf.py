@@ -370,10 +370,10 @@ def test_a_second_writing_gives_the_same_bytes(tmp_path):
 
 def test_a_text_file_is_the_binary_one_with_its_numbers_in_the_text(corner, tmp_path):
     write_gltf(tmp_path / "corner.gltf", moving_car.recording(T), rate=240.0)
-    (told, numbers), (binary, padded) = content(tmp_path / "corner.gltf"), content(corner)
-    del told["buffers"][0]["uri"]
-    assert told == binary
-    assert len(numbers) == told["buffers"][0]["byteLength"] > 1000
+    (text, numbers), (binary, padded) = content(tmp_path / "corner.gltf"), content(corner)
+    del text["buffers"][0]["uri"]
+    assert text == binary
+    assert len(numbers) == text["buffers"][0]["byteLength"] > 1000
     assert padded.rstrip(b"\0") == numbers.rstrip(b"\0")
 
 

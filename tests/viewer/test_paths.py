@@ -240,7 +240,7 @@ def test_what_stays_where_it_is_has_no_path_and_no_camera_beside_it(opened: Call
     assert actual == [False, False]
 
 
-def test_a_ghost_is_reported_apart_by_its_colour_even_where_both_ran(opened: Callable[..., Opened]) -> None:
+def test_a_ghost_is_distinguished_by_its_colour_even_where_both_ran(opened: Callable[..., Opened]) -> None:
     """The blue box has a ghost at its own place for 3 s; its path is the rim of the first one's."""
     ghost = run("two")
     ghost.columns["body.y"] += np.where(T > 3.0, 1.5, 0.0)

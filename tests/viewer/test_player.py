@@ -137,13 +137,13 @@ def test_the_slider_the_keys_and_the_diagram_go_to_a_time(pair: Opened) -> None:
     box = pair.page.locator(".u-over").first.bounding_box()
     pair.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     assert pair("player.time") == pytest.approx(1.5, abs=0.02)
-    remaining = pair("document.querySelector('.a3-now').style.transform")
-    assert float(remaining.removeprefix("translateX(").removesuffix("px)")) == pytest.approx(box["width"] / 2, abs=2)
+    translation = pair("document.querySelector('.a3-now').style.transform")
+    assert float(translation.removeprefix("translateX(").removesuffix("px)")) == pytest.approx(box["width"] / 2, abs=2)
     shown = pair("document.querySelector('.a3-legend output').textContent")
     assert float(shown.removesuffix(" rad")) == pytest.approx(2.0 * pair("player.time"), abs=1e-3)
 
 
-def test_it_plays_in_time_and_stands_when_it_is_reported(pair: Opened) -> None:
+def test_it_plays_in_time_and_stops_at_the_key(pair: Opened) -> None:
     pair("player.seek(0)")
     pair("player.speed(0.2)")
     pair.page.keyboard.press(" ")

@@ -65,7 +65,7 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> D
     # Fixed margins: a layout that is computed takes longer than the drawing.
     figure.subplots_adjust(_LEFT / _WIDTH, below / height, 1.0 - _RIGHT / _WIDTH, 1.0 - _ABOVE / height)
     axes = figure.add_subplot()
-    message = _drawn(axes, found, shared, many)
+    descriptions = _drawn(axes, found, shared, many)
     texts = [axes.set_title(title), axes.xaxis.label, axes.yaxis.label]
     if rows:
         legend = figure.legend(
@@ -74,21 +74,21 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> D
         texts += legend.get_texts()
     for text in texts:
         text.set_parse_math(False)
-    return drawing(figure, f"{title}: {first.y} over {first.x}. {'; '.join(message) or 'No lines'}.")
+    return drawing(figure, f"{title}: {first.y} over {first.x}. {'; '.join(descriptions) or 'No lines'}.")
 
 
 def _drawn(axes: Axes, found: Mapping[int, tuple[str, Plot]], shared: Mapping[str, Line], many: bool) -> list[str]:
     """Draw lines, labels and scales of a plot; what they show in words."""
     first = next(iter(found.values()))[1]
-    message = []
+    descriptions = []
     for line in shared.values():
         axes.plot(line.x, line.y, color=_SHARED, linewidth=1.2, label=line.label)
-        message.append(f"{line.label}: {_range(line)}")
+        descriptions.append(f"{line.label}: {_range(line)}")
     for k, (label, plot) in found.items():
         for j, line in enumerate(line for line in plot.lines if line.label not in shared):
             name = _name(label, line, plot, many)
             _draw(axes, line, name, *((k, j) if many else (j, 0)))
-            message.append(f"{name or 'the line'}: {_range(line)}")
+            descriptions.append(f"{name or 'the line'}: {_range(line)}")
     for log, axis, set_scale in (
         (first.log_x, axes.xaxis, axes.set_xscale),
         (first.log_y, axes.yaxis, axes.set_yscale),
@@ -101,7 +101,7 @@ def _drawn(axes: Axes, found: Mapping[int, tuple[str, Plot]], shared: Mapping[st
         axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel(first.x)
     axes.set_ylabel(first.y)
-    return message
+    return descriptions
 
 
 def _displayed(plot: Plot) -> Plot:

@@ -48,9 +48,9 @@ def drive(sheet: Sheet) -> None:
         results += [] if none else [{**names, "zeros": zeros}]
     fitted = [q for q in results if q["zeros"] is not None]
     fits = fit_second_order([q["response"] for q in fitted], [q["zeros"] for q in fitted]) or [NOTHING]
-    message = " and ".join(q["word"] for q in fitted)
+    fitted_names = " and ".join(q["word"] for q in fitted)
     why = "The fit does not converge." if fitted else "There is no response."
-    sheet.add("mode", why_none=why, fit=fits[0], misfit=max(f.misfit for f in fits), words=message or "nothing")
+    sheet.add("mode", why_none=why, fit=fits[0], misfit=max(f.misfit for f in fits), words=fitted_names or "nothing")
     sheet.add("pictures", run=run, found=results)
 
 

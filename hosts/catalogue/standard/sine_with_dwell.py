@@ -28,11 +28,11 @@ def drive(sheet: Sheet) -> None:
         sheet.runs[f"ramp_{side}"] = ramps[side].thinned()
         sheet.progress(0.1 * len(ramps))
     refuse_odd(ramps["left"])
-    results = [angle_by_regression(r.steering, r.acceleration) if len(r.time) else math.nan for r in ramps.values()]
-    if not math.isfinite(sum(results)):
+    angles = [angle_by_regression(r.steering, r.acceleration) if len(r.time) else math.nan for r in ramps.values()]
+    if not math.isfinite(sum(angles)):
         raise HostError(_no_angle(list(ramps.values()), settings["speed"]))
     # the regulation rounds to 0.1°, each ramp and the mean
-    a = _rounded(0.5 * sum(map(_rounded, results)))
+    a = _rounded(0.5 * sum(map(_rounded, angles)))
     wanted = amplitudes(a, settings["first"], settings["increment"], given.largest)
     if len(wanted) > _MOST_RUNS:
         raise HostError(
@@ -51,7 +51,7 @@ def drive(sheet: Sheet) -> None:
         if runs and runs[-1].is_lost:
             sheet.add("lost", a=a, wanted=wanted, side=side, last=runs[-1])
     sheet.notes += slow
-    sheet.add("series", a=a, found=results, wanted=wanted, sides=sides, given=given, ramps=ramps)
+    sheet.add("series", a=a, found=angles, wanted=wanted, sides=sides, given=given, ramps=ramps)
 
 
 def _rounded(angle: float) -> float:

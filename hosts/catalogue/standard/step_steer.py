@@ -42,15 +42,15 @@ def _to_the_left(sheet: Sheet, speed: float, wanted: float, angle: float, done: 
     """The step of the wanted steady acceleration, by secants from an angle on; `done`: of the test before it."""
     most, before = SteeringInput.of(sheet.car.facts).largest, (0.0, 0.0)
     for n in range(_MOST_RUNS):
-        remaining = _step(sheet, speed, wanted, angle)
+        left = _step(sheet, speed, wanted, angle)
         sheet.progress(done + 0.05 * (n + 1))
-        got = remaining["acceleration"].steady
+        got = left["acceleration"].steady
         slope = (got - before[1]) / (angle - before[0])
         if not got > 0.0 or abs(got - wanted) <= _CLOSE * wanted or not slope > 0.0:
             break
         # at most half as much again: near the limit the slope says little
         before, angle = (angle, got), min(angle + min((wanted - got) / slope, 0.5 * angle), most)
-    return remaining
+    return left
 
 
 def _step(sheet: Sheet, speed: float, wanted: float, angle: float) -> dict[str, Any]:

@@ -85,7 +85,7 @@ def test_a_delay_in_common_is_that_of_both(curve: Curve) -> None:
     assert align([(log_of(0.08, 0.0), curve), (other, curve)], 0.5).delay == pytest.approx(0.08, abs=1e-5)
 
 
-def test_what_cannot_be_told_is_reported(curve: Curve) -> None:
+def test_a_delay_that_cannot_be_determined_is_reported(curve: Curve) -> None:
     noise = np.random.default_rng(2).normal(size=1000)
     alignment = align([(Signal("y", "y", "1", 0.015 * np.arange(1000), noise), curve)], 0.5)
     assert math.isnan(alignment.delay)

@@ -20,7 +20,7 @@ def test_a_speed_that_falls_where_the_simulated_rises_has_no_other_sign(turned: 
     assert ("factor = -1.0" in odd_scale(measured, lambda when: 15.0 + when)) == turned
 
 
-def test_what_a_driver_could_not_hold_is_reported_apart() -> None:
+def test_time_with_a_pedal_at_its_end_is_reported_separately() -> None:
     """0.3 m/s off for the quarter of the time with full throttle, 0.1 m/s elsewhere."""
     t = np.linspace(0.0, 4.0, 401)
     full = t >= 3.0

@@ -25,7 +25,7 @@ def test_a_pure_delay(side: float, lag: float) -> None:
     assert (actual.first_ratio, actual.second_ratio) == pytest.approx((7.5, 7.5), rel=1e-4)
 
 
-def test_peaks_that_differ_are_reported_apart() -> None:
+def test_peaks_that_differ_are_distinguished() -> None:
     late = np.where(T < 1.1, wave(T - 0.1), 1.2 * wave(T - 0.1))
     actual = one_period(T, wave(T), 2.0 * late)
     assert actual.first_ratio == pytest.approx(2.0, rel=1e-4)

@@ -52,12 +52,12 @@ def test_a_driver_keeps_the_lane_and_none_leaves_it(rigid_fmu: Path) -> None:
     for gain in (1.0, 0.0):
         keeping = environments.LaneKeeping(str(rigid_fmu), speed=(12.0, 12.0), seconds=12.0)
         observation, _ = keeping.reset(seed=0)
-        ended = remaining = False
-        while not (ended or remaining):
+        ended = departed = False
+        while not (ended or departed):
             offset, heading, bend = observation[0], observation[1], observation[6]
             steering = gain * (9.0 * bend - 0.25 * offset - 1.2 * heading)
-            observation, _, remaining, ended, _ = keeping.step(np.array([steering], np.float32))
-        ends[gain] = bool(remaining)
+            observation, _, departed, ended, _ = keeping.step(np.array([steering], np.float32))
+        ends[gain] = bool(departed)
         keeping.close()
     assert ends == {1.0: False, 0.0: True}
 

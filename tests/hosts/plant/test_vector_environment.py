@@ -40,7 +40,7 @@ def test_they_are_single_ones_to_the_last_bit(named: tuple[str, dict[str, Any]])
     ended, starts = [False] * MANY, 0
     for _ in range(STEPS):
         actions = several.action_space.sample()
-        observation, reward, remaining, cut, _ = several.step(actions)
+        observation, reward, terminated, cut, _ = several.step(actions)
         for k, single in enumerate(singles):
             if ended[k]:  # the step after an end is the new start
                 row = (single.reset()[0], 0.0, False, False)
@@ -48,7 +48,7 @@ def test_they_are_single_ones_to_the_last_bit(named: tuple[str, dict[str, Any]])
             else:
                 row = single.step(actions[k])[:4]
             assert (observation[k] == row[0]).all()
-            assert (reward[k], remaining[k], cut[k]) == row[1:]
+            assert (reward[k], terminated[k], cut[k]) == row[1:]
             ended[k] = bool(row[2] or row[3])
     assert starts >= 2 * MANY
     several.close()

@@ -49,7 +49,7 @@ def test_a_clock_that_goes_leaves_no_file_open() -> None:
 
 @pytest.mark.parametrize("other", [True, False])
 @_LINUX
-def test_time_that_others_ran_is_reported_apart_from_sleep(other: bool) -> None:
+def test_time_that_others_ran_is_distinguished_from_sleep(other: bool) -> None:
     """On one processor, beside a program that never sleeps and without it."""
     mine = os.sched_getaffinity(0)
     os.sched_setaffinity(0, {min(mine)})

@@ -125,7 +125,7 @@ def test_devices_are_shown_to_pages_that_watch_and_get_their_messages(car, serve
     assert "The wheel was pulled out." in served.told
 
 
-def test_every_page_is_reported_of_a_device_that_comes(car, served):
+def test_every_page_is_informed_of_a_new_device(car, served):
     served.server.devices = devices = Devices()
     with connect(served.url) as page:
         for _ in range(2):  # with the hello, and as devices that are new to all pages

@@ -97,13 +97,13 @@ def test_the_course_is_carved_into_the_map(folder):
     (layer,) = terrain.layers
     s = np.linspace(0.0, layer.line.length, 200)
     p, first, _ = layer.line.at(s)
-    remaining = np.stack([-first[1], first[0]]) / np.hypot(*first)
+    leftward = np.stack([-first[1], first[0]]) / np.hypot(*first)
     middle = terrain.at(*p)
     for offset in (-3.4, 3.4):  # level across, 7 m wide
-        beside = terrain.at(*(p + offset * remaining))
+        beside = terrain.at(*(p + offset * leftward))
         away = np.abs(p[0] - 256.0) + np.abs(p[1] - 100.0) > 20.0  # from the kerb
         assert np.abs(beside - middle)[away].max() < 1e-6
-    far = terrain.ground.at(*(p + 24.0 * remaining)) - terrain.at(*(p + 24.0 * remaining))
+    far = terrain.ground.at(*(p + 24.0 * leftward)) - terrain.at(*(p + 24.0 * leftward))
     assert np.abs(far[np.abs(p[1] - 100.0) < 40.0]).max() < 1e-3
 
 
@@ -357,7 +357,7 @@ def test_a_thin_world_is_off_by_what_it_says(folder, own_cache, tmp_path, capsys
     assert results["thin"].stat().st_size < 0.5 * results["whole"].stat().st_size
 
 
-def test_another_range_of_what_is_reported_makes_another_world(tmp_path, monkeypatch):
+def test_another_range_of_plausible_quantities_makes_another_world(tmp_path, monkeypatch):
     for place in world_cache.CODE:
         source, copy = world_cache.ROOT / place, tmp_path / place
         copy.parent.mkdir(parents=True, exist_ok=True)

@@ -91,9 +91,9 @@ def test_the_engine_finds_the_same_in_static_equilibrium():
         m.force(f"lateral {name}", carrier, (centre[0], centre[1], 0.0), inputs=(None, loads[0], None))
         m.torque(f"torque {name}", carrier, inputs=(None, None, loads[1]))
     carrier = carriers["FL"][0]
-    remaining = carrier.vector((0.0, 1.0, 0.0))
-    m.sense_coordinate("ax", remaining[0], unit="1")
-    m.sense_coordinate("az", remaining[2], unit="1")
+    leftward = carrier.vector((0.0, 1.0, 0.0))
+    m.sense_coordinate("ax", leftward[0], unit="1")
+    m.sense_coordinate("az", leftward[2], unit="1")
     system = compile(m)
 
     def at(lateral, torque):

@@ -54,7 +54,7 @@ def test_a_device_that_lies_untouched_moves_nothing(attach, start):
     assert list(run.arbiter.by_source[WHEEL]) == ["throttle"]
 
 
-def test_wishes_are_reported_again_for_who_comes_later(attach, start):
+def test_requests_are_sent_again_for_a_later_listener(attach, start):
     wheel = rested(attach())
     run = start()
     wheel.axis(2, -1.0)
@@ -118,7 +118,7 @@ def test_a_wheel_and_separate_pedals_drive_together(attach, start):
     assert run.arbiter.value(PEDALS, "brake") == 1.0
 
 
-def test_two_of_a_model_are_reported_apart(attach, start):
+def test_two_devices_of_a_model_are_distinguished(attach, start):
     first, second = rested(attach()), rested(attach())
     run = start()
     ids = {state["name"]: state["id"] for state in run.devices.state()}

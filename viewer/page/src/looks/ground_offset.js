@@ -1,4 +1,4 @@
-// Depth offset of things on the ground, so that the ground never covers them.
+// Depth offset of things on the ground: at the same place in the picture, and never covered by the ground.
 import * as THREE from "three";
 import { atEachPixel, atEachPoint } from "./vertex_code.js";
 
