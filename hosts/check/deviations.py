@@ -1,4 +1,4 @@
-"""Deviations of the outputs of a run from reference results, and the tolerance within which they agree."""
+"""Deviations of outputs of a run from reference results, and the unit, sign, time or start with which they agree."""
 
 import fnmatch
 import math
