@@ -3,12 +3,13 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from decimal import Decimal, InvalidOperation
+from decimal import Decimal
 
 from ali3.chart_description import description_of
 from benchmarks.shared.pages import DOCS, replace
 
 _TABLE = re.compile(r"(?:^\|.*\n?)+", re.MULTILINE)
+_NUMBER = re.compile(r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)")
 _DIGITS = 3  # of figures that may be one off in the last
 
 
@@ -70,12 +71,16 @@ def same(shown: str | None, made: str) -> bool:
     """Whether two cells say the same; the last of three or more digits of a fraction may be one off, as libraries of
     other machines round it.
     """
+    one, other = _NUMBER.split(shown or ""), _NUMBER.split(made)  # words, number, words, ...
+    if len(one) != len(other) or one[::2] != other[::2]:
+        return False
+    return all(map(_same_number, one[1::2], other[1::2]))
+
+
+def _same_number(shown: str, made: str) -> bool:
     if shown == made:
         return True
-    try:
-        one, other = Decimal(shown or "").as_tuple(), Decimal(made).as_tuple()
-    except InvalidOperation:
-        return False
+    one, other = Decimal(shown).as_tuple(), Decimal(made).as_tuple()
     digits = min(len(one.digits), len(other.digits))
     if digits < _DIGITS or one.exponent != other.exponent or one.sign != other.sign or "." not in made:
         return False
