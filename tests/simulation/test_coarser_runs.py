@@ -56,6 +56,19 @@ def test_the_difference_is_that_of_the_steps_that_were_made() -> None:
     assert difference_from(known, "ali3p", 0.1) == pytest.approx(0.0066 * (2.5**2 - 1.0))
 
 
+@pytest.mark.parametrize(
+    ("scene", "method", "t_end", "h"),
+    [
+        pytest.param("double_four_bar", "semi_recursive", 10.0, 0.005, id="longer steps are right"),
+        pytest.param("slider_crank", "runge_kutta_8", 5.0, 0.005, id="longer steps are wrong alike, energy grows"),
+    ],
+)
+def test_a_high_order_run_past_singular_positions_is_reported(scene: str, method: str, t_end: float, h: float) -> None:
+    """A step near one gains energy by chance: 20 and 7 % off, where steps of ten times the length differ little."""
+    with pytest.warns(mbs.AccuracyWarning, match="off by|not to be trusted"):
+        mbs.simulate(system_of(scene), t_end, h, method=method, every=20, progress=False)
+
+
 def test_an_error_that_falls_slowly_is_reported() -> None:
     """A four-bar with a pendulum, 5.9 % off: half and a quarter of the step differ from it by 2.7 and 4.1 %."""
     system, span = drawn("four-bar", 3, 29)
