@@ -28,7 +28,7 @@ def test_every_quantity_has_a_figure(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert content["meta"]["scene"] == scene
 
 
-@pytest.mark.slow
+@pytest.mark.proof  # minutes: FMUs for WebAssembly are built, and Node and a browser step them
 def test_every_host_has_its_figures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "wasm.json"
     assert fmu.main(["wasm", "--steps", "20", "--repeats", "1", "--rounds", "1", "--json", str(file)]) == 0

@@ -146,8 +146,13 @@ def test_what_an_input_changes_at_a_communication_point_is_declared(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["native", "fmi3_scalar"])
-@pytest.mark.parametrize(("car", "ports"), [*((p.name, "") for p in sorted(CARS.iterdir()) if p.is_dir()), *PORTS])
+@pytest.mark.parametrize(
+    ("car", "ports", "kind"),
+    [
+        *((p.name, "", "native") for p in sorted(CARS.iterdir()) if p.is_dir()),
+        *((*of, "fmi3_scalar") for of in PORTS),
+    ],
+)
 def test_what_an_input_of_a_car_changes_is_declared(
     host: HostMaker, tmp_path: Path, car: str, ports: str, kind: str
 ) -> None:
