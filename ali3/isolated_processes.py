@@ -75,12 +75,12 @@ class _Process:
             self.store = Path(f"/proc/self/fd/{self._memory}")
         passed = (life, self._memory) if life >= 0 else ()
         command = module_command("ali3.worker", str(self.folder), str(life), str(Path.cwd()), str(self.store))
-        reported = {**os.environ, **environment}
-        environment = reported | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
+        variables = {**os.environ, **environment}
+        environment = variables | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
         self._confined = is_confined()
         if self._confined:
             command = confined(command, reads, (*writes, self.folder))
-            environment = confined_environment(reported, self.folder)
+            environment = confined_environment(variables, self.folder)
         try:
             self.process = subprocess.Popen(
                 command,

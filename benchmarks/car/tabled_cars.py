@@ -74,11 +74,11 @@ def verdict(rows: Sequence[Row]) -> str:
         if r["tables_path"] > accuracy.PATH_BOUND or r["tables_load"] > accuracy.LOAD_BOUND
     ]
     smooth = [r for r in rows if r["manoeuvre"] in SMOOTH]
-    reported = f"Tables are outside of 1 % of the path and 3 % of the loads in: {'; '.join(outside) or 'none'}."
+    sentence = f"Tables are outside of 1 % of the path and 3 % of the loads in: {'; '.join(outside) or 'none'}."
     if smooth:
         path, loads = (max(r[f"tables_{key}"] for r in smooth) for key in ("path", "load"))
-        reported += f" In smooth manoeuvres they are within {path:.1e} and {100.0 * loads:.2g} %."
-    return reported
+        sentence += f" In smooth manoeuvres they are within {path:.1e} and {100.0 * loads:.2g} %."
+    return sentence
 
 
 def _errors(row: Row, what: str) -> str:

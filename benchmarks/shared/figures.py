@@ -101,20 +101,20 @@ def differences(again: RemadeTable, text: str) -> list[str]:
     place = f"{again.page}, table '{again.table}'"
     shown = {tuple(row.get(key) for key in again.keys): row for row in rows_of(between(text, again.table))}
     rows = rows_of(again.text)
-    reported = [] if rows else [f"{place}: there are no rows when it is made again."]
+    messages = [] if rows else [f"{place}: there are no rows when it is made again."]
     for row in rows:
         key = tuple(row[k] for k in again.keys)
         page = shown.get(key)
         name = ", ".join(key)
         if page is None:
-            reported.append(f"{place} has no row {name}.")
+            messages.append(f"{place} has no row {name}.")
             continue
-        reported += [
+        messages += [
             f"{place}, row {name}: {column} is {page.get(column)} on the page and {cell} when it is made again."
             for column, cell in row.items()
             if column not in again.left_out and not same(page.get(column), cell)
         ]
-    return reported
+    return messages
 
 
 def all_differences(made: Sequence[RemadeTable]) -> list[str]:

@@ -153,8 +153,8 @@ def _by_acceleration(drive: Drive, predicted: tuple[Array, Array]) -> dict[str, 
         return {"acceleration": None, "understeer": "–", "sideslip": "–"}
     result = curves(drive, BODY.wheelbase, *predicted)
     counts = {quantity: within(result, quantity, aim) for quantity, aim in AIMS.items()}
-    reported = {quantity.split()[0]: f"{good} of {of}" for quantity, (good, of) in counts.items()}
-    return {"acceleration": acceleration_error(drive, *predicted), **reported}
+    agreement = {quantity.split()[0]: f"{good} of {of}" for quantity, (good, of) in counts.items()}
+    return {"acceleration": acceleration_error(drive, *predicted), **agreement}
 
 
 def _curves(models: dict[str, tuple[Array, Array]], drive: Drive) -> list[dict[str, Any]]:
@@ -178,12 +178,12 @@ def _folds(one: Fitted, other: Fitted) -> list[dict[str, Any]]:
         {"number": f"{u.name}, {u.unit}", "fitted seconds": a, "others": b}
         for (u, a), (_, b) in zip(_named(one), _named(other), strict=True)
     ]
-    reported = {
+    yaw_rate_row = {
         "number": "yaw rate in windows of the other part, rad/s",
         "fitted seconds": one.windows,
         "others": other.windows,
     }
-    return [*rows, reported]
+    return [*rows, yaw_rate_row]
 
 
 def _of_car(name: str, j: Judged, numbers: int, drive: Drive) -> dict[str, Any]:

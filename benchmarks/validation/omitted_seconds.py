@@ -81,16 +81,16 @@ def without_kinds(jacobian: Array, residual: Array, rows: Kinds, found: Mapping[
     `jacobian`, `residual`: of yaw rate and then lateral velocity in `SCALES`, shapes (2 m, p) and (2 m,); `rows`: of
     the drive, in the order of either, shape (m,).
     """
-    reported: dict[str, Any] = {}
+    row: dict[str, Any] = {}
     worst = []
     for name, family in found.items():
         number = family.number[rows]
         parts = Parts(np.tile(number, 2), np.arange(len(family.names) + 1.0), 1.0)
         turning = left_out(jacobian, residual, parts)[: len(rows)] * SCALES[0]
         sizes = [float(np.sqrt(np.mean(turning[number == k] ** 2))) for k in range(len(family.names))]
-        reported |= {f"{name}, mean": float(np.mean(sizes)), f"{name}, worst": max(sizes)}
+        row |= {f"{name}, mean": float(np.mean(sizes)), f"{name}, worst": max(sizes)}
         worst.append((max(sizes), family.names[int(np.argmax(sizes))]))
-    return reported | {"worst kind": max(worst)[1]}
+    return row | {"worst kind": max(worst)[1]}
 
 
 def of_simple(model: Model, body: Body, drive: Drive, found: Mapping[str, Family]) -> dict[str, Any]:

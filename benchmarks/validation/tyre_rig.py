@@ -131,11 +131,11 @@ def compared() -> list[tuple[Published, float]]:
     for name, tyre in (("Magic Formula", own), ("TMeasy, fitted at 4 and 8 kN", tmeasy_of_magic(own)[0])):
         for load in LOADS:
             for lateral, at in [*((True, angle) for angle in ANGLES), *((False, slip) for slip in SLIPS)]:
-                reported = published(LATERAL if lateral else LONGITUDINAL, lateral, load, at)
+                force = published(LATERAL if lateral else LONGITUDINAL, lateral, load, at)
                 forces = on_the_rig(tyre, load, angle=at) if lateral else on_the_rig(tyre, load, slip=at)
                 label = f"side force at {at:g} deg" if lateral else f"force along at {at:g} % slip"
                 test = f"tyre MXV8 on the rig, {name}: {label}, {1e-3 * load:g} kN"
                 results.append(
-                    (Published(test, "N", {SOURCE: reported}, read_within(lateral, load, at)), forces[lateral])
+                    (Published(test, "N", {SOURCE: force}, read_within(lateral, load, at)), forces[lateral])
                 )
     return results

@@ -59,8 +59,8 @@ def dependencies(subject: Subject) -> Finding:
     nudged = {whole[subject.places[v.name].reference] for v in subject.inputs}
     every = {v.name for v in subject.description.modelVariables if v.causality == "input"}
     listed_of = {name: declared.get(name) for name in dict.fromkeys(names)}
-    reported = {name: every if listed is None else listed & every for name, listed in listed_of.items()}
-    loose = [name for name, known in reported.items() if known and known <= nudged and not moved.get(name)]
+    declared_inputs = {name: every if listed is None else listed & every for name, listed in listed_of.items()}
+    loose = [name for name, known in declared_inputs.items() if known and known <= nudged and not moved.get(name)]
     if loose:
         message = f"{len(loose)} outputs, such as {loose[0]}, are said to depend on inputs that did not change them"
         message += ' before the next step; masters may see loops; dependencies="" where that is so'

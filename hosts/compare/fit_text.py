@@ -60,15 +60,15 @@ def result_text(fit: Fit) -> list[str]:
 
 def _omitted_text(fit: Fit) -> list[str]:
     """What is left of seconds that were left out of the fit, in a sentence; none where the log is too short for it."""
-    reported = [
+    residuals = [
         f"{name} {shown_number(left, fit.units[name], name)} "
         f"({shown_number(fit.misfit[name], fit.units[name], name)} in the fit)"
         for name, left in fit.left_out.items()
         if math.isfinite(left)
     ]
     return (
-        [f"left of parts of the log that are left out in turn, to first order: {', '.join(reported)}"]
-        if reported
+        [f"left of parts of the log that are left out in turn, to first order: {', '.join(residuals)}"]
+        if residuals
         else []
     )
 

@@ -69,9 +69,9 @@ def log_for(
         clock = column.time or time_column(raw, aliases)
         if clock not in clocks:
             clocks[clock], origin = log_times(raw, aliases, clock, origin, notes)
-        reported = [] if used and ours in outputs and ours not in used else notes
-        read = _of_each_time(_signal(fmu, raw, ours, column, *clocks[clock], reported), ours in inputs)
-        signals[ours] = _without_spikes(fmu, read if ours in inputs else _as_measured(fmu, read, reported), reported)
+        column_notes = [] if used and ours in outputs and ours not in used else notes
+        read = _of_each_time(_signal(fmu, raw, ours, column, *clocks[clock], column_notes), ours in inputs)
+        signals[ours] = _without_spikes(fmu, read if ours in inputs else _as_measured(fmu, read, column_notes), column_notes)
     if jumps := {n: s.jumps for n, s in signals.items() if len(s.jumps)}:
         which = counted(jumps, np.concatenate([*jumps.values()]))
         notes.append(f"Jumps of inputs, between two rows of one time or by the record of a run: {which}.")

@@ -190,7 +190,7 @@ def run(
         late=[n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
         jumps=rows.jumps,
         lost=[n for k, n in enumerate(inputs) if k in rows.lost],
-        missed=[reported for reported in (manoeuvre.late_begin(acts), lost, end) if reported is not None],
+        missed=[change for change in (manoeuvre.late_begin(acts), lost, end) if change is not None],
         start=dict(manoeuvre.start),
     )
     if kept is None:

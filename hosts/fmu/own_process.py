@@ -46,9 +46,9 @@ def in_own_process(
         try:
             done = process.do(task, tell, PATIENCE)
         except UserError as error:
-            reported = HostError(str(error))
-            reported.status = error.status
-            raise reported from None
+            host_error = HostError(str(error))
+            host_error.status = error.status
+            raise host_error from None
     if isinstance(done, Lost):
         raise FailedFmuError(f"The process of the FMU {done.how}.")
     return done

@@ -31,7 +31,7 @@ def show_recording(folder: Path) -> int:
         last = float(block.time[-1])
         rows, starts = rows + len(block), int(block.epoch[-1])
     meta = drive.meta
-    reported = {
+    facts = {
         "FMU": f"{meta['fmu']} (GUID {meta['guid']})",
         "rows": f"{rows} in steps of {drive.step:g} s with {len(drive.inputs)} inputs",
         "outputs": _outputs(drive),
@@ -41,7 +41,7 @@ def show_recording(folder: Path) -> int:
         "seed": "none" if meta.get("seed") is None else str(meta["seed"]),
         "versions": ", ".join(f"{name} {text}" for name, text in meta.get("versions", {}).items()),
     }
-    print("\n".join(in_columns(list(reported.items()))))
+    print("\n".join(in_columns(list(facts.items()))))
     for event in drive.events[:_SHOWN]:
         print(f"{event['kind']} at {event['time']:g} s: {event['text']}")
     if len(drive.events) > _SHOWN:

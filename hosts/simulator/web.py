@@ -180,11 +180,11 @@ class Web:
 
             def data_received(self, data: bytes) -> None:
                 if self.request is None:  # the library takes any method for GET, or none but GET
-                    reported = self._method
-                    self._method = (reported + data)[:_LONGEST_METHOD]
+                    received = self._method
+                    self._method = (received + data)[:_LONGEST_METHOD]
                     method, space, _ = self._method.partition(b" ")
                     if space and method not in (b"GET", b"HEAD"):
-                        if b" " not in reported:
+                        if b" " not in received:
                             self.transport.write(_NOT_ALLOWED)
                             self.transport.write_eof()
                         return

@@ -42,10 +42,10 @@ def signal_schema(record: Mapping[str, Any]) -> Any:
 
 def attributes(record: Mapping[str, Any]) -> dict[str, Any]:
     """What a table says of itself: units of columns, parameters with their ranges, what was run by which program."""
-    reported = ("units", "parameters", "sampling", "seed", "guid", "model", "fmu", "versions", "runs", "points", "file")
+    keys = ("units", "parameters", "sampling", "seed", "guid", "model", "fmu", "versions", "runs", "points", "file")
     return {
         "study": record["name"],
-        **{key: record[key] for key in reported},
+        **{key: record[key] for key in keys},
         "measures": list(record["measures"]),
         "limits": record.get("limits", {}),
         "manoeuvres": [m["name"] for m in record["manoeuvres"]],

@@ -230,10 +230,10 @@ class CoupledFmus(Closable):
             newest = np.array(
                 [(e or known or begin)[w.source, w.output] for e, w in zip(ends_at, p.wires, strict=True)]
             )
-            reported = [end is not None or (w.source in stepped and self.order == "in turn") for w in p.wires]
+            has_end_value = [end is not None or (w.source in stepped and self.order == "in turn") for w in p.wires]
             try:
                 if p.wires:
-                    self._feed(p, first, newest, np.array(reported), end is not None)
+                    self._feed(p, first, newest, np.array(has_end_value), end is not None)
                 p.fmu.step(self.time, self.step_length)
             except (StepRefusedError, HostError) as error:
                 raise type(error)(f"The part '{p.name}' refused the step from {self.time:.6g} s: {error}") from None

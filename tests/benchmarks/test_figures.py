@@ -92,8 +92,8 @@ def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_reported(tmp_p
         f"{drawn_now}largest wheel load: 2355 N",
     ]
     assert differences(again, new) == []
-    (reported,) = differences(again, "")
-    assert reported.startswith("docs/images/x.png does not say what it shows; python -m benchmarks.figures --write")
+    (message,) = differences(again, "")
+    assert message.startswith("docs/images/x.png does not say what it shows; python -m benchmarks.figures --write")
 
 
 @pytest.mark.parametrize("name", chart_commands.DRAWN)
@@ -121,9 +121,9 @@ def test_the_readme_says_what_the_tables_of_the_pages_say():
 def test_each_figure_of_the_readme_is_held():
     """A digit at a time, all others as they are."""
     for again in figures.readme():
-        page, reported = (" ".join(text.split()) for text in (read(again.page), again.text))
-        assert page.count(reported) == 1
-        digits = [page.index(reported) + found.start() for found in re.finditer(r"\d", reported)]
+        page, figure = (" ".join(text.split()) for text in (read(again.page), again.text))
+        assert page.count(figure) == 1
+        digits = [page.index(figure) + found.start() for found in re.finditer(r"\d", figure)]
         assert digits
         for k in digits:
             altered = f"{page[:k]}{(int(page[k]) + 1) % 10}{page[k + 1 :]}"

@@ -76,16 +76,16 @@ def test_a_kind_is_judged_by_what_the_others_lead_to() -> None:
     x = np.column_stack([random.normal(size=2 * count), np.ones(2 * count)])
     measured = random.normal(size=2 * count) + np.tile(number, 2)
     p = np.array([0.3, -0.2])
-    reported = omitted_seconds.without_kinds(x, x @ p - measured, np.arange(count), {"corners": family})
+    row = omitted_seconds.without_kinds(x, x @ p - measured, np.arange(count), {"corners": family})
     sizes = []
     for k in range(3):
         others = np.tile(number, 2) != k
         q = np.linalg.lstsq(x[others], measured[others], None)[0]
         own = np.flatnonzero(number == k)
         sizes.append(SCALES[0] * np.sqrt(np.mean((x[own] @ q - measured[own]) ** 2)))
-    assert reported["corners, mean"] == pytest.approx(np.mean(sizes))
-    assert reported["corners, worst"] == pytest.approx(max(sizes))
-    assert reported["worst kind"] == "abc"[int(np.argmax(sizes))]
+    assert row["corners, mean"] == pytest.approx(np.mean(sizes))
+    assert row["corners, worst"] == pytest.approx(max(sizes))
+    assert row["worst kind"] == "abc"[int(np.argmax(sizes))]
 
 
 def test_the_bounds_of_a_fit_are_read_and_a_number_near_one_is_reported(tmp_path: Path) -> None:

@@ -113,7 +113,7 @@ def test_sizes_are_held_to_bounds_before_anything_is_unpacked(tmp_path: Path, mo
 
 def test_a_damaged_archive_is_one_sentence(tmp_path: Path) -> None:
     whole = archive(tmp_path / "a.zip", ("zeros", "\0" * 1000)).read_bytes()
-    reported = set()
+    messages = set()
     for k in range(0, len(whole), 7):
         (tmp_path / "b.zip").write_bytes(whole[:k] + bytes([whole[k] ^ 0xFF]) + whole[k + 1 :])
         try:
@@ -121,9 +121,9 @@ def test_a_damaged_archive_is_one_sentence(tmp_path: Path) -> None:
                 for name in opened.names:
                     opened.read(name)
         except FileError as error:
-            reported.add(str(error))
-    assert len(reported) > 5
-    assert not [message for message in reported if "\n" in message]
+            messages.add(str(error))
+    assert len(messages) > 5
+    assert not [message for message in messages if "\n" in message]
 
 
 V = '<ScalarVariable name="v{0}" valueReference="{0}" causality="local"><Real/></ScalarVariable>'

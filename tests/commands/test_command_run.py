@@ -110,11 +110,11 @@ def test_ctrl_c_during_a_drive_is_one_line_and_leaves_nothing(swing_fmu: Path, t
         # a shell that started these tests in the background lets all their children ignore it
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
-    reported = ""
-    while "%" not in reported:  # the bar: the drive has begun
+    output = ""
+    while "%" not in output:  # the bar: the drive has begun
         letter = process.stderr.read(1)
-        assert letter, reported
-        reported += letter
+        assert letter, output
+        output += letter
     process.send_signal(signal.SIGINT)
     rest = process.communicate(timeout=60)[1]
     assert process.returncode == 130

@@ -102,8 +102,8 @@ def test_a_module_that_a_library_wants_at_run_time(monkeypatch: pytest.MonkeyPat
     pytest.importorskip("trimesh.viewer")
     monkeypatch.setitem(sys.modules, "pyglet", None)
     error = caught(lambda: importlib.import_module("trimesh.viewer.windowed"))
-    reported = missing_module(error, "pictures")
-    assert reported == (
+    message = missing_module(error, "pictures")
+    assert message == (
         'The package trimesh needs pyglet, which is not installed; run: python -m pip install "ali3[pictures]" pyglet'
     )
 

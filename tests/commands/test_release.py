@@ -57,7 +57,7 @@ def test_inconsistent_versions_are_reported(
     text = (tree / file).read_text()
     assert old in text
     (tree / file).write_text(text.replace(old, new))
-    assert any(sentence in reported for reported in check_release.problems(tree, "v9.8.7"))
+    assert any(sentence in problem for problem in check_release.problems(tree, "v9.8.7"))
 
 
 def test_the_command_ends_with_one_for_what_is_not_ready(
@@ -83,8 +83,8 @@ def test_all_of_the_release_is_checked_by_what_the_files_hold_today(tmp_path: Pa
     text = changes.read_text(encoding="utf-8")
     if f"[{version}]" not in text:
         changes.write_text(text.replace("## [Unreleased]", f"## [{version}] - 2000-01-02", 1), encoding="utf-8")
-        reported = check_release.problems(tmp_path, f"v{version}")
-        assert [s.rpartition(", ")[2].partition(" says")[0] for s in reported] == [
+        problems = check_release.problems(tmp_path, f"v{version}")
+        assert [s.rpartition(", ")[2].partition(" says")[0] for s in problems] == [
             "CITATION.cff",
             "fmu_src/description/description.py",
         ]

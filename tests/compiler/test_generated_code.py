@@ -79,16 +79,16 @@ def instances(system: System) -> tuple[Instance, Instance]:
 def same_steps(one: Instance, other: Instance, h: float, steps: int) -> int:
     """Steps until both end alike; states have the same bytes after each."""
     for k in range(steps):
-        reported = []
+        messages = []
         for instance in (one, other):
             try:
                 instance.step(h)
-                reported.append("")
+                messages.append("")
             except KernelError as error:
-                reported.append(str(error))
-        assert reported[0] == reported[1]
+                messages.append(str(error))
+        assert messages[0] == messages[1]
         assert one.save() == other.save(), f"step {k}"
-        if reported[0]:
+        if messages[0]:
             return k
     return steps
 

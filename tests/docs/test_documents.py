@@ -57,7 +57,7 @@ def defines(file, name):
 def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_path):
     page = (ROOT / "docs" / "stepping.md").read_text(encoding="utf-8")
     thing, _, whole, fmu, _, model = snippets(page)
-    reported = re.search(r"^    (after .*)$", page, re.MULTILINE)[1]
+    line = re.search(r"^    (after .*)$", page, re.MULTILINE)[1]
     (tmp_path / "dist").mkdir()
     shutil.copy(prototype_fmu, tmp_path / "dist")
     x, y = map(float, re.search(r"x = ([\d.-]+) m, y = ([\d.-]+) m", run(whole, tmp_path)).groups())
@@ -71,7 +71,7 @@ def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_p
     )
     printed = run(f"for code in {ways!r}:\n    exec(code, {{}})", tmp_path).splitlines()
     by_fmu, by_model, by_name = printed[:2], printed[2:4], printed[4:]
-    assert by_fmu[0] == reported
+    assert by_fmu[0] == line
     assert by_fmu[0] == by_model[0]
     # on a busy machine the model has differed by 3e-14 in a few runs of all tests, never alone; why is not known
     assert ast.literal_eval(by_model[1]) == pytest.approx(ast.literal_eval(by_fmu[1]), rel=1e-11)
@@ -92,8 +92,8 @@ def test_stepping_page_gives_derivatives_and_says_where_fmpy_fails(prototype_fmu
         "import fmpy, numpy\ntable = numpy.zeros(3, [('time', float), ('steering', float)])\ntable['time'] = 0, 1, 2\n"
     )
     call = "fmpy.simulate_fmu('dist/PrototypeCar.fmu', stop_time=1.0, input=table, set_input_derivatives=True)"
-    reported = run(f"{table}try:\n    {call}\nexcept ValueError as error:\n    print(error)", tmp_path)
-    assert reported.strip().endswith("Can only assign sequence of same size")
+    output = run(f"{table}try:\n    {call}\nexcept ValueError as error:\n    print(error)", tmp_path)
+    assert output.strip().endswith("Can only assign sequence of same size")
 
 
 @pytest.mark.slow
@@ -105,8 +105,8 @@ def test_stepping_page_makes_several_environments(tmp_path):
 def test_readme_models_a_pendulum(tmp_path):
     code = next(s for s in snippets(README) if "import mbs" in s)
     printed = run(code, tmp_path).strip()
-    reported = re.search(r"It prints `(.*?)`", README)[1]
-    assert printed.split("energy")[0] == reported.split("energy")[0]
+    output = re.search(r"It prints `(.*?)`", README)[1]
+    assert printed.split("energy")[0] == output.split("energy")[0]
     assert float(re.search(r"kept to (\S+) J", printed)[1]) < 1e-3
 
 

@@ -39,9 +39,9 @@ def test_an_example_keeps_its_promise(
     example = module_of(FOLDER / f"{name}.py")
     monkeypatch.chdir(tmp_path)
     result = example.main()
-    low, high, reported = PROMISED[name]
+    low, high, line = PROMISED[name]
     assert low <= result <= high
-    assert reported in capsys.readouterr().out
+    assert line in capsys.readouterr().out
     drawn = image.imread(tmp_path / f"{name}.png")
     assert drawn.shape == image.imread(ROOT / "docs" / "images" / "examples" / f"{name}.png").shape
     assert drawn.std() > 0.02

@@ -96,9 +96,9 @@ def test_where_a_wheel_leaves_its_table(build: Callable[..., Path], host: HostMa
     place = driven.get(shown)
     assert stepped(driven, answer.last, length) == (DISCARD, False, answer.last)
     assert driven.get(shown) == place
-    code, rows, reported = host3(fmu, driven, 3, length, shown, start, True)
+    code, rows, output = host3(fmu, driven, 3, length, shown, start, True)
     assert (code, rows) == (6, [[answer.last, place]])
-    assert f"the step to {length:g} s returned early at {answer.last:g} s" in reported
+    assert f"the step to {length:g} s returned early at {answer.last:g} s" in output
     code, rows, _ = host3(fmu, driven, 3, length, shown, start, False)
     assert (code, rows) == (4, [])
 

@@ -114,7 +114,7 @@ def same(
     files: tuple[Path, Path], start: Given, given: Callable[[float, Mapping[str, float]], Given], steps: int
 ) -> tuple[list[str], NDArray[np.float64]]:
     """Outputs and rows of both, which must be equal to the last bit."""
-    (names, rows, slopes, reported), three = (drive(file, start, given, steps) for file in files)
+    (names, rows, slopes, messages), three = (drive(file, start, given, steps) for file in files)
     order = [three[0].index(n) for n in names]
     assert len(order) == len(three[0])
     assert rows.tobytes() == three[1][:, order].tobytes()
@@ -123,7 +123,7 @@ def same(
         finite = slopes[np.isfinite(slopes).all(axis=1)]
         assert 2 * len(finite) >= len(slopes)
         assert np.count_nonzero(finite[0]) > 0.5 * len(names)
-    assert reported == three[3]
+    assert messages == three[3]
     return names, rows
 
 

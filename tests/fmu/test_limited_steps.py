@@ -107,11 +107,11 @@ def test_a_saved_state_goes_on_with_the_limit_its_count_and_what_was_said(slider
     other = host(slider)
     assert other.restore(bytes(driven.slave.serializeFMUstate(driven.slave.getFMUstate()))) == OK
     assert everything(other) == everything(driven)
-    reported = len(driven.messages)
+    count = len(driven.messages)
     for i in range(k, k + STEPS):
         assert status_of(other, i) == status_of(driven, i)
     assert everything(other) == everything(driven)
-    assert other.messages == driven.messages[reported:]
+    assert other.messages == driven.messages[count:]
     assert driven.get("solver.capped_steps") > 10
 
 

@@ -86,8 +86,8 @@ def test_random_calls_are_answered_alike(pair: list[Any]) -> None:
     assert references == pair[1].references
     statuses = []
     for k in range(CALLS):
-        status, reported, _ = both(pair, "getRealStatus", LAST_SUCCESSFUL_TIME)
-        function, arguments = random_call(rng, references, float(reported) if status == OK else 0.0)
+        status, time, _ = both(pair, "getRealStatus", LAST_SUCCESSFUL_TIME)
+        function, arguments = random_call(rng, references, float(time) if status == OK else 0.0)
         statuses.append(both(pair, function, *arguments)[0])
         if k == 20:  # a run, whatever came before
             for function in ("reset", "setupExperiment", "enterInitializationMode", "exitInitializationMode"):

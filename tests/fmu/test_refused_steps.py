@@ -71,8 +71,8 @@ def test_what_has_left_its_table_is_named_with_its_range(
     assert -0.29 < travel < -0.25
     message = driven.messages[-1]
     assert "a coordinate has left the range of its table. 'wheel travel RL' is -0.2" in message
-    reported = float(message.partition("'wheel travel RL' is ")[2].partition(";")[0])
-    assert reported == pytest.approx(travel, abs=2e-3)
+    value = float(message.partition("'wheel travel RL' is ")[2].partition(";")[0])
+    assert value == pytest.approx(travel, abs=2e-3)
     assert "its table goes from -0.2 to 0.2" in message
 
 

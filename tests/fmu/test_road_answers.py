@@ -58,10 +58,10 @@ def test_derivatives_that_lead_a_normal_astray_name_the_port(host, sledge) -> No
     """Asked again it wishes the end; without the derivative the step passes."""
     h = host(sledge).start(LEVEL)
     before = h.get("x")
-    for reported in ("was refused, the state", "was refused again, the state"):
+    for message in ("was refused, the state", "was refused again, the state"):
         assert slope(h, "road_normal_z", 1, -50.0) == OK
         assert h.step(0.0, 0.01) == DISCARD
-        assert reported in h.messages[-1]
+        assert message in h.messages[-1]
         assert "'road_normal_x' and its neighbours became (0, 0, 0." in h.messages[-1]
         assert "Give it at shorter intervals, or with derivatives that turn it less" in h.messages[-1]
         assert "Worst" not in h.messages[-1]
@@ -90,12 +90,12 @@ def test_an_answer_far_from_what_it_is_for_is_reported_once(host, sledge) -> Non
 def test_an_answer_far_away_is_reported_where_no_output_is_read(host, sledge, step) -> None:
     """It is passed at 0.5 s."""
     h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
-    reported = []
+    counts = []
     for k in range(round(0.75 / step)):
         assert h.step(step * k, step) == OK
-        reported.append(sum("last answer on the road" in text for text in h.messages))
-    assert reported[round(0.5 / step) - 2] == 0
-    assert reported[round(0.75 / step) - 1] == 1
+        counts.append(sum("last answer on the road" in text for text in h.messages))
+    assert counts[round(0.5 / step) - 2] == 0
+    assert counts[round(0.75 / step) - 1] == 1
 
 
 @pytest.mark.parametrize(("jump", "where"), [(150.0, "above"), (0.03, "above"), (-0.03, "below")])
@@ -144,9 +144,9 @@ def told_on_a_circle(host, sledge, lead: float, radius: float) -> list[str]:
 
 @pytest.mark.parametrize(("radius", "last"), [(400.0, 0.11), (550.0, 0.0)])
 def test_a_road_that_bends_too_much_between_answers_is_reported_once(host, sledge, radius, last) -> None:
-    reported = told_on_a_circle(host, sledge, 0.0, radius)
-    assert len(reported) == (last > 0.1)
-    for text in reported:
+    warnings = told_on_a_circle(host, sledge, 0.0, radius)
+    assert len(warnings) == (last > 0.1)
+    for text in warnings:
         assert "holds for 0.0 steps ahead of its wheel" in text
         assert "ports.road_lead is 0 now" in text
         actual = [float(number) for number in re.findall(r"off by (\S+) mm", text)]
@@ -229,8 +229,8 @@ def test_what_is_not_finite_is_reported_of_ports_without_a_range(host, sledge, b
     for _ in range(2):
         h.set("road_height", bad)
     assert h.get("road_height") == 2.0
-    reported = f"The port 'road_height' was set to {bad:g} and holds its last value 2 m. This is reported once."
-    assert h.messages == [reported]
+    warning = f"The port 'road_height' was set to {bad:g} and holds its last value 2 m. This is reported once."
+    assert h.messages == [warning]
 
 
 def test_a_state_with_everything_said_is_set_again(host, sledge, kind) -> None:

@@ -152,13 +152,13 @@ def test_without_memory(build: Callable[..., Path], host: HostMaker, kind: str) 
         with pytest.raises(Exception, match="nstantiate"):
             driven.instance()
         texts.append(driven.messages[-1])
-    reported = [
+    messages = [
         text
         for text in texts
         if load_library().ali3_status_text(Status.NO_MEMORY).decode() in text and "was refused" in text
     ]
-    assert reported
-    for text in reported:
+    assert messages
+    for text in messages:
         said(Status.NO_MEMORY, text)
 
 

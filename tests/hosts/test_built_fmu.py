@@ -40,17 +40,17 @@ def car(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_car_is_built_once_for_each_content(car: Path, tmp_path: Path) -> None:
-    reported: list[str] = []
-    first = built_fmu.fmu_of_car(str(car), reported.append)
+    messages: list[str] = []
+    first = built_fmu.fmu_of_car(str(car), messages.append)
     assert first.read_text() == (car / "car.toml").read_text()
-    assert built_fmu.fmu_of_car(str(car), reported.append) == first
-    assert len(reported) == 1
+    assert built_fmu.fmu_of_car(str(car), messages.append) == first
+    assert len(messages) == 1
     shutil.copytree(car, tmp_path / "elsewhere")
-    assert built_fmu.fmu_of_car(str(tmp_path / "elsewhere"), reported.append) == first
+    assert built_fmu.fmu_of_car(str(tmp_path / "elsewhere"), messages.append) == first
     for file in (car / "car.toml", car / "tubes.csv", tmp_path / "frame.op4"):
         file.write_text(file.read_text() + "\n")
-        assert built_fmu.fmu_of_car(str(car), reported.append) != first
-    assert len(reported) == 4
+        assert built_fmu.fmu_of_car(str(car), messages.append) != first
+    assert len(messages) == 4
     assert [f.name for f in first.parent.parent.iterdir() if f.name.startswith(PREFIX)] == []
 
 
@@ -117,15 +117,15 @@ def test_a_build_that_is_stopped_ends_its_process_and_says_so(car: Path, monkeyp
             return
         raise Stopped(signal.SIGTERM)
 
-    before, reported = signal.signal(signal.SIGALRM, stop), list[str]()
+    before, messages = signal.signal(signal.SIGALRM, stop), list[str]()
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.05)
         with pytest.raises(Stopped):
-            built_fmu.fmu_of_car(str(car), reported.append)
+            built_fmu.fmu_of_car(str(car), messages.append)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
-    assert "was stopped and nothing was run" in reported[-1]
+    assert "was stopped and nothing was run" in messages[-1]
     with pytest.raises(ProcessLookupError):
         os.kill(int(pid.read_text()), 0)
     assert not list((car.parent / "cache").rglob("*.fmu"))

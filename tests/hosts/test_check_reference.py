@@ -124,8 +124,8 @@ def test_of_one_table_nothing_is_kept(fmu: Path, result: Path, given: tuple[str,
 
 
 def test_tables_are_reported_in_their_order_whichever_is_done_first() -> None:
-    reported = in_order(iter([(2, "c"), (0, "a"), (1, "b"), (3, "d")]))
-    assert [next(reported), *reported] == ["a", "b", "c", "d"]
+    tables = in_order(iter([(2, "c"), (0, "a"), (1, "b"), (3, "d")]))
+    assert [next(tables), *tables] == ["a", "b", "c", "d"]
 
 
 @pytest.mark.parametrize("at", [0.4, 0.404])

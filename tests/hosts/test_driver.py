@@ -103,12 +103,12 @@ def test_settings_of_the_manoeuvre_override_those_of_the_car() -> None:
 
 @pytest.mark.parametrize("missing", list(CAR))
 def test_constants_that_the_fmu_does_not_report_are_requested(missing: str) -> None:
-    reported = {name: value for name, value in CAR.items() if name != missing}
+    constants = {name: value for name, value in CAR.items() if name != missing}
     with pytest.raises(HostError, match=rf"this FMU does not provide .*'{missing}'.*\[driver\]") as refusal:
-        make_driver(SETTINGS, reported)
+        make_driver(SETTINGS, constants)
     (setting,) = (name for name, constant in CONSTANTS.items() if constant == missing)
     assert f"--driver {setting}=NUMBER" in str(refusal.value)
-    assert make_driver(SETTINGS | {setting: "1.25"}, reported)
+    assert make_driver(SETTINGS | {setting: "1.25"}, constants)
 
 
 @pytest.mark.parametrize(

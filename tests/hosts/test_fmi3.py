@@ -44,12 +44,12 @@ def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(
     kind: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
 ) -> None:
     """A message of FMI 2.0 is a format of printf, one of FMI 3.0 is the text."""
-    reported: list[str] = []
+    messages: list[str] = []
     description = read_model_description(fmus["crane", kind])
     folder = Path(fmpy.extract(fmus["crane", kind], tmp_path))
     with pytest.raises(Exception, match="instantiate"):
-        Instance(description, folder, "crane", lambda *message: reported.append(message[2]), token="{100% of #r1#}")
-    assert "{100% of #r1#}" in reported[-1]
+        Instance(description, folder, "crane", lambda *message: messages.append(message[2]), token="{100% of #r1#}")
+    assert "{100% of #r1#}" in messages[-1]
 
 
 @pytest.mark.parametrize("kind", kinds.IN_C)

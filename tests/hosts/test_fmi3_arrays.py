@@ -213,16 +213,16 @@ def test_checks_drive_elements_of_inputs(fmu: Path, tmp_path: Path) -> None:
     hidden = '<Output valueReference="7" dependencies=""/>'
     silent = described_as(fmu, tmp_path, {'<Output valueReference="7"/>': hidden})
     (tmp_path / "told").mkdir()
-    reported = described_as(fmu, tmp_path / "told", {'<Output valueReference="7"/>': hidden.replace('""', '"1"')})
+    complete = described_as(fmu, tmp_path / "told", {'<Output valueReference="7"/>': hidden.replace('""', '"1"')})
     lines = {}
-    for path in (fmu, silent, reported):
+    for path in (fmu, silent, complete):
         done = run(check, path, "--steps", 5, "--set", "A[2,1]=-9", "--set", "u[2]=4")
         assert "set  A[2,1]                  -4 -> -9 (--set)" in done.stdout
         lines[path] = {line[6:28].strip(): line[:4].strip() + " " + line[30:] for line in done.stdout.splitlines()}
     assert lines[fmu]["runs"] == "ok 5 steps of 0.01 s, 2 outputs move"
     assert "NaN for an input" in lines[fmu]["refusals"]
     assert lines[fmu]["refused steps"].startswith("note a refused step at 0 s can be asked for without end")
-    for path in (fmu, reported):
+    for path in (fmu, complete):
         assert lines[path]["dependencies"].startswith("note 1 outputs, such as y, are said to depend on inputs")
     assert lines[silent]["dependencies"] == "ok outputs change at a communication point as they are said to"
     assert lines[silent]["derivatives"].startswith("note they are those over the last step")

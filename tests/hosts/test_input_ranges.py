@@ -34,11 +34,11 @@ def variable(unit: str, low: float, high: float) -> Variable:
 def test_another_unit_is_reported_with_its_row(
     unit: str, low: float, high: float, values: np.ndarray, message: str
 ) -> None:
-    reported = beyond_range(variable(unit, low, high), values)
+    sentence = beyond_range(variable(unit, low, high), values)
     worst = int(np.argmax(np.maximum(low - values, values - high)))
-    assert message in reported
-    assert f"in row {worst + 1} " in reported
-    assert f"{values[worst]:.6g}" in reported
+    assert message in sentence
+    assert f"in row {worst + 1} " in sentence
+    assert f"{values[worst]:.6g}" in sentence
 
 
 def test_rounding_is_none() -> None:

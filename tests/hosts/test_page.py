@@ -103,10 +103,10 @@ def test_an_fmu_without_the_binary_gets_it_from_its_own_sources_or_says_how(
     folder.mkdir()
     bare = changed(tuned, folder, lambda name, content: None if name.endswith(".wasm") else content)
     monkeypatch.setattr(commands, "module_command", lambda *a: ["false"])
-    reported = refusal(bare, capsys)
-    assert f"--out '{folder}'" in reported
-    assert "has no binary in WebAssembly, and none could be added" in reported
-    assert "--scene tuned --kind native --platforms this,wasm32" in reported
+    message = refusal(bare, capsys)
+    assert f"--out '{folder}'" in message
+    assert "has no binary in WebAssembly, and none could be added" in message
+    assert "--scene tuned --kind native --platforms this,wasm32" in message
 
 
 @pytest.mark.parametrize(
@@ -256,9 +256,9 @@ def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.Capture
 
 
 def test_an_fmu_of_fmi_3(scene_fmu: Callable[..., Path], capsys: pytest.CaptureFixture[str]) -> None:
-    reported = refusal(scene_fmu(f"{SCENES}:tuned", "fmi3"), capsys)
-    assert "is an FMU of FMI 3.0; a page runs the kind native (FMI 2.0)" in reported
-    assert "--scene tuned --kind native --platforms this,wasm32" in reported
+    message = refusal(scene_fmu(f"{SCENES}:tuned", "fmi3"), capsys)
+    assert "is an FMU of FMI 3.0; a page runs the kind native (FMI 2.0)" in message
+    assert "--scene tuned --kind native --platforms this,wasm32" in message
 
 
 def test_wrong_wishes(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

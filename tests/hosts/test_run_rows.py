@@ -179,11 +179,11 @@ def test_every_change_of_an_input_that_the_table_holds_is_a_jump(held: frozenset
 def test_a_run_that_ends_at_another_time_says_so(stop: float, end: float | None) -> None:
     requested = Manoeuvre("m", np.array([0.0]), {"u": np.array([1.0])}, stop)
     result = run(Integrator(True), requested, 0.4)  # type: ignore[arg-type]
-    reported = dict(summary(result, 0.4)).get("end of the run")
-    assert (reported is None) == (end is None)
-    if reported is not None:
-        assert reported.startswith(f"at {end} s, a whole number of steps of 0.4 s, in place of {stop:g} s; --step ")
-        shorter = float(reported.split("--step ")[1].split(" ")[0])
+    row = dict(summary(result, 0.4)).get("end of the run")
+    assert (row is None) == (end is None)
+    if row is not None:
+        assert row.startswith(f"at {end} s, a whole number of steps of 0.4 s, in place of {stop:g} s; --step ")
+        shorter = float(row.split("--step ")[1].split(" ")[0])
         assert run(Integrator(True), requested, shorter).time[-1] == pytest.approx(stop, abs=1e-8)  # type: ignore[arg-type]
 
 

@@ -180,9 +180,9 @@ def test_step_steer_keeps_its_speed_and_its_table_repeats_it(
         assert main([str(prototype_fmu), *more, "--step", "0.01", "--out", str(out)]) == 0
         return read_csv(next(out.glob("*.csv"))), capsys.readouterr().out
 
-    run, reported = drive("-m", "step_steer", "--set", f"initial.speed={speed}", "--set", "throttle=0.9")
-    assert f"which holds {speed:.4g} m/s straight on" in reported
-    assert "0.9 of --set has no effect" in reported
+    run, output = drive("-m", "step_steer", "--set", f"initial.speed={speed}", "--set", "throttle=0.9")
+    assert f"which holds {speed:.4g} m/s straight on" in output
+    assert "0.9 of --set has no effect" in output
     before = run["time"] <= 1.0
     assert run["speed"][before] == pytest.approx(speed, rel=0.002)
     assert np.abs(run["speed"] / speed - 1.0).max() < 0.03

@@ -170,8 +170,8 @@ PLANTED: dict[str, tuple[Told, str]] = {
 @pytest.mark.slow
 def test_each_is_reported_with_its_cause(tmp_path: Path) -> None:
     wrong = {}
-    for kind, (reported, message) in PLANTED.items():
-        lines = reported(tmp_path)
+    for kind, (check, message) in PLANTED.items():
+        lines = check(tmp_path)
         if not any(message in line for line in lines):
             wrong[kind] = lines
     assert wrong == {}

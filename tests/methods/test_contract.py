@@ -55,12 +55,12 @@ def test_a_controlled_run_ends_with_multipliers_of_its_state(method: str) -> Non
     fields = ControlFields(tolerance=1e-6, length=1.0, span=0.2, rate=3.0, longest=0.05)
     times, sensors, positions = np.array([0.2]), np.zeros((1, sizes.ns)), np.zeros((1, sizes.nq))
     instance.control_run(fields, np.ones(sizes.nq), 0.2, 10**6, times, sensors, positions, 0)
-    reported = state_of(instance)
+    state = state_of(instance)
     instance.refresh()
     again = state_of(instance)
     assert np.abs(again[3]).max() > 1.0
-    np.testing.assert_allclose(reported[3], again[3], rtol=2e-2, atol=1e-2)
-    assert reported[0].tobytes() == positions[0].tobytes()
+    np.testing.assert_allclose(state[3], again[3], rtol=2e-2, atol=1e-2)
+    assert state[0].tobytes() == positions[0].tobytes()
 
 
 @pytest.mark.parametrize("method", [m for m in METHODS if not METHOD_TABLE[m].tree_only])  # they have another metric

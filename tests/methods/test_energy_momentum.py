@@ -91,8 +91,8 @@ def test_a_free_system_of_springs_keeps_both_momenta_and_its_energy(h):
         momenta["turn"] += m * (x * vy - y * vx)
     for values in momenta.values():
         np.testing.assert_allclose(values, values[0], atol=ROUND_OFF)
-    reported = sum(m * run[f"{n}.vx"] for n, m in TRIANGLE_MASSES.items())
-    assert np.abs(reported - reported[0]).max() < 1e4 * h**4  # it is scaled to the energy
+    momentum = sum(m * run[f"{n}.vx"] for n, m in TRIANGLE_MASSES.items())
+    assert np.abs(momentum - momentum[0]).max() < 1e4 * h**4  # it is scaled to the energy
 
 
 @pytest.mark.parametrize("h", [0.02, 0.004])

@@ -101,9 +101,9 @@ def test_the_balance_of_a_damped_swing_closes_by_the_order_of_the_method(method)
     if method == "energy_momentum":
         assert coarse < 1e-8 * lost
     elif method == "ali3p":
-        reported = [r.report.energy_error for r in runs]
+        errors = [r.report.energy_error for r in runs]
         assert coarse / fine == pytest.approx(4.0, rel=0.2)
-        remaining = [abs(opened(r) - error) for r, error in zip(runs, reported, strict=True)]
+        remaining = [abs(opened(r) - error) for r, error in zip(runs, errors, strict=True)]
         assert remaining[0] / remaining[1] > 6.0  # what the error of the energy does not name is of third order
         assert remaining[1] < 0.04 * fine
     else:

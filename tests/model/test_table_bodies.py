@@ -254,8 +254,8 @@ def test_a_step_from_far_beyond_a_table_is_refused() -> None:
         simulation.step(0.001)
     assert error.value.status == Status.BEYOND_TABLE
     assert 0.25 < simulation.state.q[3] < 0.252
-    reported = "a coordinate has left the range of its table. 's' is 0.25"
-    assert reported in str(error.value)
+    message = "a coordinate has left the range of its table. 's' is 0.25"
+    assert message in str(error.value)
     assert "its table goes from -0.2 to 0.2" in str(error.value)
 
 

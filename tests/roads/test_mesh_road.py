@@ -205,16 +205,16 @@ def test_a_description_says_unit_and_axis(tmp_path: Path, scale: float, up: str,
     if up == "y":
         points[:, 2] *= -1.0
     saved(tmp_path / "a.ply", points, triangles)
-    reported = (
+    description = (
         f'kind = "grid"\nheights = "a.ply"\nscale = {scale}\nup = "{up}"\nspacing = [0.5, 0.5]\norigin = [10, 20]\n'
     )
-    (tmp_path / "a.toml").write_text(reported)
+    (tmp_path / "a.toml").write_text(description)
     road = read_road(tmp_path / "a.toml")
     x, y = np.meshgrid(0.5 * np.arange(81), -4.0 + 0.5 * np.arange(17), indexing="ij")
     assert np.allclose(road.heights, hills(x, y), atol=2e-6)
     assert tuple(road.origin) == (10.0, 20.0)
     (tmp_path / "z.csv").write_text("0,0\n0,0\n")
-    (tmp_path / "a.toml").write_text(reported.replace("a.ply", "z.csv"))
+    (tmp_path / "a.toml").write_text(description.replace("a.ply", "z.csv"))
     with pytest.raises(RoadFileError, match=r"z\.csv is not a mesh, which scale is of"):
         read_road(tmp_path / "a.toml")
 

@@ -54,10 +54,10 @@ def test_heights_are_those_of_a_second_reader(name: str, tmp_path: Path) -> None
     pycrg = pytest.importorskip("pycrg")
     logging.getLogger("pycrg").setLevel(logging.CRITICAL)
     content = (DATA / f"{name}.crg").read_bytes()
-    reported = content.replace(INCREMENTS, INCREMENTS + b"LONG_SECTION_V_RIGHT = -1.5\n")
+    completed = content.replace(INCREMENTS, INCREMENTS + b"LONG_SECTION_V_RIGHT = -1.5\n")
     road = read_road(DATA / f"{name}.crg", spacing=(0.1, 0.1))
     rng = np.random.default_rng(1)
-    with pycrg.RoadSurface.open(written(tmp_path, reported)) as second:
+    with pycrg.RoadSurface.open(written(tmp_path, completed)) as second:
         u, v = rng.uniform(0.0, second.u_range()[1], 4000), rng.uniform(-1.5, 1.5, 4000)
         x, y = second.uv_to_xy_many(u, v)
         off = np.abs(grid_heights(road, road.heights, np.stack([x, y], -1)) - second.uv_to_z_many(u, v))

@@ -365,8 +365,8 @@ def test_wheel_loads_of_a_car_that_is_too_fast_for_its_step_are_reported():
 
     edge = {"road.kerb_x": 4.0, "road.kerb_height": 0.12}
     with pytest.warns(AccuracyWarning, match=r"off by about [56]\.?\d? % .*wheel_"):
-        reported = run(0.02, 1.3)
-    assert reported.accuracy.error == pytest.approx(0.055, rel=0.15)
+        result = run(0.02, 1.3)
+    assert result.accuracy.error == pytest.approx(0.055, rel=0.15)
     assert run(0.002, 1.3).accuracy.message == ""
     level = simulate(system, 1.3, 0.01, pose=Pose(speed=20.0), parameters={"road.kerb_x": 200.0})
     assert level.accuracy.check_cost == 0.0

@@ -131,8 +131,8 @@ def test_what_repeats_may_cost_is_kept_and_what_is_not_judged_is_reported() -> N
     def judged(most: float | None) -> mbs.Trajectory:
         return mbs.simulate(system, span, span / 250, every=5, progress=False, estimate_error=most)
 
-    for most, spent, reported in ((1.0, 0.4, "there is no estimate"), (10.0, 6.4, "is 3.9 % of the largest range")):
-        with pytest.warns(mbs.AccuracyWarning, match=f"not checked: .* budget of {most:g} runs .*{reported}") as caught:
+    for most, spent, words in ((1.0, 0.4, "there is no estimate"), (10.0, 6.4, "is 3.9 % of the largest range")):
+        with pytest.warns(mbs.AccuracyWarning, match=f"not checked: .* budget of {most:g} runs .*{words}") as caught:
             run = judged(most)
         assert run.accuracy is not None
         assert run.accuracy.check_cost == pytest.approx(spent)

@@ -140,8 +140,8 @@ def test_a_value_with_which_no_car_works_is_reported_with_the_number_of_its_vari
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         simulate_many(system(), variants, 0.02, 0.002, lanes=2, progress=False)
-    reported = [str(w.message) for w in caught if w.category is ParameterWarning]
-    assert [line.partition(", outside")[0] for line in reported] == [
+    messages = [str(w.message) for w in caught if w.category is ParameterWarning]
+    assert [line.partition(", outside")[0] for line in messages] == [
         f"Variant {k}: Parameter 'front.tyre.stiffness' is set to 1.{k + 1}e+06 N/m" for k in (1, 2)
     ]
 

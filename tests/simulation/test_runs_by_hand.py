@@ -62,16 +62,16 @@ def test_a_few_steps_are_not_repeated() -> None:
 
 def test_a_tolerance_holds_across_switches() -> None:
     simulation, fine = Simulation(swing()), Simulation(swing())
-    reported = []
+    errors = []
     for end, on in ((0.8, True), (1.0, False), (2.0, False)):
         run = simulation.run(end, tolerance=1e-4, **QUIET)
         fine.run(end, 1e-4, estimate_error=False, every=100, **QUIET)
         assert run.t[-1] == simulation.time == end
         assert [run[c][-1] for c in "xy"] == [simulation.sensors[c] for c in "xy"]
-        reported.append(max(abs(simulation.sensors[c] - fine.sensors[c]) for c in "xy") / run.control.length)
+        errors.append(max(abs(simulation.sensors[c] - fine.sensors[c]) for c in "xy") / run.control.length)
         for one in (simulation, fine):
             one.set_switch("hold", on)
-    assert 0.0 < max(reported) < 5e-4
+    assert 0.0 < max(errors) < 5e-4
     assert simulation.settings == fine.settings
     simulation.step(0.001, 10)
 

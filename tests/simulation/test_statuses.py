@@ -203,8 +203,8 @@ def test_python_says_its_words_and_its_remedy(status: Status, tmp_path: Path) ->
     assert isinstance(refused.value.__cause__, KernelError)
     text = str(refused.value)
     assert f": {load_library().ali3_status_text(status).decode()}" in text
-    reported = status != Status.SINGULAR  # here at a start, where no step can be shorter
-    assert text.count(status_remedy(status)) == reported
+    has_remedy = status != Status.SINGULAR  # here at a start, where no step can be shorter
+    assert text.count(status_remedy(status)) == has_remedy
     assert ("Worst " in text) <= (status_cause(status) in (Cause.START, Cause.EQUATIONS))
 
 

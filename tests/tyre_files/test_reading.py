@@ -251,7 +251,7 @@ def test_comments_and_words_in_latin_1_are_read(tmp_path: Path) -> None:
 def test_a_cut_or_altered_file_is_a_tyre_or_a_sentence(tmp_path: Path) -> None:
     """No other error, and what is read can be evaluated."""
     rng, data, read = random.Random(5), SEDAN.read_bytes(), 0
-    reported: set[bool] = set()
+    names_file: set[bool] = set()
     for k in range(400):
         if k % 2:
             content = data[: rng.randrange(len(data))]
@@ -262,11 +262,11 @@ def test_a_cut_or_altered_file_is_a_tyre_or_a_sentence(tmp_path: Path) -> None:
         try:
             tyre = read_tyre(written(tmp_path, bytes(content))).tyre()
         except TyreFileError as error:
-            reported.add("tyre.tir" in str(error))
+            names_file.add("tyre.tir" in str(error))
             continue
         read += 1
         assert element_of(tyre).check() is None
-    assert reported == {True}
+    assert names_file == {True}
     assert 20 < read < 380
 
 

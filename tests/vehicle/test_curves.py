@@ -256,9 +256,9 @@ def test_wheels_that_the_rack_turns_by_another_angle_than_the_file_says_are_repo
     suspension, centre = car.front.suspension, car.front.wheel.centre
     assert not [*suspension.steering_oddities(car.steering, centre)]
     data["steering"]["front_wheel_angle_max"] = 0.9
-    (reported,) = suspension.steering_oddities(car_from(data, copied, "x").steering, centre)
-    assert "front_wheel_angle_max is 0.9 rad, but at full travel of the rack, 0.07 m, the wheels of front" in reported
-    assert reported.endswith("(front.csv) are turned by 0.6 rad; are the units of its headings right?")
+    (sentence,) = suspension.steering_oddities(car_from(data, copied, "x").steering, centre)
+    assert "front_wheel_angle_max is 0.9 rad, but at full travel of the rack, 0.07 m, the wheels of front" in sentence
+    assert sentence.endswith("(front.csv) are turned by 0.6 rad; are the units of its headings right?")
 
 
 def test_a_row_of_both_wheels_is_one_place_of_the_axle(content: dict, folder: Path, tmp_path: Path) -> None:

@@ -41,10 +41,10 @@ def test_with_the_free_length_that_is_given_the_car_stands_as_drawn(case: str) -
     name, changes = CASES[case]
     car = load(name)
     drawn = {axle: getattr(car, axle).spring.free_length for axle in changes}
-    reported, _ = said_of(car, {axle: drawn[axle] + change for axle, change in changes.items()})
-    assert reported.count("a car is drawn in its equilibrium: with ") == len(changes)
+    message, _ = said_of(car, {axle: drawn[axle] + change for axle, change in changes.items()})
+    assert message.count("a car is drawn in its equilibrium: with ") == len(changes)
     given = {
-        axle: float(value) for axle, value in re.findall(r"with (\w+)\.spring\.free_length = ([\d.]+) it is", reported)
+        axle: float(value) for axle, value in re.findall(r"with (\w+)\.spring\.free_length = ([\d.]+) it is", message)
     }
     assert given.keys() == changes.keys()
     again, result = said_of(car, given)

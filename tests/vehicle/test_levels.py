@@ -99,8 +99,8 @@ def test_it_chooses_what_meets_all_tolerances_in_all_drives():
     both = cheapest(rows, {"path": 0.01, "load": 0.03})
     assert (both.fidelity, both.errors, both.ms_per_second) == (Fidelity.RIGID, {"path": 0.002, "load": 0.02}, 4.0)
     assert [c.fidelity for c in levels(rows, ["load"])] == [Fidelity.TABLE, Fidelity.RIGID]  # one run failed
-    reported = "path right to 0.0015 and load right to 0.025; the best is path 0.002 and load 0.02 away"
-    with pytest.raises(ValueError, match=re.escape(reported)):
+    message = "path right to 0.0015 and load right to 0.025; the best is path 0.002 and load 0.02 away"
+    with pytest.raises(ValueError, match=re.escape(message)):
         cheapest(rows, {"path": 0.0015, "load": 0.025})
 
 

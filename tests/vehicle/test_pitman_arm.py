@@ -306,10 +306,10 @@ REFUSED = {
 
 @pytest.mark.parametrize("change", REFUSED)
 def test_an_invalid_linkage_is_refused(change):
-    values, reported = REFUSED[change]
+    values, message = REFUSED[change]
     with pytest.raises(CarFileError) as error:
         CAR.changed({"steering": ARM | values})
-    assert reported in str(error.value)
+    assert message in str(error.value)
     assert str(error.value).count("\n") == 0
 
 

@@ -209,9 +209,9 @@ def test_a_torque_that_is_asked_for_tells_the_pressure_that_it_takes() -> None:
         pressure.set_input(f"wheel_{w}.brake_pressure", torque.sensors[f"used.wheel_{w}.brake_pressure"])
     pressure.step(STEP, 50)
     for w in WHEELS:
-        reported = torque.sensors[f"wheel_{w}.brake_torque"]
-        assert reported < -90.0
-        assert pressure.sensors[f"wheel_{w}.brake_torque"] == pytest.approx(reported, rel=1e-9)
+        brake_torque = torque.sensors[f"wheel_{w}.brake_torque"]
+        assert brake_torque < -90.0
+        assert pressure.sensors[f"wheel_{w}.brake_torque"] == pytest.approx(brake_torque, rel=1e-9)
 
 
 def test_outputs_of_loops_alone_leave_a_car_as_it_is() -> None:

@@ -203,15 +203,15 @@ def test_a_wheel_carries_the_page_or_says_that_it_does_not(backend, tmp_path, bu
     (tmp_path / "viewer").mkdir()
     text = f'SCRIPT = "ali3-viewer.js"\nGLTF = "gltf.mjs"\nLICENCES = "LICENCES.txt"\ndef bundle():\n    {body}\n'
     (tmp_path / "viewer" / "bundle.py").write_text(text, encoding="utf-8")
-    reported = []
-    app = SimpleNamespace(display_warning=reported.append, display_info=lambda text: None)
+    messages = []
+    app = SimpleNamespace(display_warning=messages.append, display_info=lambda text: None)
     data = {"artifacts": []}
     backend.BuildHook._bundle(SimpleNamespace(root=str(tmp_path), app=app), data)
     if built:
         assert data["artifacts"] == [
             f"/viewer/bundle/{name}" for name in ("ali3-viewer.js", "gltf.mjs", "LICENCES.txt")
         ]
-        assert reported == []
+        assert messages == []
     else:
         assert data["artifacts"] == []
-        assert reported == ["this wheel carries no page that draws: npm could not fetch its packages"]
+        assert messages == ["this wheel carries no page that draws: npm could not fetch its packages"]

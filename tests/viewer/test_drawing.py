@@ -139,11 +139,11 @@ def test_each_stress_has_a_colour_that_is_right_to_half_a_percent_of_the_scale(d
     """Sixty stresses of a tube from nothing to the end of the scale."""
     drawn.show(frame_of_two_beams(), at(0, 0, 0, q=0.0, on=1.0))
     drawn.ask("view.set({ stressMost: 8e7, deformation: 0 })")
-    reported, seen = np.linspace(0.0, 8e7, 60), []
-    for stress in reported:
+    stresses, seen = np.linspace(0.0, 8e7, 60), []
+    for stress in stresses:
         drawn.update(at(0, 0, 0, q=stress / 1e6, on=1.0))
         seen.append(stress_seen(colour(drawn, (0, 0.25, 0)), 8e7))
-    assert np.array(seen) == pytest.approx(reported, abs=0.005 * 8e7)
+    assert np.array(seen) == pytest.approx(stresses, abs=0.005 * 8e7)
 
 
 def test_the_root_of_a_beam_has_the_colour_of_the_closed_form(drawn):
@@ -286,9 +286,9 @@ def test_every_kind_of_thing_is_drawn_from_every_camera(drawn):
         pictures.append(drawn.picture())
         assert pictures[-1].std() > 5, camera
     assert all(np.abs(a - b).mean() > 1 for a, b in pairwise(pictures))
-    reported = drawn.ask("() => { try { view.camera('drone'); } catch (error) { return error.message; } }")
-    assert "'drone'" in reported
-    assert "chase" in reported
+    message = drawn.ask("() => { try { view.camera('drone'); } catch (error) { return error.message; } }")
+    assert "'drone'" in message
+    assert "chase" in message
 
 
 def test_a_ghost_is_seen_beside_the_run_and_goes(drawn):

@@ -243,7 +243,7 @@ def test_without_new_numbers_the_sound_fades(drawn):
 
 
 def test_without_audio_one_sentence_and_it_goes_on(drawn):
-    reported = drawn.ask(
+    notice = drawn.ask(
         """async columns => {
           const kept = [window.AudioContext, window.webkitAudioContext];
           window.AudioContext = window.webkitAudioContext = undefined;
@@ -258,5 +258,5 @@ def test_without_audio_one_sentence_and_it_goes_on(drawn):
         }""",
         COLUMNS,
     )
-    assert "no sound" in reported
-    assert "goes on" in reported
+    assert "no sound" in notice
+    assert "goes on" in notice

@@ -340,7 +340,7 @@ def test_a_camera_that_is_not_there_is_reported(opened: Callable[..., Opened]) -
 
 def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page(pair: Opened) -> None:
     """Of another program: a flexible body without the numbers of its mode."""
-    reported = pair(
+    messages = pair(
         """async () => {
           const data = JSON.parse(document.getElementById('data').textContent);
           const [scene] = data.scenes;
@@ -353,7 +353,7 @@ def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page
           return [made.problem, place.textContent];
         }"""
     )
-    assert reported == ["modes of a flexible body has 0 numbers, not 3.", f"This page cannot be shown: {reported[0]}"]
+    assert messages == ["modes of a flexible body has 0 numbers, not 3.", f"This page cannot be shown: {messages[0]}"]
 
 
 def test_without_webgl_there_is_one_sentence_and_the_diagrams(chromium: Any, tmp_path: Path) -> None:
@@ -373,14 +373,14 @@ def test_without_webgl_there_is_one_sentence_and_the_diagrams(chromium: Any, tmp
 def test_in_a_notebook_it_runs_in_its_frame(chromium: Any, tmp_path: Path) -> None:
     (tmp_path / "cell.html").write_text(f"<!DOCTYPE html><meta charset='utf-8'>{html_of(crank(TIMES), height=300)}")
     page = chromium.new_page(viewport={"width": 640, "height": 400})
-    reported: list[str] = []
-    page.on("console", lambda message: reported.append(message.text))
-    page.on("pageerror", lambda error: reported.append(str(error)))
+    messages: list[str] = []
+    page.on("console", lambda message: messages.append(message.text))
+    page.on("pageerror", lambda error: messages.append(str(error)))
     page.goto((tmp_path / "cell.html").as_uri())
     frame = page.frames[1]
     wait_until(frame, "window.player !== undefined")
     assert frame.evaluate("async () => { await player.ready; await player.seek(1.5); return player.problem; }") == ""
     assert frame.evaluate("player.time") == 1.5
     frame.evaluate("player.pause()")
-    assert [line for line in reported if "GL Driver" not in line] == []
+    assert [line for line in messages if "GL Driver" not in line] == []
     page.close()

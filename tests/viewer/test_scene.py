@@ -86,8 +86,8 @@ def test_keys_that_are_misspelt() -> None:
         table = at(scene, path)
         table[f"{key}x"] = table.pop(key)
         errors = scene_errors(scene)
-        reported = (f"'{key}'", f"{key} is missing", "or 'tyre'")
-        good = len(errors) == 1 and f"{key}x" in errors[0] and any(t in errors[0] for t in reported)
+        parts = (f"'{key}'", f"{key} is missing", "or 'tyre'")
+        good = len(errors) == 1 and f"{key}x" in errors[0] and any(t in errors[0] for t in parts)
         if not good or "\n" in errors[0]:
             wrong.append(f"{path}, {key}: {errors}")
     assert not wrong, "\n".join(wrong)

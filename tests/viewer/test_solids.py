@@ -171,9 +171,9 @@ def test_a_plate_that_bends_keeps_its_form_and_says_so(written: WrittenGltf) -> 
     corners = np.stack([POSES.points(anchor) for anchor in MIXED], axis=1)
     apart = np.linalg.norm(corners[:, 2] - corners[:, 0], axis=1)
     least = 1000.0 * np.abs(apart - apart[0]).max()
-    reported = float(note.split("off by ")[1].split()[0])
+    deviation = float(note.split("off by ")[1].split()[0])
     assert note.startswith("The plate 'plate' changes its form; it keeps that of the start, ")
-    assert least < reported < 1000.0
+    assert least < deviation < 1000.0
 
 
 def test_places_far_away_are_of_double_precision(tmp_path: Path) -> None:

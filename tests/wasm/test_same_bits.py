@@ -118,14 +118,14 @@ def test_in_chromium(prototype: Fmu, hatchback: Fmu, small: Callable[[str], Fmu]
         plan = refused_steps()
         assert_same(chromium(small("reach"), plan), native(small("reach"), plan), small("reach"), plan)
         chromium.run("(xml) => (window.xml = xml)", described_text(prototype))
-        reported = chromium.run("async () => (await import('/description.js')).describe(window.xml)")
+        description = chromium.run("async () => (await import('/description.js')).describe(window.xml)")
     given = prototype.job(plan)["description"]
-    assert (reported["guid"], reported["modelName"]) == (given["guid"], given["modelName"])
-    assert [{key: v[key] for key in w} for v, w in zip(reported["variables"], given["variables"], strict=True)] == (
+    assert (description["guid"], description["modelName"]) == (given["guid"], given["modelName"])
+    assert [{key: v[key] for key in w} for v, w in zip(description["variables"], given["variables"], strict=True)] == (
         given["variables"]
     )
-    assert (reported["stepSize"], reported["stopTime"]) == (H, 10.0)
-    variables = {v["name"]: v for v in reported["variables"]}
+    assert (description["stepSize"], description["stopTime"]) == (H, 10.0)
+    variables = {v["name"]: v for v in description["variables"]}
     assert variables["fidelity"] | {"type": "Integer", "min": 0, "max": 2, "start": 0} == variables["fidelity"]
     assert variables["front.spring.stiffness"]["unit"] == "N/m"
     assert variables["road.file"]["start"] == ""

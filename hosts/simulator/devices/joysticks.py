@@ -45,8 +45,8 @@ class Joystick:
         sdl, handle = self.sdl, self.handle
         for k in self._axes:
             if not self._known[k]:
-                reported = sdl.SDL_JoystickGetAxisInitialState(handle, k, ctypes.byref(self._first))
-                self._known[k] = bool(reported)
+                has_initial_state = sdl.SDL_JoystickGetAxisInitialState(handle, k, ctypes.byref(self._first))
+                self._known[k] = bool(has_initial_state)
         return Reading(
             tuple([_share(sdl.SDL_JoystickGetAxis(handle, k)) for k in self._axes]),
             tuple(self._known),

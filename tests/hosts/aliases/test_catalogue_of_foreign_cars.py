@@ -33,8 +33,8 @@ def step_steer(foreign_fmu):
 
     def measures(style: str, file: Path | None) -> dict[str, float]:
         fmu = foreign_fmu(style)
-        reported = Variables(described(fmu))
-        aliases = Aliases(constants=CONSTANTS) if file is None else find_aliases(file, reported)
+        variables = Variables(described(fmu))
+        aliases = Aliases(constants=CONSTANTS) if file is None else find_aliases(file, variables)
         car = TestedCar(style, FmuSource(fmu, aliases), step=0.01)
         assert missing_for(test, car, {s.name: s.value for s in test.settings}) is None
         return {m.name: m.value for m in perform(test, car).measures}

@@ -131,5 +131,5 @@ def test_measures_are_in_si_units() -> None:
     assert len(results) > 100
     known = {unit: known_unit(str(unit)) for unit in results}
     assert {
-        unit: reported.factor for unit, reported in known.items() if reported is not None and reported.factor != 1.0
+        unit: known_unit.factor for unit, known_unit in known.items() if known_unit is not None and known_unit.factor != 1.0
     } == {}

@@ -247,9 +247,9 @@ def test_windows_begin_as_measured_each(car: Path, tmp_path: Path, capsys: pytes
     rms = [w["rms"]["chassis.wz"] for w in record["windows"]]
     assert values(record)["chassis.wz.rms"] == pytest.approx(np.sqrt(np.mean(np.square(rms))), rel=0.02)
     assert max(rms) < 0.02
-    reported = [b for b in record["bins"] if b["quantity"] == "lateral acceleration"]
-    assert sum(b["samples"] for b in reported) == 4 * 101
-    assert {(b["low"], b["high"]) for b in reported} >= {(0.0, 2.0), (2.0, 4.0)}
+    bins = [b for b in record["bins"] if b["quantity"] == "lateral acceleration"]
+    assert sum(b["samples"] for b in bins) == 4 * 101
+    assert {(b["low"], b["high"]) for b in bins} >= {(0.0, 2.0), (2.0, 4.0)}
     # Processes share the windows; not one digit depends on their number.
     _, shared = compared(car, log, *parts, "--jobs", "2", signals="chassis.wz")
     assert values(shared) == values(record)

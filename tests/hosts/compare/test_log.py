@@ -252,8 +252,8 @@ def test_a_signal_that_is_repeated_row_by_row_counts_where_it_is_new(
     actual = log.outputs["bob.x"]
     assert actual.time == pytest.approx(0.01 * new)
     assert actual.values == pytest.approx(np.sin(new))
-    (reported,) = [note for note in log.notes if "has a new value every" in note]
-    assert f"every {rate} rows" in reported
+    (repeated,) = [note for note in log.notes if "has a new value every" in note]
+    assert f"every {rate} rows" in repeated
     assert len(log.outputs["bob.y"].time) == count  # a ramp of a coarse signal
 
 

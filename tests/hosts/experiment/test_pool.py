@@ -80,7 +80,7 @@ def threads(task: int, tell: Tell) -> int:
 def test_runs_are_asked_for_as_processes_become_free(monkeypatch: pytest.MonkeyPatch) -> None:
     """And each process computes with one thread, whatever the environment says."""
     monkeypatch.setenv("OMP_NUM_THREADS", "7")
-    requested, reported = [0], []
+    requested, words = [0], []
 
     def tasks() -> Iterator[int]:
         for k in range(12):
@@ -88,8 +88,8 @@ def test_runs_are_asked_for_as_processes_become_free(monkeypatch: pytest.MonkeyP
             yield k
 
     with Pool(threads, int, 2) as pool:
-        for count, (number, result) in enumerate(pool.results(tasks(), lambda *word: reported.append(word))):
+        for count, (number, result) in enumerate(pool.results(tasks(), lambda *word: words.append(word))):
             assert requested[0] <= count + 4
             assert result == 1
-            assert (number, float(number)) in reported
+            assert (number, float(number)) in words
     assert requested[0] == 12

@@ -58,7 +58,7 @@ def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
     values = [np.nan, np.inf, -np.inf, 1e6, -1e6, 0.0, 1.0, -1.0, 1e-300]
     with Car(ported, step=0.005) as car:
         ports = [name for name in ports_of(car) if name != "gear_request"]
-        reported = 0
+        count = 0
         for seed in range(4):
             random = np.random.default_rng(seed)
             car.reset(**{"initial.speed": 10.0})
@@ -75,8 +75,8 @@ def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
                     given = level(car)
                 state = car.read(("chassis.x", "chassis.z", "speed", "energy.total"))
                 assert np.isfinite(state).all()
-            reported += len(car.messages)
-        assert reported > 10
+            count += len(car.messages)
+        assert count > 10
 
 
 @pytest.mark.slow
@@ -86,15 +86,15 @@ def test_each_port_tells_once_that_it_is_silent_or_no_number(ported: Path) -> No
         ports = ports_of(car)
         for port in ports:
             car.reset(**{"initial.speed": 10.0})
-            reported = len(car.messages)
+            count = len(car.messages)
             given = level(car)
             others = [name for name in car.inputs if name != port]
             car.fmu.setter(others)([given[name] for name in others])
             car.fmu.step(0.0, 0.002)
-            (silent,) = (m for m in car.messages[reported:] if "not set before" in m)
+            (silent,) = (m for m in car.messages[count:] if "not set before" in m)
             assert f"'{port}'" in silent
             car.reset(**{"initial.speed": 10.0})
-            reported = len(car.messages)
+            count = len(car.messages)
             for bad in (np.nan, np.inf, np.nan):
                 row = [bad if name == port else given[name] for name in car.inputs]
                 if port == "gear_request":  # a whole number, which has no NaN
@@ -102,7 +102,7 @@ def test_each_port_tells_once_that_it_is_silent_or_no_number(ported: Path) -> No
                         car.step(row)
                 else:
                     car.step(row)
-            messages = [m for m in car.messages[reported:] if f"'{port}'" in m]
+            messages = [m for m in car.messages[count:] if f"'{port}'" in m]
             assert len(messages) == (port != "gear_request"), port
             assert all("was set to nan and holds its last value" in m for m in messages)
             assert np.isfinite(car.read(("chassis.z", "energy.total"))).all()
@@ -218,11 +218,11 @@ def test_a_normal_that_is_none_is_a_sentence_at_each_wheel(ported: Path, normal:
     with Car(ported, step=0.004) as car:
         for wheel in WHEELS:
             car.reset(**{"initial.speed": 10.0})
-            reported, given = len(car.messages), level(car)
+            count, given = len(car.messages), level(car)
             given |= {f"wheel_{wheel}.road_normal_{c}": x for c, x in zip("xyz", normal, strict=True)}
             for _ in range(3):
                 car.step([given[name] for name in car.inputs])
-            (messages,) = car.messages[reported:]
+            (messages,) = car.messages[count:]
             assert f"'wheel_{wheel}.road_normal_x'" in messages
             assert "must be a unit vector that points up" in messages
 

@@ -253,8 +253,8 @@ def test_nobody_takes_the_events_and_the_car_drives_on(make: Made) -> None:
     lost = [e for e in events if e.kind == "overflow"]
     assert len(lost) == 1
     assert car.events() == []  # said once
-    reported = int(lost[0].text.split()[0]) + len(events) - 1
-    assert 200 * 20 <= reported <= 200 * 20 + 5  # the FMU has a word of its own on its step
+    count = int(lost[0].text.split()[0]) + len(events) - 1
+    assert 200 * 20 <= count <= 200 * 20 + 5  # the FMU has a word of its own on its step
 
 
 def for_ever(ask: Callable[[], None]) -> None:

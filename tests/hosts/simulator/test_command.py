@@ -108,9 +108,9 @@ def test_a_terminal_that_is_closed_leaves_a_whole_recording(fmus, tmp_path):
         [sys.executable, "-c", take, *command], stdin=theirs, stdout=theirs, stderr=theirs, start_new_session=True
     )
     os.close(theirs)
-    reported = b""
-    while b"Ready" not in reported:
-        reported += os.read(ours, 1000)
+    output = b""
+    while b"Ready" not in output:
+        output += os.read(ours, 1000)
     time.sleep(0.5)
     os.close(ours)
     assert program.wait(timeout=60) == 0

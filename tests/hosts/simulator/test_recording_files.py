@@ -223,9 +223,9 @@ def _with_a_gap(fmu: Path, folder: Path) -> RecordedDrive:
 
 def test_a_view_tells_of_rows_that_are_missing(fmus: dict[str, Path], tmp_path: Path) -> None:
     step = _with_a_gap(fmus["sledge"], tmp_path / "drive").step
-    _, reported = recorded_view(tmp_path / "drive", "drive")
+    _, sentences = recorded_view(tmp_path / "drive", "drive")
     gap = f"first from {10 * step:g} s to {14 * step:g} s"
-    assert [gap in sentence for sentence in reported].count(True) == 1
+    assert [gap in sentence for sentence in sentences].count(True) == 1
     whole_drive(fmus["sledge"], tmp_path / "whole")
     assert not any("are missing" in sentence for sentence in recorded_view(tmp_path / "whole", "whole")[1])
 

@@ -214,8 +214,8 @@ def test_what_is_no_request_for_a_page(served):
             assert first_line(served.port, text) == "HTTP/1.1 405 Method Not Allowed"
     with RawClient.silent(served.port) as line:
         line.sendall(f"HEAD /world{served.key} HTTP/1.1\r\n{host}\r\n".encode())
-        reported = b"".join(iter(lambda: line.recv(4096), b""))
-        head, _, body = reported.partition(b"\r\n\r\n")
+        response = b"".join(iter(lambda: line.recv(4096), b""))
+        head, _, body = response.partition(b"\r\n\r\n")
         assert head.startswith(b"HTTP/1.1 200 OK")
         assert f"Content-Length: {len(json.dumps(WORLD))}".encode() in head
         assert body == b""

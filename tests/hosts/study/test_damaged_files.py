@@ -47,16 +47,16 @@ def test_no_bit_of_a_part_is_read_as_other_rows(made: Callable[..., Path], tmp_p
     file, seed = part_files(folder)[0], random.SystemRandom().randrange(2**32)
     print("seed", seed)
     data, whole = file.read_bytes(), read_part(file, record)
-    odd, reported = tmp_path / "odd.parquet", 0
+    odd, refusals = tmp_path / "odd.parquet", 0
     for bit in random.Random(seed).sample(range(8 * len(data)), 2000):
         odd.write_bytes(turned(data, bit))
         try:
             same = read_part(odd, record).equals(whole)
         except HostError:
-            reported += 1
+            refusals += 1
             continue
         assert same, bit
-    assert 1000 < reported < 2000  # names of columns, statistics and the like stand in the rest of a file
+    assert 1000 < refusals < 2000  # names of columns, statistics and the like stand in the rest of a file
 
 
 @pytest.mark.slow

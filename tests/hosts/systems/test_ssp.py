@@ -127,9 +127,9 @@ def test_a_file_and_a_name_that_cannot_be_are_one_sentence(partners: dict[str, P
         write_ssp(1, halves(partners), WIRES, {})  # type: ignore[arg-type]
     with pytest.raises(HostError, match=r"The version of SSP is '3\.0'; it must be 1\.0 or 2\.0"):
         write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {}, version="3.0")
-    for name, reported in ((1, "1"), ("a\x00b", r"'a\\x00b'"), ("\ud800", r"'\\ud800'")):
+    for name, text in ((1, "1"), ("a\x00b", r"'a\\x00b'"), ("\ud800", r"'\\ud800'")):
         with pytest.raises(
-            HostError, match=f"The name of the system is {reported}; it must be a text that can be printed"
+            HostError, match=f"The name of the system is {text}; it must be a text that can be printed"
         ):
             write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {}, name=name)
     assert list(tmp_path.iterdir()) == []

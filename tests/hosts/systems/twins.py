@@ -91,8 +91,8 @@ def twin(name: str, h: float = INNER) -> np.ndarray:
     ends = [(source.partition("."), target.partition(".")) for target, source in case.wires.items()]
 
     def outputs(of: str) -> Values:
-        reported = parts[of].read()
-        return {f"{part}.{name}": reported[name] for (part, _, name), _ in ends if part == of}
+        values = parts[of].read()
+        return {f"{part}.{name}": values[name] for (part, _, name), _ in ends if part == of}
 
     def inputs(of: str, now: Values) -> Values:
         return {name: now["".join(source)] for source, (part, _, name) in ends if part == of}

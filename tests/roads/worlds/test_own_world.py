@@ -274,11 +274,11 @@ def test_a_course_that_climbs_like_no_road_is_reported_before_it_is_made_and_whe
         assert main(["--world", str(tmp_path / "w.toml"), "--out", str(tmp_path / "out")]) == 0
         captured = capsys.readouterr()
         assert message in captured.out
-        reported = re.search(
+        match = re.search(
             r"warning: The course 'lap' climbs by (\d+) % at station .*; it lies between -", captured.err
         )
-        assert reported
-        assert 45 <= int(reported[1]) <= 50
+        assert match
+        assert 45 <= int(match[1]) <= 50
     first = captured.err.splitlines()
     assert len(first) == 1
     (tmp_path / "course.csv").write_text(course(0.5), encoding="utf-8")

@@ -76,9 +76,9 @@ def test_page_table_and_json(made, found):
 @pytest.mark.slow
 def test_the_page_of_the_documentation_prints_what_it_says(capsys):
     text = (Path(__file__).parents[3] / "docs" / "kinematics.md").read_text(encoding="utf-8")
-    code, reported = (re.search(rf"```{kind}\n(.*?)```", text, re.DOTALL)[1] for kind in ("python", "text"))
+    code, output = (re.search(rf"```{kind}\n(.*?)```", text, re.DOTALL)[1] for kind in ("python", "text"))
     exec(compile(code, "docs/kinematics.md", "exec"), {})
-    assert capsys.readouterr().out == reported
+    assert capsys.readouterr().out == output
 
 
 @pytest.mark.parametrize(

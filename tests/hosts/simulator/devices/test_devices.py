@@ -61,9 +61,9 @@ def test_requests_are_sent_again_for_a_later_listener(attach, start):
     until(lambda: run.arbiter.value(WHEEL, "throttle"))
     run.arbiter.by_source.clear()
     assert until(lambda: run.arbiter.value(WHEEL, "throttle")) == 1.0
-    reported, begin = [], time.monotonic()
-    run.arbiter.listen = lambda source, values: reported.append(values)
-    until(lambda: len(reported) == 3)
+    requests, begin = [], time.monotonic()
+    run.arbiter.listen = lambda source, values: requests.append(values)
+    until(lambda: len(requests) == 3)
     assert time.monotonic() - begin >= 0.45, "what does not move is not said at every reading"
 
 
