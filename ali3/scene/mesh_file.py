@@ -176,8 +176,8 @@ def _thinned(
         index = index.ravel()
         count = np.bincount(index)
         merged = np.column_stack([np.bincount(index, points[:, k]) / count for k in range(3)])
-        remaining = _proper(index[triangles])
-        _, first = np.unique(np.sort(remaining, axis=1), axis=0, return_index=True)
+        proper = _proper(index[triangles])
+        _, first = np.unique(np.sort(proper, axis=1), axis=0, return_index=True)
         if len(first) <= most:
             break
         cells *= 0.8
@@ -188,4 +188,4 @@ def _thinned(
         UserWarning,
         stacklevel=3,
     )
-    return merged, remaining[np.sort(first)]
+    return merged, proper[np.sort(first)]

@@ -27,7 +27,7 @@ def tabled(name: str, car: str) -> System:
 def compare(car: str, name: str, h: float, repeats: int = 0) -> dict[str, Any]:
     """A row: errors, and without repeats no times."""
     manoeuvre, (_, reference, length) = manoeuvres.load(name, car), trajectories.read(name, car)
-    way, every = max(length, 1.0), round(manoeuvres.sampling(name, car) / h)
+    path_length, every = max(length, 1.0), round(manoeuvres.sampling(name, car) / h)
     systems = {"tables": tabled(name, car), "links": manoeuvres.system_of(name, car)}
     runs = {kind: manoeuvres.run_on(system, manoeuvre, h, every=every) for kind, system in systems.items()}
     row: dict[str, Any] = {"car": car, "manoeuvre": name, "h_s": h, "way_m": length}
@@ -37,13 +37,13 @@ def compare(car: str, name: str, h: float, repeats: int = 0) -> dict[str, Any]:
         if repeats:
             spent = manoeuvres.time_on(systems[kind], manoeuvre, h, repeats, time.process_time)
         row |= {
-            f"{kind}_path": path_error(run, reference) / way,
+            f"{kind}_path": path_error(run, reference) / path_length,
             f"{kind}_load": load_error(run, reference),
             f"{kind}_iterations": run.report.mean_iterations,
             f"{kind}_us": None if spent is None else 1e6 * spent * h / manoeuvre.stop_time,
         }
     return row | {
-        "apart_path": path_error(runs["tables"], runs["links"]) / way,
+        "apart_path": path_error(runs["tables"], runs["links"]) / path_length,
         "apart_load": load_error(runs["tables"], runs["links"]),
     }
 

@@ -68,11 +68,11 @@ def simulated(system: mbs.System, span: float, run: Callable[..., mbs.Trajectory
     """What a case has of `mbs.simulate`, or of another function of ``h`` and the same names."""
 
     def found(h: float | None = None, **more: Any) -> CaseRun:
-        made = (run or partial(mbs.simulate, system, span, progress=False))(h=h, **more)
-        if made.control is not None:
-            return CaseRun(made, made.control.error, None, made.control.method)
-        known = made.accuracy
-        return CaseRun(made, known.error if known else None, 1.0 + known.check_cost if known else None)
+        trajectory = (run or partial(mbs.simulate, system, span, progress=False))(h=h, **more)
+        if trajectory.control is not None:
+            return CaseRun(trajectory, trajectory.control.error, None, trajectory.control.method)
+        known = trajectory.accuracy
+        return CaseRun(trajectory, known.error if known else None, 1.0 + known.check_cost if known else None)
 
     return {"system": system, "span": span, "run": found}
 
@@ -110,8 +110,8 @@ def cars(rng: np.random.Generator) -> Case:
     def run(h: float | None = None, **more: Any) -> mbs.Trajectory:
         return drive.run("auto" if h is None else "ali3p", h, **more)
 
-    given = simulated(drive.system, drive.span, run)
-    return Case(kind, truth=drive.truth(), **given, steps=random_cars.STEPS, tolerances=TOLERANCES[:2])
+    simulation = simulated(drive.system, drive.span, run)
+    return Case(kind, truth=drive.truth(), **simulation, steps=random_cars.STEPS, tolerances=TOLERANCES[:2])
 
 
 def box(rng: np.random.Generator) -> Case:
@@ -175,8 +175,8 @@ def switches(rng: np.random.Generator) -> Case:
     def run(h: float, every: int) -> CaseRun:
         simulation = mbs.Simulation(case.system)
         parts, errors = [], []
-        for end, held in ((on, False), (off, True), (drawing.span, False)):
-            simulation.set_switch(name, held)
+        for end, closed in ((on, False), (off, True), (drawing.span, False)):
+            simulation.set_switch(name, closed)
             parts.append(simulation.run(end, h, every=every, progress=False))
             errors.append(parts[-1].accuracy.error if parts[-1].accuracy else None)
         values = {n: np.concatenate([part[n][int(k > 0) :] for k, part in enumerate(parts)]) for n in case.truth}

@@ -60,9 +60,9 @@ def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p", t
         kinds = {w.category.__name__ for w in caught} | {"notice" for _ in checked.notices}
         row["told"] = ", ".join(sorted(kinds))
     if free.angles:
-        way = {end: r[end] - r[end][0] for end in {*free.angles, *(end for tie in free.ties for end in tie[:2])}}
-        slips = [np.max(np.abs(way[a] - i * way[b])) / np.max(np.abs(way[a])) for a, b, i in free.ties]
-        late = [np.max(np.abs(way[a] - rate * r.t)) for a, (_, rate) in free.angles.items()]
+        travel = {end: r[end] - r[end][0] for end in {*free.angles, *(end for tie in free.ties for end in tie[:2])}}
+        slips = [np.max(np.abs(travel[a] - i * travel[b])) / np.max(np.abs(travel[a])) for a, b, i in free.ties]
+        late = [np.max(np.abs(travel[a] - rate * r.t)) for a, (_, rate) in free.angles.items()]
         row |= {"slip": float(max(slips, default=0.0)), "late": float(max(late) / (turn * steps))}
         row["alone_late"] = alone_late(turn)
     return row

@@ -99,14 +99,14 @@ def measured(
     return Signals(time, (seen + noise * rng.normal(size=seen.shape)).reshape(-1, 4, 3))
 
 
-def motion(signals: Signals, way: float) -> Motion:
+def motion(signals: Signals, distance: float) -> Motion:
     """The motion of the chassis, with the drift taken out where the car is known to stand.
 
     The four places give the acceleration of the reference point and the angular acceleration, by least squares; squares
     of angular velocities are left out. Each is integrated once; where the car stands, means over a second are what the
     rate has drifted by, between them a monotone cubic. The speed is then scaled to the way that is known.
 
-    `way`: from rest to rest, m: places can be measured on the road. It takes out the part of the weight that the pitch
+    `distance`: from rest to rest, m: places can be measured on the road. It takes out the part of the weight that the pitch
     of the braked car puts into the signal.
     """
     t = signals.time
@@ -114,7 +114,7 @@ def motion(signals: Signals, way: float) -> Motion:
     rigid = np.linalg.lstsq(arms, signals.force.reshape(len(t), 12).T, rcond=None)[0]
     drifts = {k: _drift(t, cumulative_trapezoid(rigid[k], t, initial=0)) for k in (0, 2, 4)}
     rates = {k: cumulative_trapezoid(rigid[k], t, initial=0) - drift(t) for k, drift in drifts.items()}
-    scale = way / float(cumulative_trapezoid(rates[0], t)[-1])
+    scale = distance / float(cumulative_trapezoid(rates[0], t)[-1])
     speed = scale * rates[0]
     heave, pitch = (cumulative_trapezoid(rates[k], t, initial=0) for k in (2, 4))
     change = scale * (rigid[0] - drifts[0].derivative()(t))
@@ -186,12 +186,12 @@ def moments(run: Trajectory) -> Array:
     return changes[: -round(_EDGE / h)]
 
 
-def shifted(wanted: Array, found: Array) -> tuple[int, float]:
+def shifted(reference: Array, replayed: Array) -> tuple[int, float]:
     """Steps by which moments come later, and how far they are off then, rms over the rms of what is wanted."""
     most = round(_LATEST / kerb_test.STEP)
 
     def off(k: int) -> float:
-        one, other = (found[k:], wanted[: len(wanted) - k]) if k >= 0 else (found[:k], wanted[-k:])
+        one, other = (replayed[k:], reference[: len(reference) - k]) if k >= 0 else (replayed[:k], reference[-k:])
         return float(np.sqrt(np.mean((one - other) ** 2) / np.mean(other**2)))
 
     errors = {k: off(k) for k in range(-most, most + 1)}
@@ -215,19 +215,19 @@ def row(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int]) ->
 
     `name`: of `CASES`; `true`, `plain`: the run that is measured, and the test with its own guide and steps.
     """
-    given = dict(CASES[name])
-    frequency = given.pop("filter", 0.0)
+    options = dict(CASES[name])
+    frequency = options.pop("filter", 0.0)
     every = round(RATE / FINE)
     x, z, pitch = (true[f"chassis.{k}"][::every] - true[f"chassis.{k}"][0] for k in ("x", "z", "pitch"))
-    wanted = moments(plain)
+    reference = moments(plain)
     results = []
     for seed in seeds:
-        signals = measured(true, seed=seed, **given)
+        signals = measured(true, seed=seed, **options)
         found = motion(signals.filtered(frequency) if frequency else signals, float(x[-1]))
         run = driven(found)
         got = moments(run)
-        later, off = shifted(wanted, got)
-        peaks = np.abs(got).max(axis=0) / np.abs(wanted).max(axis=0) - 1.0
+        later, off = shifted(reference, got)
+        peaks = np.abs(got).max(axis=0) / np.abs(reference).max(axis=0) - 1.0
         results.append(
             {
                 "way, m": _rms(found.way - x),
@@ -276,9 +276,9 @@ def draw(file: Path) -> None:
     parts[1].plot(found.time, kerb_test.speed(found.time), color=_SMOOTH, label="smooth guide")
     parts[1].plot(found.time, found.speed, color=_MEASURED, linewidth=1.0, label="from accelerations")
     parts[1].set_ylabel("speed, m/s")
-    wanted, got = moments(plain), moments(run)
+    reference, got = moments(plain), moments(run)
     for axes, k in zip(parts[2:], shown, strict=True):
-        axes.plot(plain.t[: len(wanted)], wanted[:, k], color=_SMOOTH, label="smooth guide")
+        axes.plot(plain.t[: len(reference)], reference[:, k], color=_SMOOTH, label="smooth guide")
         axes.plot(run.t[: len(got)], got[:, k], color=_MEASURED, linewidth=1.0, label="from accelerations")
         axes.set_ylabel(f"change at {MOMENTS[k].split('.')[-1]}, N m")
     parts[-1].set_xlabel("time, s")

@@ -89,10 +89,10 @@ def _derivative() -> Any:
     for name in HELPERS:
         names[name] = _compile(names[name])
     tyre = ModuleType("tire_model")
-    given = names["tireModel"]
-    sign = numba.njit(given.sign)
+    tyre_model = names["tireModel"]
+    sign = numba.njit(tyre_model.sign)
     for name in ("formula_longitudinal", "formula_lateral", "formula_longitudinal_comb", "formula_lateral_comb"):
-        function = getattr(given, name)
+        function = getattr(tyre_model, name)
         setattr(tyre, name, numba.njit(FunctionType(function.__code__, {"math": math, "sign": sign}, name)))
     names["tireModel"] = tyre
     return numba.njit(FunctionType(source.__code__, names, source.__name__))

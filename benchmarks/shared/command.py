@@ -64,10 +64,10 @@ def run(name: str, text: str | None, parts: Mapping[str, Part], arguments: Seque
         chosen = parser.add_subparsers(dest="part", metavar="PART", required=True)
         for key, part in parts.items():
             _add_options(chosen.add_parser(key, help=part.about, description=part.about), part)
-    given = [*(sys.argv[1:] if arguments is None else arguments)]
-    if given and given[0].startswith("--") and given[0] != "--help":
-        given = [key for key, part in parts.items() if part.meant and len(parts) > 1] + given
-    options = parser.parse_args(given)
+    words = [*(sys.argv[1:] if arguments is None else arguments)]
+    if words and words[0].startswith("--") and words[0] != "--help":
+        words = [key for key, part in parts.items() if part.meant and len(parts) > 1] + words
+    options = parser.parse_args(words)
     part = parts[options.part]
     for key, (default, _) in part.options.items():
         value = getattr(options, key)

@@ -53,36 +53,36 @@ def between(text: str, table: str) -> str:
 
 def written(again: RemadeTable, text: str) -> str:
     """The text of a page with the cells of a table as they are made; what is left out and other rows stay."""
-    block, made = between(text, again.table), rows_of(again.text)
+    block, new_rows = between(text, again.table), rows_of(again.text)
     shown = rows_of(block)
-    if not shown or list(shown[0]) != list(made[0]):
+    if not shown or list(shown[0]) != list(new_rows[0]):
         shown = []
     rows = {tuple(row[key] for key in again.keys): row for row in shown}
-    for row in made:
+    for row in new_rows:
         key = tuple(row[k] for k in again.keys)
         kept = {name: cell for name, cell in rows.get(key, {}).items() if name in again.left_out}
         rows[key] = row | kept
-    cells = [list(made[0]), ["---"] * len(made[0]), *(list(row.values()) for row in rows.values())]
+    cells = [list(new_rows[0]), ["---"] * len(new_rows[0]), *(list(row.values()) for row in rows.values())]
     drawn = "".join(f"| {' | '.join(line)} |\n" for line in cells)
     return replace(text, {again.table: _TABLE.sub(lambda _: drawn, block, count=1) if rows_of(block) else drawn})
 
 
-def same(shown: str | None, made: str) -> bool:
+def same(shown: str | None, computed: str) -> bool:
     """Whether two cells say the same; the last of three or more digits of a fraction may be one off, as libraries of
     other machines round it.
     """
-    one, other = _NUMBER.split(shown or ""), _NUMBER.split(made)  # words, number, words, ...
+    one, other = _NUMBER.split(shown or ""), _NUMBER.split(computed)  # words, number, words, ...
     if len(one) != len(other) or one[::2] != other[::2]:
         return False
     return all(map(_same_number, one[1::2], other[1::2]))
 
 
-def _same_number(shown: str, made: str) -> bool:
-    if shown == made:
+def _same_number(shown: str, computed: str) -> bool:
+    if shown == computed:
         return True
-    one, other = Decimal(shown).as_tuple(), Decimal(made).as_tuple()
+    one, other = Decimal(shown).as_tuple(), Decimal(computed).as_tuple()
     digits = min(len(one.digits), len(other.digits))
-    if digits < _DIGITS or one.exponent != other.exponent or one.sign != other.sign or "." not in made:
+    if digits < _DIGITS or one.exponent != other.exponent or one.sign != other.sign or "." not in computed:
         return False
     return abs(int("".join(map(str, one.digits))) - int("".join(map(str, other.digits)))) == 1
 
@@ -117,6 +117,6 @@ def differences(again: RemadeTable, text: str) -> list[str]:
     return messages
 
 
-def all_differences(made: Sequence[RemadeTable]) -> list[str]:
+def all_differences(tables: Sequence[RemadeTable]) -> list[str]:
     """Differences on all pages, a line each."""
-    return [line for again in made for line in differences(again, read(again.page))]
+    return [line for again in tables for line in differences(again, read(again.page))]

@@ -96,8 +96,8 @@ def _drive(options: Namespace) -> list[dict[str, Any]]:
     rows = [_of_bicycle(f, drive) for f in simple] + [_of_car("multibody car", car, FITTED_NUMBERS, drive)]
     if options.banked_car is not None and drive.bank.size:
         with tempfile.TemporaryDirectory() as folder:
-            given = write_banked(Path(folder), log, aliases, drive.bank, BODY.mass)
-            banked = judge(str(options.banked_car), *given, {"step_size": STEP})
+            files = write_banked(Path(folder), log, aliases, drive.bank, BODY.mass)
+            banked = judge(str(options.banked_car), *files, {"step_size": STEP})
         rows.append(_of_car(BANKED, banked, FITTED_NUMBERS, drive))
     best = min((f for f in simple if np.isfinite(f.lateral)), key=lambda f: f.windows)
     swapped = fit(best.model, BODY, _banked(drive, JUDGED), JUDGED, FITTED)

@@ -48,9 +48,9 @@ def begins(drive: Drive, seconds: Spans, every: float = EVERY) -> NDArray[np.int
     return np.array([round((t - drive.time[0]) / drive.interval) for t in times], dtype=np.intp)
 
 
-def drive_of(model: Model, *given: Any) -> tuple[Array, Array]:
+def drive_of(model: Model, *arguments: Any) -> tuple[Array, Array]:
     """Lateral velocity (m/s) and yaw rate (rad/s) of a model, by its own `simulate` or that of a bicycle."""
-    return (model.simulate or simulate)(model, *given)
+    return (model.simulate or simulate)(model, *arguments)
 
 
 class Windows:
@@ -101,7 +101,7 @@ class Windows:
 
 def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others: Spans = JUDGED) -> Fitted:
     """Fit a model to yaw rate and, if it has one, lateral velocity in the spans `seconds`; judge it in `others`."""
-    windows, judged = (Windows(model, body, drive, given) for given in (seconds, others))
+    windows, judged = (Windows(model, body, drive, spans) for spans in (seconds, others))
     low, high = windows.low, windows.high
     random, results = np.random.default_rng(SEED), []
     for _ in range(STARTS if len(low) else 0):

@@ -73,9 +73,9 @@ def moved(segment: Segment, along: float, across: float, rate: float, point: tup
 def quickened(segment: Segment, factor: float) -> Segment:
     """A segment with another speed, held and at the start, and the steering as it is."""
     assert segment.speed is not None
-    held = replace(segment.speed, values=factor * segment.speed.values)
+    speed = replace(segment.speed, values=factor * segment.speed.values)
     name = "initial.speed"
-    return replace(_started(segment, {name: factor * float(segment.manoeuvre.start[name])}), speed=held)
+    return replace(_started(segment, {name: factor * float(segment.manoeuvre.start[name])}), speed=speed)
 
 
 def _started(segment: Segment, start: dict[str, float]) -> Segment:

@@ -84,9 +84,9 @@ def task_of(car: str, log: Path, aliases: Path, settings: dict[str, float], seco
 
 def arguments_of(car: str, log: Path, aliases: Path, settings: dict[str, float]) -> list[str]:
     """Of ``ali3 compare`` for the signals that are judged. `car`, `settings`: as of `judge`."""
-    given = [part for key, value in settings.items() for part in ("--set", f"{key}={value!r}")]
+    options = [part for key, value in settings.items() for part in ("--set", f"{key}={value!r}")]
     signals = ["--signals", f"{YAW},{LATERAL}"]
-    return [car, str(log), "--log-aliases", str(aliases), "--hold-speed", *signals, *given]
+    return [car, str(log), "--log-aliases", str(aliases), "--hold-speed", *signals, *options]
 
 
 def in_windows(time: Array, values: Array, count: int) -> Array:

@@ -50,8 +50,8 @@ class Family:
 
 def families(drive: Drive) -> dict[str, Family]:
     """Corners by place, ranges of speed, ranges of longitudinal acceleration. Raises `ValueError`: no laps."""
-    way, lap = way_of(drive)
-    piece, count = pieces(way, lap), round(lap / PIECE)
+    distance, lap = way_of(drive)
+    piece, count = pieces(distance, lap), round(lap / PIECE)
     curvature = np.bincount(piece, drive.yaw_rate / drive.vx, count) / np.maximum(
         np.bincount(piece, minlength=count), 1
     )

@@ -208,10 +208,10 @@ class FmuBuilder:
         return run + sum(1 + self._libraries_to_make(kind, platforms) for kind, platforms in work.items())
 
     def _libraries_to_make(self, kind: str, platforms: Sequence[str]) -> int:
-        made = {folder for name, folder in self._libraries if name == fmu_name(self._name, kind)}
+        compiled = {folder for name, folder in self._libraries if name == fmu_name(self._name, kind)}
         face = _FACES.get(kind)
         folders = [f for platform in platforms for f in (face.binaries[platform] if face is not None else [platform])]
-        return len([folder for folder in folders if folder not in made])
+        return len([folder for folder in folders if folder not in compiled])
 
     def build(self, kind: str, platforms: Sequence[str], file: Path) -> Path:
         """Build the FMU of a kind.

@@ -189,8 +189,8 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     rights = (options.author, options.copyright, options.license)
     builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin, names, options.plain)
     _report_names(builder.renamed, len(builder.renamed.table))
-    wanted = [p for p in TARGETS if p in first or p in rest]
-    able = {kind: [p for p in wanted if _able(kind, p)] for kind in kinds}
+    platforms = [p for p in TARGETS if p in first or p in rest]
+    able = {kind: [p for p in platforms if _able(kind, p)] for kind in kinds}
     for kind in [k for k in kinds if not able[k]]:
         print(f"{kind}: left out, it runs on {', '.join(able_platforms(kind))} only", flush=True)
         del able[kind]

@@ -26,9 +26,9 @@ def with_parameters(
     files = {entry["road"]: entry for entry in system.meta.get("road_files", ())}
     found = []
     for place, road in enumerate(roads):
-        made, k = dict(road), road.get("number", place)
-        if made["kind"] == "file" and made.get("path"):
-            made["path"] = f"{ROADS}/{Path(made['path']).name}"
+        changed, k = dict(road), road.get("number", place)
+        if changed["kind"] == "file" and changed.get("path"):
+            changed["path"] = f"{ROADS}/{Path(changed['path']).name}"
         variables = {}
         if k < len(system.arrays["road_type"]):
             first = int(system.arrays["road_real_ptr"][k])
@@ -37,11 +37,11 @@ def with_parameters(
                 real = first + numbers.index(number) if number in numbers else -1
                 if _writing(system, real) in known:
                     variables[name] = _writing(system, real)
-                    if name == number and made["kind"] != "file":
-                        made[name] = float(system.arrays["road_real"][real])
-        if k in files and made["kind"] != "file":
+                    if name == number and changed["kind"] != "file":
+                        changed[name] = float(system.arrays["road_real"][real])
+        if k in files and changed["kind"] != "file":
             variables["file"] = files[k]["name"]
-        found.append(made | ({"variables": variables} if variables else {}))
+        found.append(changed | ({"variables": variables} if variables else {}))
     return found
 
 

@@ -49,14 +49,14 @@ def compile_packed(targets: Sequence[str], sources: Path, folder: Path, name: st
 
 
 def _library(targets: Sequence[str], files: Sequence[Path], include: Sequence[Path], folder: Path, name: str) -> bytes:
-    made = []
+    binaries = []
     for target in targets:
         library = folder / target / name
         build.compile_c(
             files, target, library, include=include, what="the FMU", defines=_DEFINES, exports=exports(files)
         )
-        made.append(library.read_bytes())
-    return made[0] if len(made) == 1 else universal(made)
+        binaries.append(library.read_bytes())
+    return binaries[0] if len(binaries) == 1 else universal(binaries)
 
 
 def library_command(face: str, target: str, table: Path, library: Path) -> list[str]:

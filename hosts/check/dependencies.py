@@ -37,9 +37,9 @@ def dependencies(subject: Subject) -> Finding:
         for u in subject.description.outputs
     }
     moved: dict[str, set[str]] = {name: set() for name in declared}
-    instance, made = Instance(subject).start(), 0
+    instance, steps = Instance(subject).start(), 0
     for _ in range(_STATES):
-        made += len(instance.run(max(1, subject.steps // (2 * _STATES)), made))
+        steps += len(instance.run(max(1, subject.steps // (2 * _STATES)), steps))
         for v in subject.inputs:
             before = instance.get(outputs)
             instance.set_input(v, inside(v, 0.37))

@@ -139,10 +139,10 @@ def check_references(
         if len(files) > 1:
             print(f"BAD   {file.name}: {error}")
 
-    with ExitStack() as held:
-        fmu = held.enter_context(Fmu(path))
+    with ExitStack() as stack:
+        fmu = stack.enter_context(Fmu(path))
         store = (
-            held.enter_context(ResultStore[_Compared](out, _Compared, "checks an FMU", again))
+            stack.enter_context(ResultStore[_Compared](out, _Compared, "checks an FMU", again))
             if place.is_dir()
             else None
         )
@@ -152,7 +152,7 @@ def check_references(
                 references.append(_reference(fmu, file, options))
             except UserError as error:
                 fails(file, error)
-        compared = held.enter_context(closing(_done(fmu, references, store, bounds, options.manoeuvre is None, jobs)))
+        compared = stack.enter_context(closing(_done(fmu, references, store, bounds, options.manoeuvre is None, jobs)))
         for reference, found in zip(references, in_order(compared), strict=True):
             if isinstance(found, HostError):
                 fails(reference.file, found)
@@ -185,10 +185,10 @@ def _done(
     present = [(number, found) for number, found in enumerate(before) if found is not None]
     report_resumed(len(present), len(keys), "tables")
     yield from present
-    remaining = [number for number, found in enumerate(before) if found is None]
-    with closing(runs_with_bar(fmu, [references[number].drive for number in remaining], jobs)) as results:
+    pending = [number for number, found in enumerate(before) if found is None]
+    with closing(runs_with_bar(fmu, [references[number].drive for number in pending], jobs)) as results:
         for place, result in results:
-            number = remaining[place]
+            number = pending[place]
             if isinstance(result, HostError):
                 yield number, result
                 continue

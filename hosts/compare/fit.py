@@ -116,8 +116,8 @@ def fit(
     p = _polished(residuals, solution.x, bounds)
     _weighted_anew(residuals, residuals(p))
     r, jacobian, begun = residuals(p), residuals.jacobian(p), residuals(start)  # as the weights are now
-    made = _judged(residuals, unknowns, p, r, jacobian, begun, noise, own, runs, converged, searches, parts)
-    return replace(made, refused=refused)
+    result = _judged(residuals, unknowns, p, r, jacobian, begun, noise, own, runs, converged, searches, parts)
+    return replace(result, refused=refused)
 
 
 def _weighted_anew(residuals: Residuals, r: NDArray[np.float64]) -> bool:

@@ -106,10 +106,10 @@ def held_text(result: Result, segments: Sequence[Segment]) -> list[str]:
     """How well a driver has held the speed, how much of the time he could not, and by which forces, in a sentence; none
     where no driver did.
     """
-    held = [(s.place + s.speed.time, s.speed.values) for s in segments if s.speed is not None]
-    if not held or "speed" not in result:
+    demands = [(s.place + s.speed.time, s.speed.values) for s in segments if s.speed is not None]
+    if not demands or "speed" not in result:
         return []
-    time, values = (np.concatenate(parts) for parts in zip(*held, strict=True))
+    time, values = (np.concatenate(parts) for parts in zip(*demands, strict=True))
     error = np.interp(time, result.time, result["speed"]) - values
     text = f"The driver held the speed within {rms(error):.2g} m/s rms ({np.mean(error):+.1g} on the mean)"
     pedals = np.max([result[n] for n in PEDALS if n in result], axis=0)

@@ -144,19 +144,19 @@ def run(
     begin = due = clock.perf_counter()
     for k in range(steps):
         t = k * step
-        wanted = manoeuvre.at(t, whole)
+        input_values = manoeuvre.at(t, whole)
         if driver is not None:
             acts = acts if k == 0 else driver.act(t, observation)
             if not all(map(math.isfinite, acts.values())):
                 raise FailedFmuError(_not_finite(t, acts, observation))
-            wanted |= acts
-        values = [wanted[n] for n in used]
+            input_values |= acts
+        values = [input_values[n] for n in used]
         if used:
             set_inputs(values)
         rows.begin(values)
         if straight:
             then = manoeuvre.at(t + step, whole, before=True)
-            changes = [then[n] - wanted[n] for n in straight]
+            changes = [then[n] - input_values[n] for n in straight]
             rows.move([then[n] for n in straight], changes)
             follow([change / step for change in changes])
         try:

@@ -60,12 +60,12 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     check_begin(rows[0][0], rows[-1][0], path)
     record = record_of(path)
     recorded, start, held, state = record.outputs_from, dict(record.start), record.held, record.state
-    step, given = record.step, dict[str, Value]()
+    step, start_values = record.step, dict[str, Value]()
     for number, comment in table.comments:
         key, _, rest = comment.lstrip("# ").partition(":")
         where = f"{path}, line {number}"
         if key.strip() == "start":
-            _assign(given, rest.split(","), where)
+            _assign(start_values, rest.split(","), where)
         elif key.strip() == "state":
             name, at, instant = rest.rpartition(" at ")
             if not at:
@@ -101,7 +101,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     kept = frozenset(inputs if held is None and recorded else held or ())
     if not kept <= set(inputs):
         raise HostError(f"{path}: {brief(min(kept - set(inputs)))} is listed as held but is not an input of the table.")
-    start = {name: value for name, value in (start | given).items() if name not in columns}
+    start = {name: value for name, value in (start | start_values).items() if name not in columns}
     return Manoeuvre(
         path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept & set(columns), step=step
     )
@@ -118,14 +118,14 @@ def check_begin(first: float, last: float, path: Path) -> None:
         )
 
 
-def _assign(given: dict[str, Value], parts: Iterable[str], where: str) -> None:
+def _assign(start_values: dict[str, Value], parts: Iterable[str], where: str) -> None:
     for part in parts:
         name, equals, value = part.partition("=")
         if not equals:
             raise HostError(f"{where}: {brief(part.strip())} is not of the form name=value.")
-        if name.strip() in given:
+        if name.strip() in start_values:
             raise HostError(f"{where}: the start value {brief(name.strip())} is given twice.")
-        given[name.strip()] = value_of(value, f"{where}, start value {brief(name.strip())}")
+        start_values[name.strip()] = value_of(value, f"{where}, start value {brief(name.strip())}")
 
 
 def number_of(text: str, where: str) -> float:

@@ -81,9 +81,9 @@ class Fmu(Closable, NamedScalars):
         if self._loaded is not None:
             return self._loaded
         path = self.path
-        held = ExitStack()
-        folder = held.enter_context(temporary_folder())
-        self._remove = weakref.finalize(self, held.close)
+        stack = ExitStack()
+        folder = stack.enter_context(temporary_folder())
+        self._remove = weakref.finalize(self, stack.close)
         self._folder = folder
         try:
             unpack(path, folder)

@@ -79,11 +79,15 @@ class Car(Closable):
         self.step_length = positive(step, "The communication step of a car", "s")
         if not (isinstance(car, (str, Path)) and str(car).isprintable()):
             raise HostError(f"The car is {brief(car)}; it must be a name, a folder or a file.")
-        given = Path(car)
-        if given.suffix.lower() == ".fmu" and ports is not None:
-            raise HostError(f"Ports are chosen when an FMU is built; {given} is one.")
+        path_or_name = Path(car)
+        if path_or_name.suffix.lower() == ".fmu" and ports is not None:
+            raise HostError(f"Ports are chosen when an FMU is built; {path_or_name} is one.")
         names = ports if ports is None or isinstance(ports, str) else ",".join(texts(ports, "The ports"))
-        path = given if given.suffix.lower() == ".fmu" else fmu_of_car(str(car), lambda text: None, ports=names)
+        path = (
+            path_or_name
+            if path_or_name.suffix.lower() == ".fmu"
+            else fmu_of_car(str(car), lambda text: None, ports=names)
+        )
         self._always = dict(mapping({} if parameters is None else parameters, "The parameters"))
         self.fmu = Fmu(path)
         self._used = self._started = self._closed = False

@@ -224,14 +224,14 @@ def _replayed(task: tuple[RecordedDrive, Path], progress: Callable[[int], None])
     return replayed
 
 
-def _last_refusal(drive: RecordedDrive, repeater: Repeater, made: Replayed, count: int, time: float) -> None:
+def _last_refusal(drive: RecordedDrive, repeater: Repeater, replayed: Replayed, count: int, time: float) -> None:
     """A recording that ends with a step that was refused: it must be refused again."""
     last = drive.events[-1] if drive.events else {}
-    if last.get("kind") == REFUSED and "inputs" in last and made.rows:
+    if last.get("kind") == REFUSED and "inputs" in last and replayed.rows:
         with suppress(HostError):
             if not repeater.refuses(list(last["inputs"])):
-                made.first.append(Difference(count, time, "step", 0.0, 1.0))
-                made.different += 1
+                replayed.first.append(Difference(count, time, "step", 0.0, 1.0))
+                replayed.different += 1
 
 
 def _other_bits(a: NDArray[np.float64], b: NDArray[np.float64]) -> list[int]:

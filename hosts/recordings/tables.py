@@ -88,10 +88,10 @@ def blocks_of(folder: Path, names: Sequence[str]) -> Iterator[Rows]:
 def _after(blocks: Iterator[Rows], count: int) -> Iterator[Rows]:
     """All but so many first rows."""
     for rows in blocks:
-        remaining = max(0, count - len(rows))
+        to_skip = max(0, count - len(rows))
         if count < len(rows):
             yield rows.chosen(slice(count, None))
-        count = remaining
+        count = to_skip
 
 
 def _check_names(file: Path, found: Sequence[str], names: Sequence[str]) -> None:

@@ -65,9 +65,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
 def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.run.kerb import kerb_test
 
-    given = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "aliases", "road", "driver"))
-    if given:
-        raise HostError(f"{given[0]} cannot be combined with --kerb, which defines the drive.")
+    used = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "aliases", "road", "driver"))
+    if used:
+        raise HostError(f"{used[0]} cannot be combined with --kerb, which defines the drive.")
     if options.fmu is not None and is_car(options.fmu):
         raise HostError(
             f"--kerb runs the scene kerb_test; --manoeuvre kerb_drop drives the car {options.fmu} down a kerb."
@@ -110,12 +110,12 @@ def _run(options: argparse.Namespace) -> int:
 
             driver = driver_of(fmu, manoeuvre)
         set_all = partial(set_in, opened) if other is None else other.set_in
-        given = fmu_options(options)
+        set_options = fmu_options(options)
         if options.road is not None:
             from hosts.common.road import options_with_road
 
-            given = options_with_road(options, options.out)
-        manoeuvre, settings = set_all(manoeuvre, given, options.fidelity)
+            set_options = options_with_road(options, options.out)
+        manoeuvre, settings = set_all(manoeuvre, set_options, options.fidelity)
         still = options.manoeuvre is None
         stem = _words(path.stem) if still else f"{_words(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)

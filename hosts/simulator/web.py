@@ -104,10 +104,10 @@ def listening_socket(address: str, port: int | None) -> socket.socket:
 def _bound(address: str, port: int) -> socket.socket:
     family, *_, place = socket.getaddrinfo(address, port, type=socket.SOCK_STREAM)[0]
     both = place[0] == "::" and socket.has_dualstack_ipv6()  # the name of this machine may be one of IPv4 alone
-    with socket.create_server((str(place[0]), port), family=family, dualstack_ipv6=both) as made:
+    with socket.create_server((str(place[0]), port), family=family, dualstack_ipv6=both) as bound:
         if hasattr(socket, "TCP_DEFER_ACCEPT"):  # who is taken has sent first bytes, unless it is silent for a second
-            made.setsockopt(socket.IPPROTO_TCP, socket.TCP_DEFER_ACCEPT, 1)
-        return _Doors(family, socket.SOCK_STREAM, fileno=made.detach())
+            bound.setsockopt(socket.IPPROTO_TCP, socket.TCP_DEFER_ACCEPT, 1)
+        return _Doors(family, socket.SOCK_STREAM, fileno=bound.detach())
 
 
 class Web:

@@ -29,8 +29,8 @@ def table_schema(record: Mapping[str, Any]) -> Any:
     fields += [(name, pa.float64()) for name in record["measures"]]
     fields += [("status", pa.string()), ("reason", pa.string()), ("missing", pa.string()), ("messages", pa.string())]
     fields += [("simulated", pa.float64()), ("wall_seconds", pa.float64())]
-    made = [pa.field(name, kind, metadata={"unit": units[name]} if name in units else None) for name, kind in fields]
-    return pa.schema(made, metadata={"PANDAS_ATTRS": json.dumps(attributes(record))})
+    columns = [pa.field(name, kind, metadata={"unit": units[name]} if name in units else None) for name, kind in fields]
+    return pa.schema(columns, metadata={"PANDAS_ATTRS": json.dumps(attributes(record))})
 
 
 def signal_schema(record: Mapping[str, Any]) -> Any:

@@ -208,9 +208,9 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
 
 
 def _job_record(entry: ManoeuvreEntry, job: Job) -> dict[str, Any]:
-    given = entry.model_dump(exclude_none=True)
+    entries = entry.model_dump(exclude_none=True)
     step = None if math.isnan(job.step) else job.step
-    return {**given, "name": job.label, "step": step, "sha256": job_digest(job)}
+    return {**entries, "name": job.label, "step": step, "sha256": job_digest(job)}
 
 
 def job_digest(job: Job) -> str:

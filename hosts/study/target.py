@@ -39,13 +39,13 @@ def target_of(text: str, by: str, limits: str | None) -> Target:
         raise HostError(f"--target {text}: it must be MEASURE=VALUE, such as 'understeer_gradient=1.3 deg/g'.")
     try:
         ends = None if limits is None else tuple(parse_number(end) for end in limits.split(":"))
-        wanted = parse_number(result[1])
+        target = parse_number(result[1])
     except ValueError as error:
         between = "" if limits is None else f" --between {limits}"
         raise HostError(f"--target {text}{between}: {error}.") from None
     if ends is not None and not (len(ends) == 2 and ends[0] < ends[1]):
         raise HostError(f"--between {limits}: it must be LOW:HIGH, the smaller number first.")
-    return Target(name, wanted, result[2], by, None if ends is None else (ends[0], ends[1]))
+    return Target(name, target, result[2], by, None if ends is None else (ends[0], ends[1]))
 
 
 def find_target(file: Path, target: Target, out: Path | None) -> bool:

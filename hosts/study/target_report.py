@@ -133,8 +133,8 @@ def search_figure(runs: TargetRuns, found: SearchResult) -> Figure:
             label="runs",
             linewidth=1.0,
         )
-        wanted = runs.y_text(runs.wanted)
-        axes.axhline(factor * runs.wanted, color="#555555", linestyle="--", label=f"wanted: {wanted}")
+        target = runs.y_text(runs.wanted)
+        axes.axhline(factor * runs.wanted, color="#555555", linestyle="--", label=f"wanted: {target}")
         if found.best is not None:
             message = "found" if found.met else "nearest"
             label = f"{message}: {runs.x_text(found.best.x)}"

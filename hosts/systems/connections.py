@@ -52,8 +52,8 @@ def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[
         target, name = _split(end, parts, "input")
         source, output = _split(start, parts, "output")
         units = [parts[p].variables[n].unit for p, n in ((source, output), (target, name))]
-        given, wanted = (known_unit(unit) if unit else None for unit in units)
-        if given is not None and wanted is not None and given != wanted:
+        output_unit, input_unit = (known_unit(unit) if unit else None for unit in units)
+        if output_unit is not None and input_unit is not None and output_unit != input_unit:
             raise HostError(
                 f"'{start}' is in {units[0]} and '{end}' in {units[1]}; a wire converts no units, so wire variables "
                 "of one unit."

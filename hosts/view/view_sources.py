@@ -245,21 +245,21 @@ def _foreign(path: Path) -> str:
     )
 
 
-def _of_fmu(path: Path, name: str, wanted: ViewRunOptions) -> tuple[Recording, list[str], bool]:
+def _of_fmu(path: Path, name: str, run_options: ViewRunOptions) -> tuple[Recording, list[str], bool]:
     """Run an FMU: through a manoeuvre, or for its default experiment; whether the run is good."""
     notes = []
     with Fmu(path) as fmu:
-        given = wanted.manoeuvre
+        manoeuvre_name = run_options.manoeuvre
         car = set(ACTS) <= set(fmu.names("input")) and set(OBSERVED) <= set(fmu.names("output"))
-        if given is None and car and wanted.stop_time is None:
-            given = _CAR_MANOEUVRE
-            notes.append(f"{path} is driven through {given}; --manoeuvre names another.")
-        manoeuvre = with_names_of(manoeuvre_of(fmu, given, wanted.stop_time), fmu.variables)
+        if manoeuvre_name is None and car and run_options.stop_time is None:
+            manoeuvre_name = _CAR_MANOEUVRE
+            notes.append(f"{path} is driven through {manoeuvre_name}; --manoeuvre names another.")
+        manoeuvre = with_names_of(manoeuvre_of(fmu, manoeuvre_name, run_options.stop_time), fmu.variables)
         check_columns(fmu, manoeuvre)
         driver = driver_of(fmu, manoeuvre)
-        manoeuvre, settings = set_in(fmu, manoeuvre, wanted.fmu_options)
+        manoeuvre, settings = set_in(fmu, manoeuvre, run_options.fmu_options)
         scene = scene_of(path, settings.start)
-        result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, wanted.step), driver)
+        result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, run_options.step), driver)
     if scene is None:
         notes.append(_foreign(path))
     else:
@@ -274,5 +274,5 @@ def _of_fmu(path: Path, name: str, wanted: ViewRunOptions) -> tuple[Recording, l
     elif result.failed_steps:
         notes.append(f"{path} refused the step at {result.time[-1]:g} s; what came before is shown.")
     columns = {n: result.values[:, k] for k, n in enumerate(result.names)}
-    title = name if given is None else f"{name}, {manoeuvre.name.replace('_', ' ')}"
+    title = name if manoeuvre_name is None else f"{name}, {manoeuvre.name.replace('_', ' ')}"
     return Recording(scene, result.time, columns, result.units, settings.title(title)), notes, result.is_good

@@ -105,9 +105,9 @@ def test_exudyns_car_turns_and_leans_as_its_numbers_say(rates: dict[str, float])
         CAR.chassis.com[0] - CAR.rear.wheel.centre[0],
         MASS - 2.0 * (CAR.front.wheel.mass + CAR.rear.wheel.mass),
     )
-    for name, axle, way in (("front", CAR.front, ahead), ("rear", CAR.rear, CAR.wheelbase - ahead)):
+    for name, axle, lever in (("front", CAR.front, ahead), ("rear", CAR.rear, CAR.wheelbase - ahead)):
         spring, tyre = rates[f"{name}.wheel_rate"], axle.tyre.stiffness
-        carried = body * way / CAR.wheelbase / 2.0 + axle.wheel.mass
+        carried = body * lever / CAR.wheelbase / 2.0 + axle.wheel.mass
         moment += 2.0 * carried * (9.81 * carried / tyre)
         stiffness += 0.5 * axle.track**2 * spring * tyre / (spring + tyre)
         moment += 2.0 * axle.wheel.mass * axle.wheel.centre[2]

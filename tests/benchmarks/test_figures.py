@@ -29,11 +29,11 @@ def test_only_the_last_of_three_digits_may_be_one_off():
     assert same("-1.20e-05", "-1.21e-05")
     assert same("17.24%", "17.23%")
     assert same("0.52 mm, 1.30e-04", "0.52 mm, 1.31e-04")
-    for shown, made in (("0.887", "0.885"), ("2.5", "2.6"), ("0.887", "0.0886"), ("117", "118"), ("1.00", "-1.00")):
-        assert not same(shown, made)
-        assert not same(f"{shown}%", f"{made}%")
-    for shown, made in (("17.24%", "17.24"), ("17.24%", "17.23 N"), ("2, 12", "2"), (None, "2")):
-        assert not same(shown, made)
+    for shown, computed in (("0.887", "0.885"), ("2.5", "2.6"), ("0.887", "0.0886"), ("117", "118"), ("1.00", "-1.00")):
+        assert not same(shown, computed)
+        assert not same(f"{shown}%", f"{computed}%")
+    for shown, computed in (("17.24%", "17.24"), ("17.24%", "17.23 N"), ("2, 12", "2"), (None, "2")):
+        assert not same(shown, computed)
 
 
 @pytest.mark.parametrize(

@@ -46,8 +46,8 @@ def laps() -> Drive:
     """Laps of 2000 m with a corner to the left at 500 to 700 m and one to the right at 1200 to 1300 m."""
     time = np.arange(0.0, 230.0, STEP)
     vx = 30.0 + 5.0 * np.sin(0.17 * time)
-    way = STEP * np.concatenate([[0.0], np.cumsum(0.5 * (vx[1:] + vx[:-1]))])
-    at = way % 2000.0
+    distance = STEP * np.concatenate([[0.0], np.cumsum(0.5 * (vx[1:] + vx[:-1]))])
+    at = distance % 2000.0
     curvature = np.where((at > 500.0) & (at < 700.0), 0.01, np.where((at > 1200.0) & (at < 1300.0), -0.02, 0.0))
     return Drive(time, 0.0 * time, vx, 0.0 * time, curvature * vx)
 

@@ -22,9 +22,7 @@ def test_the_rig_returns_the_published_force_with_its_sign(angle: float, slip: f
     assert actual[lateral] == pytest.approx(force, rel=3e-4)
     assert np.sign(actual[lateral]) == np.sign(angle + slip)
     assert abs(actual[not lateral]) < 0.01 * abs(force)
-    figure = Published(
-        "test", "N", {"formula": force}, tyre_rig.read_within(lateral, load, angle if lateral else slip)
-    )
+    figure = Published("test", "N", {"formula": force}, tyre_rig.read_within(lateral, load, angle if lateral else slip))
     assert figure.row(actual[lateral])["verdict"] == "within"
     assert figure.row(-actual[lateral])["verdict"] != "within"
 

@@ -29,9 +29,9 @@ CONTENT = {"modelDescription.xml": DESCRIPTION.format("")}
 def archive(file: Path, *entries: tuple[str | zipfile.ZipInfo, str], method: int = zipfile.ZIP_DEFLATED) -> Path:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of doubled names
-        with zipfile.ZipFile(file, "w", method) as made:
+        with zipfile.ZipFile(file, "w", method) as target:
             for name, content in (*CONTENT.items(), *entries):
-                made.writestr(name, content)
+                target.writestr(name, content)
     return file
 
 

@@ -158,10 +158,10 @@ def test_each_function_is_called_and_stands_alone(name: str) -> None:
     kind = ctypes.CFUNCTYPE(RESULTS.get(name), *([P] * COUNTS[name]))
     inside = kind(getattr(table, name))
 
-    def counted(*given: int) -> int | None:
+    def counted(*arguments: int) -> int | None:
         nonlocal calls
         calls += 1
-        result: int | None = inside(*given)
+        result: int | None = inside(*arguments)
         return result
 
     alone, entry = Table(table.version, table.structure, table.avx2, None), kind(counted)

@@ -135,10 +135,10 @@ def test_pages_list_the_manoeuvres_and_the_scene_of_ones_own():
 @pytest.mark.slow
 def test_tables_of_variables_are_those_of_the_cars():
     result = tables()
-    made = blocks(result)
+    actual = blocks(result)
     text = (ROOT / "docs" / "variables.md").read_text(encoding="utf-8")
-    assert re.findall(r"<!-- made with the site: (.+) -->", text) == list(made)
-    page = "\n".join(made.values())
+    assert re.findall(r"<!-- made with the site: (.+) -->", text) == list(actual)
+    page = "\n".join(actual.values())
     # nothing is missing and nothing is there that no car has
     names = {v.name for variables in result.values() for v in variables}
     shown = set(re.findall(r"^\| ((?:`[^`]+`[,. ]*)+)", page, re.MULTILINE))

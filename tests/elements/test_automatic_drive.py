@@ -95,8 +95,8 @@ def test_torque_falls_with_speed_and_the_tangent_is_its_derivative() -> None:
                 r = element(u, ud, None, h, 0.5 * h, 0.0, [throttle])
                 assert last is None or r.out["wheel_torque"] <= last + 1e-9
                 last = r.out["wheel_torque"]
-                wanted = tangent_by_differences(element, u, ud, None, h, 0.5 * h, 0.0, [throttle])
-                assert np.max(np.abs(r.S - wanted)) < 1e-6 + 1e-6 * np.max(np.abs(wanted))
+                expected = tangent_by_differences(element, u, ud, None, h, 0.5 * h, 0.0, [throttle])
+                assert np.max(np.abs(r.S - expected)) < 1e-6 + 1e-6 * np.max(np.abs(expected))
                 assert np.linalg.eigvalsh(r.S)[0] > -1e-12
 
 
@@ -345,9 +345,9 @@ def test_a_clutch_hands_on_the_lesser_of_its_torque_and_of_the_drive_s() -> None
                     free = selected(direction, 0.0, throttle)(*signals, y, 0.0, 0.005, 0.0, inputs)
                     r = element(*signals, y, 0.0, 0.005, 0.0, [*inputs, pedal])
                     whole = 2.0 * free.out["wheel_torque"]
-                    held = min(abs(whole), (1.0 - pedal) * most)
-                    assert 2.0 * r.out["wheel_torque"] == pytest.approx(np.copysign(held, whole), rel=1e-12)
-                    if held < abs(whole):
+                    torque = min(abs(whole), (1.0 - pedal) * most)
+                    assert 2.0 * r.out["wheel_torque"] == pytest.approx(np.copysign(torque, whole), rel=1e-12)
+                    if torque < abs(whole):
                         slipped += 1
                         assert not r.S.any()
                         least, fastest = sorted((free.out["engine_speed"], DRIVE.limit_speed))

@@ -82,8 +82,8 @@ def test_lumped_masses_and_rotary_inertia_are_negligible_for_the_frame() -> None
 
 
 def test_torsional_stiffness_between_the_towers(model: FiniteElementModel) -> None:
-    held = np.concatenate([model.freedoms("TRL"), model.freedoms("TRR"), model.freedoms(REFERENCE)[1:2]])
-    free = np.setdiff1d(np.arange(model.n_dof), held)
+    fixed = np.concatenate([model.freedoms("TRL"), model.freedoms("TRR"), model.freedoms(REFERENCE)[1:2]])
+    free = np.setdiff1d(np.arange(model.n_dof), fixed)
     left, right = (model.freedoms(n)[2] for n in ("TFL", "TFR"))
     F = np.zeros(model.n_dof)
     F[left], F[right] = 1000.0, -1000.0

@@ -131,12 +131,12 @@ def test_what_is_odd_is_a_warning_without_the_place_in_the_source(
 
 
 def test_unknown_cars_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    for given, message in (
+    for car, message in (
         (tmp_path / "nowhere", "the cars of the package are"),
         ("protottype", "did you mean 'prototype'?"),
         (tmp_path, "the cars of the package are"),
     ):
-        assert build_fmu.main(command(given, tmp_path / "out")) == 2
+        assert build_fmu.main(command(car, tmp_path / "out")) == 2
         assert message in capsys.readouterr().err
     with pytest.raises(SystemExit):
         build_fmu.main(["--car", "prototype", "--scene", "pendulum"])

@@ -58,11 +58,11 @@ def host3(tmp_path_factory: pytest.TempPathFactory) -> Host3:
             unpack(fmu, place)
         library = next((place / "binaries" / platform_tuple).iterdir())
         number = driven.references
-        given = [f"{number[name]}={value}" for name, value in start.items()]
+        assignments = [f"{number[name]}={value}" for name, value in start.items()]
         options = ["--early"] if early else []
         command = [program, *options, library, f"{place / 'resources'}/", driven.description.guid, steps, length]
         done = subprocess.run(
-            [*map(str, command), *[str(number[shown])] * 2, *given], capture_output=True, text=True, check=False
+            [*map(str, command), *[str(number[shown])] * 2, *assignments], capture_output=True, text=True, check=False
         )
         return (
             done.returncode,

@@ -57,9 +57,9 @@ def test_steps_are_counted_and_what_they_left_is_that_of_the_kernel(slider: Path
     for k in range(STEPS):
         status_of(driven, k)
         simulation.instance.step(H)
-        remaining, report = driven.get("solver.capped_residual"), simulation.instance.report()
-        largest = max(largest, remaining)
-        counts.append((driven.slave.getInteger([driven.references["solver.capped_steps"]])[0], remaining > 0.0))
+        residual, report = driven.get("solver.capped_residual"), simulation.instance.report()
+        largest = max(largest, residual)
+        counts.append((driven.slave.getInteger([driven.references["solver.capped_steps"]])[0], residual > 0.0))
         assert counts[-1][0] == report["capped"]
         assert largest == report["capped_residual"]
     assert 10 < counts[-1][0] < STEPS
@@ -74,15 +74,15 @@ def test_the_largest_of_the_inner_steps_is_reported(slider: Path, host: HostMake
     inner = 5
     compared = 0
     for k in range(STEPS // inner):
-        remaining = []
+        residuals = []
         for i in range(inner):
             status_of(single, inner * k + i)
-            remaining.append(single.get("solver.capped_residual"))
+            residuals.append(single.get("solver.capped_residual"))
         status_of(many, k, inner * H)
         sloped.slave.setRealInputDerivatives([sloped.references["torque"]], [1], [1e-300])
         status_of(sloped, k, inner * H)
-        assert many.get("solver.capped_residual") == sloped.get("solver.capped_residual") == max(remaining)
-        compared += max(remaining) > remaining[-1]
+        assert many.get("solver.capped_residual") == sloped.get("solver.capped_residual") == max(residuals)
+        compared += max(residuals) > residuals[-1]
     assert compared > 5
 
 

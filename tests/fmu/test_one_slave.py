@@ -28,16 +28,16 @@ def pair(build: Callable[..., Path], host: HostMaker) -> list[Any]:
 
 def both(pair: list[Any], function: str, *arguments: Any) -> Any:
     """The same call of both; what they gave and said must be the same."""
-    given = []
+    answers = []
     for driven in pair:
         before = len(driven.messages)
         try:
             value = getattr(driven.slave, function)(*arguments)
-            given.append((OK, repr(value), driven.messages[before:]))
+            answers.append((OK, repr(value), driven.messages[before:]))
         except FMICallException as error:
-            given.append((int(error.status), "", driven.messages[before:]))
-    assert given[0] == given[1], (function, arguments)
-    return given[0]
+            answers.append((int(error.status), "", driven.messages[before:]))
+    assert answers[0] == answers[1], (function, arguments)
+    return answers[0]
 
 
 def states(pair: list[Any]) -> list[bytes]:

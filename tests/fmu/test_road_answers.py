@@ -278,8 +278,8 @@ def test_derivatives_by_answers_are_those_of_differences(host, sledge) -> None:
     for k in range(50):
         h.step(0.01 * k, 0.01)
     references = {v.name: v.valueReference for v in h.description.modelVariables}
-    wanted = [references[n] for n in ("z", "x", "vx", "road_ahead_x")]
-    actual = h.slave.getDirectionalDerivative(wanted, [references["road_height"]], [1.0])
+    unknowns = [references[n] for n in ("z", "x", "vx", "road_ahead_x")]
+    actual = h.slave.getDirectionalDerivative(unknowns, [references["road_height"]], [1.0])
     assert 0.0 < actual[0] < 1.0
     assert actual[3] == pytest.approx(actual[1] + 0.01 * actual[2], abs=1e-12)
 

@@ -86,9 +86,9 @@ def test_a_command_takes_an_fmu_or_a_car(
     assert "The car car is built for this machine" in capsys.readouterr().out
     assert fmu_file(Path("car", "car.toml")) == fmu_file(Path("car")) == result
     assert capsys.readouterr().out == ""
-    for given in ("x.fmu", "dist/x", "cut", "run-1"):  # what is there, or looks like a file
+    for fmu in ("x.fmu", "dist/x", "cut", "run-1"):  # what is there, or looks like a file
         (tmp_path / "cut").write_text("")
-        assert fmu_file(Path(given)) == Path(given)
+        assert fmu_file(Path(fmu)) == Path(fmu)
     built = []
     monkeypatch.setattr("hosts.fmu.fmu_file.fmu_of_car", lambda name, tell: built.append(name) or result)
     assert fmu_file(Path("hatchback")) == fmu_file(None) == result

@@ -140,8 +140,8 @@ def test_fmu_is_the_engine_bit_for_bit(car: tuple[mbs.System, Path], tmp_path: P
     """The slalom with one inner step per communication step, against the engine stepped by hand."""
     system, _ = car
     h = float(system.meta["experiment"]["step_s"])
-    given = load_manoeuvre("slalom")
-    manoeuvre = replace(given, held=frozenset(given.inputs))
+    slalom = load_manoeuvre("slalom")
+    manoeuvre = replace(slalom, held=frozenset(slalom.inputs))
     write_manoeuvre(manoeuvre, tmp_path / "held.toml")
     r, _ = drive(car, str(tmp_path / "held.toml"), tmp_path, h)
     simulation = mbs.Simulation(system, inputs=manoeuvre.at(0.0), pose=Pose(speed=15.0))

@@ -29,8 +29,8 @@ PULL = '"time","pull"\n0,0\n0.4,{0}\n0.4,-20\n1,0\n'
 def repository(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """An FMU and two references."""
     folder = tmp_path_factory.mktemp("repository")
-    made = build_fmu(mbs.compile(tuned()), "tuned", folder, [fmpy.platform])
-    made.rename(folder / "model.fmu")
+    built = build_fmu(mbs.compile(tuned()), "tuned", folder, [fmpy.platform])
+    built.rename(folder / "model.fmu")
     for name, pull in (("swing", 30), ("rest", 0)):
         (folder / f"{name}.csv").write_text(PULL.format(pull))
         done = run(run_main, folder / "model.fmu", "-m", folder / f"{name}.csv", "--out", folder / "references")

@@ -52,11 +52,11 @@ def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ],
         check=True,
     )
-    made = folder / "StateSpace.fmu"
-    with zipfile.ZipFile(made, "w") as archive:
+    file = folder / "StateSpace.fmu"
+    with zipfile.ZipFile(file, "w") as archive:
         archive.write(HERE / "state_space" / "modelDescription.xml", "modelDescription.xml")
         archive.write(library, f"binaries/{fmpy.platform_tuple}/{library.name}")
-    return made
+    return file
 
 
 def motion(u: NDArray[np.float64], a: NDArray[np.float64] = A, b: NDArray[np.float64] = B) -> NDArray[np.float64]:
@@ -65,8 +65,8 @@ def motion(u: NDArray[np.float64], a: NDArray[np.float64] = A, b: NDArray[np.flo
     whole[:2, :2], whole[:2, 2:] = a, b
     step = expm(whole * H)
     x = [np.zeros(2)]
-    for held in u:
-        x.append(step[:2, :2] @ x[-1] + step[:2, 2:] @ held)
+    for inputs in u:
+        x.append(step[:2, :2] @ x[-1] + step[:2, 2:] @ inputs)
     return np.array(x)
 
 
@@ -131,15 +131,15 @@ def test_an_array_as_a_whole_is_refused_with_its_elements(fmu: Path) -> None:
 
 def described_as(fmu: Path, folder: Path, change: dict[str, str]) -> Path:
     """The same FMU with other words in its description."""
-    made = folder / "Changed.fmu"
-    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(made, "w") as new:
+    copy = folder / "Changed.fmu"
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(copy, "w") as new:
         for name in old.namelist():
             content = old.read(name)
             for message, others in change.items() if name == "modelDescription.xml" else ():
                 assert message.encode() in content
                 content = content.replace(message.encode(), others.encode())
             new.writestr(name, content)
-    return made
+    return copy
 
 
 def test_texts_of_an_array_are_not_split_and_not_set(fmu: Path, tmp_path: Path) -> None:

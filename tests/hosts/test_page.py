@@ -39,9 +39,9 @@ def changed(fmu: Path, folder: Path, change: Any, scene: Any = DRAWING) -> Path:
         names |= {name: old.read(name) for name in old.namelist() if name != SCENE}
         names["binaries/wasm32/Tuned.wasm"] = bytes(range(256))
         for name, content in names.items():
-            made = change(name, content)
-            if made is not None:
-                new.writestr(name, made)
+            changed_content = change(name, content)
+            if changed_content is not None:
+                new.writestr(name, changed_content)
     return file
 
 
@@ -137,8 +137,8 @@ def test_a_road_that_is_none(tuned: Path, tmp_path: Path, capsys: pytest.Capture
 
 def test_a_road_is_drawn_as_slick_as_it_was_set(tuned: Path, tmp_path: Path) -> None:
     """That of the FMU, and one from a file, of which the factor alone is set."""
-    given = {name: f"road.{name}" for name in ("friction", "friction_factor", "file")}
-    own = {"kind": "flat", "friction": 1.2, "friction_factor": 1.0, "variables": given}
+    variables = {name: f"road.{name}" for name in ("friction", "friction_factor", "file")}
+    own = {"kind": "flat", "friction": 1.2, "friction_factor": 1.0, "variables": variables}
     fmu = changed(tuned, tmp_path, same, DRAWING | {"up": [0, 0, 1], "planar": False, "roads": [own]})
     assert road(["--world=plane", f"--out={tmp_path}"]) == 0
     for file in ("", str(tmp_path / "plane.road")):

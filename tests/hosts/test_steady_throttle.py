@@ -148,9 +148,9 @@ def test_a_file_says_so(tmp_path: Path) -> None:
     assert "throttle" not in result.inputs
     write_manoeuvre(result, tmp_path / "again.toml")
     assert read_manoeuvre(str(tmp_path / "again.toml")).find_throttle
-    given = read_manoeuvre("step_steer_given_throttle")
-    assert not given.find_throttle
-    assert all(np.array_equal(given.inputs[n], values) for n, values in result.inputs.items())
+    manoeuvre = read_manoeuvre("step_steer_given_throttle")
+    assert not manoeuvre.find_throttle
+    assert all(np.array_equal(manoeuvre.inputs[n], values) for n, values in result.inputs.items())
     jobs = [Job("m", m, step=H) for m in (result, replace(result, find_throttle=False))]
     assert len({job_digest(job) for job in jobs}) == 2
     for text, message in {

@@ -29,8 +29,8 @@ def fmu(system: System, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def hands(time: float, angle: float, rate: float) -> float:
     """Arms as a spring and a damper that pull the wheel along a sine."""
-    wanted = 0.6 * math.sin(2.0 * math.pi * time / 2.5) * min(1.0, time)
-    return 12.0 * (wanted - angle) - 0.6 * rate
+    demand = 0.6 * math.sin(2.0 * math.pi * time / 2.5) * min(1.0, time)
+    return 12.0 * (demand - angle) - 0.6 * rate
 
 
 @pytest.fixture(scope="module")

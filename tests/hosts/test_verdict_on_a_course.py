@@ -117,9 +117,7 @@ def test_the_output_of_the_command(prototype_fmu: Path, tmp_path: Path, capsys: 
     for more in (("--stop-time", "0.5"), ("--set", "initial.x=-60"), ("--set", "initial.speed=8")):
         requested = dict([more])
         for _ in range(2):  # who starts slowly needs more time, and is then told that it was too slow
-            row = said_of(
-                prototype_fmu, tmp_path, capsys, *(part for option in requested.items() for part in option)
-            )
+            row = said_of(prototype_fmu, tmp_path, capsys, *(part for option in requested.items() for part in option))
             assert row.startswith("not passed: "), row
             option, value = re.search(r"(--\S+) (\S+)", row).groups()  # type: ignore[union-attr]
             requested[option] = value

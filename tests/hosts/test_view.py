@@ -40,15 +40,15 @@ SCENE = {
 }
 
 
-def with_resources(fmu: Path, made: Path, geometry: str | None) -> Path:
+def with_resources(fmu: Path, copy: Path, geometry: str | None) -> Path:
     """A copy of an FMU with another scene in it, or none."""
-    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(made, "w") as new:
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(copy, "w") as new:
         for name in old.namelist():
             if name != "resources/geometry.json":
                 new.writestr(name, old.read(name))
         if geometry is not None:
             new.writestr("resources/geometry.json", geometry)
-    return made
+    return copy
 
 
 @pytest.fixture(scope="module")
@@ -351,12 +351,12 @@ def test_options_that_cannot_be_met(result: Path, said: Said) -> None:
 
 
 def test_names_of_before_are_named(result: Path, said: Said, capsys: pytest.CaptureFixture[str]) -> None:
-    for given, message in (
+    for options, message in (
         (["--out", "page.html"], "page.html is the name of a file; --out names the output folder"),
         (["--out", "x.GLB"], "x.GLB is the name of a file; --out names the output folder"),
     ):
         with pytest.raises(SystemExit) as end:
-            said(result, *given)
+            said(result, *options)
         assert end.value.code == 2
         assert message in capsys.readouterr().err
 

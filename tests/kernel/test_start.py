@@ -33,13 +33,13 @@ def test_the_position_problem_finds_the_nearest_point() -> None:
 def test_the_nearest_point_is_that_of_the_mass() -> None:
     """1 kg along x and 3 kg along y from (-1.3, 0.9) to the circle: M (q - q0) + mu q = 0."""
     b = pendulum()
-    b.mass, given = np.diag([1.0, 3.0]), np.array([-1.3, 0.9])
+    b.mass, start = np.diag([1.0, 3.0]), np.array([-1.3, 0.9])
     instance = instance_of(b)
-    instance.set_q(list(given), [0.0, 0.0])
+    instance.set_q(list(start), [0.0, 0.0])
     instance.initialise(0.0)
-    mu = brentq(lambda x: np.hypot(*(given * [1.0, 3.0] / (np.array([1.0, 3.0]) + x))) - 1.0, 0.0, 10.0)
-    expected = given * [1.0, 3.0] / (np.array([1.0, 3.0]) + mu)
-    assert abs(np.cross([*expected, 0.0], [*given, 0.0])[2]) > 0.05  # not on the line to the centre
+    mu = brentq(lambda x: np.hypot(*(start * [1.0, 3.0] / (np.array([1.0, 3.0]) + x))) - 1.0, 0.0, 10.0)
+    expected = start * [1.0, 3.0] / (np.array([1.0, 3.0]) + mu)
+    assert abs(np.cross([*expected, 0.0], [*start, 0.0])[2]) > 0.05  # not on the line to the centre
     np.testing.assert_allclose(instance.get_state()[0], expected, atol=1e-6)
 
 

@@ -173,7 +173,7 @@ def test_the_work_of_a_guide_is_the_change_of_the_energy_where_inputs_jump():
     that steps end with, which know nothing of the next jump, leave an error of the first order, and a force that is
     straight between them 1e-3 of the work.
     """
-    system, remaining = watched_rotor(), []
+    system, residuals = watched_rotor(), []
     for parts in (4, 8):
         simulation = Simulation(system)
         start = simulation.sensors
@@ -182,11 +182,11 @@ def test_the_work_of_a_guide_is_the_change_of_the_energy_where_inputs_jump():
             simulation.step(8e-3 / parts, parts)
         end = simulation.sensors
         change = end["energy"] - start["energy"]
-        remaining.append(change - end["guides"])
-        assert remaining[-1] == pytest.approx(simulation.instance.report()["energy_error"], abs=1e-5 * change)
+        residuals.append(change - end["guides"])
+        assert residuals[-1] == pytest.approx(simulation.instance.report()["energy_error"], abs=1e-5 * change)
     assert change > 0.3
-    assert abs(remaining[0]) < 1e-3 * change
-    assert abs(remaining[0]) > 3.5 * abs(remaining[1])
+    assert abs(residuals[0]) < 1e-3 * change
+    assert abs(residuals[0]) > 3.5 * abs(residuals[1])
 
 
 SQUARE = ((0.0, 0.1, 0.1, 0.3, 0.3, 0.5, 0.5, 0.8), (0.0, 0.0, 0.5, 0.5, -0.5, -0.5, 0.5, 0.5))
@@ -205,14 +205,14 @@ def test_the_work_of_a_guide_under_a_square_wave_is_the_energy_of_its_wheel(meth
 
 @pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "energy_momentum"])
 def test_each_method_sums_up_the_work_of_a_guide(method):
-    remaining = []
+    residuals = []
     for h in (4e-3, 2e-3):
         requested = {"target": lambda t: 0.5 * np.sin(9.0 * t)}
         run = simulate(watched_rotor(), 0.8, h, requested, method=method, progress=False, estimate_error=False)
-        remaining.append(np.ptp(run["energy"] - run["guides"]))
+        residuals.append(np.ptp(run["energy"] - run["guides"]))
         assert np.ptp(run["guides"]) > 1.0
-    assert remaining[0] < 0.03 * np.ptp(run["guides"])
-    assert remaining[0] > 3.0 * remaining[1]
+    assert residuals[0] < 0.03 * np.ptp(run["guides"])
+    assert residuals[0] > 3.0 * residuals[1]
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum"])

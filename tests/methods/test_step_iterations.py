@@ -37,11 +37,11 @@ def started(loaded, **settings):
 
 def stepped(instance, steps, h=H):
     """Iterations of each step."""
-    made = [instance.report()["iterations"]]
+    iterations = [instance.report()["iterations"]]
     for _ in range(steps):
         instance.run(h, 1)
-        made.append(instance.report()["iterations"])
-    return np.diff(made)
+        iterations.append(instance.report()["iterations"])
+    return np.diff(iterations)
 
 
 def test_a_limit_that_is_not_reached_changes_nothing(rough):
@@ -114,10 +114,10 @@ def test_what_is_left_bounds_how_far_the_positions_are_off(rough):
         limited.run(H, 1)
         exact.run(H, 1)
         off = np.abs(np.array(limited.get_state()[0]) - np.array(exact.get_state()[0])).max()
-        remaining = limited.report()["capped_residual"]
-        if remaining > max(before, 1e-6):
+        residual = limited.report()["capped_residual"]
+        if residual > max(before, 1e-6):
             apart += 1
-            assert off < 1.5 * remaining
+            assert off < 1.5 * residual
     assert apart > 10
 
 

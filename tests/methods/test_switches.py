@@ -44,10 +44,10 @@ def test_a_point_is_held_where_it_is_and_let_go(system, method):
     assert jump == pytest.approx(after["energy"] - before["energy"], abs=1e-12) == simulation.report.energy_jump
     assert jump < -1.0  # an impact takes energy
     assert np.hypot(after["tip.vx"], after["tip.vy"]) < 1e-10 < np.hypot(before["tip.vx"], before["tip.vy"])
-    held = simulation.run(RELEASE, H)
+    pinned = simulation.run(RELEASE, H)
     for c in "xy":
-        assert np.abs(held[f"tip.{c}"] - free[f"tip.{c}"][-1]).max() < 1e-9
-    assert np.abs(held["pin.fy"]).max() > 1.0
+        assert np.abs(pinned[f"tip.{c}"] - free[f"tip.{c}"][-1]).max() < 1e-9
+    assert np.abs(pinned["pin.fy"]).max() > 1.0
     assert abs(simulation.set_switch("tip", False)) < 1e-9  # letting go costs nothing
     again = simulation.run(END, H)
     assert np.ptp(again["tip.x"]) > 0.5

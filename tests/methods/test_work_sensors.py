@@ -103,9 +103,9 @@ def test_the_balance_of_a_damped_swing_closes_by_the_order_of_the_method(method)
     elif method == "ali3p":
         errors = [r.report.energy_error for r in runs]
         assert coarse / fine == pytest.approx(4.0, rel=0.2)
-        remaining = [abs(opened(r) - error) for r, error in zip(runs, errors, strict=True)]
-        assert remaining[0] / remaining[1] > 6.0  # what the error of the energy does not name is of third order
-        assert remaining[1] < 0.04 * fine
+        residuals = [abs(opened(r) - error) for r, error in zip(runs, errors, strict=True)]
+        assert residuals[0] / residuals[1] > 6.0  # what the error of the energy does not name is of third order
+        assert residuals[1] < 0.04 * fine
     else:
         assert coarse / fine > 0.6 * 2.0 ** ORDERS.get(method, 2)
 
@@ -193,9 +193,9 @@ def test_the_work_of_a_guide_is_that_of_its_rows(method, left):
     m = driven()
     m.sense_energy("guides", "with guides")
     run = simulate(compile(m), 1.0, 0.01, method=method, **QUIET)
-    given = run["energy"] - run["energy"][0]
-    assert given.max() > 10.0
-    assert np.abs(run["guides"] - given).max() < left * given.max()
+    energy_change = run["energy"] - run["energy"][0]
+    assert energy_change.max() > 10.0
+    assert np.abs(run["guides"] - energy_change).max() < left * energy_change.max()
 
 
 @pytest.mark.slow

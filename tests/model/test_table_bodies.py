@@ -198,7 +198,7 @@ def wrong(**changed: Any) -> None:
     m = Model("wrong")
     base = m.body("base", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
     points = np.linspace(-1.0, 1.0, 9)
-    given: dict[str, Any] = {
+    arguments: dict[str, Any] = {
         "base": base,
         "parameters": m.travel("s"),
         "axes": [points],
@@ -210,7 +210,7 @@ def wrong(**changed: Any) -> None:
     }
     before = len(m.coordinates)
     try:
-        m.tabled_body("part", **given | changed)
+        m.tabled_body("part", **arguments | changed)
     finally:
         assert not m.tabled
         assert len(m.coordinates) == before

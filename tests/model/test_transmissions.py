@@ -371,9 +371,7 @@ def test_a_ring_of_gears_that_cannot_turn_is_reported(free):
 
     locked = run(ring((-1.0, -1.0, -1.0)), "ali3p", {"torque": 1.0}, t_end=0.1)
     assert abs(locked["angle"][-1]) < 1e-12
-    message = (
-        "The gears 'gear 0', 'gear 1', 'gear 2' form a ring that is locked: 'angle 2' would have to turn -1 times"
-    )
+    message = "The gears 'gear 0', 'gear 1', 'gear 2' form a ring that is locked: 'angle 2' would have to turn -1 times"
     assert [text for text in locked.notices if text.startswith(message)]
     with pytest.raises(ModelError, match="form a ring that is locked" if free else "is locked"):
         compile(ring((-1.0, -1.0, -1.0), 2.0))

@@ -91,8 +91,8 @@ def compiles(root: Path, changed: Path) -> None:
     elif changed.suffix == ".c":
         include = [f"-I{place}" for place in (changed.parent, root / "mbs" / "kernel" / "include")]
         flags = [flag for flag in build.FLAGS if flag not in ("-shared", "-s")]
-        made = ["-c", str(changed), "-o", str(root.with_suffix(".o"))]
-        command = [build.compiler(), "cc", *flags, *include, *made]
+        output_options = ["-c", str(changed), "-o", str(root.with_suffix(".o"))]
+        command = [build.compiler(), "cc", *flags, *include, *output_options]
         result = subprocess.run(command, capture_output=True, text=True, check=False)
         if result.returncode and "file not found" not in result.stderr:
             raise RuntimeError(result.stderr)

@@ -61,11 +61,11 @@ def stepped(simulation, h):
     return simulation.report.last_iterations, simulation.report.factorizations - before
 
 
-def oracle_step(system, before, settings, h, made):
+def oracle_step(system, before, settings, h, iterations):
     start = PaperState(before.q, before.qd, before.qdd, before.lam)
     alpha = 1.0 / (settings.eps_rel * h * h)
     return paper_step(
-        DenseMechanism(system), start, h, alpha, *made, settings.update, settings.geometric, settings.project
+        DenseMechanism(system), start, h, alpha, *iterations, settings.update, settings.geometric, settings.project
     )
 
 

@@ -174,13 +174,13 @@ def test_what_a_grid_cannot_have_is_refused(tmp_path, name):
     ):
         with pytest.raises(RoadFileError, match=sentence):
             read_road(tmp_path / name, spacing=spacing)
-    for given, sentence in (
+    for options, sentence in (
         ({"height_range": (0.0, 0.25)}, "range 0 to 0.25 of heights .* its heights come from no picture"),
         ({"friction_range": (0.2, 1.0)}, "range 0.2 to 1 of frictions .* its frictions come from no picture"),
         ({"friction_range": (0.2, 1.0), "frictions": 0.5}, "its frictions come from no picture"),
     ):
         with pytest.raises(RoadFileError, match=sentence) as refused:
-            read_road(tmp_path / name, **given)
+            read_road(tmp_path / name, **options)
         assert name in str(refused.value)
 
 
@@ -246,8 +246,8 @@ def test_a_rough_road_has_the_spectrum_of_its_class():
 def test_the_command(tmp_path, capsys):
     (tmp_path / "a.csv").write_text(LABELLED)
     road, picture = tmp_path / "a.road", tmp_path / "a.png"
-    given = ["road", str(tmp_path / "a.csv"), str(road), "--frictions", "0.6", "--picture", str(picture)]
-    assert main(given) == 0
+    arguments = ["road", str(tmp_path / "a.csv"), str(road), "--frictions", "0.6", "--picture", str(picture)]
+    assert main(arguments) == 0
     output = capsys.readouterr().out
     assert "grid of 2 x 3 points\nx: 5 to 7 m, every 2 m\ny: -1 to 1 m, every 1 m\n" in output
     assert {"from", "lowest", "highest", "1.2", "0.5", "least", "0.6"} <= set(output.replace(",", " ").split())
@@ -282,8 +282,10 @@ def test_the_command_says_what_is_wrong(tmp_path, capsys, monkeypatch, arguments
 def test_a_refused_road_leaves_the_old_file(tmp_path):
     (tmp_path / "a.csv").write_text("1,2\n3,400000\n")
     (tmp_path / "a.road").write_text("older")
-    given = [str(tmp_path / "a.csv"), str(tmp_path / "a.road"), "--spacing", "1", "1"]
-    done = subprocess.run([sys.executable, "-m", "ali3", "road", *given], capture_output=True, text=True, check=False)
+    arguments = [str(tmp_path / "a.csv"), str(tmp_path / "a.road"), "--spacing", "1", "1"]
+    done = subprocess.run(
+        [sys.executable, "-m", "ali3", "road", *arguments], capture_output=True, text=True, check=False
+    )
     assert done.returncode == 2
     assert "it must lie between -100000 and 100000 m" in done.stderr
     assert (tmp_path / "a.road").read_text() == "older"

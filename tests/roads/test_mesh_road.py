@@ -126,8 +126,8 @@ def test_pieces_that_lie_apart_are_reported(tmp_path: Path) -> None:
 
 
 def box() -> tuple[Array, Array]:
-    made = trimesh.creation.box((10.0, 4.0, 0.5))
-    return np.asarray(made.vertices), np.asarray(made.faces)
+    mesh = trimesh.creation.box((10.0, 4.0, 0.5))
+    return np.asarray(mesh.vertices), np.asarray(mesh.faces)
 
 
 def holed() -> tuple[Array, Array]:

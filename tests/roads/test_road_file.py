@@ -53,8 +53,8 @@ def same(a, b):
 
 
 def run(system, path, t_end=1.0, speed=12.0, **parameters):
-    given = parameters | ({"road.file": path} if path is not None else {})
-    return mbs.simulate(system, t_end, H, pose=mbs.Pose(speed=speed), parameters=given, progress=False)
+    changed = parameters | ({"road.file": path} if path is not None else {})
+    return mbs.simulate(system, t_end, H, pose=mbs.Pose(speed=speed), parameters=changed, progress=False)
 
 
 @pytest.mark.parametrize(
@@ -102,10 +102,10 @@ def test_a_plane_as_a_grid_is_the_plane(tmp_path, car):
 
 @pytest.mark.parametrize("frictions", [True, False])
 def test_a_file_is_the_grid_in_memory_to_the_last_bit(tmp_path, frictions):
-    given = rough(frictions=frictions)
-    write_road(given, tmp_path / "a.road")
-    file = mbs.compile(prototype_car.build(RoadFile(tmp_path / "a.road", given)))
-    inside = mbs.Simulation(mbs.compile(prototype_car.build(given)), pose=mbs.Pose(speed=12.0))
+    grid = rough(frictions=frictions)
+    write_road(grid, tmp_path / "a.road")
+    file = mbs.compile(prototype_car.build(RoadFile(tmp_path / "a.road", grid)))
+    inside = mbs.Simulation(mbs.compile(prototype_car.build(grid)), pose=mbs.Pose(speed=12.0))
     outside = mbs.Simulation(file, pose=mbs.Pose(speed=12.0))
     for _ in range(300):
         inside.step(H)
@@ -276,8 +276,8 @@ def test_the_friction_factor_holds_for_files_too(tmp_path, car):
     ends = []
     for friction, factor in ((0.6, 0.5), (0.3, 1.0), (0.6, 1.0)):
         write_road(PlaneRoad(friction=friction), tmp_path / f"{friction}.road")
-        given = {"road.file": tmp_path / f"{friction}.road", "road.friction_factor": factor}
-        result = mbs.simulate(car, 1.0, H, {"brake": 1.0}, pose=mbs.Pose(speed=20.0), parameters=given)
+        parameters = {"road.file": tmp_path / f"{friction}.road", "road.friction_factor": factor}
+        result = mbs.simulate(car, 1.0, H, {"brake": 1.0}, pose=mbs.Pose(speed=20.0), parameters=parameters)
         ends.append(result["chassis.vx"][-1])
     assert ends[0] == pytest.approx(ends[1], abs=1e-9)
     assert ends[1] - ends[2] > 2.0

@@ -79,9 +79,10 @@ def test_a_variant_of_many_that_meets_a_wall_is_reported_with_its_number(car, tm
     file = tmp_path / "wall.road"
     with pytest.warns(RoadWarning, match="a face of"):
         write_road(grid(*LOW), file)
-    given = [{"road.file": file, "drive.ratio": 9.0}, {"road.file": file, "drive.ratio": 11.0}]
+    parameter_sets = [{"road.file": file, "drive.ratio": 9.0}, {"road.file": file, "drive.ratio": 11.0}]
     variants = [
-        mbs.Variant(parameters, pose=mbs.Pose(speed=v)) for parameters, v in zip(given, (15.0, 2.0), strict=True)
+        mbs.Variant(parameters, pose=mbs.Pose(speed=v))
+        for parameters, v in zip(parameter_sets, (15.0, 2.0), strict=True)
     ]
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")

@@ -50,8 +50,8 @@ def test_parked_on_a_slope_up_down_and_across(way, grade):
     system = compile(prototype_car.build(PlaneRoad(**{way: grade})))
     t = drive(system, 25.0, H, {"brake": 1.0}, every=10, pose=Pose(z=0.25))
     pull = {"grade_x": "Fx", "grade_y": "Fy"}[way]
-    held = sum(t[f"wheel_{w}.{pull}"][-1] for w in ("FL", "FR", "RL", "RR"))
-    assert abs(held) == pytest.approx(597.0 * 9.81 * GRADE / np.hypot(1.0, GRADE), rel=0.02)
+    force = sum(t[f"wheel_{w}.{pull}"][-1] for w in ("FL", "FR", "RL", "RR"))
+    assert abs(force) == pytest.approx(597.0 * 9.81 * GRADE / np.hypot(1.0, GRADE), rel=0.02)
     assert moved(t, 15.0, 25.0) < 10.0 * CREEP
     assert t["energy.kinetic"][-1] < 1e-9
 

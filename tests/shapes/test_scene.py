@@ -23,8 +23,8 @@ from mbs.system.drawing import Drawing, matrices
 SCENES = [found.name for found in pkgutil.iter_modules(mbs.scenes.__path__)]
 
 
-def shapes_of(scene, **wanted):
-    return [s for s in scene["shapes"] if all(s.get(k) == v for k, v in wanted.items())]
+def shapes_of(scene, **keys):
+    return [s for s in scene["shapes"] if all(s.get(k) == v for k, v in keys.items())]
 
 
 @pytest.mark.parametrize("name", SCENES)

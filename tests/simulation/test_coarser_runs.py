@@ -181,9 +181,9 @@ def test_which_coarser_runs_are_made() -> None:
     assert coarser_steps(energy_momentum, moves, False, RESOLVED, still) == [2]
     radau = mbs.Settings(method="radau_5")
     assert coarser_steps(radau, moves, False, 2.0 * RESOLVED, still) == [8, 2]
-    for times, made in ((9.0, [8, 2]), (7.0, [4, 2]), (3.0, [2]), (1.0, [])):
+    for times, expected_steps in ((9.0, [8, 2]), (7.0, [4, 2]), (3.0, [2]), (1.0, [])):
         scaled = replace(run.report, predictor_squares=1.0 / times**2, velocity_squares=1.0)
-        assert coarser_steps(radau, moves, False, 2.0 * RESOLVED, scaled) == made
+        assert coarser_steps(radau, moves, False, 2.0 * RESOLVED, scaled) == expected_steps
 
 
 @pytest.mark.parametrize(

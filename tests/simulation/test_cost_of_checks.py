@@ -112,8 +112,8 @@ def test_a_coarser_run_goes_on_where_a_difference_grows(grown: Callable[[np.ndar
 
 def machine(number: int) -> tuple[mbs.System, float]:
     """A random one of seed 1, and its span, s."""
-    _, made = random_machines.machine(np.random.default_rng([1, number]))
-    return mbs.compile(random_machines.model_of(made)), made.span
+    _, drawing = random_machines.machine(np.random.default_rng([1, number]))
+    return mbs.compile(random_machines.model_of(drawing)), drawing.span
 
 
 def test_no_16th_of_the_step_follows_where_an_eighth_tells() -> None:

@@ -87,8 +87,8 @@ def test_block_on_a_slope(grade, holds):
 
 def after_impact(v, chi):
     """Speed after an impact by Hunt and Crossley with the loss of `mbs.elements.ContactPoints`."""
-    remaining = (chi * v - math.log1p(chi * v)) / chi**2
-    return brentq(lambda x: x * x / 2.0 + chi * x**3 / 3.0 - remaining, 0.0, v, xtol=1e-14)
+    energy = (chi * v - math.log1p(chi * v)) / chi**2
+    return brentq(lambda x: x * x / 2.0 + chi * x**3 / 3.0 - energy, 0.0, v, xtol=1e-14)
 
 
 @pytest.mark.parametrize("chi", [0.05, 0.5])

@@ -247,8 +247,8 @@ def test_lanes_and_limited_steps_have_the_parts_of_a_run_alone() -> None:
     many = mbs.simulate_many(
         system, [mbs.Variant(inputs={"push": t}) for t in tables], SPAN, H, progress=False, estimate_error=False
     )
-    for given, found, alone in zip(tables, many.trajectories, many.alone, strict=True):
-        inputs = {"push": given}
+    for table, found, alone in zip(tables, many.trajectories, many.alone, strict=True):
+        inputs = {"push": table}
         run = mbs.simulate(system, SPAN, H, inputs, progress=False, estimate_error=False)
         one = mbs.Settings(step_iterations=1)
         limited = mbs.simulate(system, SPAN, H, inputs, progress=False, estimate_error=False, settings=one)

@@ -122,9 +122,9 @@ def test_no_variants_are_no_runs() -> None:
     ],
 )
 def test_bad_arguments_are_refused(arguments: dict[str, object], message: str) -> None:
-    given = {"variants": [Variant()], "t_end": 1.0, "h": 0.01} | arguments
+    all_arguments = {"variants": [Variant()], "t_end": 1.0, "h": 0.01} | arguments
     with pytest.raises(ValueError, match=re.escape(message)):
-        simulate_many(system(), **given)  # type: ignore[arg-type]
+        simulate_many(system(), **all_arguments)  # type: ignore[arg-type]
 
 
 def test_a_variant_is_a_variant() -> None:
@@ -153,14 +153,14 @@ def test_the_first_rows_are_those_of_single_runs_for_all_cars() -> None:
     for name in car_names():
         car = compile(load(name).model())
         for pose in (None, Pose(z=0.02, speed=8.0)):
-            given: list[dict[str, Signal]] = [
+            input_sets: list[dict[str, Signal]] = [
                 {"throttle": 0.2 + 0.6 * random.uniform(), "steering": ([0.0, 0.4], [0.3, -0.3 * random.uniform()])}
                 for _ in range(3)
             ]
-            variants = [Variant(inputs=inputs, pose=pose) for inputs in given]
+            variants = [Variant(inputs=inputs, pose=pose) for inputs in input_sets]
             runs = simulate_many(car, variants, 0.006, 0.002, lanes=2, progress=False)
             assert runs.failures == {}
-            for inputs, run in zip(given, runs.trajectories, strict=True):
+            for inputs, run in zip(input_sets, runs.trajectories, strict=True):
                 one = simulate(car, 0.006, 0.002, inputs, pose=pose, estimate_error=False)
                 first = {"throttle": inputs["throttle"], "steering": 0.3}
                 start = Simulation(car, inputs=first, pose=pose).sensors  # type: ignore[arg-type]

@@ -95,8 +95,8 @@ def test_every_method_records_where_the_bodies_are(method):
 def test_a_wheel_turns_by_its_way_over_its_radius():
     run = mbs.simulate(mbs.compile(bicycle.build()), 2.0, 0.005)
     angle = run.poses["rear wheel.angle"]
-    way = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(run.t) * (run["speed"][1:] + run["speed"][:-1]))])
-    np.testing.assert_allclose(angle, way / bicycle.REAR_RADIUS, atol=0.05)  # its frame pitches and leans
+    distance = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(run.t) * (run["speed"][1:] + run["speed"][:-1]))])
+    np.testing.assert_allclose(angle, distance / bicycle.REAR_RADIUS, atol=0.05)  # its frame pitches and leans
 
 
 def test_the_turning_of_the_carrier_is_taken_off_the_angle_of_a_wheel():

@@ -34,10 +34,10 @@ def test_the_limit_of_repeats_gives_the_error(order: float) -> None:
     """By Richardson: with the order that is taken to the last digit, with others but for what the orders differ by."""
     run, coarse, fine = (repeat(h, order) for h in (1.0, 0.25, 0.125))
     actual = extrapolated(by(N=0.2), [run, coarse, fine], dict.fromkeys("ab", Compared("N", load=True)), None, 1.0)
-    remaining = 0.125**order - (0.25**order - 0.125**order) / 3.0
+    error = 0.125**order - (0.25**order - 0.125**order) / 3.0
     true = float(np.abs(run["a"] - FORCE).max())
-    assert abs(remaining) < (1e-15 if order == 2.0 else 0.084)
-    assert actual.sensors["a"] == pytest.approx(true * (1.0 - remaining), rel=1e-12)
+    assert abs(error) < (1e-15 if order == 2.0 else 0.084)
+    assert actual.sensors["a"] == pytest.approx(true * (1.0 - error), rel=1e-12)
     assert actual.units["N"] == pytest.approx(actual.sensors["a"] / np.abs(FORCE).max(), rel=2e-3)
 
 
@@ -167,10 +167,10 @@ def test_an_open_balance_is_reported_where_that_of_the_refined_run_is_open_too(f
     system, h = system_of("double_four_bar"), 0.8 / 6
 
     def march(step: float, every: int, *_: Any) -> Run:
-        made = mbs.simulate(
+        trajectory = mbs.simulate(
             system, 0.8, step if finer else h, every=every if finer else 1, progress=False, estimate_error=False
         )
-        return made, []
+        return trajectory, []
 
     run = march(h, 1)
     known = check(RefinedRuns(system, run, march, h, 1, lambda _: None), always=False)
@@ -192,8 +192,8 @@ def test_an_energy_that_jumps_in_a_right_run_is_a_notice_of_it(many: bool) -> No
         else mbs.Simulation(system).run(end, h, every=2, progress=False)
     )
     assert other is not None
-    for made in (run, other):
-        (notices,) = [text for text in made.notices if "J of work, 7.8 %" in text]
+    for trajectory in (run, other):
+        (notices,) = [text for text in trajectory.notices if "J of work, 7.8 %" in text]
         assert notices.endswith(RIGHT)
-        assert notices in str(made)
+        assert notices in str(trajectory)
     assert other.notices == run.notices

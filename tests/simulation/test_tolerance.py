@@ -142,9 +142,9 @@ def test_a_kerb_is_run_down_with_the_loads_of_short_steps() -> None:
     manoeuvre = load("kerb_drop")
     system = car_of("kerb_drop")
     parameters, pose = start_of(manoeuvre, system)
-    given = (inputs_of(manoeuvre, system), None, parameters)
-    fine = mbs.simulate(system, 2.5, 5e-4, *given, every=20, pose=pose, progress=False)
-    run = mbs.simulate(system, 2.5, 0.01, *given, pose=pose, progress=False, tolerance=1e-3)
+    arguments = (inputs_of(manoeuvre, system), None, parameters)
+    fine = mbs.simulate(system, 2.5, 5e-4, *arguments, every=20, pose=pose, progress=False)
+    run = mbs.simulate(system, 2.5, 0.01, *arguments, pose=pose, progress=False, tolerance=1e-3)
     assert run.control is not None
     assert run.control.method == "ali3p"
     assert 0.02 < run.control.largest < 0.06  # before the kerb: a twentieth of the length at 5 m/s
@@ -235,9 +235,9 @@ def test_the_choice_of_the_method_is_reported() -> None:
     named = run_of("pendulum", 1e-3, "radau_5")
     assert named.control is not None
     assert named.control.reason == ""
-    given = mbs.simulate(system_of("pendulum"), 1.0, settings=mbs.Settings(method="radau_5"), tolerance=1e-3)
-    assert given.control is not None
-    assert given.control.method == "radau_5"
+    result = mbs.simulate(system_of("pendulum"), 1.0, settings=mbs.Settings(method="radau_5"), tolerance=1e-3)
+    assert result.control is not None
+    assert result.control.method == "radau_5"
     equal = mbs.simulate(system_of("pendulum"), 1.0, 0.01, method="auto")
     assert equal.control is not None
     assert equal.control.h == 0.01
@@ -298,8 +298,8 @@ def test_a_method_that_does_not_take_the_system_says_so() -> None:
 
 
 def test_the_length_is_stated_or_of_the_drawing() -> None:
-    def system(**given: float) -> mbs.System:
-        m = mbs.Model("pendulum", dimension=2, **given)  # type: ignore[arg-type]
+    def system(**options: float) -> mbs.System:
+        m = mbs.Model("pendulum", dimension=2, **options)  # type: ignore[arg-type]
         bob = m.point_mass("bob", mass=1.0, position=(3.0, 4.0))
         m.distance("rod", (m.ground, (0.0, 0.0)), bob)
         return mbs.compile(m)

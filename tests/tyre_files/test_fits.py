@@ -113,8 +113,8 @@ def test_a_written_file_is_read_as_the_same_tyre(tmp_path: Path, file: Path) -> 
     c["LKY"] = c.get("LKY", 1.0) * 1.1
     for name, value in asdict(replace(tyre, lky=1.0, coefficients={})).items():
         if name not in ("coefficients", "largest_load"):
-            wanted = value if isinstance(value, (str, bool, type(None))) else pytest.approx(value, rel=1e-12)
-            assert getattr(again, name) == wanted, name
+            expected = value if isinstance(value, (str, bool, type(None))) else pytest.approx(value, rel=1e-12)
+            assert getattr(again, name) == expected, name
     assert {n: v for n, v in c.items() if again.coefficients[n] != pytest.approx(v, rel=1e-12)} == {}
     assert (tmp_path / "again.tir").read_text(encoding="utf-8").startswith("$ written again\n")
 

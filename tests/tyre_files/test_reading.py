@@ -117,8 +117,8 @@ def test_the_vertical_stiffness_of_a_file_is_that_at_the_nominal_load(tmp_path: 
     """Fz = F0 (Q_FZ1 d/R + Q_FZ2 (d/R)^2), Pacejka 2012, eq. 4.E68: its slope at F0 is VERTICAL_STIFFNESS."""
     f = read_tyre(OWN)
     tyre = f.tyre(pressure=f.nominal_pressure)
-    radius, load, wanted, second = tyre.radius, tyre.nominal_load, 190000.0, 14.5
-    first = ((wanted * radius / load) ** 2 - 4.0 * second) ** 0.5
+    radius, load, stiffness, second = tyre.radius, tyre.nominal_load, 190000.0, 14.5
+    first = ((stiffness * radius / load) ** 2 - 4.0 * second) ** 0.5
 
     def force(d: float) -> float:
         u, ud = np.zeros(7), np.zeros(7)
@@ -129,7 +129,7 @@ def test_the_vertical_stiffness_of_a_file_is_that_at_the_nominal_load(tmp_path: 
         assert force(d) == pytest.approx(load * (first * d / radius + second * (d / radius) ** 2), rel=1e-9)
     nominal = radius * ((first**2 + 4.0 * second) ** 0.5 - first) / (2.0 * second)
     assert force(nominal) == pytest.approx(load, rel=1e-9)
-    assert (force(nominal + 1e-5) - force(nominal - 1e-5)) / 2e-5 == pytest.approx(wanted, rel=1e-6)
+    assert (force(nominal + 1e-5) - force(nominal - 1e-5)) / 2e-5 == pytest.approx(stiffness, rel=1e-6)
     both = read_tyre(changed(tmp_path, ("Q_FZ2", f"Q_FZ2 = {second}\nQ_FZ1 = 15.0")))
     (note,) = (n for n in both.notes if "VERTICAL_STIFFNESS" in n)
     assert note.startswith("VERTICAL_STIFFNESS is 1.9e+05 N/m and Q_FZ1 and Q_FZ2 give 1.624e+05 N/m at FNOMIN")

@@ -32,9 +32,9 @@ JOINT = (
 def test_torques_are_those_of_the_inverse_dynamics_of_pinocchio(name: str, tmp_path: Path) -> None:
     """Eight states, angles up to 2.5 rad, rates up to 2 rad/s, accelerations up to 8 rad/s2."""
     file = write_urdf(ROBOTS[name], tmp_path / f"{name}.urdf")
-    wanted = np.loadtxt(DATA / f"{name}_rnea.csv", delimiter=",")
-    assert wanted.shape == (8, len(ROBOTS[name]))
-    for state, torques in zip(states(name), wanted, strict=True):
+    expected = np.loadtxt(DATA / f"{name}_rnea.csv", delimiter=",")
+    assert expected.shape == (8, len(ROBOTS[name]))
+    for state, torques in zip(states(name), expected, strict=True):
         guides = {
             f"joint_{k}": PPoly(np.array([[qdd / 2.0], [qd], [q]]), [0.0, 1.0])
             for k, (q, qd, qdd) in enumerate(state.T, 1)
@@ -91,10 +91,10 @@ def test_a_slide_moves_by_its_force_with_its_reaction(tmp_path: Path) -> None:
     first = s.sensors
     assert first["slide.position"] == pytest.approx(0.25)
     s.step(0.01, 50)
-    way = 0.5 * 12.0 * (1.0 / 2.0 + 1.0 / 3.0) * 0.5**2
+    distance = 0.5 * 12.0 * (1.0 / 2.0 + 1.0 / 3.0) * 0.5**2
     now = s.sensors
-    assert now["slide.position"] - 0.25 == pytest.approx(way, rel=1e-9)
-    assert now["slide.speed"] == pytest.approx(2.0 * way / 0.5, rel=1e-9)
+    assert now["slide.position"] - 0.25 == pytest.approx(distance, rel=1e-9)
+    assert now["slide.speed"] == pytest.approx(2.0 * distance / 0.5, rel=1e-9)
     assert 2.0 * (now["a"] - first["a"]) + 3.0 * (now["b"] - first["b"]) == pytest.approx(0.0, abs=1e-9)
 
 

@@ -149,8 +149,8 @@ def test_all_points_of_the_right_side():
     changes = {p: -v for p, v in numbers("prototype").items() if p.endswith(".1") and ".points." in p}
     assert len(refused(changes, lines=None)) > 5
     right = dict(load("prototype")._data["front"]["suspension"]["points"])
-    given = {f"front.suspension.points_right.{k}": [x, -y, z] for k, (x, y, z) in right.items()}
-    (line,) = refused(given)
+    points = {f"front.suspension.points_right.{k}": [x, -y, z] for k, (x, y, z) in right.items()}
+    (line,) = refused(points)
     assert line == "front.suspension.points_right is not known; did you mean 'points'?"
 
 

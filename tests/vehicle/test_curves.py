@@ -307,15 +307,15 @@ def test_a_column_of_one_wheel_is_asked_of_the_other(tmp_path: Path) -> None:
     table(*sides, "spring_length_left", "spring_length_right")
     with pytest.raises(CarFileError, match="no column toe_angle or steer_angle of the right wheel"):
         table(*(n for n in sides if not n.startswith("toe")), "toe_angle")
-    for given in (
+    for one_wheel in (
         ["spring_length"],
         ["spring_length_left"],
         ["spring_length_right"],
         ["spring_length", "spring_length_left", "spring_length_right"],
     ):
-        match = rf"right wheel and {', '.join(given)}; there must be spring_length_left and spring_length_right"
+        match = rf"right wheel and {', '.join(one_wheel)}; there must be spring_length_left and spring_length_right"
         with pytest.raises(CarFileError, match=match):
-            table(*sides, *given)
+            table(*sides, *one_wheel)
 
 
 def test_a_table_of_many_rows_is_thinned_or_refused_with_its_name(content: dict, folder: Path, copied: Path) -> None:

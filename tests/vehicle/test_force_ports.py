@@ -33,9 +33,9 @@ def test_works_of_forces_and_wind_close_the_balance(axes: str) -> None:
     end = s.sensors
     works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in STORED}
     assert works["energy.ports"] > 1e4
-    remaining = end["energy.total"] - start["energy.total"] - sum(works.values())
+    residual = end["energy.total"] - start["energy.total"] - sum(works.values())
     own = abs(s.instance.report()["energy_error"])
-    assert abs(remaining) < 1e-6 * max(map(abs, works.values())) + own
+    assert abs(residual) < 1e-6 * max(map(abs, works.values())) + own
 
 
 @pytest.mark.slow

@@ -41,10 +41,10 @@ def stresses(direction: tuple[float, float, float], place: float, **gauge: Any) 
     """Readings of a gauge on a tube that is clamped at its first end and loaded at the other."""
     frame = straight(4, LENGTH, SECTION, direction=direction)
     model = frame.finite_element_model()
-    held, end = np.arange(6), 6 * 4 + np.arange(6)
+    fixed, end = np.arange(6), 6 * 4 + np.arange(6)
     load = np.zeros(model.n_dof)
     load[end] = [*FORCE, *(TORQUE * np.array(direction) / np.linalg.norm(direction))]
-    free = np.setdiff1d(np.arange(model.n_dof), held)
+    free = np.setdiff1d(np.arange(model.n_dof), fixed)
     u = np.zeros(model.n_dof)
     u[free] = np.linalg.solve(model.K.toarray()[np.ix_(free, free)], load[free])
     section = TubeGauge(tube=("A", "B"), place=place, **gauge)

@@ -117,8 +117,8 @@ def drive_file(tmp_path):
 
 def test_the_command_names_the_cheapest_for_a_drive_of_ones_own(tmp_path, capsys):
     result = tmp_path / "levels.json"
-    given = ["car", "saloon", "--cheapest", f"drive={drive_file(tmp_path)}", "speed=10"]
-    assert main([*given, "loads=5", "--json", str(result)]) == 0
+    arguments = ["car", "saloon", "--cheapest", f"drive={drive_file(tmp_path)}", "speed=10"]
+    assert main([*arguments, "loads=5", "--json", str(result)]) == 0
     printed = capsys.readouterr().out
     assert "saloon: errors against fidelity 0 with steps of 0.5 ms, the largest of: turn" in printed
     assert "Cheapest within 1 % of the way and 5 % of the wheel loads: fidelity " in printed
@@ -127,7 +127,7 @@ def test_the_command_names_the_cheapest_for_a_drive_of_ones_own(tmp_path, capsys
     assert content["tolerances"] == {"path": 0.01, "load": pytest.approx(0.05)}
     assert content["cheapest"]["fidelity"] in (0, 10)
     assert {row["manoeuvre"] for row in content["rows"]} == {"turn"}
-    assert main([*given, "path=1e-9"]) == 2
+    assert main([*arguments, "path=1e-9"]) == 2
     captured = capsys.readouterr()
     assert captured.err.splitlines()[-1].startswith(
         "error: No level is within 1e-09 % of the way and 3 % of the wheel loads; the nearest is fidelity "

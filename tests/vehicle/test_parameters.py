@@ -62,13 +62,13 @@ def quantity(name, path):
 
 def driven(compiled, parameters):
     """From rest and from 20 m/s: full throttle, coasting, brake, hand brake, a turn."""
-    wanted = {
+    input_values = {
         "steering": lambda t: 0.15 * np.sin(3.0 * t),
         "throttle": lambda t: 1.0 if t < 0.3 else 0.0,
         "brake": lambda t: 0.0 if t < 0.45 else 0.4,
         "hand_brake": lambda t: 0.0 if t < 0.6 else 0.3,
     }
-    inputs = {i["name"]: wanted[i["name"]] for i in compiled.meta["inputs"] if i["name"] in wanted}
+    inputs = {i["name"]: input_values[i["name"]] for i in compiled.meta["inputs"] if i["name"] in input_values}
     quiet = {"estimate_error": False, "progress": False}
     return [simulate(compiled, 0.7, H, inputs, None, parameters, pose=Pose(speed=v), **quiet) for v in (0.0, 20.0)]
 

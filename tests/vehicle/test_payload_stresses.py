@@ -41,10 +41,10 @@ def test_a_car_that_is_loaded_is_one_rebuilt_with_the_load() -> None:
     for fidelity in ("quasi_static", "load_paths", "dynamic"):
         cars = [load("prototype").changed(values | more) for more in ({}, LOADED)]
         runs = [
-            mbs.Simulation(mbs.compile(car.model(fidelity=fidelity)), parameters=given, pose=mbs.Pose(speed=10.0)).run(
-                0.5, 0.005, inputs={"steering": 0.3}
-            )
-            for car, given in zip(cars, (LOADED, {}), strict=True)
+            mbs.Simulation(
+                mbs.compile(car.model(fidelity=fidelity)), parameters=parameters, pose=mbs.Pose(speed=10.0)
+            ).run(0.5, 0.005, inputs={"steering": 0.3})
+            for car, parameters in zip(cars, (LOADED, {}), strict=True)
         ]
         for name in runs[0]:
             scale = max(1.0, np.abs(runs[1][name]).max())

@@ -126,11 +126,11 @@ def test_the_work_that_moves_the_rack_is_booked(ports: dict[str, str], name: str
     all the same, and what they leave open of the change of the energy is below 1e-5 of the largest work. The work of a
     held demand is the step's own force times the travel: 0.0145, 0.0034 and 0.0008 J off in 1, 2 and 4 parts.
     """
-    works, remaining, own = {}, {}, {}
+    works, residuals, own = {}, {}, {}
     for parts in (1, 4, 16):
-        of_all, remaining[parts], own[parts] = open_and_own(simulation(rigid, **ports), name, amplitude, parts)
+        of_all, residuals[parts], own[parts] = open_and_own(simulation(rigid, **ports), name, amplitude, parts)
         works[parts] = of_all[book]
-        assert abs(remaining[parts] - own[parts]) < 1e-5 / parts * max(map(abs, of_all.values()))
+        assert abs(residuals[parts] - own[parts]) < 1e-5 / parts * max(map(abs, of_all.values()))
     assert works[16] > 1.0
     assert abs(works[4] - works[16]) < 4e-3
     assert abs(works[1] - works[16]) < 2e-2
@@ -278,19 +278,19 @@ def test_the_force_on_the_rack_is_that_of_its_work_where_the_demand_goes_on() ->
 
 def test_a_force_on_the_rack_relieves_the_steering_wheel() -> None:
     """In a standing start of a turn the force that the rods ask for is that of the actuator and of the pinion."""
-    car, held = column_car(), {}
+    car, by_force = column_car(), {}
     for force in (0.0, 100.0):
         s = simulation(column_car, steering="rack_force")
         s.set_input("steering_wheel_angle_demand", 0.3)
         s.set_input("steering_rack_actuator_force", force)
         s.step(STEP, 1000)
-        held[force] = s.sensors
+        by_force[force] = s.sensors
     per_radian = car.steering.rack_per_turn / (2.0 * np.pi)
-    relief = held[0.0]["steering_wheel_torque"] - held[100.0]["steering_wheel_torque"]
-    rods = held[100.0]["steering_rack_force"] - held[0.0]["steering_rack_force"]
-    way = car.rack_direction
+    relief = by_force[0.0]["steering_wheel_torque"] - by_force[100.0]["steering_wheel_torque"]
+    rods = by_force[100.0]["steering_rack_force"] - by_force[0.0]["steering_rack_force"]
+    direction = car.rack_direction
     assert abs(relief) > 0.1
-    assert abs(relief - way * per_radian * (100.0 + rods)) < 0.3 * abs(relief)
+    assert abs(relief - direction * per_radian * (100.0 + rods)) < 0.3 * abs(relief)
 
 
 def test_outputs_that_loops_need_agree_with_others() -> None:

@@ -74,9 +74,9 @@ def test_beyond_full_lock_it_stays_there_and_says_so(car):
 def test_friction_is_what_the_hands_need_besides():
     """At a constant rate of the wheel the torque is larger by the friction; the car does not notice."""
     rubbing = CAR.changed({"steering.friction": 0.8})
-    given = {"steering_wheel_angle_demand": lambda t: 0.4 * t}
-    smooth = Simulation(compile(CAR.model())).run(3.0, 0.01, inputs=given)
-    rough = Simulation(compile(rubbing.model())).run(3.0, 0.01, inputs=given)
+    inputs = {"steering_wheel_angle_demand": lambda t: 0.4 * t}
+    smooth = Simulation(compile(CAR.model())).run(3.0, 0.01, inputs=inputs)
+    rough = Simulation(compile(rubbing.model())).run(3.0, 0.01, inputs=inputs)
     difference = rough["steering_wheel_torque"] - smooth["steering_wheel_torque"]
     np.testing.assert_allclose(difference[50:], 0.8, rtol=0, atol=1e-3)
     np.testing.assert_allclose(rough["steering_rack_force"], smooth["steering_rack_force"], rtol=0, atol=1e-2)

@@ -129,8 +129,8 @@ def test_a_raised_road_does_the_work_that_the_tyres_store() -> None:
     s.step(0.002)
     now, car = s.sensors, load("hatchback")
     stiffness = {"F": car.front.tyre.stiffness, "R": car.rear.tyre.stiffness}
-    wanted = sum(before[f"wheel_{w}.Fz"] * d + 0.5 * stiffness[w[0]] * d * d for w in WHEELS)
-    assert now["energy.road"] - before["energy.road"] == pytest.approx(wanted, rel=1e-3)
+    expected = sum(before[f"wheel_{w}.Fz"] * d + 0.5 * stiffness[w[0]] * d * d for w in WHEELS)
+    assert now["energy.road"] - before["energy.road"] == pytest.approx(expected, rel=1e-3)
 
 
 def test_the_start_stands_on_the_answers_as_on_a_road() -> None:

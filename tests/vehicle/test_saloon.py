@@ -33,8 +33,8 @@ def _drawn(curve: Curve, name: str) -> float:
 def test_its_weight_is_on_the_axles_as_measured(car):
     rest = simulate(compile(car.model()), 0.05, 0.005, progress=False, estimate_error=False)
     for wheel, arm in (("FL", BEHIND), ("FR", BEHIND), ("RL", AHEAD), ("RR", AHEAD)):
-        wanted = 0.5 * MASS * GRAVITY * arm / (AHEAD + BEHIND)
-        assert rest[f"wheel_{wheel}.Fz"][0] == pytest.approx(wanted, rel=1e-3)
+        expected = 0.5 * MASS * GRAVITY * arm / (AHEAD + BEHIND)
+        assert rest[f"wheel_{wheel}.Fz"][0] == pytest.approx(expected, rel=1e-3)
         assert abs(rest[f"wheel_{wheel}.travel"][0]) < 1e-5
 
 

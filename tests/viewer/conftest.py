@@ -67,8 +67,8 @@ class DrawnPage:
 def chromium() -> Iterator[Any]:
     """A Chromium without a window; tests are skipped where there is none."""
     bundle_or_skip()
-    with headless_chromium() as made:
-        yield made
+    with headless_chromium() as browser:
+        yield browser
 
 
 @pytest.fixture(scope="module")

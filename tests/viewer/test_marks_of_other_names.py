@@ -20,9 +20,9 @@ def braked(fmu: Path, names: str) -> Recording:
     with Fmu(fmu) as car:
         inputs, outputs = car.names("input"), car.names("output")
         car.initialise({"initial.speed": 20.0})
-        held = car.start_values(inputs)
-        held[inputs.index({"carmaker": "DM.Brake"}.get(names, "brake"))] = 1.0
-        car.setter(inputs)(held.tolist())
+        input_values = car.start_values(inputs)
+        input_values[inputs.index({"carmaker": "DM.Brake"}.get(names, "brake"))] = 1.0
+        car.setter(inputs)(input_values.tolist())
         read = car.getter(outputs)
         rows = [list(read())]
         for k in range(STEPS):

@@ -49,7 +49,7 @@ class Elements(HTMLParser):
 
 
 def data_of(page: str) -> Any:
-    return json.loads(next(text for tag, given, text in Elements(page).found if given.get("id") == "data"))
+    return json.loads(next(text for tag, attributes, text in Elements(page).found if attributes.get("id") == "data"))
 
 
 def numbers(block: dict[str, Any]) -> dict[str, np.ndarray]:
@@ -113,7 +113,9 @@ def test_no_text_breaks_the_page() -> None:
 def test_nothing_is_fetched() -> None:
     text = page_html(crank(TIMES))
     assert "default-src 'none'" in text
-    addresses = [v for _, given, _ in Elements(text).found for k, v in given.items() if k in ("src", "href", "data")]
+    addresses = [
+        v for _, attributes, _ in Elements(text).found for k, v in attributes.items() if k in ("src", "href", "data")
+    ]
     assert addresses == ["data:,"]
 
 
@@ -179,7 +181,7 @@ def test_a_folder_without_a_recording_is_refused(recordings: Any) -> None:
 
 def test_a_notebook_gets_the_page_in_a_frame_with_its_size() -> None:
     text = html_of(crank(TIMES), height=300)
-    frame = next(given for tag, given, _ in Elements(text).found if tag == "iframe")
+    frame = next(attributes for tag, attributes, _ in Elements(text).found if tag == "iframe")
     assert frame["srcdoc"] == page_html(crank(TIMES))
     assert "height:300px" in str(frame["style"])
     assert "This animation takes 0.0 MB of the notebook." in html.unescape(text)

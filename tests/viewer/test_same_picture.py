@@ -23,9 +23,9 @@ _BOTH = "({ look }) => { const { view } = window.player; view.options.lift = 0; 
 
 @pytest.fixture(scope="module")
 def run() -> Recording:
-    made = manoeuvres.run("double_lane_change", 0.002, car=manoeuvres.PROTOTYPE, every=5).recording()
-    scene = dict(made.scene or {}) | {"roads": [terrain()], "scenery": scenery()}
-    return Recording(scene, made.t, made.columns, made.units, made.name)
+    recording = manoeuvres.run("double_lane_change", 0.002, car=manoeuvres.PROTOTYPE, every=5).recording()
+    scene = dict(recording.scene or {}) | {"roads": [terrain()], "scenery": scenery()}
+    return Recording(scene, recording.t, recording.columns, recording.units, recording.name)
 
 
 @pytest.fixture(scope="module")

@@ -35,11 +35,11 @@ def lane_change() -> Recording:
 def program(chromium: Any, lane_change: Recording) -> Iterator[Program]:
     """The page, open; an error in its script fails the test."""
     context = chromium.new_context(viewport={"width": 640, "height": 360})
-    made = Program(context.new_page(), lane_change, world=WORLD)
-    made.open()
-    yield made
+    opened = Program(context.new_page(), lane_change, world=WORLD)
+    opened.open()
+    yield opened
     context.close()
-    assert made.errors == []
+    assert opened.errors == []
 
 
 def shown(program: Program, time: float, flags: int = 0, **header: float) -> None:

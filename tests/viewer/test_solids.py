@@ -120,8 +120,8 @@ def test_the_mark_of_a_steering_wheel_is_on_top(parts: list[Part]) -> None:
 
 
 def ends_of(name: str) -> tuple[np.ndarray, np.ndarray]:
-    given = SHAPES[name]
-    a, b = (POSES.points(anchor) for anchor in (given.get("ends") or given["points"]))
+    shape = SHAPES[name]
+    a, b = (POSES.points(anchor) for anchor in (shape.get("ends") or shape["points"]))
     return a, b
 
 

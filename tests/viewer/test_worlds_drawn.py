@@ -49,10 +49,10 @@ def level(road_height: float, surface: str = "asphalt") -> dict[str, Any]:
 
 def stripes() -> dict[str, Any]:
     """A level terrain with a stripe of 10 m along x of each surface, from y = -40 m to the left."""
-    made = level(0.0)
+    ground = level(0.0)
     classes = np.tile(np.repeat(np.arange(8, dtype=np.uint8), 10), (80, 1))
     surface = {"origin": [-39.5, -39.5], "spacing": [1, 1], "shape": [80, 80], "classes": octets(classes)}
-    return made | {"surface": made["surface"] | surface}
+    return ground | {"surface": ground["surface"] | surface}
 
 
 @pytest.mark.parametrize("quality", ["medium", pytest.param("high", marks=pytest.mark.proof)])
@@ -133,8 +133,8 @@ def edge(drawn: Any, quality: str, left: str, right: str) -> tuple[float, float]
     ground = level(0.0)
     classes = np.repeat([NAMES.index(right), NAMES.index(left)], 40)[None].repeat(80, axis=0)
     surface = {"origin": [-19.75, -19.75], "spacing": [0.5, 0.5], "shape": [80, 80], "classes": octets(classes)}
-    made = world(roads=[ground | {"surface": ground["surface"] | surface}], extent=2.0)
-    drawn.show(made, at(0, 0, 0), camera="top", quality=quality)
+    scene = world(roads=[ground | {"surface": ground["surface"] | surface}], extent=2.0)
+    drawn.show(scene, at(0, 0, 0), camera="top", quality=quality)
     (u, v), (_, next_v) = (drawn.project((0.0, y, 0.0)) for y in (0.0, 1.0))
     across = drawn.picture()[:, : int(u) - 10].mean(axis=(1, 2))
     y = (np.arange(len(across)) + 0.5 - v) / (next_v - v)
@@ -147,10 +147,10 @@ def edge(drawn: Any, quality: str, left: str, right: str) -> tuple[float, float]
 @pytest.mark.parametrize("quality", ["draft", "medium"])
 def test_an_edge_between_two_surfaces_of_one_channel_is_as_soft_as_others_and_where_they_are(drawn, quality):
     """Ice and wet share one, ice and asphalt do not."""
-    (own, soft), (other, wanted) = (edge(drawn, quality, "ice", name) for name in ("wet", "asphalt"))
-    assert wanted > 0.05
+    (own, soft), (other, expected) = (edge(drawn, quality, "ice", name) for name in ("wet", "asphalt"))
+    assert expected > 0.05
     assert own == pytest.approx(other, abs=0.05)
-    assert 0.6 * wanted < soft < 1.6 * wanted
+    assert 0.6 * expected < soft < 1.6 * expected
 
 
 @pytest.mark.parametrize("quality", ["draft", "medium"])

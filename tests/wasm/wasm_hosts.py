@@ -63,8 +63,8 @@ class Fmu:
 
     def job(self, plan: Plan) -> dict[str, Any]:
         """What `drive.js` takes."""
-        given = {"start": plan.start, "inputs": plan.inputs, "steps": plan.steps, "outputs": self.outputs(plan)}
-        return job_of(self.path, given, self.added)
+        description = {"start": plan.start, "inputs": plan.inputs, "steps": plan.steps, "outputs": self.outputs(plan)}
+        return job_of(self.path, description, self.added)
 
 
 def _drive(slave: Any, fmu: Fmu, plan: Plan) -> Driven:

@@ -54,7 +54,7 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
     known = variables if isinstance(variables, Variables) else None
     constants = _constants(content, known)
     missing: dict[str, str] = {}
-    wanted: set[str] = set()
+    needed: set[str] = set()
     aliases = []
     for entry in content.entries.values():
         if "from" in entry.value:
@@ -63,7 +63,7 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
         if lacks:
             missing[entry.ours] = lacks
         elif entry.value.get("factor") in content.needs and entry.value["factor"] not in constants:
-            wanted.add(entry.value["factor"])
+            needed.add(entry.value["factor"])
         else:
             aliases.append(_alias(entry, constants, known))
             if known is not None and _is_hidden(known[entry.value["name"]]):
@@ -78,7 +78,7 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
         if other != alias.ours:
             raise HostError(f"{file}: '{alias.theirs}' is named {other} and {alias.ours}; give it one name.")
     derived = _derived(content, constants, aliases, names, known, missing)
-    _demand(wanted | {n for d in derived for n in d.names if n in content.needs and n not in names}, content)
+    _demand(needed | {n for d in derived for n in d.names if n in content.needs and n not in names}, content)
     if content.entries and not aliases and not derived:
         first = next(iter(content.entries.values()))
         raise HostError(
@@ -94,20 +94,20 @@ def _is_hidden(variable: Variable) -> bool:
 
 def _constants(content: Content, known: Variables | None) -> dict[str, float]:
     """Those of the file, and those of its needs that are constants of the FMU."""
-    made = dict(content.constants)
+    constants = dict(content.constants)
     for name in content.needs:
-        if name not in made and known is not None and name in known.names:
+        if name not in constants and known is not None and name in known.names:
             variable = known[name]
             if variable.variability == "constant" and isinstance(variable.start, (int, float)):
-                made[name] = float(variable.start)
-    return made
+                constants[name] = float(variable.start)
+    return constants
 
 
-def _demand(wanted: Collection[str], content: Content) -> None:
+def _demand(needed: Collection[str], content: Content) -> None:
     """Refuse a car of which numbers are not known, all in one sentence."""
-    if not wanted:
+    if not needed:
         return
-    numbers = ", ".join(f"'{name}' ({content.needs[name]})" for name in content.needs if name in wanted)
+    numbers = ", ".join(f"'{name}' ({content.needs[name]})" for name in content.needs if name in needed)
     base = Path(content.file)
     how = (
         f'write a file with extends = "{base.stem}" and them in its table [constants], for --aliases'

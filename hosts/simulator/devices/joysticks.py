@@ -86,13 +86,13 @@ class Joysticks:
         for instance, index in present.items():
             if instance < 0 or instance in self._open or instance in self._refused:
                 continue
-            made = self._opened(index)
-            if made is None:
+            joystick = self._opened(index)
+            if joystick is None:
                 self._refused.add(instance)
                 refused.append(text(sdl.SDL_JoystickNameForIndex(index)) or "A device without a name")
             else:
-                self._open[instance] = made
-                added.append(made)
+                self._open[instance] = joystick
+                added.append(joystick)
         return added, removed, refused
 
     def close(self) -> None:

@@ -50,10 +50,10 @@ def ours(step_steer):
 @pytest.fixture
 def file(tmp_path):
     def write(style, entries=""):
-        made = tmp_path / f"{style}.toml"
+        alias_file = tmp_path / f"{style}.toml"
         numbers = "\n".join(f'"{name}" = {value}' for name, value in CONSTANTS.items())
-        made.write_text(f'extends = "{style}"\n{entries}\n[constants]\n{numbers}', encoding="utf-8")
-        return made
+        alias_file.write_text(f'extends = "{style}"\n{entries}\n[constants]\n{numbers}', encoding="utf-8")
+        return alias_file
 
     return write
 

@@ -147,8 +147,8 @@ def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> 
     assert "1 of 2" not in output  # no verdict on what was not tried
     assert str(out / "report.html") in output
     assert "was stopped" in (out / "report.html").read_text()
-    (remaining,) = (row for row in rows(out) if row["test"] == "steady_circle")
-    assert remaining["note"] == "Not done yet: the command is still running, or was stopped."
+    (unfinished,) = (row for row in rows(out) if row["test"] == "steady_circle")
+    assert unfinished["note"] == "Not done yet: the command is still running, or was stopped."
     assert "load.peak_FL" in {row["measure"] for row in rows(out) if row["test"] == "drop"}
     assert list(out.rglob("runs/drop/*.csv"))
     assert "1 test is not done yet; the same command resumes here." in output

@@ -84,12 +84,12 @@ def test_hit_or_stopped_is_not_clean() -> None:
 def test_the_limit_is_found_by_bisection(monkeypatch: pytest.MonkeyPatch) -> None:
     tried = []
 
-    def made(car: object, layout: object, speed: float, driver: str) -> Passage:
+    def passage_of(car: object, layout: object, speed: float, driver: str) -> Passage:
         tried.append((speed, driver))
         # only the second driver gets through at all, and up to 77.3 km/h
         return passage(speed, 0.0 if speed < 77.3 and driver == list(DRIVERS)[1] else 1.0, driver=driver)
 
-    monkeypatch.setattr(double_lane_change, "drive_through", made)
+    monkeypatch.setattr(double_lane_change, "drive_through", passage_of)
     settings = {"lowest": 40.0, "highest": 160.0, "increment": 10.0, "resolution": 1.0}
     done: list[float] = []
     passed, failed, notes = limit(None, _LAYOUTS[0], settings, done.append)  # type: ignore[arg-type]

@@ -52,8 +52,8 @@ def test_what_is_kept_is_what_was_done(
         yield from (pytest.fail("it was done again") for _ in tasks)
 
     monkeypatch.setattr(command, "_done", undone)
-    given = [part for name, x in SETTINGS.items() for part in ("--test-setting", f"drop.{name}={x}")]
-    assert command.main([str(prototype_fmu), "--tests", "drop", "--out", str(tmp_path), *given]) == 0
+    options = [part for name, x in SETTINGS.items() for part in ("--test-setting", f"drop.{name}={x}")]
+    assert command.main([str(prototype_fmu), "--tests", "drop", "--out", str(tmp_path), *options]) == 0
     output = capsys.readouterr().out
     assert "1 of 1 tests are there; --again repeats them." in output
     assert "load.peak_FL" in output

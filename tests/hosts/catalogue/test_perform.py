@@ -52,10 +52,10 @@ def test_one_of_several_names_suffices() -> None:
 
 def test_settings_are_completed_and_checked() -> None:
     assert settings_of_test(TALKING, {}) == {"count": 2.0}
-    for given, message in (
+    for values, message in (
         ({"count": 10.0}, "it must be from 1 to 9"),
         ({"count": float("nan")}, "is nan"),
         ({"n": 1.0}, "no setting 'n'"),
     ):
         with pytest.raises(HostError, match=message):
-            settings_of_test(TALKING, given)
+            settings_of_test(TALKING, values)

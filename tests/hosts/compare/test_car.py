@@ -193,9 +193,9 @@ def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path, capsys:
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     other = ("--set", "aerodynamics.drag_area=8")
     pedals = values(compared(car, log, *other)[1])["speed.rms"]
-    held = values(compared(car, log, *other, "--hold-speed")[1])["speed.rms"]
+    speed_error = values(compared(car, log, *other, "--hold-speed")[1])["speed.rms"]
     assert pedals > 2.0
-    assert held < 0.1
+    assert speed_error < 0.1
     # It takes more of the throttle than the 0.2 of the car in the log, and from the start on.
     output = capsys.readouterr().out
     started = float(output.rpartition("The driver starts with ")[2].partition(" of the throttle.")[0])

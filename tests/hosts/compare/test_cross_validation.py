@@ -42,8 +42,8 @@ def test_the_parameters_without_a_fold_are_those_of_a_fit_without_it(every: floa
     for change, group in zip(actual, np.split(np.argsort(begins), FOLDS), strict=True):
         near = np.abs(begins[:, None] - begins[group]).min(axis=1) < LENGTH
         kept = ~near[parts.number]
-        wanted = np.linalg.lstsq(jacobian[kept], -residual[kept], rcond=None)[0]
-        np.testing.assert_allclose(change, wanted, rtol=1e-8)
+        expected = np.linalg.lstsq(jacobian[kept], -residual[kept], rcond=None)[0]
+        np.testing.assert_allclose(change, expected, rtol=1e-8)
 
 
 def test_a_parameter_that_tells_nothing_does_not_pay() -> None:

@@ -246,8 +246,8 @@ def test_a_signal_that_is_repeated_row_by_row_counts_where_it_is_new(
     count, chance = 20 * rate, np.random.default_rng(3)
     new = np.clip(rate * np.arange(20) + chance.integers(-jitter, jitter + 1, 20), 0, None)
     new[0] = 0
-    held = np.sin(new)[np.searchsorted(new, np.arange(count), side="right") - 1]
-    lines = [f"{0.01 * k:.2f},{0.5 * k},{float(held[k])!r},{0.25 * (k // rate)}" for k in range(count)]
+    staircase = np.sin(new)[np.searchsorted(new, np.arange(count), side="right") - 1]
+    lines = [f"{0.01 * k:.2f},{0.5 * k},{float(staircase[k])!r},{0.25 * (k // rate)}" for k in range(count)]
     log = read(fmu, tmp_path, "time,pull,bob.x,bob.y\n" + "\n".join(lines))
     actual = log.outputs["bob.x"]
     assert actual.time == pytest.approx(0.01 * new)

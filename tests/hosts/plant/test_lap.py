@@ -91,8 +91,8 @@ def test_the_driver_makes_a_lap(rigid_fmu: Path) -> None:
 
 
 def test_a_refused_step_ends_the_lap_and_costs_what_the_end_beside_the_road_does(rigid_fmu: Path, monkeypatch) -> None:
-    with gymnasium.make(LAP, car=str(rigid_fmu), road=LEVEL) as made:
-        lap = made.unwrapped
+    with gymnasium.make(LAP, car=str(rigid_fmu), road=LEVEL) as env:
+        lap = env.unwrapped
         lap.reset(seed=1)
 
         def refuse(inputs: np.ndarray) -> None:

@@ -42,8 +42,8 @@ def make(fmu: Callable[[str], Path]) -> object:
         return cars[-1]
 
     yield car
-    for made in cars:
-        made.close()
+    for started in cars:
+        started.close()
 
 
 def until(car: Car, reached: Callable[[CarState], bool]) -> CarState:

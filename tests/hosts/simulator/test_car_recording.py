@@ -74,9 +74,9 @@ def test_a_drive_with_all_jumps_is_repeated_bit_for_bit(fmu: Callable[[str], Pat
         steps(car, 100)
         assert car.latest().epoch == 7
     drive = read_recording(folder)
-    made = replay(drive)
-    assert made.different == 0, made.notes
-    assert made.rows == 700 + 300 + 300 + 100 + 50 + 50 + 100 + 8
+    replayed = replay(drive)
+    assert replayed.different == 0, replayed.notes
+    assert replayed.rows == 700 + 300 + 300 + 100 + 50 + 50 + 100 + 8
     assert drive.meta["world"] == "a plane"
 
 
@@ -128,8 +128,8 @@ def test_an_hour_of_the_prototype_has_200_megabytes_at_most_and_the_rest_is_foun
     size = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
     assert size / (0.002 * 3150) * 3600.0 < 200e6
     drive = read_recording(folder)
-    made = replay(drive)
-    assert (made.rows, made.different) == (3151, 0)
+    replayed = replay(drive)
+    assert (replayed.rows, replayed.different) == (3151, 0)
     with Repeater(drive) as repeater:
         get = repeater.fmu.getter(outputs)
         for count in repeater.along(last_drive(drive), 3150):

@@ -178,11 +178,11 @@ def test_a_manoeuvre_moves_the_inputs_by_the_clock_of_the_car(fmus, tmp_path):
 
 
 def test_a_driver_without_sense_moves_them_too(fmus):
-    wanted = RandomDriver(5, ("steering", "throttle", "brake")).act(0.0, {})
-    assert any(wanted.values())
+    expected = RandomDriver(5, ("steering", "throttle", "brake")).act(0.0, {})
+    assert any(expected.values())
     with started(fmus["sledge"]) as car:
         assert run_headless(car, headless_driver(car, None, 5), 0.1, lambda *_: None)
-        assert {name: value(car, name) for name in wanted} == wanted
+        assert {name: value(car, name) for name in expected} == expected
 
 
 def test_a_manoeuvre_that_needs_more_than_the_car_has(fmus, tmp_path):
@@ -218,8 +218,8 @@ brake = "Brk"
 @pytest.fixture
 def renamed(fmus, tmp_path):
     """The sledge as another program would name its variables."""
-    made = tmp_path / "foreign.fmu"
-    with zipfile.ZipFile(fmus["sledge"]) as old, zipfile.ZipFile(made, "w") as new:
+    copy = tmp_path / "foreign.fmu"
+    with zipfile.ZipFile(fmus["sledge"]) as old, zipfile.ZipFile(copy, "w") as new:
         for item in old.infolist():
             content = old.read(item)
             if item.filename == "modelDescription.xml":
@@ -229,7 +229,7 @@ def renamed(fmus, tmp_path):
                 content = re.sub(rb'(name="X"[^>]*>\s*<Real)[^>]*', rb"\1 /", content)
             if item.filename != "resources/geometry.json":
                 new.writestr(item, content)
-    return made
+    return copy
 
 
 @pytest.mark.slow

@@ -69,8 +69,8 @@ def running(fmu: Path, world: str, *more: str) -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    with headless_chromium() as made:
-        yield made
+    with headless_chromium() as chromium:
+        yield chromium
 
 
 class Driver:

@@ -8,8 +8,8 @@ import pytest
 from hosts.study.target_search import SearchResult, seek
 
 
-def sought(function: Callable[[float], float], wanted: float, low: float, high: float, **more: float) -> SearchResult:
-    result = seek(lambda x: (function(x), "" if math.isfinite(function(x)) else "failed"), wanted, low, high, **more)
+def sought(function: Callable[[float], float], target: float, low: float, high: float, **more: float) -> SearchResult:
+    result = seek(lambda x: (function(x), "" if math.isfinite(function(x)) else "failed"), target, low, high, **more)
     assert len({run.x for run in result.runs}) == len(result.runs)  # no run twice
     return result
 

@@ -33,8 +33,8 @@ def test_fmpy_reads_what_was_wired(partners: dict[str, Path], tmp_path: Path) ->
     system = fmpy.ssp.ssd.read_ssd(str(file)).system
     assert [c.name for c in system.elements] == ["mass", "spring"]
     actual = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
-    wanted = {tuple(end.split(".")): tuple(start.split(".")) for end, start in WIRES.items()}
-    assert actual == wanted
+    expected = {tuple(end.split(".")): tuple(start.split(".")) for end, start in WIRES.items()}
+    assert actual == expected
 
 
 def description(file: Path) -> Any:
@@ -128,9 +128,7 @@ def test_a_file_and_a_name_that_cannot_be_are_one_sentence(partners: dict[str, P
     with pytest.raises(HostError, match=r"The version of SSP is '3\.0'; it must be 1\.0 or 2\.0"):
         write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {}, version="3.0")
     for name, text in ((1, "1"), ("a\x00b", r"'a\\x00b'"), ("\ud800", r"'\\ud800'")):
-        with pytest.raises(
-            HostError, match=f"The name of the system is {text}; it must be a text that can be printed"
-        ):
+        with pytest.raises(HostError, match=f"The name of the system is {text}; it must be a text that can be printed"):
             write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {}, name=name)
     assert list(tmp_path.iterdir()) == []
     assert write_ssp(str(tmp_path / "a.ssp"), halves(partners), WIRES, {}, name="<&>").is_file()  # type: ignore[arg-type]

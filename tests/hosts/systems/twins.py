@@ -23,8 +23,8 @@ class _Car:
     """A car of a system, whose steps can be made again."""
 
     def __init__(self, ports: str, start: dict[str, Any]) -> None:
-        made = with_ports(rigid(), **chosen_ports(ports)) if ports else rigid()
-        system = mbs.compile(made.model())
+        data = with_ports(rigid(), **chosen_ports(ports)) if ports else rigid()
+        system = mbs.compile(data.model())
         self.names = [entry["name"] for entry in system.meta["inputs"]]
         pose = {n.removeprefix("initial."): x for n, x in start.items() if n.startswith("initial.")}
         inputs = {n: x for n, x in start.items() if n in self.names}

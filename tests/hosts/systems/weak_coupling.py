@@ -132,8 +132,8 @@ def closed(name: str) -> tuple[np.ndarray, np.ndarray]:
     case = CASES[name]
     system = closed_system(name)
     names = [entry["name"] for entry in system.meta["inputs"]]
-    given = {n: x for n, x in case.inputs.items() if n in names}
-    s = mbs.Simulation(system, pose=mbs.Pose(speed=SPEED), inputs=given)
+    inputs = {n: x for n, x in case.inputs.items() if n in names}
+    s = mbs.Simulation(system, pose=mbs.Pose(speed=SPEED), inputs=inputs)
     own = CAR_LOADS if name == "tyre" else case.loads
     read, path = ([n.partition(".")[2] for n in names] for names in (own, case.path))
     loads, ways, row = [], [], np.array([s.instance.get_input(i) for i in range(len(names))])

@@ -274,9 +274,7 @@ def test_a_course_that_climbs_like_no_road_is_reported_before_it_is_made_and_whe
         assert main(["--world", str(tmp_path / "w.toml"), "--out", str(tmp_path / "out")]) == 0
         captured = capsys.readouterr()
         assert message in captured.out
-        match = re.search(
-            r"warning: The course 'lap' climbs by (\d+) % at station .*; it lies between -", captured.err
-        )
+        match = re.search(r"warning: The course 'lap' climbs by (\d+) % at station .*; it lies between -", captured.err)
         assert match
         assert 45 <= int(match[1]) <= 50
     first = captured.err.splitlines()

@@ -56,16 +56,16 @@ class Person:
     st.booleans(),
 )
 def test_everything_is_found_whatever_way_the_device_counts(left, right, rest, mirrored, up, down, pressed_is_low):
-    way, press = (-1.0 if mirrored else 1.0), (-1.0 if pressed_is_low else 1.0)
-    person = Person(WHEEL_AND_PEDALS, way * rest, press * up, -1.0)
-    person.move(0, way * left, way * right, way * rest)
+    sign, press = (-1.0 if mirrored else 1.0), (-1.0 if pressed_is_low else 1.0)
+    person = Person(WHEEL_AND_PEDALS, sign * rest, press * up, -1.0)
+    person.move(0, sign * left, sign * right, sign * rest)
     person.move(1, press * down, press * up)
     mapping, actual, still = person.calibration.result()
     assert (actual, still) == (["steering", "throttle"], ["brake"])
     assert mapping.inputs["brake"] == WHEEL_AND_PEDALS.inputs["brake"]
     steering, throttle = mapping.inputs["steering"], mapping.inputs["throttle"]
     for place, value in ((left, 1.0), (rest, 0.0), (right, -1.0)):
-        assert steering.value("steering", at(way * place)) == pytest.approx(value, abs=1e-12)
+        assert steering.value("steering", at(sign * place)) == pytest.approx(value, abs=1e-12)
     assert throttle.value("throttle", at(0, press * up)) == 0.0
     assert throttle.value("throttle", at(0, press * down)) == 1.0
     assert throttle.value("throttle", at(0, press * (up + 0.985 * (down - up)))) == 1.0, "surely reached"
