@@ -32,8 +32,9 @@ _LARGEST = 1_000_000_000  # bytes of a file, and of those that it names
 MOST_TRIANGLES = 100_000
 """Of a mesh that is drawn: 1.8 MB of a page."""
 _OF_POINT = 64  # bytes of memory, or of an index
-_LEAST_SIZE, _MOST_SIZE = 1e-3, 500.0
-"""Sizes of a mesh beyond which its unit is doubted, m."""
+# m, sizes of a mesh beyond which its unit is doubted
+_LEAST_SIZE = 1e-3
+_MOST_SIZE = 500.0
 
 
 class MeshError(ViewerError):

@@ -16,8 +16,11 @@ from hosts.plant.car import Car
 from hosts.plant.environments import Floats, LaneEnvironment, two_numbers
 from hosts.plant.lane import Lane
 
-STRAIGHT, RADIUS, BEGIN, WIDTH = 640.0, 60.0, -20.0, 12.0
-"""m, of the ring in `mbs/worlds/proving_ground.toml`: straights, curves to the left, x of the first straight, road."""
+# of the ring in `mbs/worlds/proving_ground.toml`
+STRAIGHT = 640.0  # m
+RADIUS = 60.0  # m, of the curves to the left
+BEGIN = -20.0  # m, x of the begin of the first straight
+WIDTH = 12.0  # m, of the road
 
 
 def ring() -> Lane:

@@ -21,7 +21,9 @@ from benchmarks.peers import commonroad_car  # noqa: E402
 exudyn = pytest.importorskip("exudyn")
 from benchmarks.peers import exudyn_car  # noqa: E402
 
-CAR, MASS, H = load("prototype"), 600.0, 5e-3
+CAR = load("prototype")
+MASS = 600.0  # kg
+H = 5e-3  # s
 
 
 def test_it_stands_on_its_springs_with_its_weight() -> None:

@@ -16,7 +16,8 @@ from benchmarks.shared.pages import table
 from benchmarks.shared.timing import step_time
 from mbs import Settings
 
-H, DURATION = 0.01, 0.05  # s
+H = 0.01  # s
+DURATION = 0.05  # s
 ROWS = [{"scene": "a", "h_s": 0.1}, {"scene": "b", "h_s": 0.2}]
 
 

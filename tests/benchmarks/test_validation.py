@@ -17,8 +17,11 @@ from hosts.compare.log_aliases import read_log_aliases
 from hosts.compare.log_file import read_log
 
 BODY = Body(1000.0, 1500.0, 1.3, 1.1)
-STIFFNESS, GRIP, OFFSET = (80e3, 120e3), 1.1, 0.002
-END, H = 275.0, 0.01
+STIFFNESS = (80e3, 120e3)  # N/rad, front and rear
+GRIP = 1.1
+OFFSET = 0.002  # rad, of the steering
+END = 275.0  # s
+H = 0.01  # s
 PLACES = {model.name: k for k, model in enumerate(MODELS)}
 
 

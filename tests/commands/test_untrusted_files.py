@@ -64,7 +64,9 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="pipes, devices and a
 
 LONGEST = 900  # characters of a sentence
 SOON = 30  # s, after which a reader counts as one that does not end
-DEEP, DIGITS, LARGE = 3000, "9" * 5000, "x" * 100_000
+DEEP = 3000
+DIGITS = "9" * 5000
+LARGE = "x" * 100_000
 TOML = {
     "deep lists": "[" * DEEP + "]" * DEEP,
     "lists 150 deep": "[" * 150 + "]" * 150,

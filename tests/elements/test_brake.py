@@ -9,7 +9,9 @@ from mbs.elements import Brake, InputForce
 from tests.elements.harness import Element, frame, signals, tangent_by_differences, vectors
 from tests.elements.stepper import Part, Stepper
 
-TORQUE, RADIUS, INERTIA = 650.0, 0.27, 0.55
+TORQUE = 650.0  # N m
+RADIUS = 0.27  # m
+INERTIA = 0.55  # kg m2
 STIFFNESS = TORQUE * RADIUS / 0.9e-3  # the tread gives 0.9 mm at full torque
 BRAKE = Brake(TORQUE, STIFFNESS, 2.0 * np.sqrt(STIFFNESS * INERTIA))  # damped critically
 

@@ -7,7 +7,9 @@ from mbs.elements import CoordinateFriction, InputForce, ScalarSpringDamper
 from tests.elements.harness import Element, signals, tangent_by_differences
 from tests.elements.stepper import Part, Stepper
 
-LARGEST, INERTIA, GIVE = 1.5, 0.03, 0.004
+LARGEST = 1.5
+INERTIA = 0.03
+GIVE = 0.004
 FRICTION = CoordinateFriction(LARGEST, LARGEST / GIVE, 2.0 * np.sqrt(LARGEST / GIVE * INERTIA))  # damped critically
 
 

@@ -53,7 +53,7 @@ def pressed(t: MagicTyre, load: float, omega: float) -> float:
 
 
 def pose(t: MagicTyre, load: float, kappa: float, alpha: float, gamma: float, speed: float, direction: float = 1.0):
-    """Signals and their rates of a wheel that leans to the right by gamma and rolls ahead (direction 1) or back (-1)."""
+    """Signals and their rates of a wheel that leans to the right by gamma and rolls ahead, backwards with -1."""
     omega = (1.0 + kappa) * speed / t.radius
     for _ in range(60):
         deflection = pressed(t, load * cos(gamma), omega)

@@ -7,7 +7,10 @@ from mbs.elements import InputForce, ScalarSpringDamper, TorsionBar
 from tests.elements.harness import Element, signals
 from tests.elements.stepper import Part, Stepper
 
-K, C, GAIN, LIMIT = 100.0, 0.8, 6.0, 40.0
+K = 100.0  # N m/rad
+C = 0.8  # N m s/rad
+GAIN = 6.0  # assistance over torque
+LIMIT = 40.0  # N m, of the assistance
 
 
 def bar(gain: float = 0.0, limit: float = 0.0) -> Element:

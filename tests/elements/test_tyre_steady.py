@@ -290,7 +290,8 @@ def test_aligning_moment_and_rolling_resistance_are_moments_on_the_wheel() -> No
 
 
 # Of the largest entry. Left out: load coupling, turning of frames, transport speed; near the limit the secant stays.
-COUPLING, LIMIT = {0.0: 0.002, 0.5: 0.05, 10.0: 0.06, 30.0: 0.16}, 0.3
+COUPLING = {0.0: 0.002, 0.5: 0.05, 10.0: 0.06, 30.0: 0.16}  # by speed in m/s
+LIMIT = 0.3  # near the limit of friction
 
 
 @pytest.mark.parametrize(("speed", "spread"), [(0.0, 0.02), (0.5, 1.0), (10.0, 1.0), (30.0, 0.3)])

@@ -20,7 +20,8 @@ from mbs.flexible.reduced_body import ReducedBody
 from tests.flexible.structures import portal, straight
 
 ROUND_OFF = 1e-9
-REFERENCE, INTERFACES = "N0", ("N2", "N4", "N7")
+REFERENCE = "N0"
+INTERFACES = ("N2", "N4", "N7")
 
 
 def free_frequencies(body: ReducedBody, model: FiniteElementModel) -> np.ndarray:

@@ -17,7 +17,8 @@ from hosts.fmu.fmu import Fmu
 from mbs.elements.road import ANSWER
 from tests import kinds
 
-STEP, SPEED = 0.01, 15.0
+STEP = 0.01  # s
+SPEED = 15.0  # m/s
 WHEELS = ("FL", "FR", "RL", "RR")
 Given = dict[str, float]
 

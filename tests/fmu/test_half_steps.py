@@ -16,7 +16,8 @@ WHEELS = ("FL", "FR", "RL", "RR")
 FORCES = [f"{name}_{w}.{what}" for w in WHEELS for name, what in (("wheel", "Fz"), ("spring", "force"))]
 FALL = {"initial.z": 0.18, "initial.speed": 8.4}  # onto the metal of the rebound stops
 WORDS = "computed again with 1/"
-EVERY, SPAN = 0.008, 0.8  # s; springs are off by 16 %
+EVERY = 0.008  # s, in which springs are off by 16 %
+SPAN = 0.8  # s
 
 
 def drive(

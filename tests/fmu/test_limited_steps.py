@@ -12,7 +12,8 @@ from mbs.settings.settings import Settings
 from tests.fmu.calls import ERROR, FMI_2, OK, WARNING, HostMaker
 
 SCENES = Path(__file__).parent / "scenes.py"
-TORQUE, H = 4.0, 1e-3
+TORQUE = 4.0  # N m
+H = 1e-3  # s
 LIMIT = "solver.step_iterations"
 STEPS = 500
 

@@ -25,7 +25,8 @@ from tests.fmu.other_hosts import by_libcosim
 from tests.sanitize import OBJECTS
 from tests.unoptimised import unoptimised
 
-STEPS, STEP = 40, 0.01
+STEPS = 40
+STEP = 0.01  # s
 FUNCTIONS = 34
 
 

@@ -16,7 +16,8 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, 
 from tests.fmu.calls import ERROR, OK, WARNING, HostMaker
 
 INSTANTIATED, INITIALISING, STEPPING, TERMINATED = "instantiated", "initialising", "stepping", "terminated"
-RUNS, LENGTH = 150, 30
+RUNS = 150
+LENGTH = 30
 STEPS = st.sampled_from([0.003, 0.01, 0.02, 0.0, -0.01, math.nan, math.inf])
 VALUES = st.floats(-40.0, 40.0) | st.sampled_from([math.nan, math.inf, -math.inf])
 

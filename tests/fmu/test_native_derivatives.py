@@ -11,11 +11,14 @@ import pytest
 
 from tests.fmu.calls import ERROR, OK, HostMaker
 
-STEP, INNER = 0.1, 0.01
+STEP = 0.1  # s
+INNER = 0.01  # s, of the steps within
 
 # Differences of steps that end at a tolerance of 1e-10 m, over a part of the input's range.
-PART, DERIVATIVE_ERROR = 1e-3, 2e-5
-RATE_STEP, RATE_ERROR = 1e-4, 1e-3
+PART = 1e-3
+DERIVATIVE_ERROR = 2e-5
+RATE_STEP = 1e-4
+RATE_ERROR = 1e-3
 SEEN = {
     "torque": ("rod.x", "rod.angle", "rod.ay"),
     "pull": ("bob.x", "bob.vx", "pulled"),

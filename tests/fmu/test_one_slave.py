@@ -18,7 +18,8 @@ LAST_SUCCESSFUL_TIME = 2
 OF_THE_BUILD = 40  # bytes of a state that hold its checksum and the identity of the build
 VALUES = (0.0, -0.0, 0.02, 0.3, 4.0, -7.0, 60.0, math.nan, math.inf, 1.5)
 STEPS = (H, 3 * H, 0.1 * H, 0.2, 0.013, 0.0, -H, math.nan, 1e9)
-SEED, CALLS = 7, 400
+SEED = 7
+CALLS = 400
 
 
 @pytest.fixture

@@ -11,7 +11,10 @@ import pytest
 from tests.fmu.calls import DISCARD, ERROR, OK, HostMaker
 
 # The mechanism is pulled beyond its reach within LONG, not within H.
-BEGIN, H, LONG, PULL = 0.05, 0.01, 0.2, 5.0
+BEGIN = 0.05  # s
+H = 0.01  # s
+LONG = 0.2  # s
+PULL = 5.0
 SECONDS = 60.0
 
 

@@ -26,7 +26,8 @@ from tests.in_process import run
 
 HERE = Path(__file__).parent
 A, B = np.array([[0.0, 1.0], [-4.0, -0.4]]), np.array([[0.0, 0.0, 0.0], [1.0, 0.5, 0.25]])
-H, EXACT = 0.01, 1e-9
+H = 0.01  # s
+EXACT = 1e-9
 
 
 @pytest.fixture(scope="module")

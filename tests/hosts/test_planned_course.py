@@ -10,7 +10,8 @@ from hosts.driving.courses import TRACKS, course_of
 from hosts.driving.planned_course import planned
 from hosts.measures.clearance import clearance
 
-LENGTH, WIDTH = 4.2, 1.8
+LENGTH = 4.2  # m
+WIDTH = 1.8  # m
 
 
 def points(course: Course, x: np.ndarray) -> np.ndarray:

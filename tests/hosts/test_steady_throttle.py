@@ -24,7 +24,10 @@ from hosts.study.jobs import Job
 from hosts.study.plan import job_digest
 
 H = 0.01
-PUSH, DRAG, ROLLING, TURN = 4.0, 1e-3, 0.1, 40.0
+PUSH = 4.0
+DRAG = 1e-3
+ROLLING = 0.1
+TURN = 40.0
 
 
 class Slider:

@@ -12,7 +12,8 @@ from hosts.fmu.fmu import Fmu
 from mbs import Pose, Simulation, System, compile
 from tests.vehicle.column_car import column_car
 
-STEP, END = 0.01, 8.0
+STEP = 0.01  # s
+END = 8.0  # s
 START = {"initial.speed": 15.0, "steering.by_torque": 1}
 OUTPUTS = ["chassis.y", "steering_wheel_angle", "steering_wheel_speed", "steering_wheel_torque", "chassis.yaw"]
 

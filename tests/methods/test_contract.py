@@ -11,7 +11,8 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import METHODS
 from tests.methods.models import two_rods
 
-H, GOOD_STEPS = 0.005, 7
+H = 0.005  # s
+GOOD_STEPS = 7
 
 
 def driven_chain() -> bytes:

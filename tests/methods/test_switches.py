@@ -10,7 +10,9 @@ from mbs.settings.settings import METHODS
 
 H = 0.005
 TIP = (1.0, 1.0)
-CATCH, RELEASE, END = 0.5, 1.5, 2.5  # s
+CATCH = 0.5  # s
+RELEASE = 1.5  # s
+END = 2.5  # s
 
 
 def pendulum(on: bool = False) -> Model:

@@ -10,7 +10,9 @@ from tests.methods.models import assert_saved_state_continues, driven, swing, tr
 
 QUIET = {"progress": False, "estimate_error": False}
 NO_WORD = {"progress": False}
-MASS, SPEED, DAMPING = 2.0, 3.0, 1.5
+MASS = 2.0  # kg
+SPEED = 3.0  # m/s
+DAMPING = 1.5  # N s/m
 # Order at which the balance of the swing closes as steps shrink; that of energy-momentum always does.
 ORDERS = {"ali3p_generalised_alpha": 2, "runge_kutta_8": 8, "semi_recursive": 8, "semi_recursive_4": 4, "radau_5": 5}
 

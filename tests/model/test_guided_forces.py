@@ -6,7 +6,8 @@ import pytest
 from mbs import Model, ModelError, Settings, Simulation, compile
 from mbs.elements import TorsionBar
 
-GAINS, LIMITS = (0.06, 0.007), (-0.06, 0.05)
+GAINS = (0.06, 0.007)
+LIMITS = (-0.06, 0.05)
 
 
 def rack(limits=LIMITS, gains=GAINS, start=0.0):

@@ -8,7 +8,8 @@ from mbs import Model, ModelError, compile, simulate
 from mbs.settings.settings import Settings
 
 STEPPERS = ("ali3p", "ali3p_generalised_alpha", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
-T, H = 1.0, 0.002
+T = 1.0  # s
+H = 0.002  # s
 
 
 def close(method):

@@ -14,7 +14,8 @@ from mbs.settings.input_breaks import function_breaks, input_breaks, sampled
 from mbs.settings.input_signals import InputSignals
 from tests.simulation.drawn import drawn
 
-H, SPAN = 0.02, 1.0
+H = 0.02  # s
+SPAN = 1.0  # s
 Table = tuple[np.ndarray, np.ndarray]
 
 

@@ -13,7 +13,8 @@ from mbs.results.simulation_error import SimulationError
 from mbs.scenes import double_four_bar
 from mbs.vehicle import car_names, load
 
-H, G = 0.005, 9.81
+H = 0.005  # s
+G = 9.81  # m/s2
 POSE = mbs.Pose(speed=15.0, lateral_speed=0.2, yaw_rate=0.4)
 
 

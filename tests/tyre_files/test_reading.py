@@ -70,7 +70,8 @@ UNITS = (
     ("LONGVL", "LONGVL = 16.7"),
     ("VXLOW", "VXLOW = 1"),
 )
-N, PRESSURE = 1.0 / 4.4482216152605, 1e-6 / 4.4482216152605
+N = 1.0 / 4.4482216152605
+PRESSURE = 1e-6 / 4.4482216152605
 
 
 def test_units_change_the_numbers_and_not_the_tyre(tmp_path: Path) -> None:

@@ -12,7 +12,8 @@ from mbs.vehicle.changed_content import changed_content
 from tests.quick import quick
 from tests.vehicle.content import new_with, numbers, sentences, tables, told
 
-FIRST, CAR_NAMES = "prototype", sorted(car_names(), reverse=True)
+FIRST = "prototype"
+CAR_NAMES = sorted(car_names(), reverse=True)
 SWEPT = quick(("prototype", "hatchback", "commonroad_320i"), CAR_NAMES, "proof")
 
 

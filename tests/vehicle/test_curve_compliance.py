@@ -17,7 +17,9 @@ from mbs.vehicle.springs import AxleSprings
 from tests.vehicle.curved_car import after_a_turn, curved_content, linked_car
 
 STEER = {"per_moment": 8e-5}
-CAMBER, LATERAL, FORWARD = -4e-6, 1.5e-6, 8e-7  # rad/N, m/N
+CAMBER = -4e-6  # rad/N
+LATERAL = 1.5e-6  # m/N
+FORWARD = 8e-7  # m/N
 ALL = {
     "camber_per_lateral_force": CAMBER,
     "lateral_per_lateral_force": LATERAL,

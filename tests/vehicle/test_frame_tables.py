@@ -7,7 +7,9 @@ import pytest
 from mbs.vehicle import CarFileError, load
 from tests.vehicle.content import sentences
 
-JOINT, TUBE, MASS = "F2L,0.45,0.28,0.4,", "F1L,LFL,M,2", "powertrain,EML,32"
+JOINT = "F2L,0.45,0.28,0.4,"
+TUBE = "F1L,LFL,M,2"
+MASS = "powertrain,EML,32"
 CASES = {  # table, what is replaced by what, words of the sentence
     "missing file": ("joints.csv", "", "", "chassis.frame.joints: 'joints.csv' cannot be read: there is no such file"),
     "missing column": ("joints.csv", "joint,x,y,z,", "joint,x,y,height,", "(joints.csv) has no column z"),

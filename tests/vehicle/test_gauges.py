@@ -14,7 +14,9 @@ from mbs.vehicle.errors import CarFileError
 from tests.flexible.structures import straight
 from tests.vehicle.frame_cars import PROTOTYPE
 
-DIAMETER, WALL, LENGTH = 0.04, 0.002, 1.2
+DIAMETER = 0.04  # m
+WALL = 0.002  # m
+LENGTH = 1.2  # m
 SECTION = tube(DIAMETER, WALL)
 AREA = np.pi * (DIAMETER - WALL) * WALL
 SECOND = np.pi / 64 * (DIAMETER**4 - (DIAMETER - 2 * WALL) ** 4)

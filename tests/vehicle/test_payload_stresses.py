@@ -6,7 +6,8 @@ import pytest
 import mbs
 from mbs.vehicle import load
 
-PLACE, MASS = [-1.2, 0.35, 0.45], 80.0
+PLACE = [-1.2, 0.35, 0.45]  # m
+MASS = 80.0  # kg
 LOADED = {"payload.driver.mass": MASS}
 FIDELITIES = {"quasi_static": 0.05}
 """How far the change of a moment at rest may be from that of the dynamic frame, parts of the largest change."""

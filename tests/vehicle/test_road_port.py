@@ -14,7 +14,8 @@ from mbs.kernel.binding import Status
 from mbs.vehicle import load
 from tests.vehicle.cars_with_ports import WHEELS, with_ports
 
-BEGIN, SPEED = 3.0, 10.0  # m, m/s
+BEGIN = 3.0  # m
+SPEED = 10.0  # m/s
 FRICTION = load("hatchback").road.friction
 
 

@@ -10,7 +10,9 @@ from mbs.vehicle.kinematics import kinematics
 from mbs.vehicle.kinematics.curves import Curve
 
 # of the sprung mass, with half of the tracks, of the measured car
-MASS, AHEAD, BEHIND = 1093.3, 1.1717, 2.5789 - 1.1717
+MASS = 1093.3  # kg
+AHEAD = 1.1717  # m
+BEHIND = 2.5789 - 1.1717  # m
 WHEEL_RATE = {"front": 24453.0, "rear": 19635.0}
 DAMPING = {"front": 1786.0, "rear": 1649.0}
 MORE_ROLL_STIFFNESS = {"front": 6915.0, "rear": 2644.0}

@@ -17,10 +17,11 @@ from mbs.vehicle import load
 from tests.viewer.test_draft import _orange
 from tests.viewer.test_player import Opened
 
-SPEED, STRIDE = 14.0, 9.0
-"""m/s, and m between pictures, of which each shows 24 m of the way."""
-HEIGHT, PLATE, TOP = 0.5, 0.14, 0.01
-"""m: of a cone, half the width of the plate below it, and half that of its upper end."""
+SPEED = 14.0  # m/s
+STRIDE = 9.0  # m between pictures, of which each shows 24 m of the course
+HEIGHT = 0.5  # m, of a cone
+PLATE = 0.14  # m, half the width of the plate below it
+TOP = 0.01  # m, half the width of its upper end
 _CORNERS = [[a * r, b * r, z] for r, z in ((PLATE, 0.0), (TOP, HEIGHT)) for a in (-1.0, 1.0) for b in (-1.0, 1.0)]
 _PROJECTED = "points => points.map(point => window.player.view.project(point))"
 

@@ -7,7 +7,8 @@ import pytest
 
 from tests.viewer.hand_scenes import moving, names
 
-RADIUS, CENTRE = 0.3, 0.26
+RADIUS = 0.3  # m
+CENTRE = 0.26  # m
 EXTENT = 0.8
 PIXEL = 1.24 * EXTENT / 180
 """Height of a pixel of a planar picture, m."""

@@ -12,7 +12,8 @@ from hosts.fmu.fmu import Fmu
 from hosts.fmu.geometry import scene_of
 from viewer.page_file import write_page
 
-STEP, STEPS = 0.002, 600
+STEP = 0.002  # s
+STEPS = 600
 
 
 def braked(fmu: Path, names: str) -> Recording:

@@ -15,7 +15,9 @@ from viewer.page_file import write_page
 
 pytestmark = pytest.mark.slow
 
-RADIUS, SPEED, BEND = 0.3, 10.0, 20.0
+RADIUS = 0.3  # m
+SPEED = 10.0  # m/s
+BEND = 20.0
 _EYE = """() => {
   const { cameras, origin } = window.player.view;
   return cameras.rig.position.toArray().map((p, k) => p + origin[k]);

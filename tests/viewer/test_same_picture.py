@@ -16,8 +16,8 @@ from viewer.page_file import write_page
 INSTANT = 4.0
 """s: the car turns into the second lane."""
 SIZE = {"width": 640, "height": 360}
-ALIKE, MOST = 2, 1
-"""Steps of 256 of a colour, and how many of the 230 400 pixels may differ by more."""
+ALIKE = 2  # of 256 levels of a colour
+MOST = 1  # of the 230 400 pixels may differ by more
 _BOTH = "({ look }) => { const { view } = window.player; view.options.lift = 0; view.set(look); view.resize(); }"
 
 

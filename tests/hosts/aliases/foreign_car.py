@@ -10,10 +10,17 @@ import math
 from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Real
 
 STYLE = "ours"
-MASS, INERTIA, FRONT, REAR = 1200.0, 1800.0, 1.1, 1.4
-STIFFNESS_FRONT, STIFFNESS_REAR = 70000.0, 90000.0
-LOCK, RATIO, PRESSURE = 8.0, 16.0, 12e6
-ROLL_PER_AY, ROLL_TIME = 0.006, 0.15
+MASS = 1200.0  # kg
+INERTIA = 1800.0  # kg m2
+FRONT = 1.1  # m, from the centre of mass to the axle
+REAR = 1.4  # m
+STIFFNESS_FRONT = 70000.0  # N/rad
+STIFFNESS_REAR = 90000.0  # N/rad
+LOCK = 8.0  # rad, largest angle of the steering wheel
+RATIO = 16.0  # steering wheel to road wheels
+PRESSURE = 12e6  # Pa
+ROLL_PER_AY = 0.006  # rad s2/m
+ROLL_TIME = 0.15  # s
 POINT = (-0.35, 0.0, 0.25)  # of the reference frames that are not the centre of mass, from it
 SUBSTEP = 0.001
 GRAVITY = 9.80665

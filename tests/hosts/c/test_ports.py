@@ -14,7 +14,10 @@ from tests.hosts.systems.weak_coupling import car_fmu
 from tests.vehicle.cars_with_ports import WHEELS
 from tests.vehicle.test_road_port import WAVES
 
-STEP, SPEED, ROWS, SILENT = 0.002, 10.0, 600, 200
+STEP = 0.002  # s
+SPEED = 10.0  # m/s
+ROWS = 600
+SILENT = 200
 
 
 def table() -> dict[str, np.ndarray]:

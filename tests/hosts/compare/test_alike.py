@@ -6,7 +6,10 @@ from scipy.signal import lfilter
 
 from hosts.compare.correlated_residuals import covariance
 
-SIGNALS, SAMPLES, MEMORY, LOGS = 4, 300, 0.8, 300
+SIGNALS = 4
+SAMPLES = 300
+MEMORY = 0.8
+LOGS = 300
 
 
 @pytest.mark.parametrize("share", [0.0, 0.9])

@@ -15,7 +15,9 @@ from hosts.driving.result import Result
 from hosts.fmu.fmu_source import FmuSource
 
 STEP = 0.01
-STIFFNESS, DAMPING, DELAY = 123.0, 1.7, 0.043
+STIFFNESS = 123.0  # N/m
+DAMPING = 1.7  # N s/m
+DELAY = 0.043  # s
 UNKNOWNS = [
     Unknown("spring.stiffness", "N/m", 100.0, 50.0, 200.0, 30.0),
     Unknown("spring.damping", "N.s/m", 1.0, 0.2, 4.0, 1.0),

@@ -6,7 +6,8 @@ from scipy import stats
 
 from hosts.compare.cross_validation import FOLDS, Parts, clustered_covariance, folds, left_out, without_each
 
-LENGTH, SAMPLES = 10.0, 40
+LENGTH = 10.0  # s
+SAMPLES = 40
 
 
 def linear(begins: np.ndarray, seed: int = 3) -> tuple[np.ndarray, np.ndarray, Parts]:

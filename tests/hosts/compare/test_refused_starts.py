@@ -19,7 +19,8 @@ from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
 from hosts.measures.signal import Signal
 
-RATE, REFUSED = 2.0, 3.0
+RATE = 2.0
+REFUSED = 3.0
 T = np.linspace(0.0, 3.0, 151)
 
 

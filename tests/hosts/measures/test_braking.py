@@ -17,7 +17,9 @@ from hosts.measures.braking import (
     way_between,
 )
 
-ONSET, V, A = 1.0, 100.0 / 3.6, 8.0
+ONSET = 1.0  # s
+V = 100.0 / 3.6  # m/s
+A = 8.0  # m/s2
 
 
 def stop(step: float, offset: float = 0.0) -> tuple[np.ndarray, np.ndarray]:

@@ -16,7 +16,8 @@ from hosts.plant.environments import LaneKeeping
 from hosts.plant.vector_environment import VectorEnvironment
 
 LANE, BRAKES, LAP = (f"ali3/{name}-v0" for name in ("LaneKeeping", "AntiLockBraking", "ProvingGroundLap"))
-MANY, STEPS = 5, 24
+MANY = 5
+STEPS = 24
 
 
 @pytest.fixture(params=[LANE, BRAKES, LAP])

@@ -10,7 +10,8 @@ from hosts.simulator.shared_values import ByteRing, Ring, SharedValues, Sizes, T
 
 SIZES = Sizes(inputs=2, columns=300, rows=8)
 STEPS = 20000
-_DONE, _SEEN = 7, 6
+_DONE = 7
+_SEEN = 6
 
 
 def hammer(name: str) -> None:

@@ -13,7 +13,8 @@ from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from hosts.study.measures.study_measure import parse_measure
 
-END, N = 2.0, 2001
+END = 2.0  # s
+N = 2001
 
 
 @pytest.fixture(scope="module")

@@ -15,7 +15,9 @@ from tests.hosts.systems.weak_coupling import car_fmu
 from tests.vehicle.cars_with_ports import WHEELS
 
 CONTROLLERS = Path(__file__).parents[3] / "examples" / "controllers"
-FRONT, REAR, INNER = ("FL", "FR"), ("RL", "RR"), 0.001  # s
+FRONT = ("FL", "FR")
+REAR = ("RL", "RR")
+INNER = 0.001  # s
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,8 @@ from tests.hosts.systems.weak_coupling import percent
 from tests.modules import module_of
 from tests.vehicle.cars_with_ports import rigid, with_ports
 
-ROUNDS, NEAR = 30, 1e-9  # of a step at most; share of an output's size, at which a round is the last
+ROUNDS = 30  # of a step at most
+NEAR = 1e-9  # share of an output's size, at which a round is the last
 Values = dict[str, float]
 
 

@@ -26,7 +26,10 @@ from tests.vehicle.cars_with_ports import WHEELS, throttle_at
 from tests.vehicle.rigid_car import rigid_car
 from tests.vehicle.second_tyres import HUB
 
-FMUS, INNER, TIME, SPEED = Path(__file__).parent / "fmus", 0.002, 1.0, 10.0
+FMUS = Path(__file__).parent / "fmus"
+INNER = 0.002  # s, step of the car
+TIME = 1.0  # s
+SPEED = 10.0  # m/s
 Wires = dict[str, str]
 
 
