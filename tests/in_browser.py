@@ -1,4 +1,4 @@
-"""What playwright does by means that the policy of our pages forbids: waits, and pictures without instruments."""
+"""Playwright functions that the content security policy of pages blocks: waits, pictures without instruments."""
 
 import gc
 import io

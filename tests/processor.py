@@ -1,4 +1,4 @@
-"""The register that says how this thread computes with floating point: MXCSR, through the C library of x86-64 Linux."""
+"""The floating-point control register of this thread: MXCSR, through the C library of x86-64 Linux."""
 
 import ctypes
 import functools

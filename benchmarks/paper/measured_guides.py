@@ -104,10 +104,10 @@ def motion(signals: Signals, distance: float) -> Motion:
 
     The four places give the acceleration of the reference point and the angular acceleration, by least squares; squares
     of angular velocities are left out. Each is integrated once; where the car stands, means over a second are what the
-    rate has drifted by, between them a monotone cubic. The speed is then scaled to the way that is known.
+    rate has drifted by, between them a monotone cubic. The speed is then scaled to the known distance.
 
-    `distance`: from rest to rest, m: places can be measured on the road. It takes out the part of the weight that the pitch
-    of the braked car puts into the signal.
+    `distance`: from rest to rest, m, as measured on the road. It takes out the part of the weight that the pitch of the
+    braked car puts into the signal.
     """
     t = signals.time
     arms = np.vstack([np.hstack([np.eye(3), -_cross(place)]) for place in _AT])

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 def parameters(fmu: Path, options: FmuOptions, out: Path | None, diff: Path | None, show: bool = False) -> int:
     """Print the parameters of an FMU of FMI 2.0 or 3.0, or what is other in a set, and write them.
 
-    `options`: what is set in it before; `diff`: parameter set of which only what is other is printed; `show`: whether the
-    table is printed when a set is written too. Result: exit code.
+    `options`: values that are set in it first; `diff`: parameter set whose other values alone are printed; `show`:
+    whether the table is printed when a set is written too. Returns the exit code.
     """
     if out is not None:
         check_writable(out)

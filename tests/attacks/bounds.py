@@ -1,4 +1,4 @@
-"""How much an attack may take: seeds by chance, which are printed, within bounds of time and memory."""
+"""Limits of the attacks on readers: random seeds, which are printed, time and memory."""
 
 import os
 import random

@@ -1,4 +1,4 @@
-"""Archives by chance: nothing is written outside of the folder, and what is refused is one sentence that names them."""
+"""Randomly altered archives: nothing is written outside the folder; a refusal is one sentence with the file."""
 
 import random
 import shutil

@@ -1,4 +1,4 @@
-"""`python -m benchmarks.car_peers`: cars of other programs turn as cars do, and are driven as ours is."""
+"""`python -m benchmarks.car_peers`: cars in other programs turn as expected, and get the same inputs as ours."""
 
 from __future__ import annotations
 

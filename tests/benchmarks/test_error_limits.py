@@ -1,4 +1,4 @@
-"""What the page of trust is made of: the closed form of a period, and rows in its tables."""
+"""Tables of the page on trust: the closed form of a period, and the rows of the tables."""
 
 import pytest
 

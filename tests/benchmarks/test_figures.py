@@ -1,4 +1,4 @@
-"""Figures of the pages are held against new ones, and one that is altered is told by a sentence."""
+"""Figures of the pages are compared with new ones, and a changed figure is reported in one sentence."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""Motions from accelerometers: of signals that are known, and as guides of the kerb test."""
+"""Motions from accelerometers: from known signals, and as guides of the kerb test."""
 
 import numpy as np
 import pytest

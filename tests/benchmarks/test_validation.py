@@ -1,4 +1,4 @@
-"""Fits of bicycles against a drive that another program has integrated, with numbers that are known."""
+"""Fits of bicycle models to a drive with known parameters, integrated by SciPy."""
 
 import gzip
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Understeer and sideslip over lateral acceleration, of motions that are known."""
+"""Understeer angle and sideslip over lateral acceleration, for known motions."""
 
 import numpy as np
 import pytest

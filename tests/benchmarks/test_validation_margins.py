@@ -1,4 +1,4 @@
-"""Starts beside a measured state, kinds of seconds that are left out, bounds of a fit: by closed forms."""
+"""Perturbed starts, seconds left out of a fit, and bounds of a fit, against closed forms."""
 
 from pathlib import Path
 

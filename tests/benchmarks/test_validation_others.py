@@ -1,4 +1,4 @@
-"""Tests of others: tyres on the rig, times from rest, the table of the page."""
+"""Published tests: tyres on the rig, acceleration times from rest, the table of the page."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Figures of others against drives that are known."""
+"""Published figures against drives with known results."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""All that the baseline calls of the product, so that code that moves or is renamed is met here only."""
+"""All calls of the product that the baseline makes, so that renamed code is adapted here only."""
 
 import importlib
 import subprocess

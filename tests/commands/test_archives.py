@@ -1,4 +1,4 @@
-"""An archive that would be unpacked elsewhere, or into too much, is refused by all that open archives."""
+"""An archive that would unpack outside its folder, or to too many bytes, is refused by all readers of archives."""
 
 import stat
 import warnings

@@ -1,4 +1,4 @@
-"""The cache of the user: where the system keeps caches, where the user says, or a folder that goes."""
+"""The cache of the user: where the system keeps caches, in a folder that the user sets, or in a temporary folder."""
 
 import os
 import shutil

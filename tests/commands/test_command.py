@@ -1,4 +1,4 @@
-"""The console command: one table, quick help, names as the user typed them, and no harm by files of the user."""
+"""The console command: one table, fast help, command names in messages as typed, no import of files of the user."""
 
 import argparse
 import importlib

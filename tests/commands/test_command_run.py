@@ -1,4 +1,4 @@
-"""How a command ends: one sentence, one line, an exit code."""
+"""The end of a command: one sentence for an error, one line for Ctrl-C, an exit code."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""A package that is missing is told with the extra that brings it."""
+"""A missing package is reported with the extra that installs it."""
 
 import ast
 import importlib

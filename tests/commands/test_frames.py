@@ -1,4 +1,4 @@
-"""Frames between processes: values come back as they were, and what is not a frame of the type is an error."""
+"""Frames between processes: values come back unchanged, and what is not a frame of the type is an error."""
 
 import io
 import json

@@ -1,4 +1,4 @@
-"""Reports have one frame and one style sheet, and texts in them stay texts."""
+"""HTML reports: one frame and one style sheet for all, and escaped texts."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Work in processes of their own: what one does to itself is told, and the others go on."""
+"""Work in processes of its own: a crash of one is reported, and the others continue."""
 
 import os
 import signal

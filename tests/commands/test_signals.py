@@ -1,4 +1,4 @@
-"""What ends a program from outside is met as Ctrl-C is, and what is ignored stays ignored."""
+"""Signals that end a program are handled as Ctrl-C is; ignored signals stay ignored."""
 
 import os
 import signal

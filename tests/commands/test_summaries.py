@@ -1,4 +1,4 @@
-"""What readers return sums itself up, by one mechanism."""
+"""Summaries of the results of readers, all by one mechanism."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Temporary folders: what a kill leaves is removed by the next program, and nothing of one that lives."""
+"""Temporary folders: the next program removes those of killed programs, and none of a running one."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""Numbers of the command line with a unit behind them, and options that are misspelt."""
+"""Numbers with units on the command line, and misspelt options."""
 
 import argparse
 import math

@@ -1,4 +1,4 @@
-"""Whatever a stranger puts in the place of a file, its reader ends soon and says what is wrong in one sentence."""
+"""Any content in place of an expected file: the reader ends soon and reports the fault in one sentence."""
 
 import importlib
 import io

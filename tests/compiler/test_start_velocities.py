@@ -1,4 +1,4 @@
-"""Initial velocities that contradict each other are told with what was given and what is."""
+"""Contradictory initial velocities are reported with the given and the actual values."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What the documents show runs and prints what they say; what they name exists."""
+"""Examples in the documents run and print what the text says; names in them exist."""
 
 import ast
 import os

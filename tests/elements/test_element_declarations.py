@@ -1,4 +1,4 @@
-"""What elements say of themselves (element.h, ElementRecord) is what they do."""
+"""Declarations of elements (element.h, ElementRecord) agree with their behaviour."""
 
 import importlib
 

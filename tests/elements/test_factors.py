@@ -1,4 +1,4 @@
-"""Factors on springs, dampers and bars: at one nothing changes by a bit, and they scale what they say."""
+"""Factors on springs, dampers and bars: no bit changes at one, and they scale the stated coefficients."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""The law of an element in lanes has in each lane the bits that it has alone, whatever its neighbours are asked."""
+"""The law of an element in a lane has the bits of the element alone, independent of the other lanes."""
 
 import ctypes
 from dataclasses import replace

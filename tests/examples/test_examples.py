@@ -1,4 +1,4 @@
-"""The examples: each runs without a warning, finds the number it promises, draws, and stands in the gallery."""
+"""The examples: each runs without a warning, prints the documented number, draws, and is in the gallery."""
 
 import re
 from pathlib import Path

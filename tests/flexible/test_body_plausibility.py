@@ -1,4 +1,4 @@
-"""Flexible bodies that are right in form and wrong in meaning are told or refused, with the mistake behind it."""
+"""Implausible flexible bodies are reported or refused, with the probable mistake."""
 
 import itertools
 import re

@@ -1,4 +1,4 @@
-"""A flexible body that bends more than its linear modes hold for is warned of, once, with the number of parts."""
+"""Bending beyond the range of linear modes is reported once, with the number of parts that a body needs."""
 
 import warnings
 

@@ -1,4 +1,4 @@
-"""Compiling C hosts for tests, and what binaries say about themselves."""
+"""Compiles C hosts for tests, and reads properties of binaries."""
 
 import shutil
 import struct

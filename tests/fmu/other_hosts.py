@@ -1,4 +1,4 @@
-"""An FMU in hosts that are no Python programs: that of the project in C, and libcosim."""
+"""An FMU in hosts that are not in Python: the C host of the project, and libcosim."""
 
 import subprocess
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,4 @@
-"""What a host may do wrong is answered with a status and one sentence, and leaves the instance as it was."""
+"""Wrong calls of a host are answered with a status and one sentence, and leave the instance unchanged."""
 
 import math
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The command that builds an FMU: what it makes and how it refuses."""
+"""The command that builds FMUs: its files and its refusals."""
 
 from pathlib import Path
 

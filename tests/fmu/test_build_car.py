@@ -1,4 +1,4 @@
-"""A car file becomes an FMU: by its name or path, with the file in it, and every fault as sentences."""
+"""An FMU from a car file: by name or path, with the file inside, and one sentence for each fault."""
 
 import re
 import shutil

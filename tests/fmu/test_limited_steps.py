@@ -1,4 +1,4 @@
-"""`solver.step_iterations` limits the work of a step: steps that end at it are counted, and what they left is told."""
+"""`solver.step_iterations` limits the work of a step: capped steps are counted and their residual is reported."""
 
 from collections.abc import Callable
 from pathlib import Path

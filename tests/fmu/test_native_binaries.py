@@ -1,4 +1,4 @@
-"""The binaries: what they need, what they show, the same numbers without Python and on Windows, and from sources."""
+"""The binaries: dependencies, exported symbols, equal results without Python and on Windows, and from sources."""
 
 import importlib.util
 import os

@@ -1,4 +1,4 @@
-"""What a native FMU carries: documents by the standard's schemas, reference results that repeat, documentation."""
+"""The files of a native FMU: valid documents, repeatable reference results, documentation."""
 
 import io
 import struct

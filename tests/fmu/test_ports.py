@@ -1,4 +1,4 @@
-"""Ports: a value that is not finite holds the last one with one warning, one that nobody sets is told."""
+"""Ports: a value that is not finite keeps the last one with one warning; a port that is no longer set is reported."""
 
 import math
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A refused step stops a host in place of looping it, and says what helps."""
+"""A refused step stops a host instead of looping it, with a remedy in the message."""
 
 import subprocess
 import sys

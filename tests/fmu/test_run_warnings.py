@@ -1,4 +1,4 @@
-"""A run whose numbers are not what was asked says so, once; one that is right does not."""
+"""Runs with wrong results warn once; accurate runs do not."""
 
 from __future__ import annotations
 

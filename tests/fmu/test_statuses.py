@@ -1,4 +1,4 @@
-"""Statuses of the kernel in an FMU: the words and the remedy of each stand in what it says."""
+"""Statuses of the kernel in an FMU: message and remedy of each are in the log."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The host in C: what it sets by name, and what it refuses."""
+"""The host in C: setting variables by name, and refusals."""
 
 import subprocess
 from collections.abc import Callable

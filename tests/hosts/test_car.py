@@ -1,4 +1,4 @@
-"""The prototype car's FMU driven through the manoeuvres of the host, as a user does it."""
+"""The FMU of the prototype car in the manoeuvres of the host, by the command."""
 
 from dataclasses import replace
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""`ali3 check`: good FMUs pass, spoilt ones are named, other files are errors."""
+"""`ali3 check`: valid FMUs pass, faulty ones are named, other files are errors."""
 
 import subprocess
 import sys

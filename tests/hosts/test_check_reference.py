@@ -1,4 +1,4 @@
-"""`ali3 check FMU --reference FILE`: what agrees, what does not, and tables that are no reference."""
+"""`ali3 check FMU --reference FILE`: agreement, deviations, and tables that are no reference."""
 
 import csv
 import math

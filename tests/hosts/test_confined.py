@@ -1,4 +1,4 @@
-"""Option ``--confined``: an FMU reaches nothing of the host, gives the same bits, and is told of as ever."""
+"""Option ``--confined``: an FMU reaches nothing of the host, gives the same bits, and is reported as without it."""
 
 import socket
 import tempfile

@@ -1,4 +1,4 @@
-"""The job of docs/commands.md on a small repository, as it is written; JUnit files by a second reader."""
+"""The CI job of docs/commands.md on a small repository; JUnit files by a second reader."""
 
 import csv
 import re

@@ -1,4 +1,4 @@
-"""`ali3 run` of FMUs that end, print, start and reach what they should not: it is told, and nothing stays."""
+"""`ali3 run` of FMUs that crash, print without end, start processes or take memory: reported, and nothing stays."""
 
 import json
 import os

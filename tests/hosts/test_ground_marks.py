@@ -1,4 +1,4 @@
-"""What a manoeuvre has on the ground: the circle, the line where braking begins, and cones of a course laid out."""
+"""Ground marks of a manoeuvre: the circle, the line where braking begins, and cones of a course."""
 
 import math
 from dataclasses import astuple, replace

@@ -1,4 +1,4 @@
-"""A foreign FMU whose every text is markup: each page shows it as it is, and nothing of it runs."""
+"""A foreign FMU with markup in every text: pages show it literally, and nothing of it runs."""
 
 import json
 import re

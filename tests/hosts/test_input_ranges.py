@@ -1,4 +1,4 @@
-"""Columns in another unit than the FMU's input are told, with the row and the unit that would explain them."""
+"""Columns in another unit than the FMU's input are reported with the row and the probable unit."""
 
 import math
 

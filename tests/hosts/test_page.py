@@ -1,4 +1,4 @@
-"""What `ali3 view --live` makes of an FMU, and the sentences for what it cannot use."""
+"""Pages of `ali3 view --live` from an FMU, and messages for FMUs that they cannot run."""
 
 import base64
 import gzip

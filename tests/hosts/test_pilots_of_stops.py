@@ -1,4 +1,4 @@
-"""Pilots that brake, fix the steering and follow lines, with cars of a few lines."""
+"""Pilots that brake, fix the steering and follow lines, with simple models of cars."""
 
 import math
 from collections.abc import Mapping

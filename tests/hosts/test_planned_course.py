@@ -1,4 +1,4 @@
-"""The line of least curvature: inside the lanes, bent less than any simple one, and as bent as it has to be."""
+"""The line of least curvature: inside the lanes, and its curvature against simpler lines and a lower bound."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Rows of a run: which changes of inputs a table tells by its rows, which are jumps, and which are lost."""
+"""Rows of a run: changes of inputs that the rows represent, jumps, and lost changes."""
 
 from hosts.driving.recorded_rows import RecordedRows
 

@@ -1,4 +1,4 @@
-"""Rows of a run that are further apart than its steps: its end, what they do not tell, and no outputs."""
+"""Rows of a run at an interval longer than the step: its end, unresolved changes, and FMUs without outputs."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace

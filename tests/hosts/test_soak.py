@@ -1,4 +1,4 @@
-"""The soak test drives, sees what is wrong, and saves what repeats it."""
+"""The soak test drives, detects faults, and saves manoeuvres that repeat them."""
 
 import argparse
 import json

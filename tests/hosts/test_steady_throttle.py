@@ -1,4 +1,4 @@
-"""A manoeuvre that finds its throttle holds the speed of its start straight on, and says what became of it."""
+"""A manoeuvre with `find_throttle` holds its initial speed straight on, and reports deviations."""
 
 import re
 from collections.abc import Callable, Sequence

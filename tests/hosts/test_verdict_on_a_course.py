@@ -1,4 +1,4 @@
-"""A double lane change is passed where all lanes were driven at the speed that was asked for, and only there."""
+"""A double lane change is passed only if all lanes were driven at the requested speed."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""A parameter set that lists everything as the FMU has it, as a build writes one, changes nothing at any door."""
+"""A parameter set of all parameters with the values of the FMU, as a build writes it, changes nothing in a command."""
 
 import json
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""Worlds that hosts have made for them by the command."""
+"""Worlds that hosts build by the command."""
 
 import json
 from pathlib import Path

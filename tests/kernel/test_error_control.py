@@ -1,4 +1,4 @@
-"""Controlled runs of the kernel: what a call leaves behind, where steps end, and that parts of a run are the run."""
+"""Error-controlled runs of the kernel: state after a call, ends of steps, and a run in parts."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What stands in C headers and in Python: one source, and a library of other sources is refused."""
+"""Constants in C headers and in Python: one source; a library of other sources is refused."""
 
 import ctypes
 import itertools

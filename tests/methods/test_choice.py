@@ -1,4 +1,4 @@
-"""Methods by name, and where one is refused."""
+"""Choice of methods by name, and refusals."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What `mbs/kernel/src/method.h` asks of every method, and what the states that it leaves must have for a reader."""
+"""Requirements of `mbs/kernel/src/method.h` on every method, and on the states after its steps."""
 
 import numpy as np
 import pytest

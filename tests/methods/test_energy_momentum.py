@@ -1,4 +1,4 @@
-"""What the energy-momentum step keeps: energy, momenta, rows, and the energy balance of dampers and drives."""
+"""Conservation by the energy-momentum step: energy, momenta, rows, and the energy balance of dampers and drives."""
 
 import numpy as np
 import pytest

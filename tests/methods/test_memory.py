@@ -1,4 +1,4 @@
-"""What methods carry from step to step: complete in a saved state, kept by a step that fails, never trusted."""
+"""Memory of methods between steps: complete in a saved state, unchanged by a failed step, checked when loaded."""
 
 import struct
 import zlib

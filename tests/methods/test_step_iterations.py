@@ -1,4 +1,4 @@
-"""Steps whose Newton iterations are limited: bounded work, a state that stays good, and what was left is said."""
+"""Steps with limited Newton iterations: bounded work, a valid state, and a reported residual."""
 
 from dataclasses import replace
 

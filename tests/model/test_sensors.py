@@ -1,4 +1,4 @@
-"""Sensors read what they say; joint forces come from the multipliers."""
+"""Values of sensors; joint forces from the multipliers."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Shapes of bodies: what is taken, what is refused with which sentence, and that refusals change nothing."""
+"""Shapes of bodies: accepted ones, refused ones with their messages, and an unchanged model after a refusal."""
 
 import base64
 

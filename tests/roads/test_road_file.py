@@ -1,4 +1,4 @@
-"""Road files: the same road as in memory, whatever is kept of it, and one sentence for what is none."""
+"""Road files: the same road as in memory, for any part that is stored, and one sentence for an invalid file."""
 
 import os
 import struct

@@ -1,4 +1,4 @@
-"""A face of a grid that is a wall for a wheel is told where the road is made, and where a car is built on it."""
+"""A face of a grid that is a wall for a wheel is reported when the road is made and when a car is built on it."""
 
 import re
 import warnings

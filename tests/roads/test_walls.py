@@ -1,4 +1,4 @@
-"""A wheel that is driven into a wall of a grid is told, by a run and by an FMU; a step that wheels climb is not."""
+"""A wheel that is driven into a wall of a grid is reported by a run and by an FMU; a step that wheels climb is not."""
 
 import warnings
 

@@ -1,4 +1,4 @@
-"""Cars that are dropped by chance, mostly rolled: no wheel goes deep into the road without a word, none folds back."""
+"""Cars dropped at random orientations: no wheel goes deep into the road without a warning, none folds back."""
 
 import math
 import warnings

@@ -1,4 +1,4 @@
-"""What a run finds out about its own error: warnings with numbers, repeats of suspects only, and nothing at rest."""
+"""The error estimate of a run: warnings with numbers, refined runs of suspects only, and none at rest."""
 
 import re
 import warnings

@@ -1,4 +1,4 @@
-"""What of a run is judged: what rests or is prescribed judges nothing, and switches nothing off."""
+"""Signals that are judged in a run: those at rest or prescribed are not, and do not disable others."""
 
 import numpy as np
 import pytest

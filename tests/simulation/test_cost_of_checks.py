@@ -1,4 +1,4 @@
-"""What the check of a run costs: no repeat is made whose outcome is known, and none is left out that would tell."""
+"""Cost of the check of a run: no refined run whose outcome is known, and none omitted that would detect an error."""
 
 from collections.abc import Callable
 from typing import Any

@@ -1,4 +1,4 @@
-"""Loads between the instants at which two runs are compared: a missed one is seen, a late one is not."""
+"""Loads between the compared instants of two runs: a missed peak is detected, a late one is not an error."""
 
 import warnings
 

@@ -1,4 +1,4 @@
-"""What repeats with shorter steps say, in closed form."""
+"""Error estimates from refined runs, in closed form."""
 
 from collections.abc import Callable
 from typing import Any

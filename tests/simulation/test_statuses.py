@@ -1,4 +1,4 @@
-"""Each status is caused: in the kernel, where nothing is left that refuses before it, and through Python."""
+"""Each status of the kernel is provoked, in the kernel and through Python."""
 
 import ctypes
 import math

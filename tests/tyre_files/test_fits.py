@@ -1,4 +1,4 @@
-"""Tyres from one formula to the other and to a file: by the kernel's forces of both, with the errors that are told."""
+"""Conversion of tyres between both formulas and to files: by the kernel's forces of both, with reported errors."""
 
 from dataclasses import asdict, replace
 from functools import cache

@@ -1,4 +1,4 @@
-"""Tyre files that are right in form and wrong in meaning are told; those of others are not."""
+"""Implausible tyre files are reported; published ones are not."""
 
 import re
 from pathlib import Path

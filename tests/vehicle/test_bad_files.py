@@ -1,4 +1,4 @@
-"""A car file that is wrong is refused with a sentence for each fault, the same through every door."""
+"""An invalid car file is refused with a sentence for each fault, the same in every command and function."""
 
 import os
 

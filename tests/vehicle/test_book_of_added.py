@@ -1,4 +1,4 @@
-"""What a user adds to a car stands in its books of energy; what he does not add changes no car."""
+"""Energy balance of elements that a user adds to a car; without them a car is unchanged."""
 
 import numpy as np
 import pytest

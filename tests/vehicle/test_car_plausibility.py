@@ -1,4 +1,4 @@
-"""Cars and tyres that are right in form and wrong in meaning are told, with the mistake that explains it."""
+"""Implausible cars and tyres are reported with the probable mistake."""
 
 import json
 import warnings

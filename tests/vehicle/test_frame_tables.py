@@ -1,4 +1,4 @@
-"""Tables beside a car file that are wrong are refused with a sentence."""
+"""Invalid tables beside a car file are refused with a sentence."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""Gauges of a car file against closed forms, and what they leave as it was."""
+"""Gauges of a car file against closed forms; they change no motion."""
 
 from functools import cache
 from typing import Any

@@ -1,4 +1,4 @@
-"""Looks of cars: drawn from the hard points of their files, and nothing but looks."""
+"""Appearance of cars: shapes from the hard points of their files, without effect on the motion."""
 
 import math
 from functools import cache

@@ -1,4 +1,4 @@
-"""Each table of the cars' files left out: a car that drives, or a sentence that names the table."""
+"""Each table of the cars' files omitted: a car that drives, or a sentence that names the table."""
 
 import re
 import warnings

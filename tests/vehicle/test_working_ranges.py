@@ -1,4 +1,4 @@
-"""Values with which no car works are told in Python too, and at the ends of the ranges that are told a car stands."""
+"""Values with which no car works are reported in Python too; at the ends of the reported ranges a car stands."""
 
 import warnings
 from functools import cache

@@ -1,4 +1,4 @@
-"""Recordings of films, one Chromium for the pictures of a module of tests, and a page with one view in it."""
+"""Recordings of films, a Chromium for the pictures of a module of tests, and a page with one view."""
 
 import io
 import pickle

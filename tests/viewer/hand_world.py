@@ -1,4 +1,4 @@
-"""A world made by hand: a hill, a kerb, patches of different spacing, one lane of each surface, one of each scenery."""
+"""A world written by hand: a hill, a kerb, patches of different spacing, a lane of each surface, all scenery."""
 
 from itertools import pairwise
 from typing import Any

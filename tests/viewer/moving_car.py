@@ -1,4 +1,4 @@
-"""A corner of a car on a bumpy way, in closed form: every kind of frame and shape, each where it can be recomputed."""
+"""A corner of a car on a bumpy road, in closed form: every kind of frame and shape."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""In place of the program that drives the car: frames that a test sends, and what the page says."""
+"""A substitute for the program that drives the car: frames that a test sends, and messages of the page."""
 
 import json
 import struct

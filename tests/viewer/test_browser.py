@@ -1,4 +1,4 @@
-"""How the user's browser is told of an address that nobody else may know."""
+"""How the user's browser gets an address that nobody else may know."""
 
 import threading
 from http.server import BaseHTTPRequestHandler, HTTPServer

@@ -1,4 +1,4 @@
-"""The script of the page: built once, whole, by one process at a time, and in one sentence where it cannot be."""
+"""The script of the page: built once, complete, by one process at a time, and one sentence if it cannot be built."""
 
 import importlib.util
 import json

@@ -1,4 +1,4 @@
-"""What stands in a picture, and where: pixels of pictures against places and numbers that are known."""
+"""Content of pictures: pixels against known positions and numbers."""
 
 from itertools import combinations, pairwise
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""glTF files: nothing for the validator of Khronos to say, and the poses of the recording for another reader."""
+"""glTF files: no finding of the validator of Khronos, and the poses of the recording by another reader."""
 
 import base64
 import re

@@ -1,4 +1,4 @@
-"""Meshes from files: a block written by hand in every format, and one sentence for what is none."""
+"""Mesh files: a block written by hand in every format, and one sentence for an invalid file."""
 
 import struct
 import sys

@@ -1,4 +1,4 @@
-"""The text of a page: whole or not at all, closed in itself, safe from any name; and what a notebook shows."""
+"""The text of a page: complete or not written, self-contained, safe from any name; the output of a notebook."""
 
 import base64
 import gzip

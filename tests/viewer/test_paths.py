@@ -1,4 +1,4 @@
-"""What a run leaves on the ground, and the cameras that stand still: pixels against places that are known."""
+"""Paths of a run on the ground, and fixed cameras: pixels against known positions."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path

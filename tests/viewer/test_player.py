@@ -1,4 +1,4 @@
-"""The player in a browser without a window: what it shows at which time, its controls, and what it asks of nobody."""
+"""The player in a headless browser: what it shows at a time, its controls, and no network requests."""
 
 import io
 from collections.abc import Callable, Iterator

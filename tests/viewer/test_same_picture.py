@@ -1,4 +1,4 @@
-"""The page of a run and the simulator draw one world: pixel by pixel the same picture of the same instant."""
+"""The page of a run and the simulator draw the same world: equal pixels at the same instant."""
 
 from collections.abc import Callable, Iterator
 from typing import Any

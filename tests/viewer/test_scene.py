@@ -1,4 +1,4 @@
-"""The format of scenes: what is wrong is said in one sentence with the place; the JSON Schema says the same."""
+"""The format of scenes: one sentence with the place for each fault; the JSON Schema agrees."""
 
 import copy
 import json

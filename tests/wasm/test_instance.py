@@ -1,4 +1,4 @@
-"""The page's instance: refusals in the FMU's words, states, types, files, memory."""
+"""The page's FMU instance: refusals with the FMU's message, states, types, files, memory."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The module itself: what it imports and exports, files and messages in its memory, memory that runs out."""
+"""The WebAssembly module: imports and exports, files and messages in its memory, exhausted memory."""
 
 from __future__ import annotations
 

@@ -33,25 +33,25 @@ def drive(sheet: Sheet) -> None:
         raise HostError(_no_angle(list(ramps.values()), settings["speed"]))
     # the regulation rounds to 0.1°, each ramp and the mean
     a = _rounded(0.5 * sum(map(_rounded, angles)))
-    series_amplitudes = amplitudes(a, settings["first"], settings["increment"], steering.largest)
-    if len(series_amplitudes) > _MOST_RUNS:
+    angles_of_series = amplitudes(a, settings["first"], settings["increment"], steering.largest)
+    if len(angles_of_series) > _MOST_RUNS:
         raise HostError(
-            f"A is {math.degrees(a):.1f}°, so the series to {math.degrees(series_amplitudes[-1]):.0f}° has {len(series_amplitudes)} runs "
-            f"to each side, where {_MOST_RUNS} are the most: raise the setting increment, or look at the unit "
-            "of the steering wheel's angle."
+            f"A is {math.degrees(a):.1f}°, so the series to {math.degrees(angles_of_series[-1]):.0f}° has "
+            f"{len(angles_of_series)} runs to each side, where {_MOST_RUNS} are the most: raise the setting increment, "
+            "or look at the unit of the steering wheel's angle."
         )
     sides: dict[str, list[DwellRun]] = {}
     for side, sign, begin in (("left", 1.0, 0.2), ("right", -1.0, 0.6)):
-        sides[side] = series(car, speed, sign, series_amplitudes, lambda done, b=begin: sheet.progress(b + 0.4 * done))  # type: ignore[misc]
+        sides[side] = series(car, speed, sign, angles_of_series, lambda done, b=begin: sheet.progress(b + 0.4 * done))  # type: ignore[misc]
         sheet.runs |= {f"{side}_{math.degrees(r.amplitude):.0f}_deg": r.run.thinned() for r in sides[side]}
     # one is enough: the largest amplitude is the first that a slow steering does not reach
     slow = [s for s in (r.run.shortfall(r.amplitude) for side in sides.values() for r in side[-1:]) if s][:1]
     sheet.add("law")
     for side, runs in sides.items():
         if runs and runs[-1].is_lost:
-            sheet.add("lost", a=a, wanted=series_amplitudes, side=side, last=runs[-1])
+            sheet.add("lost", a=a, wanted=angles_of_series, side=side, last=runs[-1])
     sheet.notes += slow
-    sheet.add("series", a=a, found=angles, wanted=series_amplitudes, sides=sides, given=steering, ramps=ramps)
+    sheet.add("series", a=a, found=angles, wanted=angles_of_series, sides=sides, given=steering, ramps=ramps)
 
 
 def _rounded(angle: float) -> float:

@@ -1,4 +1,4 @@
-"""Alias files: our names for variables of other programs, there and back, and what is refused."""
+"""Alias files: conversion of names and values in both directions, and refusals."""
 
 import numpy as np
 import pytest

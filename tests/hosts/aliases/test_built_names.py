@@ -1,4 +1,4 @@
-"""``ali3 build --names`` and ``--aliases`` are one another's inverse: a car under other names drives as under ours."""
+"""``ali3 build --names`` and ``--aliases`` are inverse: a car under other names drives as under ours."""
 
 import json
 from collections.abc import Callable

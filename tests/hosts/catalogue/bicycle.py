@@ -1,4 +1,4 @@
-"""A car of the catalogue that is a linear bicycle model, so that every answer is known in closed form."""
+"""A linear bicycle model as a car of the catalogue, so that every result is known in closed form."""
 
 import math
 from collections.abc import Callable, Mapping

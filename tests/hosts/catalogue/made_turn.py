@@ -1,4 +1,4 @@
-"""A turn whose every measure is known."""
+"""A synthetic turn whose measures are known in closed form."""
 
 import math
 

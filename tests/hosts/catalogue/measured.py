@@ -1,4 +1,4 @@
-"""What a test of the catalogue has measured."""
+"""Measured values of a test of the catalogue, and empty sheets."""
 
 from typing import Any, cast
 

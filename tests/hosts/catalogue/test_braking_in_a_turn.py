@@ -1,4 +1,4 @@
-"""Stops from a circle: closed forms of a made turn, both sides of the prototype car, the step, what cannot be done."""
+"""Stops from a circle: closed forms of a synthetic turn, both sides of the prototype car, the step, refusals."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The command does tests with cars side by side, and tells a user what is wrong before it begins."""
+"""The catalogue command with several cars, and its refusals before the first run."""
 
 import csv
 import json

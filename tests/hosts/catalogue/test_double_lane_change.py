@@ -1,4 +1,4 @@
-"""The prototype car between cones: the limit is one, the measures are those of the run, and what is told."""
+"""The prototype car between cones: a limit speed, the measures of its run, and messages."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The same command takes tests that are done as they are; another test, program or FMU is done again."""
+"""The same command keeps finished tests; a changed test, program or FMU is run again."""
 
 from dataclasses import replace
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Limits of a user are judged beside those of standards, in any unit of the quantity."""
+"""Limits of the user are judged beside those of standards, in any unit of the quantity."""
 
 import json
 import math

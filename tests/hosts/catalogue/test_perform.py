@@ -1,4 +1,4 @@
-"""A test is checked before it is done, and what the FMU says in it is kept."""
+"""A test is checked before it is run, and messages of the FMU are recorded."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace

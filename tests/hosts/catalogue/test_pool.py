@@ -1,4 +1,4 @@
-"""Tests run in processes of their own: what one does to itself is its outcome, and the others go on."""
+"""Tests in processes of their own: a crash is the outcome of its test, and the others continue."""
 
 import os
 import sys

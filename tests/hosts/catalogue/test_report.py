@@ -1,4 +1,4 @@
-"""The report: what stands in it, that it is whole HTML, and that nothing in a name can become a part of it."""
+"""The report: its content, valid HTML, and escaped names."""
 
 import re
 import shutil

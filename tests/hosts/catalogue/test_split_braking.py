@@ -1,4 +1,4 @@
-"""Braking on split friction: a made stop whose measures are known, and the prototype, which turns to the high side."""
+"""Braking on split friction: a synthetic stop with known measures, and the prototype, which turns to the high side."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The prototype car stops: closed forms of force, load and energy, the step, and what cannot be braked."""
+"""The prototype car stops: closed forms of force, load and energy, the step, and refusals."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""A foreign car is driven under our names, in our units and signs, and moves as if it were ours."""
+"""A car of another program under our names, in our units and signs, moves as ours."""
 
 import math
 import zipfile

@@ -1,4 +1,4 @@
-"""Delay and drift that are known, in closed form."""
+"""Delay and drift against known values, in closed form."""
 
 import math
 import re

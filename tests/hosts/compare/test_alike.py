@@ -1,4 +1,4 @@
-"""Intervals of parameters where signals differ alike, against many logs."""
+"""Confidence intervals of parameters with correlated residuals of signals, against many logs."""
 
 import numpy as np
 import pytest

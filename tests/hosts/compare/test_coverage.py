@@ -1,4 +1,4 @@
-"""Parameters come back within their confidence: logs by SciPy's integrator, with noise and delay, fitted by our FMU."""
+"""Coverage of confidence intervals: logs by SciPy with noise and delay, fitted by our FMU."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Parts that are left out of a fit, against fits that were made without them, and intervals against many logs."""
+"""Parts left out of a fit, against fits without them, and intervals against many logs."""
 
 import numpy as np
 import pytest

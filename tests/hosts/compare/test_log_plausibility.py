@@ -1,4 +1,4 @@
-"""A drive whose columns are in other units, late, exchanged, frozen or put together is told, with what mends it."""
+"""Faulty columns of a log (units, delays, exchanged, frozen, joined) are reported with their correction."""
 
 import re
 from collections.abc import Callable

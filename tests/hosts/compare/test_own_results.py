@@ -1,4 +1,4 @@
-"""A result of `ali3 run` as the log: what its record says was held drives the FMU as it did in the run."""
+"""A result of `ali3 run` as the log: the held inputs of its record drive the FMU as in the run."""
 
 import csv
 import json

@@ -1,4 +1,4 @@
-"""Starts of a fit that the FMU refuses are left out and told; one that the user has given is not."""
+"""Starts of a fit that the FMU refuses are left out and reported; one that the user has set is an error."""
 
 import json
 from collections.abc import Mapping

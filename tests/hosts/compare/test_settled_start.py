@@ -1,4 +1,4 @@
-"""A log that begins in a turn: what is not measured has settled before the comparison begins."""
+"""A log that begins in a turn: unmeasured states have settled before the comparison begins."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What a comparison shows: units of the field, and no rating where there is none."""
+"""Output of a comparison: units of the field, and no rating where there is none."""
 
 from dataclasses import replace
 

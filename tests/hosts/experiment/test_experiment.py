@@ -1,4 +1,4 @@
-"""An experiment shows how much of it is done, and its folder keeps what is done for the same command."""
+"""An experiment shows its progress, and its folder keeps finished runs for the same command."""
 
 import os
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""What was written to a journal is there after a kill; what was cut is left out."""
+"""Entries of a journal survive a kill; an incomplete one is left out."""
 
 from dataclasses import dataclass
 from pathlib import Path

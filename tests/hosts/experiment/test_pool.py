@@ -1,4 +1,4 @@
-"""Processes that make runs stay for the next ones, and end where an iteration is left."""
+"""Worker processes stay for the next runs, and end when an iteration is closed."""
 
 import os
 import time

@@ -1,4 +1,4 @@
-"""A run is the same where its FMU, all it is told, the files that it reads and the program are."""
+"""Equal keys for runs with equal FMU, settings, files and program."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Responses over frequency against systems that are known."""
+"""Frequency responses against known systems."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Numbers of sine with dwell on signals that are made for them."""
+"""Numbers of sine with dwell from synthetic signals."""
 
 import math
 

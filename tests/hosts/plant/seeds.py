@@ -1,4 +1,4 @@
-"""What a seed of an environment of Gymnasium promises."""
+"""Checks of the seeds of an environment of Gymnasium."""
 
 import gymnasium
 import numpy as np

@@ -1,4 +1,4 @@
-"""FMUs of a car with all ports: whatever comes in, steps are made or refused with a word."""
+"""FMUs of a car with all ports: any input gives a step, or a refusal with a message."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""A car in Python: the bits of its FMU, starts by a seed, arrays, states that come back."""
+"""A car in Python: the bits of its FMU, seeded starts, arrays, saved states."""
 
 import shutil
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""Environments of Gymnasium: its checker, seeds, several at once, and a controller that does what it should."""
+"""Environments of Gymnasium: its checker, seeds, several at once, and a controller."""
 
 from contextlib import closing
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Environments on threads: to the last bit those one after the other, with Gymnasium's seeds and new starts."""
+"""Environments on threads: the bits of the same ones in sequence, with Gymnasium's seeds and resets."""
 
 import threading
 from pathlib import Path

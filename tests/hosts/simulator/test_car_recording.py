@@ -1,4 +1,4 @@
-"""The rows of a car reach its recording, whatever the one who writes them does."""
+"""The rows of a car reach its recording, whatever the writing thread does."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""The command without a page, with a real car in its process: report, manoeuvres, aliases, and what is refused."""
+"""The command without a page, with a car in its process: report, manoeuvres, aliases, and refusals."""
 
 import importlib.util
 import json

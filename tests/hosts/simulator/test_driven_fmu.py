@@ -1,4 +1,4 @@
-"""An FMU that goes back, starts again and is set upright is bit for bit the one that never did."""
+"""An FMU that is rewound, restarted and set upright has the bits of one that never was."""
 
 import math
 import zipfile

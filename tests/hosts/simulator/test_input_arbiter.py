@@ -1,4 +1,4 @@
-"""Several sources at one input: who moved last has the word, and what nobody holds goes back."""
+"""Several sources at one input: the last one that moved drives it; a released input returns to rest."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""Steps cut short and words of the FMU are said, once in a while and with their numbers."""
+"""Capped steps and messages of the FMU are reported at a limited rate with their numbers."""
 
 from dataclasses import dataclass, field
 from typing import Any

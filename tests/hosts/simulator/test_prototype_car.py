@@ -1,4 +1,4 @@
-"""The prototype car rolls over, is set on its wheels where it lies, and goes back to before."""
+"""The prototype car rolls over, is set upright where it lies, and is rewound."""
 
 import math
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Deadlines are absolute; what is late is caught up, moved and said."""
+"""Absolute deadlines; late steps are caught up, moved and reported."""
 
 import re
 from typing import Any

@@ -1,4 +1,4 @@
-"""Recordings as files: readable after a kill, refused in words, shown by the commands and moving."""
+"""Recordings as files: readable after a kill, refused with a message, shown by the commands and replayed."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""A replay in a browser has the colours of the stress that was driven with."""
+"""A replay in a browser has the stress colours of the drive."""
 
 import time
 from collections.abc import Callable

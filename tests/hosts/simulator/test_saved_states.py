@@ -1,4 +1,4 @@
-"""Any step of the last 30 s can be gone back to, in memory that does not grow."""
+"""Rewinding to any step of the last 30 s, in constant memory."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What the server says to pages and takes from them, by two independent clients."""
+"""Messages between server and pages, by two independent clients."""
 
 import errno
 import gzip

@@ -1,4 +1,4 @@
-"""Whom the server of the simulator refuses, and how much it takes from anybody."""
+"""Requests that the server of the simulator refuses, and its limits."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""One bit of a file of rows or signals is turned: a report tells it, and the study makes those runs again."""
+"""One flipped bit in a file of rows or signals: a report names the file, and the study repeats those runs."""
 
 import random
 from collections.abc import Callable

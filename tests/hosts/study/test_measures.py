@@ -1,4 +1,4 @@
-"""Measures of a study against closed forms on signals that are known."""
+"""Measures of a study against closed forms of known signals."""
 
 import math
 import pickle

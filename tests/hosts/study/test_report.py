@@ -1,4 +1,4 @@
-"""The report of a study on frames whose truth is known."""
+"""The report of a study on frames with known statistics."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A study that is started again: what is done stays, and only the same study goes on."""
+"""A resumed study keeps finished runs; a changed study is refused."""
 
 import shlex
 import shutil

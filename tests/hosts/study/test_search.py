@@ -1,4 +1,4 @@
-"""The search for a value of a measure, on functions whose solutions are known."""
+"""The search for a target value, on functions with known solutions."""
 
 import math
 from collections.abc import Callable

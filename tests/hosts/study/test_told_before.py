@@ -1,4 +1,4 @@
-"""What a study tells before it: its plan, and a measure that the trial could not compute."""
+"""Messages before a study: its plan, and a measure that the trial runs could not compute."""
 
 from collections.abc import Callable
 from pathlib import Path

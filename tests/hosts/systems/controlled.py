@@ -1,4 +1,4 @@
-"""Cars with controllers in second FMUs, and what the communication step changes."""
+"""Cars with controllers in second FMUs, and the effect of the communication step."""
 
 from dataclasses import dataclass, field
 from functools import cache

@@ -1,4 +1,4 @@
-"""Systems of FMUs: cars wired to copies of their own parts converge to the closed car; what is wrong is said."""
+"""Coupled FMUs: cars with copies of their parts converge to the car alone; invalid systems are refused."""
 
 import math
 import os

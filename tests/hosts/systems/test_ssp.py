@@ -1,4 +1,4 @@
-"""SSP archives of systems: what FMPy reads in them, that they fit the schema, and what is refused."""
+"""SSP archives of systems: as read by FMPy, valid by the schema, and refusals."""
 
 import sys
 import zipfile

@@ -1,4 +1,4 @@
-"""Tables of runs in a world, opened later: its ground and what stands on it, or a word about what is not drawn."""
+"""Tables of runs in a world, opened later: its ground and scenery, or a note on what is not drawn."""
 
 import shutil
 from pathlib import Path
