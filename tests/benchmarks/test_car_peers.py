@@ -129,7 +129,7 @@ def test_exudyns_car_comes_to_its_motion_with_order_two(rates: dict[str, float])
     assert (ends[0] - ends[1]) / (ends[1] - ends[2]) > 3.5
 
 
-def test_what_is_not_installed_is_left_out_with_a_word(capsys, monkeypatch) -> None:
+def test_programs_that_are_not_installed_are_left_out_with_a_message(capsys, monkeypatch) -> None:
     monkeypatch.setattr(car_peers, "PEERS", {"Exudyn": ("no_such_module",)})
     monkeypatch.setattr(car_peers, "SCENES", ())
     assert car_peers.main([]) == 0

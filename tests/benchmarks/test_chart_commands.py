@@ -48,7 +48,7 @@ def test_work_precision_runs_every_method_and_the_default_gets_better_with_the_s
 
 
 @pytest.mark.slow
-def test_stability_maps_judge_every_method_and_explain_what_stopped(tmp_path, capsys):
+def test_stability_maps_judge_every_method_and_explain_refusals(tmp_path, capsys):
     files = ["--json", str(tmp_path / "s.json"), "--chart", str(tmp_path)]
     assert stability.main(["--quick", "--only", "double_four_bar", *files]) == 0
     _, rows = read(tmp_path / "s.json")

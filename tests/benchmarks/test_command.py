@@ -110,7 +110,7 @@ def test_a_part_that_writes_has_no_rows(capsys):
         run("it", "Text.", PARTS, ["writer", "--json", "x"])
 
 
-def test_rows_without_a_page_are_printed_with_all_their_columns_or_in_own_words(capsys):
+def test_rows_without_a_page_are_printed_with_all_columns_or_as_their_text(capsys):
     rows = [{"a": 1.25, "b": "x"}, {"a": None, "b": "yz"}]
     assert run("it", "Text.", {"only": Part("two", lambda options: rows)}, []) == 0
     assert capsys.readouterr().out.split()[:8] == ["a", "b", "----", "--", "1.25", "x", "-", "yz"]

@@ -55,7 +55,7 @@ def test_an_altered_sentence_is_reported():
     assert differences(again, PAGE.replace("0.36", "0.29")) == ["README.md does not say: takes 0.36 s of time"]
 
 
-def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_reported(tmp_path):
+def test_a_chart_carries_its_description_and_changed_panels_are_reported(tmp_path):
     """A panel less, another unit, a curve more, a figure of the summary that is another."""
 
     def drawn(name, panels, load):
@@ -97,14 +97,14 @@ def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_reported(tmp_p
 
 
 @pytest.mark.parametrize("name", chart_commands.DRAWN)
-def test_charts_that_are_drawn_again_say_what_they_show(name):
+def test_redrawn_charts_carry_their_description(name):
     page = f"docs/images/{name}"
     assert len(read(page).splitlines()) > 1
     pages = [DOCS.parent / "README.md", *DOCS.glob("*.md")]
     assert any(f"images/{name})" in file.read_text(encoding="utf-8") for file in pages)
 
 
-def test_a_table_is_written_with_what_was_made_and_keeps_the_rest():
+def test_a_table_is_written_with_the_new_cells_and_keeps_the_rest():
     other = PAGE.replace("| 2.5 |", "| 7 |").replace("| 9 |", "| 11 |")
     assert written(AGAIN, other) == PAGE.replace("| 9 |", "| 11 |")  # a time is not made
     assert written(AGAIN, PAGE.replace("| b | 0.1 | 1e-05 | 8 |\n", "")).count("| b | 0.1 | 1e-05 | 8 |") == 1
@@ -113,7 +113,7 @@ def test_a_table_is_written_with_what_was_made_and_keeps_the_rest():
     assert rows_of(written(AGAIN, PAGE.replace("| ms |", "| us |"))) == rows_of(MADE)  # other columns: a new table
 
 
-def test_the_readme_says_what_the_tables_of_the_pages_say():
+def test_figures_of_the_readme_agree_with_the_tables_of_the_pages():
     result = [*figures.readme(), *figures.instructions()]
     assert [line for again in result for line in differences(again, read(again.page))] == []
 

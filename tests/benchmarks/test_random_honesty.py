@@ -85,7 +85,7 @@ def test_an_unknown_family_is_refused(capsys):
     assert "no family 'lorries'" in capsys.readouterr().err
 
 
-def test_a_wrong_run_without_a_word_is_found(monkeypatch):
+def test_a_wrong_run_without_a_warning_is_found(monkeypatch):
     """The judge itself: with the checks of a run turned off the same case is silently wrong."""
     case, number = {"family": "tumbling", "seed": 1}, TUMBLES
     rows = list(random_honesty.rows_of(**case, numbers=[number]))

@@ -27,7 +27,7 @@ def test_the_rig_returns_the_published_force_with_its_sign(angle: float, slip: f
     assert figure.row(-actual[lateral])["verdict"] != "within"
 
 
-def test_the_other_formula_is_as_far_off_as_its_fit_tells() -> None:
+def test_the_error_of_the_other_formula_is_that_of_its_fit() -> None:
     tyre, errors = tmeasy_of_magic(tyre_rig.magic())
     assert errors["moment"] == 0.0  # there is no trail to be fitted
     load, most = 6000.0, 5500.0

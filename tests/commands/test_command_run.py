@@ -51,7 +51,7 @@ def test_errors_are_one_line(
         ImportError("etree.so: failed to map segment from shared object"),
     ],
 )
-def test_memory_is_the_cause_where_there_is_none(
+def test_missing_memory_is_named_as_the_cause(
     error: Exception, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(processes, "_SPARE", 1 << 60)
@@ -79,7 +79,7 @@ def test_a_usual_sentence_is_reported_whole() -> None:
     assert shortened(sentence) == sentence
 
 
-def test_no_name_of_a_file_tells_a_terminal_what_to_do(capsys: pytest.CaptureFixture[str]) -> None:
+def test_names_of_files_send_no_control_characters_to_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
     assert run_command(lambda: raiser(UserError("m.toml has '\x1b[2J\x9b' in\nits second line."))) == 2
     assert capsys.readouterr().err == "error: m.toml has '\\x1b[2J\\x9b' in\nits second line.\n"
 

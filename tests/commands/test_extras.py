@@ -115,6 +115,6 @@ def test_a_mistake_in_code_is_no_missing_package() -> None:
 
 
 @pytest.mark.proof
-def test_each_extra_alone_does_what_is_promised() -> None:
+def test_each_extra_alone_is_sufficient() -> None:
     done = subprocess.run([sys.executable, "-m", "tests.extras"], cwd=ROOT, check=False)
     assert done.returncode == 0

@@ -60,7 +60,7 @@ def test_inconsistent_versions_are_reported(
     assert any(sentence in problem for problem in check_release.problems(tree, "v9.8.7"))
 
 
-def test_the_command_ends_with_one_for_what_is_not_ready(
+def test_the_command_ends_with_one_if_a_release_is_not_ready(
     check_release: ModuleType, tree: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(check_release, "ROOT", tree)
@@ -72,7 +72,7 @@ def test_the_command_ends_with_one_for_what_is_not_ready(
     assert "error: The tag is v1.0.0" in capsys.readouterr().err
 
 
-def test_all_of_the_release_is_checked_by_what_the_files_hold_today(tmp_path: Path, check_release: ModuleType) -> None:
+def test_all_parts_of_the_release_are_checked_with_the_present_files(tmp_path: Path, check_release: ModuleType) -> None:
     """The places that are read are where they are read: a tag of another version is refused by three of them."""
     for name in FILES:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)

@@ -54,7 +54,7 @@ def defines(file, name):
     return re.search(pattern, text, re.MULTILINE) is not None
 
 
-def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_path):
+def test_stepping_page_runs_and_both_hosts_print_its_numbers(prototype_fmu, tmp_path):
     page = (ROOT / "docs" / "stepping.md").read_text(encoding="utf-8")
     thing, _, whole, fmu, _, model = snippets(page)
     line = re.search(r"^    (after .*)$", page, re.MULTILINE)[1]
@@ -79,7 +79,7 @@ def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_p
 
 
 @pytest.mark.slow
-def test_stepping_page_gives_derivatives_and_says_where_fmpy_fails(prototype_fmu, tmp_path):
+def test_stepping_page_sets_derivatives_and_names_the_failure_of_fmpy(prototype_fmu, tmp_path):
     page = (ROOT / "docs" / "stepping.md").read_text(encoding="utf-8")
     code = next(s for s in snippets(page) if "setRealInputDerivatives" in s)
     (tmp_path / "dist").mkdir()
@@ -220,7 +220,7 @@ def test_theory_names_functions_that_exist():
 
 
 @pytest.mark.parametrize("file", [ROOT / page for page in PAGES[1:]], ids=lambda p: p.name)
-def test_guides_name_what_the_kernel_has(file):
+def test_names_of_the_kernel_in_the_guides_exist(file):
     sources = (ROOT / "mbs" / "kernel").rglob("*.[ch]")
     message = set(re.findall(r"\w+", "\n".join(source.read_text(encoding="utf-8") for source in sources)))
     code = re.findall(r"`([^`]+)`", file.read_text(encoding="utf-8"))

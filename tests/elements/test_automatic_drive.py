@@ -312,7 +312,7 @@ def asked(gear: float, W: float, h: float, steps: int, y: np.ndarray) -> tuple[n
     return y, torques, r
 
 
-def test_a_gear_that_is_asked_for_is_engaged_in_the_time_of_a_shift_whatever_the_step() -> None:
+def test_a_requested_gear_is_engaged_after_the_shift_time_for_any_step() -> None:
     begin, W = np.array([1.0, 1.0, 1e3, 0.0, 1.0, 1.0]), 12.0
     third = drive_element(gear=3)(*drive_signals(W, W), inputs=[0.6]).out["wheel_torque"]
     middle = []
@@ -361,7 +361,7 @@ def test_a_clutch_hands_on_the_lesser_of_its_torque_and_of_the_drive_s() -> None
         DRIVE.record("D", left[0], right[0], f, g, 0, clutch=1)
 
 
-def test_powers_on_the_wheels_are_torque_times_what_they_turn_in_the_frame() -> None:
+def test_powers_on_the_wheels_are_torque_times_relative_speed() -> None:
     rng = np.random.default_rng(3)
     R, omega = frame(rng), rng.normal(size=3)
     r = drive_element()(*(signals := drive_signals(20.0, 35.0, omega, R)), inputs=[0.7])

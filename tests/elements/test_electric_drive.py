@@ -270,7 +270,7 @@ def test_a_launch_follows_the_closed_form_and_keeps_angular_momentum() -> None:
     assert kinetic[-1] == pytest.approx(drive.efficiency * electric[-1], rel=1e-4)
 
 
-def test_regeneration_gives_back_what_the_wheels_lose_and_the_car_comes_to_rest() -> None:
+def test_regeneration_returns_the_energy_of_the_wheels_and_the_car_comes_to_rest() -> None:
     m = Model("coasting")
     car(m, DRIVE)
     for spin in m.spins:

@@ -98,7 +98,7 @@ def declaring() -> list[type[Element]]:
     return [*map(fields_in_c.class_of, ElementType)]
 
 
-def test_the_headers_in_c_are_what_the_classes_say():
+def test_the_headers_in_c_agree_with_the_classes():
     present = {file: file.read_text(encoding="utf-8") for file in fields_in_c.FOLDER.glob("*_fields.h")}
     assert dict(fields_in_c.headers()) == present, "run: python -m mbs.elements.fields_in_c"
     assert len(present) == len(ElementType)

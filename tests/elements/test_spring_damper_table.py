@@ -137,7 +137,7 @@ def test_energy_is_kept_by_the_energy_momentum_method() -> None:
     assert np.ptp(run["energy"]) < 1e-7 * np.max(np.abs(run["energy"]))
 
 
-def test_a_spring_by_table_says_whether_it_takes_energy() -> None:
+def test_a_spring_by_table_declares_whether_it_dissipates_energy() -> None:
     assert element(SPRING).conservative
     assert element(SPRING, DAMPER).conservative is False
     assert element(SPRING, DAMPER, damping_factor=0.0).conservative

@@ -82,7 +82,7 @@ def test_on_the_spot_the_carcass_twists_then_the_patch_slides_at_its_friction(na
 
 
 @pytest.mark.parametrize("name", ["tmeasy", "magic formula"])
-def test_turning_takes_energy_and_what_is_stored_comes_back(name: str) -> None:
+def test_turning_dissipates_energy_and_stored_energy_is_returned(name: str) -> None:
     """Work on the patch is what the potential gains and what damper and sliding take, in every step."""
     element, h = elements()[name], 0.001
     y, angle, worst, taken = np.zeros(6), 0.0, 0.0, 0.0

@@ -47,7 +47,7 @@ def test_an_example_keeps_its_promise(
     assert drawn.std() > 0.02
 
 
-def test_every_example_is_short_and_says_how_it_is_called() -> None:
+def test_every_example_is_short_and_shows_its_command() -> None:
     files = sorted(FOLDER.glob("*.py"))
     assert [file.stem for file in files] == sorted(PROMISED)
     for file in files:

@@ -205,7 +205,7 @@ def test_lumping_costs_frequency_in_proportion_to_the_element_squared() -> None:
     np.testing.assert_allclose(order, 2.0, atol=0.05)
 
 
-def test_rigid_motions_and_constant_strains_cost_what_they_should() -> None:
+def test_energies_of_rigid_motions_and_constant_strains_are_exact() -> None:
     model = portal().finite_element_model()
     R = model.rigid_motions(model.positions.mean(axis=0))
     assert np.abs(model.K @ R).max() < 1e-9 * np.abs(model.K.data).max()

@@ -154,7 +154,7 @@ def test_a_named_output_takes_the_modes_it_needs() -> None:
         modes_for_output(model, REFERENCE, INTERFACES, rows, 2.0)
 
 
-def test_inertia_modes_leave_only_what_moves_fast_to_the_dynamic_modes() -> None:
+def test_inertia_modes_leave_only_fast_motions_to_the_dynamic_modes() -> None:
     frame = portal()
     model = frame.finite_element_model()
     rows = section_forces(frame, 2, 0.5)[[4], : model.n_dof]
@@ -193,7 +193,7 @@ def _largest(model: FiniteElementModel, rows: sp.sparray) -> float:
     return float(np.abs(np.asarray(rows @ fixed_modes) @ np.linalg.solve(exact.K[9:, 9:], fixed_modes.T @ load)).max())
 
 
-def test_load_path_modes_keep_what_the_loads_excite_and_nothing_else(model: FiniteElementModel) -> None:
+def test_load_path_modes_keep_only_the_modes_that_the_loads_excite(model: FiniteElementModel) -> None:
     body = craig_bampton(model, REFERENCE, INTERFACES, 0, inertia_modes=True)
     rod = np.array([1.0, 2.0, -1.0]) / np.sqrt(6.0)
     loads = interface_loads(body, {"N2": np.eye(3), "N4": rod, "N7": np.array([[0.0, 0.0, 1.0]])})

@@ -279,7 +279,7 @@ def test_a_damaged_calculix_file_is_refused(tmp_path: Path, suffix: str, kept: f
         read_calculix(tmp_path / "bar.inp")
 
 
-def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_library_is_reported_with_its_package(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "meshio", None)
     with pytest.raises(ModelError, match=r'pip install "ali3\[fem\]"'):
         read_calculix("a.inp")

@@ -92,7 +92,7 @@ def test_damped_bodies_cannot_step_backwards() -> None:
 
 
 @pytest.mark.parametrize("method", ["energy_momentum", "runge_kutta_8", "ali3p_generalised_alpha"])
-def test_a_restored_state_goes_on_alike_after_the_method_changed(method: str) -> None:
+def test_a_restored_state_continues_alike_after_a_change_of_method(method: str) -> None:
     loaded = binding.LoadedSystem(swinging(1.0).to_bytes())
     first, second = Instance(loaded), Instance(loaded)
     first.initialise()

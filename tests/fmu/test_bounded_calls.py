@@ -26,7 +26,7 @@ def car() -> tuple[Instance, c_int64]:
     return instance, budget
 
 
-def test_steps_and_iterations_are_taken_off_what_is_left() -> None:
+def test_steps_and_iterations_are_subtracted_from_the_budget() -> None:
     instance, budget = car()
     before = budget.value
     instance.run(H, 50)

@@ -155,7 +155,9 @@ def test_a_car_that_cannot_be_compiled_is_named(car: Path, monkeypatch: pytest.M
 
 
 @pytest.mark.parametrize("word", ["inf", "nan", "-inf", "0.5"])
-def test_a_fidelity_that_is_none_is_a_sentence(word: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_fidelity_is_refused_in_one_sentence(
+    word: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert build_fmu.main([*command("prototype", tmp_path / "out"), f"--fidelity={word}"]) == 2
     assert f"The fidelity of the car is {word}; it must be one of: 0 rigid" in capsys.readouterr().err
 

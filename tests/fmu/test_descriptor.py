@@ -80,7 +80,7 @@ def test_flags_and_experiment(crane: Path, kind: str) -> None:
     assert float(description.defaultExperiment.stepSize) == 0.01
 
 
-def test_variables_carry_what_the_scene_says(crane: Path) -> None:
+def test_variables_carry_units_and_descriptions_of_the_scene(crane: Path) -> None:
     variables = {v.name: v for v in fmpy.read_model_description(str(crane)).modelVariables}
     torque = variables["torque"]
     assert (torque.causality, torque.unit, torque.min, torque.max, float(torque.start)) == (

@@ -149,7 +149,7 @@ def logged(kerb: Path, fidelity: float | None, names: list[str], resets: int = 0
     return messages
 
 
-def test_a_stress_needs_no_word(kerb: Path) -> None:
+def test_a_stress_causes_no_warning(kerb: Path) -> None:
     for fidelity in (0.0, 1.0, 3.0):
         assert logged(kerb, fidelity, list(OUTPUTS)) == []
 

@@ -86,7 +86,7 @@ def test_wrong_calls_are_errors_with_a_sentence(crane3: Any) -> None:
 
 
 @pytest.mark.parametrize("scene", ["crane", "gearstick", "hopper"])
-def test_values_before_initialisation_are_start_values_or_what_was_set(
+def test_values_before_initialisation_are_start_values_or_set_values(
     build: Callable[..., Path], host: HostMaker, scene: str
 ) -> None:
     """Those of modelDescription.xml, of every type; outputs have none and are refused; again after a reset."""

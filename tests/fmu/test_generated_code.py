@@ -128,7 +128,7 @@ def test_systems_of_one_structure_share_it_and_others_do_not() -> None:
 
 
 @pytest.mark.parametrize("option", [["--kernel"], ["--fmu", "Crane.fmu"]])
-def test_plain_is_of_what_is_built(option: list[str]) -> None:
+def test_the_option_plain_needs_a_car_or_a_scene(option: list[str]) -> None:
     done = run(main, "--plain", *option)
     assert done.returncode == 2
     assert "--plain needs a car or a scene to build; " in done.stderr

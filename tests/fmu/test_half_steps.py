@@ -37,7 +37,7 @@ def drive(
     return np.array(rows), [m for m in driven.messages if WORDS in m]
 
 
-def test_what_it_tells_is_the_error_and_the_step_that_it_names_is_enough(prototype_fmu: Path, host: HostMaker) -> None:
+def test_the_reported_error_is_right_and_the_named_step_is_sufficient(prototype_fmu: Path, host: HostMaker) -> None:
     """By the same motion with steps of 0.05 ms.
 
     Errors of order p fall by 8^-p, so that 64/63 of what both motions differ by is 64/63 (1 - 8^-p) of the error: eight
@@ -281,7 +281,7 @@ def going(driven: Any, h: float, span: float) -> tuple[np.ndarray, list[str]]:
     return np.array(rows), driven.messages
 
 
-def test_what_grows_on_is_foretold_when_nothing_is_made_twice_any_more(
+def test_a_growing_error_is_extrapolated_after_the_last_second_motion(
     build: Callable[..., Path], host: HostMaker
 ) -> None:
     """A rod that goes round is late by a share of its turns, so that its error grows with the time; 5 % at 25 s."""

@@ -49,7 +49,7 @@ def test_no_limit_and_one_that_is_not_reached_give_the_same_bits(slider: Path, h
     assert free.get("solver.capped_steps") == free.get("solver.capped_residual") == 0.0
 
 
-def test_steps_are_counted_and_what_they_left_is_that_of_the_kernel(slider: Path, host: HostMaker) -> None:
+def test_capped_steps_are_counted_and_their_residual_is_that_of_the_kernel(slider: Path, host: HostMaker) -> None:
     driven = start(host(slider), 2)
     simulation = mbs.Simulation(load_scene(f"{SCENES}:crank_slider")[1], settings=Settings(step_iterations=2))
     simulation.instance.set_input(0, TORQUE)
@@ -99,7 +99,7 @@ def test_it_is_reported_once_and_once_more_where_much_is_left(slider: Path, host
     assert set(statuses) == {OK, WARNING}
 
 
-def test_a_saved_state_goes_on_with_the_limit_its_count_and_what_was_said(slider: Path, host: HostMaker) -> None:
+def test_a_saved_state_keeps_the_limit_its_count_and_its_messages(slider: Path, host: HostMaker) -> None:
     driven = start(host(slider), 2)
     k = 0
     while driven.get("solver.capped_residual") == 0.0:
@@ -116,7 +116,7 @@ def test_a_saved_state_goes_on_with_the_limit_its_count_and_what_was_said(slider
     assert driven.get("solver.capped_steps") > 10
 
 
-def test_a_refused_step_leaves_what_the_last_good_one_left(slider: Path, host: HostMaker) -> None:
+def test_a_refused_step_keeps_the_residual_of_the_last_good_one(slider: Path, host: HostMaker) -> None:
     driven = start(host(slider), 2)
     k = 0
     while driven.get("solver.capped_residual") == 0.0:

@@ -91,7 +91,7 @@ def test_mac_has_both_processors(all_platforms: Path) -> None:
     assert cpus == [0x01000007, 0x0100000C]
 
 
-def test_universal_refuses_what_is_none() -> None:
+def test_universal_refuses_other_files() -> None:
     thin = struct.pack("<3I", 0xFEEDFACF, 7, 3) + bytes(100)
     with pytest.raises(ValueError, match="Mach-O"):
         universal([bytes(100)])
@@ -155,7 +155,7 @@ def test_windows_gets_the_same_bits(all_platforms: Path, host: HostMaker, tmp_pa
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("wine") is None or sys.platform == "win32", reason="runs the Windows library by wine")
-def test_a_state_goes_on_under_another_system(all_platforms: Path, tmp_path: Path) -> None:
+def test_a_state_continues_on_another_operating_system(all_platforms: Path, tmp_path: Path) -> None:
     folder, source = native.unpack(all_platforms, tmp_path / "fmu"), native.C_FOLDER / "relay.c"
     linux = [str(native.compile_host(tmp_path, source=source)), str(folder / "binaries/linux64/Crane.so")]
     windows = ["wine", str(native.compile_host(tmp_path, "x86_64-windows-gnu", source))]

@@ -203,7 +203,7 @@ def test_types_of_one_name_and_two_meanings_get_two_names() -> None:
     assert {t.get("displayUnit") for t in types.values()} == {None, "km/h"}
 
 
-def test_a_scene_whose_default_experiment_does_not_run_is_refused_with_what_sets_it() -> None:
+def test_a_scene_whose_default_experiment_fails_is_refused_with_a_remedy() -> None:
     with pytest.raises(
         mbs.SimulationError, match=r"10 s in steps of 0\.01 s as `m\.stop_time` and `m\.step` .* step from"
     ):

@@ -100,7 +100,7 @@ def test_random_calls_are_answered_alike(pair: list[Any]) -> None:
 
 
 @pytest.mark.parametrize("method", ["do_step", "get_real", "set_real", "terminate"])
-def test_an_exception_of_python_ends_the_instance_and_says_so(
+def test_an_exception_of_python_ends_the_instance_and_is_reported(
     build: Callable[..., Path], host: HostMaker, method: str
 ) -> None:
     driven, other = host(build("crane", "python")).start(), host(build("crane", "python")).start()

@@ -79,7 +79,7 @@ def test_what_has_left_its_table_is_named_with_its_range(
     assert "its table goes from -0.2 to 0.2" in message
 
 
-def test_fmpy_ends_soon_and_says_why(reach: Path) -> None:
+def test_fmpy_ends_soon_with_the_reason(reach: Path) -> None:
     code = (
         "import fmpy, numpy as np\n"
         f"rows = [(0.0, 0.0), ({BEGIN}, 0.0), ({BEGIN}, {PULL}), (2.0, {PULL})]\n"

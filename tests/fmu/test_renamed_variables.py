@@ -153,7 +153,7 @@ def test_what_an_answer_is_watched_by_keeps_its_unit(tmp_path: Path) -> None:
         ('torque = { name = "T", factor = "gain" }\n[needs]\ngain = "a gain, 1"', "it needs 'gain' (a gain, 1)"),
     ],
 )
-def test_what_has_no_other_name_says_why(tmp_path: Path, text: str, why: str) -> None:
+def test_variables_without_another_name_are_reported_with_the_reason(tmp_path: Path, text: str, why: str) -> None:
     (tmp_path / "names.toml").write_text('"rod.x" = "X"\n' + text, encoding="utf-8")
     system = load_scene(f"{SCENES}:crane")[1]
     actual = renamed(variable_table(system.meta, pose=False, step_size=0.01), read_content(tmp_path / "names.toml"))

@@ -60,7 +60,7 @@ def test_another_program_builds_again(car: Path, monkeypatch: pytest.MonkeyPatch
     assert built_fmu.fmu_of_car(str(car), print) != first
 
 
-def test_a_command_with_many_cars_loses_none(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_command_with_many_cars_keeps_all_of_them(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(built_fmu, "_KEPT", 1)
     result = [built_fmu.fmu_of_car(str(car), print, ports) for ports in ("1", "2", "3")]
     assert all(fmu.is_file() for fmu in result)
@@ -98,14 +98,14 @@ def test_a_command_takes_an_fmu_or_a_car(
     assert fmu_file(None) == Path("dist", "PrototypeCar.fmu")
 
 
-def test_the_words_of_a_build_that_fails(car: Path) -> None:
+def test_the_message_of_a_failed_build(car: Path) -> None:
     (car / "car.toml").write_text("wrong")
     with pytest.raises(HostError, match=r"The FMU of the car .* cannot be built: The car is wrong\."):
         built_fmu.fmu_of_car(str(car), print)
 
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a signal of a clock")
-def test_a_build_that_is_stopped_ends_its_process_and_says_so(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_stopped_build_ends_its_process_and_is_reported(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A signal for the command alone: the process of the build is not waited for."""
     pid = car.parent / "pid"
     slow = f"import os, pathlib, time; pathlib.Path({str(pid)!r}).write_text(str(os.getpid())); time.sleep(600)"

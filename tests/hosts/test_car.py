@@ -41,7 +41,7 @@ def drive(car: tuple[mbs.System, Path], manoeuvre: str, folder: Path, step: floa
     return read_csv(folder / f"prototype_car_{Path(manoeuvre).stem}.csv"), done.stdout
 
 
-def test_the_car_is_what_its_constants_tell(car: tuple[mbs.System, Path]) -> None:
+def test_the_constants_agree_with_the_motion_of_the_car(car: tuple[mbs.System, Path]) -> None:
     variables = {v.name: v for v in fmpy.read_model_description(str(car[1])).modelVariables}
     constants = {n.removeprefix("vehicle."): float(v.start) for n, v in variables.items() if n.startswith("vehicle.")}
     names = ["wheel_FL.steer", "wheel_FR.steer", "steering_wheel_angle"]

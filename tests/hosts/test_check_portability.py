@@ -59,7 +59,7 @@ def changed(fmu: Path, copy: Path, changes: list[Change], face: str = "") -> Pat
 
 
 @pytest.mark.slow
-def test_ours_have_none_of_it(fmus: dict[str, Path]) -> None:
+def test_our_fmus_have_none_of_the_faults(fmus: dict[str, Path]) -> None:
     for fmu in fmus.values():
         found = findings(fmu)
         assert len(found) == len(CHECKS)

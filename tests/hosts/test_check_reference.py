@@ -86,7 +86,7 @@ def test_what_drives_it_in_place_of_the_table_does_so_at_the_step_of_the_table(f
     assert "in steps of 0.02 s" in done.stdout
 
 
-def test_a_stopped_check_of_a_folder_goes_on_with_the_tables_that_are_left(
+def test_a_stopped_check_of_a_folder_resumes_with_the_other_tables(
     fmu: Path, result: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = tmp_path / "tables"

@@ -153,7 +153,7 @@ def test_the_catalogue_measures_the_same(prototype_fmu: Path, tmp_path: Path) ->
     assert len(results[0]) > 1
 
 
-def test_an_fmu_that_crashes_is_reported_as_ever(tmp_path: Path) -> None:
+def test_a_crash_is_reported_as_without_confinement(tmp_path: Path) -> None:
     code, output, table = driven(odd_fmu("faults", tmp_path), tmp_path / "out", CRASH, "--confined")
     assert code == 1
     assert "The process of the FMU crashed (SIGSEGV) in fmi2DoStep at 0.04 s; 5 rows were kept." in output

@@ -83,7 +83,7 @@ def test_the_job_as_it_is_written(repository: Path, tmp_path: Path, good: bool) 
     assert [key for key, kind in references.items() if kind != "good"] == ([] if good else [("model_swing", "bob.x")])
 
 
-def test_a_failure_says_how_far_off_it_is(repository: Path, tmp_path: Path) -> None:
+def test_a_failure_reports_the_deviation(repository: Path, tmp_path: Path) -> None:
     folder = Path(shutil.copytree(repository, tmp_path / "r"))
     spoil(folder, "model_swing.csv", "bob.x", 0.05)
     done = run(main, folder / "model.fmu", "--reference", folder / "references", "--junit", tmp_path / "a.xml")

@@ -75,7 +75,7 @@ def test_the_integral_waits_while_a_pedal_is_at_its_stop() -> None:
         assert now["throttle"] == now["brake"] == 0.0
 
 
-def test_the_integral_takes_away_what_the_error_leaves() -> None:
+def test_the_integral_removes_the_steady_error() -> None:
     """Half a metre a second too slow for two seconds, given twice: the pedal grows by gain times error times time."""
     driver = make_driver(SETTINGS, CAR)
     s = driver.settings

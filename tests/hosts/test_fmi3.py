@@ -53,7 +53,7 @@ def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(
 
 
 @pytest.mark.parametrize("kind", kinds.IN_C)
-def test_all_is_unpacked_but_what_no_running_fmu_reads(
+def test_sources_and_documentation_are_not_unpacked(
     kind: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
 ) -> None:
     unpack(fmus["crane", kind], tmp_path)

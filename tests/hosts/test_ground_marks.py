@@ -96,7 +96,7 @@ def test_other_inputs_bring_nothing(columns) -> None:
     assert marks_of_inputs(driven(**columns)) == []
 
 
-def test_pilots_tell_what_they_drive_by() -> None:
+def test_pilots_declare_their_ground_marks() -> None:
     circle = CircleFollower(30.0, 10.0, 2.5, 0.5)
     pilot = Braking(FixedSteering(circle, 1.0, 0.5), lambda time, observation: time > 2.0, 0.5, 0.1)
     assert pilot.marks == []
@@ -167,7 +167,7 @@ def test_marks_lie_on_a_grid_of_heights_or_are_named(end: float) -> None:
         [3],
     ],
 )
-def test_a_record_whose_marks_are_none_is_refused(marks) -> None:
+def test_a_record_with_invalid_marks_is_refused(marks) -> None:
     with pytest.raises(HostError, match="does not say by 'marks' lanes, lines and circles"):
         _with_marks({"roads": []}, {"marks": marks}, Path("run.json"))
 

@@ -41,7 +41,7 @@ def test_another_unit_is_reported_with_its_row(
     assert f"{values[worst]:.6g}" in sentence
 
 
-def test_rounding_is_none() -> None:
+def test_rounding_is_not_outside_of_the_range() -> None:
     one = variable("1", -1.0, 1.0)
     assert beyond_range(one, np.array([-1.0 - 1e-6, 1.0 + 1e-6])) == ""
     assert beyond_range(one, np.array([0.0, 1.0 + 1e-5])) != ""

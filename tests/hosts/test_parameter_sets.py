@@ -222,7 +222,7 @@ def test_display_units_of_the_fmu_are_known(file: Path) -> None:
         taken(Variables(ModelDescription(modelVariables=result, unitDefinitions=units)), file, ssv("odd=3[mm]"))
 
 
-def test_files_that_are_none_are_named(variables: Variables, tmp_path: Path) -> None:
+def test_invalid_files_are_refused_by_name(variables: Variables, tmp_path: Path) -> None:
     for path, message in ((tmp_path / "no.ssv", "there is no such file"), (tmp_path, "is a folder")):
         with pytest.raises(UserError, match=message):
             Settings(variables).add_set(path)
@@ -339,7 +339,7 @@ def test_a_set_that_a_person_has_edited_is_kept(variables: Variables, file: Path
     assert file.read_text() == built.replace(old, new)
 
 
-def test_a_picture_names_what_the_user_has_changed() -> None:
+def test_a_picture_names_the_changed_values() -> None:
     settings = Settings(kinds())
     settings.add_numbers({"depth": 2.0}, "start of rest")
     assert settings.title("car") == "car"

@@ -102,7 +102,7 @@ def test_what_rows_do_not_tell_of_inputs(slopes: bool, time: tuple[float], u: tu
     assert driven(time, u, 1, slopes).lost == []
 
 
-def test_a_summary_of_rows_says_so() -> None:
+def test_a_summary_of_rows_at_an_interval_says_so() -> None:
     few, each = (driven((0.0, 0.17), (1.0, 3.0), every) for every in (5, 1))
     assert ("rows every 0.05 s", "largest values and means are of these rows") in summary(few, H)
     assert not any(what.startswith("rows every") for what, _ in summary(each, H))
@@ -176,7 +176,7 @@ def test_every_change_of_an_input_that_the_table_holds_is_a_jump(held: frozenset
 
 
 @pytest.mark.parametrize(("stop", "end"), [(1.0, 0.8), (0.6, 0.4), (0.8, None), (0.4, None)])
-def test_a_run_that_ends_at_another_time_says_so(stop: float, end: float | None) -> None:
+def test_a_run_that_ends_at_another_time_is_reported(stop: float, end: float | None) -> None:
     requested = Manoeuvre("m", np.array([0.0]), {"u": np.array([1.0])}, stop)
     result = run(Integrator(True), requested, 0.4)  # type: ignore[arg-type]
     row = dict(summary(result, 0.4)).get("end of the run")

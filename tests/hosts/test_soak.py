@@ -187,7 +187,7 @@ def row(**values: float) -> list[float]:
     return list(known_names.values())
 
 
-def test_the_watch_sees_what_is_wrong() -> None:
+def test_the_checks_detect_each_fault() -> None:
     def kind(steps: int = 1, **values: float) -> str:
         watch = Watch(OUTPUTS, 0.01)
         try:
@@ -255,7 +255,7 @@ def is_worker(process: psutil.Process) -> bool:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends a signal")
 @pytest.mark.slow
-def test_a_soak_test_that_is_ended_tells_what_is_done(car: Path, tmp_path: Path) -> None:
+def test_a_terminated_soak_test_reports_the_finished_drives(car: Path, tmp_path: Path) -> None:
     out = tmp_path / "numbers.json"
     message = ["--soak", "--stop-time", "300", "--drives", "2", "--jobs", "2", "--json", str(out)]
     command = [sys.executable, "-m", "ali3", "check", str(car), *message, "--out", str(tmp_path)]

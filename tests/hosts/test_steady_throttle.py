@@ -145,7 +145,7 @@ def test_an_input_that_cannot_be_held_is_refused_with_those_that_can() -> None:
         run(bare, asked(20.0), H)  # type: ignore[arg-type]
 
 
-def test_a_file_says_so(tmp_path: Path) -> None:
+def test_find_throttle_is_read_from_and_written_to_a_file(tmp_path: Path) -> None:
     result = read_manoeuvre("step_steer")
     assert result.find_throttle
     assert "throttle" not in result.inputs
@@ -166,7 +166,7 @@ def test_a_file_says_so(tmp_path: Path) -> None:
             read_manoeuvre(str(tmp_path / "m.toml"))
 
 
-def test_the_simulator_refuses_what_it_cannot_find() -> None:
+def test_the_simulator_refuses_a_manoeuvre_that_finds_its_throttle() -> None:
     car: Any = SimpleNamespace(inputs=["steering", "throttle", "brake"])
     with pytest.raises(HostError, match=r"'step_steer' finds its throttle in a run before"):
         OfManoeuvre(read_manoeuvre("step_steer"), car)

@@ -246,14 +246,14 @@ def test_an_fmu_of_another_program_has_its_diagrams(pendulum: Path, built: Path,
         ),
     ],
 )
-def test_a_geometry_that_is_none(pendulum: Path, built: Path, said: Said, geometry: str, sentence: str) -> None:
+def test_an_invalid_geometry_is_refused(pendulum: Path, built: Path, said: Said, geometry: str, sentence: str) -> None:
     with_resources(built, pendulum, geometry)
     status, text = said("dist/MotorPendulum.fmu", "--stop-time", "0.1", "--no-open")
     assert status == 2
     assert sentence in text
 
 
-def test_a_result_without_poses_says_so(result: Path, said: Said) -> None:
+def test_a_result_without_poses_is_reported(result: Path, said: Said) -> None:
     lines = result.read_text().splitlines()
     result.write_text("\n".join([lines[0].replace("rod.angle", "angle"), *lines[1:]]) + "\n")
     status, text = said(result, "--no-open")

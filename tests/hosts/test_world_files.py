@@ -13,7 +13,7 @@ STEEP = '[[courses]]\nname = "hill"\npoints = "hill.csv"\nsmoothing = 1.0\nwidth
 
 
 @pytest.mark.slow
-def test_a_description_has_a_name_of_its_own_and_what_the_command_warns_of_is_reported(
+def test_a_description_has_its_own_name_and_warnings_of_the_command_are_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))

@@ -51,7 +51,7 @@ def test_a_coordinate_without_mass_gives_way_like_one_of_the_mean_mass() -> None
     np.testing.assert_allclose(instance.get_state()[0], [0.5, -0.5], atol=1e-9)
 
 
-def test_a_row_is_open_by_metres_whatever_the_mass() -> None:
+def test_the_residual_of_a_row_is_in_metres_for_any_mass() -> None:
     """x = 0 and x = 1 at once, for 1 kg and for 9: in the end each is open by half a metre."""
     for mass in (1.0, 9.0):
         instance = instance_of(SystemBuilder(np.diag([mass]), [0.2], rows=[Row(0.0, {0: 1.0}), Row(-1.0, {0: 1.0})]))

@@ -86,7 +86,7 @@ def test_generalised_alpha_damps_a_stiff_oscillation_and_the_trapezoidal_rule_do
 
 @pytest.mark.parametrize("flexible", [False, True])
 @pytest.mark.parametrize("rho", [0.2, 0.5, 1.0])
-def test_generalised_alpha_steps_as_its_recursion_says(rho, flexible):
+def test_generalised_alpha_steps_follow_its_recursion(rho, flexible):
     """A mass on a spring, k = 40 N/m, against the recursion of Chung and Hulbert, whose acceleration has a memory; a
     flexible body at rest beside it has no other past of steps.
     """

@@ -22,7 +22,7 @@ UNCHECKED = {"progress": False, "estimate_error": False}
 
 
 @pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "runge_kutta_8"])
-def test_work_is_what_the_motor_gave(method):
+def test_work_is_that_of_the_motor(method):
     run = simulate(printed_model(), 0.5, H, {"torque": 4.0}, method=method, **UNCHECKED)
     assert run.report.work == pytest.approx(4.0 * run["crank.angle"][-1], rel=0.01)
     assert run.report.energy == pytest.approx(run.report.work, rel=0.02)  # it started from rest, with its mass level

@@ -98,7 +98,7 @@ def test_a_free_system_of_springs_keeps_both_momenta_and_its_energy(h):
 @pytest.mark.parametrize("h", [0.02, 0.004])
 @pytest.mark.parametrize("damping", [0.0, 3.0, 80.0])
 @pytest.mark.parametrize("stops", [False, True])
-def test_a_damped_spring_loses_exactly_what_the_damper_takes(h, damping, stops):
+def test_the_energy_lost_is_exactly_the_work_of_the_damper(h, damping, stops):
     run = simulate(compile(swing(damping, stops)), 3.0, h, settings=EM, estimate_error=False)
     length = run["length"]
     taken = np.concatenate([[0.0], np.cumsum(damping * np.diff(length) ** 2 / h)])

@@ -80,7 +80,7 @@ def test_nothing_is_projected_so_nothing_is_watched():
     assert t.report.energy_error == 0.0
 
 
-def test_an_infinite_motion_is_reported_in_words():
+def test_an_infinite_motion_is_reported_with_a_message():
     def jolt(t):
         return 0.0 if t < 0.1 else 1e300
 
@@ -244,12 +244,12 @@ def pendulum(amplitude, step, mass=1.0):
 
 
 @pytest.mark.parametrize(("step", "within"), [(0.0167, 0.01), (0.0335, 0.02)])
-def test_a_pendulum_loses_what_the_theory_says(step, within):
+def test_the_energy_loss_of_a_pendulum_is_that_of_the_theory(step, within):
     run, mean = pendulum(0.5, step)
     assert run.report.energy_growth / 4000 == pytest.approx(-3.0 / 8.0 * 1.1 * mean * step**4, rel=within)
 
 
-def test_a_body_without_joints_loses_what_the_theory_says():
+def test_the_energy_loss_of_a_free_body_is_that_of_the_theory():
     """-1/32 of the rate of the multipliers squared, of a body of three axes: U'' G = U Lam, Lam = (W^2 + W') G."""
     inertia, spin, step = np.array([0.05, 0.08, 0.1]), 5.0 * np.array([0.6, 0.64, 0.48]), 0.01
     m = Model("body", gravity=(0.0, 0.0, 0.0))
@@ -301,7 +301,7 @@ def test_what_may_gain_or_lose_energy_is_not_watched(system):
     assert run.notices == ()
 
 
-def test_the_trend_goes_on_in_a_restored_state():
+def test_the_trend_continues_in_a_restored_state():
     whole, parts = (Simulation(sprung()) for _ in range(2))
     whole.run(20.0, 0.2, progress=False)
     parts.run(10.0, 0.2, progress=False)

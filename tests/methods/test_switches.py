@@ -56,7 +56,7 @@ def test_a_point_is_held_where_it_is_and_let_go(system, method):
     assert again["pin.fy"][-1] == 0.0
 
 
-def test_a_pin_that_closes_before_the_start_holds_what_the_drawing_says(system):
+def test_a_pin_closed_before_the_start_holds_the_drawn_point(system):
     """Not the point where the bodies stand when it closes: that is the start's to find."""
     simulation = Simulation(system)
     simulation.instance.reset()

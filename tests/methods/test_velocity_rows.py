@@ -96,7 +96,7 @@ def test_a_skate_needs_few_iterations(skate):
 
 
 @pytest.mark.parametrize("method", ROLLING)
-def test_an_edge_that_is_set_down_stops_what_goes_across_it(method):
+def test_an_edge_that_is_set_down_stops_the_velocity_across_it(method):
     drift = 0.4
     simulation = Simulation(compile(sleigh(0.0, switch=False, drift=drift)), settings=Settings(method=method))
     free = simulation.run(1.0, 0.01)

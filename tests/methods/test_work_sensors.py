@@ -44,7 +44,7 @@ def opened(run):
 @pytest.mark.parametrize(
     "method", [m for m in METHODS if m not in ("energy_momentum_4", "semi_recursive", "semi_recursive_4")]
 )
-def test_a_damper_takes_what_a_block_loses(method):
+def test_the_work_of_a_damper_is_the_energy_that_a_block_loses(method):
     t = 2.0
     run = simulate(block(), t, 0.002, method=method, **QUIET)
     taken = 0.5 * MASS * SPEED**2 * (1.0 - np.exp(-2.0 * DAMPING / MASS * t))
@@ -73,7 +73,7 @@ def test_a_motor_of_constant_torque_gives_torque_times_angle(method):
     assert run["energy"] - run["energy"][0] == pytest.approx(run["work"], rel=4e-3, abs=4e-3)
 
 
-def test_another_method_goes_on_with_the_force_that_there_was():
+def test_another_method_continues_with_the_last_force():
     """The torque is 8 N m from the start of the first step of the trapezoidal rule."""
     simulation = Simulation(motor_model(), settings=Settings(method="radau_5"))
     simulation.set_input("torque", 4.0)
@@ -123,7 +123,7 @@ def test_with_the_error_of_the_energy_the_balance_of_ali3p_closes_also_at_stops(
     )  # without the work it does not
 
 
-def test_springs_give_back_what_they_take():
+def test_springs_return_their_energy():
     m = triangle()
     m.sense_energy("work", "work", ["ac", "bc"])
     m.sense_energy("lost", "nonconservative", ["ac", "bc"])
@@ -149,7 +149,7 @@ def test_steps_of_the_error_control_and_its_records_count_the_work_once(method):
 
 
 @pytest.mark.parametrize("method", ["energy_momentum", "semi_recursive", "runge_kutta_8", "ali3p"])
-def test_steps_nobody_looks_at_count(method):
+def test_steps_without_output_count(method):
     system = compile(oscillator())
     each, last = (simulate(system, 0.8, 0.01, method=method, every=n, **QUIET) for n in (1, 80))
     assert last["work"][-1] == each["work"][-1]
@@ -157,7 +157,7 @@ def test_steps_nobody_looks_at_count(method):
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "runge_kutta_8", "radau_5", "semi_recursive"])
-def test_a_saved_state_goes_on_bit_for_bit(method):
+def test_a_saved_state_continues_bit_for_bit(method):
     assert_saved_state_continues(compile(oscillator()), Settings(method=method))
 
 
@@ -240,7 +240,7 @@ def test_records_close_to_the_start_of_a_step_have_its_work(method):
 
 
 @pytest.mark.parametrize("method", ["ali3p", "runge_kutta_8"])
-def test_work_goes_on_where_inputs_jump(method):
+def test_work_is_continuous_where_inputs_jump(method):
     torque = ([0.0, 0.5, 0.5, 1.0], [4.0, 4.0, -4.0, -4.0])
     run = simulate(motor_model(), 1.0, None, {"torque": torque}, tolerance=1e-6, method=method, **NO_WORD)
     assert run["work"].max() == pytest.approx(4.0, rel=1e-3)  # 4 N m over 1 rad

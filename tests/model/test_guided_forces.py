@@ -62,7 +62,7 @@ def test_it_starts_where_the_inputs_hold_it():
     assert simulation.run(0.1, 0.01)["s"][0] == pytest.approx(0.03)
 
 
-def test_a_limit_the_wrong_way_round_is_refused_and_a_guide_of_one_input_has_none():
+def test_exchanged_limits_are_refused_and_a_guide_of_one_input_has_no_limits():
     with pytest.raises(ModelError, match="'rack' has the limits 1 and -1; the first must not be above the second"):
         rack(limits=(1.0, -1.0))
     m, _, _ = rack()
@@ -162,7 +162,7 @@ def wheel_and_hands():
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "ali3p_generalised_alpha"])
-def test_a_drive_holds_while_its_switch_is_on_and_lets_go(method):
+def test_a_drive_acts_while_its_switch_is_on_and_releases(method):
     simulation = Simulation(wheel_and_hands(), settings=Settings(method=method))
     inputs = {"angle": lambda t: 0.7 * np.sin(3.0 * t), "torque": lambda t: 1.5}
     t = simulation.run(1.0, 0.001, inputs=inputs)

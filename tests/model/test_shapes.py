@@ -205,7 +205,7 @@ def test_refused_turnings_leave_nothing():
     m.body("fan", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))  # the name is free again
 
 
-def test_a_mesh_that_is_none(tmp_path):
+def test_an_invalid_mesh_is_refused(tmp_path):
     m, arm = model()
     (tmp_path / "part.stl").write_text("no mesh")
     for file in ("part.stl", "missing.stl"):
@@ -214,7 +214,7 @@ def test_a_mesh_that_is_none(tmp_path):
     assert m.shapes == []
 
 
-def test_shapes_do_not_change_what_the_kernel_sees():
+def test_shapes_do_not_change_the_arrays_of_the_kernel():
     m, arm = model()
     m.revolute("hinge", m.ground, arm, point=(0, 0, 0), axis=(0, 1, 0))
     before = mbs.compile(m).kernel_bytes()

@@ -76,7 +76,7 @@ def test_a_bad_table_is_refused(tmp_path, text, sentence):
     assert "a.csv" in str(refused.value)
 
 
-def test_a_comment_of_coordinates_is_read_when_it_is_none(tmp_path):
+def test_a_comment_that_looks_like_coordinates_is_a_comment(tmp_path):
     """The remedy that the refusal of such a comment gives."""
     (tmp_path / "a.csv").write_text("x/y,0,1\n0,1,2\n1,3,4\n")
     assert read_road(tmp_path / "a.csv").heights.tolist() == [[1.0, 2.0], [3.0, 4.0]]
@@ -143,7 +143,7 @@ def test_pictures_are_seen_from_above(tmp_path, bits):
         read_road(tmp_path / "a.png", spacing=(1.0, 1.0))
 
 
-def test_pictures_that_are_none_are_refused(tmp_path):
+def test_invalid_pictures_are_refused(tmp_path):
     image = pytest.importorskip("PIL.Image")
     image.new("RGB", (4, 4)).save(tmp_path / "rgb.png")
     (tmp_path / "text.png").write_text("no picture")
@@ -224,7 +224,7 @@ def test_a_bad_description_is_refused(tmp_path, text, sentence):
 
 
 @pytest.mark.parametrize("name", [path.stem for path in FOLDER.glob("*.toml")])
-def test_the_roads_of_the_package_are_what_their_descriptions_say(tmp_path, name):
+def test_the_roads_of_the_package_agree_with_their_descriptions(tmp_path, name):
     write_road(read_road(FOLDER / f"{name}.toml"), tmp_path / "a.road")
     assert (tmp_path / "a.road").read_bytes() == (FOLDER / f"{name}.road").read_bytes()
 
@@ -267,7 +267,7 @@ def test_the_command(tmp_path, capsys):
         (["bad.road"], "not a road file"),
     ],
 )
-def test_the_command_says_what_is_wrong(tmp_path, capsys, monkeypatch, arguments, sentence):
+def test_the_command_reports_faults(tmp_path, capsys, monkeypatch, arguments, sentence):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "a.csv").write_text(LABELLED)
     (tmp_path / "plane.toml").write_text('kind = "plane"')
@@ -304,7 +304,7 @@ def test_what_is_drawn_is_the_road():
 
 @pytest.mark.parametrize("kind", ["toml", "road"])
 @pytest.mark.parametrize("option", ["frictions", "origin", "spacing", "height_range", "friction_range"])
-def test_options_of_a_grid_are_refused_where_the_file_says_all(tmp_path, kind, option):
+def test_options_of_a_grid_are_refused_for_complete_files(tmp_path, kind, option):
     (tmp_path / "a.toml").write_text('kind = "plane"\nfriction = 0.8\n')
     write_road(GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((4, 4)), 0.8), tmp_path / "a.road")
     assert read_road(tmp_path / f"a.{kind}") is not None

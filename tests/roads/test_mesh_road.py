@@ -97,7 +97,7 @@ def test_an_upright_face_is_no_overhang_and_is_reported(tmp_path: Path) -> None:
     assert set(np.round(np.unique(road.heights), 6)) == {0.0, 0.12}
 
 
-def test_beside_the_mesh_its_border_goes_on(tmp_path: Path) -> None:
+def test_beside_the_mesh_the_heights_of_its_border_continue(tmp_path: Path) -> None:
     """A ring of 20 m, banked: outside and in the middle, which a warning tells of, the nearest height."""
     points, triangles = sheet(2.0 * np.pi, 5.0, lambda x, y: 0.0, 0.05)
     radius = 20.0 + points[:, 1]
@@ -200,7 +200,7 @@ def test_the_place_of_the_largest_difference_moves_with_the_grid(tmp_path: Path)
 
 
 @pytest.mark.parametrize(("scale", "up", "order"), [(0.001, "z", (0, 1, 2)), (1.0, "y", (0, 2, 1))])
-def test_a_description_says_unit_and_axis(tmp_path: Path, scale: float, up: str, order: tuple[int, ...]) -> None:
+def test_a_description_gives_unit_and_axis(tmp_path: Path, scale: float, up: str, order: tuple[int, ...]) -> None:
     points, triangles = changed(1.0 / scale, order)
     if up == "y":
         points[:, 2] *= -1.0

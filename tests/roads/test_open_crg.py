@@ -76,7 +76,7 @@ def test_no_place_is_farther_off_than_is_reported(spacing: float) -> None:
     assert 0.9 * road.largest < off.max() < road.largest * (1.0 + 1e-3) + 1e-6
 
 
-def test_a_long_road_is_known_near_itself_and_goes_on_beside(tmp_path: Path) -> None:
+def test_a_long_road_is_evaluated_near_itself_and_continues_beside(tmp_path: Path) -> None:
     crg = pytest.importorskip("pyopencrg")
     turn = 0.8 * np.sin(np.linspace(0.0, 3.0, 300))
     crg_road = crg.CrgRoad(

@@ -283,7 +283,7 @@ def test_the_friction_factor_holds_for_files_too(tmp_path, car):
     assert ends[1] - ends[2] > 2.0
 
 
-def test_what_the_built_in_road_has_is_without_effect_on_a_file_and_says_so(tmp_path, car):
+def test_parameters_of_the_built_in_road_have_no_effect_on_a_file_and_are_reported(tmp_path, car):
     write_road(PlaneRoad(), tmp_path / "a.road")
     with pytest.warns(UserWarning, match="'road.kerb_x' has no effect: it is of the road that the file replaces"):
         mbs.Simulation(car, parameters={"road.file": tmp_path / "a.road", "road.kerb_x": 3.0})
@@ -461,7 +461,7 @@ def test_altered_bytes_end_in_a_sentence(tmp_path, car):
     assert ended <= {Status.TOO_FAR, Status.NOT_CONVERGED, Status.START_REFUSED, Status.NOT_FINITE, Status.UNRESOLVED}
 
 
-def test_writing_refuses_what_no_road_has(tmp_path):
+def test_writing_refuses_invalid_roads(tmp_path):
     heights = np.zeros((40, 40))
     heights[3, 4] = np.nan
     with pytest.raises(ValueError, match="heights of a grid road"):

@@ -55,7 +55,7 @@ def test_a_wall_that_the_body_meets_first_stops_it(car, tmp_path):
     assert run["chassis.ground_force"].max() > 8e4
 
 
-def test_a_simulation_that_is_stepped_tells_it_once(car, tmp_path):
+def test_a_stepped_simulation_reports_it_once(car, tmp_path):
     file = tmp_path / "wall.road"
     with pytest.warns(RoadWarning, match="a face of"):
         write_road(grid(*LOW), file)

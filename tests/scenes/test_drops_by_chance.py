@@ -44,7 +44,7 @@ def depths(r: mbs.Trajectory, wheel: str, radius: float) -> np.ndarray:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "seed"), [("prototype", 1), ("hatchback", 2), ("saloon", 3)])
-def test_no_wheel_is_deep_in_the_road_without_a_word(name: str, seed: int) -> None:
+def test_no_wheel_is_deep_in_the_road_without_a_warning(name: str, seed: int) -> None:
     car = load(name)
     system = mbs.compile(car.model(PlaneRoad(friction=0.9)))
     rng, deep, below = np.random.default_rng(seed), 0, 0

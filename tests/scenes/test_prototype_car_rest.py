@@ -34,7 +34,7 @@ def test_a_hundred_seconds_at_rest(case):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("h", [0.01, 0.005])
-def test_the_energy_momentum_step_lets_the_braked_car_stand(h):
+def test_the_braked_car_stands_with_the_energy_momentum_step(h):
     """Its carried velocity rings; brushes and brakes that took that for a motion let the car creep by metres."""
     settings = Settings(method="energy_momentum")
     t = simulate(car(), 60.0, h, {"brake": 1.0}, settings, every=10, progress=False, estimate_error=False)

@@ -166,7 +166,7 @@ def test_a_step_onto_the_other_circuit_is_reported() -> None:
     assert simulate(system, 0.4, 0.001, method="radau_5").report.branch_changes == 0  # type: ignore[union-attr]
 
 
-def test_the_sensor_of_the_status_tells_it_from_then_on() -> None:
+def test_the_status_sensor_reports_it_from_then_on() -> None:
     m = suspension(15.0)
     m.sense_solver("solver.status", "status")
     run = simulate(compile(m), 0.15, 5e-4)
@@ -211,7 +211,7 @@ def test_what_a_step_leaves_behind_is_that_of_the_whole_step(defect: System) -> 
     assert pair[0].sensors == pair[1].sensors
 
 
-def test_a_restored_state_goes_on_with_its_count(thrown: System) -> None:
+def test_a_restored_state_continues_its_count(thrown: System) -> None:
     first, second = Simulation(thrown), Simulation(thrown)
     first.step(5e-4, 170)
     state = first.save()
@@ -252,7 +252,7 @@ def test_a_model_of_one_body_has_no_loops() -> None:
 
 
 @pytest.mark.parametrize(("method", "h"), [("ali3p", 0.03), ("energy_momentum", 0.01)])
-def test_a_run_that_nobody_reads_ends_as_one_that_is_read(method: str, h: float) -> None:
+def test_a_run_without_output_ends_as_one_with_output(method: str, h: float) -> None:
     """Past singular positions steps are repeated in parts; their ends then come back in two ways."""
     system, steps = compile(double_four_bar.build()), round(3.0 / h)
     read, unread = (Simulation(system, settings=Settings(method=method)) for _ in range(2))

@@ -94,7 +94,7 @@ def test_the_missed_share_is_half_a_step_times_the_frequency_of_an_impact(stiffn
     assert missed_share(run.report, "ali3p") == pytest.approx(0.5 * h * np.sqrt(stiffness), rel=0.1)
 
 
-def test_a_coarser_run_that_does_not_resolve_an_impact_tells_nothing() -> None:
+def test_a_coarser_run_that_does_not_resolve_an_impact_is_not_used() -> None:
     """Half a step in a contact: the ball is 31 % off, and by chance alike with twice the step."""
     rate, gap, h, steps = 577.55155, 0.684585, 0.01, 196
     system, settings = ball(rate**2, gap), mbs.Settings(step_iterations=8)

@@ -97,7 +97,9 @@ def never(*_: Any) -> Any:
         pytest.param(lambda t: 4e-3 + 0.0 * t, False, id="more than a tenth of what it may be"),
     ],
 )
-def test_a_coarser_run_goes_on_where_a_difference_grows(grown: Callable[[np.ndarray], np.ndarray], ends: bool) -> None:
+def test_a_coarser_run_continues_where_a_difference_grows(
+    grown: Callable[[np.ndarray], np.ndarray], ends: bool
+) -> None:
     system, t = ball(1e3, 0.9), np.linspace(0.0, 1.0, 101)
     run = mbs.simulate(system, 1.0, 0.01, estimate_error=False, progress=False)
     look = CoarserRuns(RefinedRuns(system, (run, []), never, 0.01, 1, never)).watch(run, 0.03, 40)
@@ -116,7 +118,7 @@ def machine(number: int) -> tuple[mbs.System, float]:
     return mbs.compile(random_machines.model_of(drawing)), drawing.span
 
 
-def test_no_16th_of_the_step_follows_where_an_eighth_tells() -> None:
+def test_no_16th_of_the_step_follows_where_an_eighth_decides() -> None:
     """The larger error counted: 15 runs in place of 31, and the same verdict on 5.1 %."""
     system, span = machine(56)
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5\.1 %"):
@@ -125,7 +127,7 @@ def test_no_16th_of_the_step_follows_where_an_eighth_tells() -> None:
     assert run.accuracy.check_cost == 14.0
 
 
-def test_what_repeats_may_cost_is_kept_and_what_is_not_judged_is_reported() -> None:
+def test_the_budget_of_refined_runs_is_kept_and_unchecked_runs_are_reported() -> None:
     system, span = machine(97)
 
     def judged(most: float | None) -> mbs.Trajectory:

@@ -67,7 +67,7 @@ def test_trajectories_are_those_of_single_runs() -> None:
 @pytest.mark.filterwarnings(
     "ignore:Variant 0. At .* rebound stop:mbs.results.accuracy.AccuracyWarning"
 )  # at 40 ms it is so
-def test_a_failed_run_tells_why_and_leaves_the_others() -> None:
+def test_a_failed_run_is_reported_and_leaves_the_others() -> None:
     """A start below the road and a step that is refused, beside a slalom that goes on to its end."""
     high = CARS["stiff tyre at a kerb"]
     variants = [Variant(inputs=SLALOM, pose=Pose(speed=15.0)), Variant(pose=Pose(z=-2.0)), high]

@@ -60,7 +60,7 @@ def test_a_short_record_is_compared_at_all_its_samples() -> None:
     assert run.accuracy.error == pytest.approx(gaps.max(), rel=0.1)
 
 
-def test_a_fourth_repeat_tells_what_three_leave_open() -> None:
+def test_a_fourth_refined_run_decides_what_three_leave_open() -> None:
     """By a third one, with an eighth of the step, this car is 4.8 % off, and it is 5.1 %."""
     with pytest.warns(mbs.AccuracyWarning):
         run = random_cars.drive(_stream(31, 27)).run(h=0.02)

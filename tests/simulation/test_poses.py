@@ -138,7 +138,7 @@ def test_thinning_keeps_poses_at_the_samples():
 
 
 @pytest.mark.parametrize("every", [1, 4])
-def test_many_samples_are_thinned_and_said(monkeypatch, every):
+def test_many_samples_are_thinned_and_reported(monkeypatch, every):
     whole = mbs.simulate(mbs.compile(swinging(2)), 3.2, 0.001, every=every)
     monkeypatch.setattr(poses_module, "MOST_SAMPLES", 200)
     run = mbs.simulate(mbs.compile(swinging(2)), 3.2, 0.001, every=every)
@@ -191,7 +191,7 @@ def test_a_system_from_a_file_has_poses_and_scene(tmp_path):
         np.testing.assert_array_equal(runs[0].poses[name], runs[1].poses[name])
 
 
-def test_a_system_without_a_drawing_says_so():
+def test_a_system_without_a_drawing_is_refused():
     system = mbs.compile(swinging(2))
     bare = mbs.System.from_bytes(system.kernel_bytes())
     assert len(system.kernel_bytes()) < len(system.to_bytes())

@@ -62,7 +62,7 @@ def test_the_order_of_three_runs_is_seen(order: float, near: int, finest: int) -
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0])
-def test_a_tried_step_is_off_by_what_is_reported_of_it(order: float) -> None:
+def test_a_tried_step_has_the_reported_error(order: float) -> None:
     """Of errors of order one an 8th of 6 % was told as 0.4 %, what half of it and both differ by."""
     system, last = oscillator(), 0
 

@@ -25,7 +25,7 @@ def swing(at: float = 1.0) -> mbs.System:
     return mbs.compile(m)
 
 
-def test_the_robot_in_steps_that_are_too_long_says_so() -> None:
+def test_the_robot_with_too_long_steps_is_reported() -> None:
     """169 mm at its hand; at half the step 27 mm, 4.2 % of an angle, which is right."""
     system = mbs.compile(puma.build())
     with pytest.warns(AccuracyWarning, match=r"off by .* % of the .* range, as a refined run with steps of 0.025 s"):
@@ -34,7 +34,7 @@ def test_the_robot_in_steps_that_are_too_long_says_so() -> None:
 
 
 @pytest.mark.slow
-def test_a_checked_run_goes_on_bit_for_bit() -> None:
+def test_a_checked_run_continues_bit_for_bit() -> None:
     checked, plain = (Simulation(swing(), inputs={"push": 0.3}, parameters={"stiffness": 5.0}) for _ in range(2))
     for simulation, estimate in ((checked, True), (plain, False)):
         simulation.run(0.5, 0.005, estimate_error=estimate, **QUIET)
@@ -45,7 +45,7 @@ def test_a_checked_run_goes_on_bit_for_bit() -> None:
     assert checked.save() == plain.save()
 
 
-def test_the_twin_goes_on_from_run_to_run() -> None:
+def test_the_refined_instance_continues_from_run_to_run() -> None:
     simulation = Simulation(swing())
     first = simulation.run(1.0, 0.01, estimate_error=True, **QUIET)
     second = simulation.run(2.0, 0.01, estimate_error=True, **QUIET)

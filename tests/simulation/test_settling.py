@@ -69,7 +69,7 @@ def test_the_remaining_speed_after_settling_is_reported(car: mbs.System) -> None
     assert abs(run.sensors["chassis.roll"] - rolled) / H < speeds[2]
 
 
-def test_the_clock_goes_on_where_it_was(car: mbs.System) -> None:
+def test_the_clock_continues_after_settling(car: mbs.System) -> None:
     run = mbs.Simulation(car, pose=POSE)
     run.step(H, 100)
     run.settle(1.0, H)

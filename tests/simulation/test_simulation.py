@@ -229,7 +229,7 @@ class TestErrors:
             Simulation(system, pose=Pose(speed=1.0))  # tied to the ground
         assert "Worst" not in str(caught.value)
 
-    def test_a_failing_run_hands_over_what_it_recorded(self, system):
+    def test_a_failed_run_returns_its_recorded_rows(self, system):
         def jolt(t):
             return 0.0 if t < 0.205 else 1e200
 
@@ -242,7 +242,7 @@ class TestErrors:
         assert part["bob.x"].tolist() == reference["bob.x"][::2].tolist()
 
     @pytest.mark.parametrize("n", [-1, 2.5])
-    def test_a_number_of_steps_that_is_none_is_refused(self, system, n):
+    def test_an_invalid_number_of_steps_is_refused(self, system, n):
         with pytest.raises(ValueError, match="whole number of steps"):
             Simulation(system).step(H, n)
 

@@ -189,14 +189,14 @@ def test_the_kernel_ends_with_it(status: Status, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("status", [Status.BAD_FILE, Status.NO_MEMORY], ids=lambda status: status.name)
-def test_a_system_that_is_refused_says_what_helps(status: Status, tmp_path: Path) -> None:
+def test_a_refused_system_is_reported_with_a_remedy(status: Status, tmp_path: Path) -> None:
     with pytest.raises(KernelError, match="^the System file was refused: ") as refused:
         KERNEL[status](tmp_path)
     assert refused.value.message.endswith(f". {status_remedy(status)}")
 
 
 @pytest.mark.parametrize("status", PYTHON, ids=lambda status: status.name)
-def test_python_says_its_words_and_its_remedy(status: Status, tmp_path: Path) -> None:
+def test_python_reports_message_and_remedy(status: Status, tmp_path: Path) -> None:
     with pytest.raises(SimulationError) as refused:
         PYTHON[status](tmp_path)
     assert refused.value.status == status

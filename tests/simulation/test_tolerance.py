@@ -212,7 +212,7 @@ def test_times_of_the_record() -> None:
     assert len(mbs.simulate(system, 1.0, tolerance=1e-3).t) == 201
 
 
-def test_a_step_is_picked_where_none_is_given() -> None:
+def test_a_step_is_chosen_if_none_is_given() -> None:
     run = mbs.simulate(system_of("pendulum"), 2.0)
     control = run.control
     assert control is not None
@@ -250,7 +250,7 @@ def test_the_same_call_gives_the_same_bits() -> None:
 
 
 @pytest.mark.parametrize("tolerance", [0, 0.0, -1e-3, math.nan, math.inf, "1e-3", True, 1e-30, 2.0])
-def test_a_tolerance_that_is_none_is_one_sentence(tolerance: object) -> None:
+def test_an_invalid_tolerance_is_refused_in_one_sentence(tolerance: object) -> None:
     with pytest.raises(ValueError, match=r"^The tolerance is .*; .*must be a number between 1e-11 and 0.5") as error:
         mbs.simulate(system_of("pendulum"), 1.0, tolerance=tolerance)  # type: ignore[arg-type]
     assert repr(tolerance) in str(error.value)
@@ -292,7 +292,7 @@ def test_an_error_beyond_three_tolerances_is_warned_of_with_a_number() -> None:
     assert not run.control.kept
 
 
-def test_a_method_that_does_not_take_the_system_says_so() -> None:
+def test_a_method_that_does_not_take_the_system_is_refused() -> None:
     with pytest.raises(mbs.SimulationError, match="semi_recursive"):
         run_of("pendulum", 1e-3, "semi_recursive")
 

@@ -57,7 +57,7 @@ def force_of(tyre: Tyre | MagicTyre, load: float, kappa: float, tangent: float) 
 
 
 @pytest.mark.parametrize("q", [0.5, 1.0, 2.0])
-def test_the_magic_formula_of_a_tmeasy_tyre_has_its_forces_within_the_errors_told(q: float) -> None:
+def test_the_magic_formula_of_a_tmeasy_tyre_has_its_forces_within_the_reported_errors(q: float) -> None:
     result, errors = magic_of_tmeasy(TYRE)
     load = q * TYRE.nominal_load
     assert errors["longitudinal"] < 0.17
@@ -73,7 +73,7 @@ def test_the_magic_formula_of_a_tmeasy_tyre_has_its_forces_within_the_errors_tol
 
 
 @pytest.mark.parametrize("file", FILES, ids=ids)
-def test_tmeasy_of_a_file_is_a_tyre_that_has_its_forces_within_the_errors_told(file: Path) -> None:
+def test_tmeasy_of_a_file_has_its_forces_within_the_reported_errors(file: Path) -> None:
     bare = replace(magic(file), combination="none")
     shifts = ("PHX1", "PHX2", "PVX1", "PVX2", "PEX4", "PHY1", "PHY2", "PVY1", "PVY2", "PEY3", "LMUV", "RVY1", "RVY2")
     bare = replace(bare, coefficients={**bare.coefficients, **dict.fromkeys(shifts, 0.0)})

@@ -47,7 +47,7 @@ def test_versions_sides_and_ways_to_combine() -> None:
     assert read_tyre(OWN).notes == ()
 
 
-def test_what_a_file_lacks_and_what_is_not_used_is_named() -> None:
+def test_missing_and_unused_entries_of_a_file_are_named() -> None:
     notes = " ".join(read_tyre(SEDAN).notes)
     assert "RBX1, RCX1, RBY1, RCY1 missing or 0: slips are combined by the friction ellipse" in notes
     assert "QSY1" in notes
@@ -240,7 +240,7 @@ def test_what_is_no_text_of_such_a_file_is_refused(tmp_path: Path, content: byte
         read_tyre(tmp_path)
 
 
-def test_comments_and_words_in_latin_1_are_read(tmp_path: Path) -> None:
+def test_comments_and_texts_in_latin_1_are_read(tmp_path: Path) -> None:
     text = (
         OWN.read_text()
         .replace("$ Assumed", "$ für jeden Größenfall", 1)

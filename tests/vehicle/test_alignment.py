@@ -37,7 +37,7 @@ def car():
     return load("hatchback").changed(ANGLES)
 
 
-def test_kinematics_at_the_drawing_are_what_the_file_sets(car):
+def test_kinematics_at_the_drawing_have_the_angles_of_the_file(car):
     curves = kinematics(car, points=5).curves
     for axle in ("front", "rear"):
         drawn = curves[axle, "parallel"].drawn()

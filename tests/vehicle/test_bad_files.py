@@ -241,7 +241,7 @@ def test_implausible_values_are_reported_and_built(case):
 
 
 @pytest.mark.parametrize("ports", ["", '\n[ports]\ntyre = "hub"\n'])
-def test_a_user_is_warned_of_what_is_odd(copied, ports):
+def test_a_user_is_warned_of_implausible_values(copied, ports):
     file = copied()
     text = file.read_text(encoding="utf-8").replace("stiffness = 12360.0", "stiffness = 9000.0")
     file.write_text(text + ports, "utf-8")

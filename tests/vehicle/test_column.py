@@ -212,7 +212,7 @@ def test_a_parameter_is_the_number_of_the_file(name):
         np.testing.assert_allclose(a[output], b[output], rtol=0, atol=1e-9)
 
 
-def test_a_saved_state_goes_on_with_the_same_bits():
+def test_a_saved_state_continues_with_the_same_bits():
     def fresh() -> Simulation:
         return Simulation(system(), pose=Pose(speed=15.0), parameters={"steering.by_torque": 1})
 

@@ -89,7 +89,7 @@ def test_a_table_that_is_wrong(case, copied):
         (b"joint,x,y,z\n", "has no lines under its titles"),
     ],
 )
-def test_a_table_that_is_none(content, message, copied):
+def test_an_invalid_table_is_refused(content, message, copied):
     file = copied()
     (file.parent / "joints.csv").write_bytes(content)
     with pytest.raises(CarFileError) as error:
@@ -129,7 +129,7 @@ def test_a_table_that_is_a_link_elsewhere_is_refused(copied, tmp_path):
         ),
     ],
 )
-def test_a_frame_that_names_what_is_not_there(changes, message):
+def test_a_frame_that_names_missing_parts_is_refused(changes, message):
     with pytest.raises(CarFileError) as error:
         load("prototype").changed(changes)
     assert message in "\n".join(sentences(error.value, "car 'prototype': "))

@@ -82,7 +82,7 @@ def test_the_weight_of_the_chassis_enters_the_ports_of_a_frame_of_the_user(small
     np.testing.assert_allclose(total, (0.0, 0.0, 9.81 * small.chassis.mass), rtol=0, atol=1e-3)
 
 
-def test_without_loads_the_load_paths_say_what_is_missing(small: Car) -> None:
+def test_load_paths_without_loads_report_what_is_missing(small: Car) -> None:
     with pytest.raises(ModelError, match=r"chassis\.frame\.loads is missing: fidelity 2 needs a table"):
         small.model(fidelity="load_paths")
 

@@ -26,7 +26,7 @@ def test_a_car_by_links_has_tables_too(saloon):
     assert list(saloon) == [Fidelity.TABLE, Fidelity.RIGID]
 
 
-def test_its_own_drives_are_as_said(saloon):
+def test_its_own_drives_reach_their_accelerations_and_speeds(saloon):
     system = saloon[Fidelity.TABLE]
     slalom, braking, kerb = own_drives(saloon[Fidelity.RIGID])
     run = simulate(system, slalom.duration, 0.01, slalom.inputs, pose=slalom.pose, estimate_error=False)
@@ -89,7 +89,7 @@ def rows_of(*lines: tuple[str, str, float, float | None, float | None]) -> list[
     return [dict(zip(keys, line, strict=True)) | {"h_s": 0.01} for line in lines]
 
 
-def test_it_chooses_what_meets_all_tolerances_in_all_drives():
+def test_it_chooses_the_level_that_meets_all_tolerances_in_all_drives():
     rows = rows_of(
         ("a", "table", 10.0, 0.001, 0.02), ("b", "table", 20.0, 0.001, 0.05),
         ("a", "rigid", 40.0, 0.002, 0.02), ("b", "rigid", 30.0, 0.001, 0.02),

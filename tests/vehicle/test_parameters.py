@@ -150,7 +150,7 @@ def without_assistance(car):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", quick(OF_ALL_KINDS, car_names(), "proof"))
-def test_parameters_do_together_what_the_file_would_do(name):
+def test_all_parameters_together_have_the_effect_of_the_file(name):
     """A few at a time, each of which is seen in its run; of cars in `OF_ALL_KINDS` those of a kind of their own."""
     car = load(name)
     before = OF_ALL_KINDS[: OF_ALL_KINDS.index(name)] if name in OF_ALL_KINDS else ()
@@ -168,7 +168,7 @@ def test_parameters_do_together_what_the_file_would_do(name):
 
 @pytest.mark.proof
 @pytest.mark.parametrize("name", car_names())
-def test_a_parameter_does_what_the_file_would_do(name):
+def test_a_parameter_has_the_effect_of_the_file(name):
     car = load(name)
     wrong = wrong_parameters(name, [[path] for path in told(car) if path not in without_assistance(car)])
     assert not wrong, "\n".join(wrong)

@@ -181,7 +181,7 @@ def test_a_pressure_gives_the_torque_of_the_pedal_at_the_same_share() -> None:
     assert now["wheel_FL.brake_power"] == pytest.approx(now["wheel_FL.brake_torque"] * now["wheel_FL.omega"], rel=1e-2)
 
 
-def test_the_pedal_tells_the_pressure_that_gives_its_torque() -> None:
+def test_the_pedal_reports_the_pressure_of_its_torque() -> None:
     pedal = simulation(rigid, torque="half_shafts", full_pressure=8e6)
     port = simulation(rigid, torque="half_shafts", brakes="pressure", full_pressure=8e6)
     pedal.set_input("brake", 0.25)
@@ -197,7 +197,7 @@ def test_the_pedal_tells_the_pressure_that_gives_its_torque() -> None:
     assert "brake_pressure" not in port.sensors
 
 
-def test_a_torque_that_is_asked_for_tells_the_pressure_that_it_takes() -> None:
+def test_a_requested_torque_reports_its_pressure() -> None:
     """Of brakes as those of the car file, whose sides differ here: both cars brake alike."""
     result = {"brakes.side": 0.1, "ports.full_pressure": 8e6}
     cars = [hatchback().changed(result | {"ports.brakes": kind}) for kind in ("torque", "pressure")]
@@ -253,7 +253,7 @@ def test_the_rack_follows_its_port() -> None:
 
 
 @pytest.mark.slow
-def test_the_force_on_the_rack_is_that_of_its_work_where_the_demand_goes_on() -> None:
+def test_the_force_on_the_rack_is_that_of_its_work_for_a_continuous_demand() -> None:
     """To 1e-3 of the work; of held demands the follower makes jolts, which the force at the end of a step has too."""
     run = mbs.simulate(
         system(rigid, (("steering", "rack_position"),)),
@@ -316,7 +316,7 @@ def test_outputs_that_loops_need_agree_with_others() -> None:
     assert now["wheel_RL.My"] == pytest.approx(lever, abs=0.1 * abs(lever) + 1.0)
 
 
-def test_a_damper_tells_its_speed_and_force_apart_from_the_stops() -> None:
+def test_a_damper_reports_speed_and_force_without_the_stops() -> None:
     """In a fall that reaches both stops: c times the rate of its length; spring and stops have the rest."""
     rest = simulation(rigid, 0.0, torque="half_shafts").sensors
     s = mbs.Simulation(system(rigid, (("torque", "half_shafts"),)), pose=mbs.Pose(z=0.4))
@@ -388,7 +388,7 @@ def test_a_gear_that_is_asked_for_is_engaged_and_the_drive_shifts_by_itself_with
     assert [n for n in observation if n in sensors] == sensors
 
 
-def test_a_clutch_hands_on_what_its_pedal_leaves() -> None:
+def test_a_clutch_transmits_the_torque_of_its_pedal() -> None:
     """Released it changes no bit; pressed the car rolls as in neutral; between it has the torque that is left."""
     plain, ported = simulation(rigid, 3.0), simulation(rigid, 3.0, clutch="pedal")
     for s in (plain, ported):

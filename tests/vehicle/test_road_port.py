@@ -185,7 +185,7 @@ def test_a_car_climbs_an_edge_that_is_answered_as_a_kerb(h: float) -> None:
     assert other.sensors["energy.ground"] == 0.0
 
 
-def test_a_normal_that_is_none_is_refused() -> None:
+def test_an_invalid_normal_is_refused() -> None:
     s = mbs.Simulation(at_ports())
     for normal in ((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, 0.0, 0.5)):
         for c, value in zip("xyz", normal, strict=True):
@@ -234,7 +234,7 @@ def test_no_other_road_fits_and_the_own_one_is_left_out() -> None:
     ("first", "sentence"),
     [([1], "has 7; `road_answer` makes them"), ([], "must be a list of at least one number"), ([0.5], "whole number")],
 )
-def test_a_road_of_inputs_that_are_none_is_refused(first: list[float], sentence: str) -> None:
+def test_a_road_of_missing_inputs_is_refused(first: list[float], sentence: str) -> None:
     m = mbs.Model("answered")
     m.road_answer("road")
     with pytest.raises(mbs.ModelError, match=sentence):

@@ -236,7 +236,7 @@ def meets(start: np.ndarray, end: np.ndarray, triangles: np.ndarray) -> bool:
         ("hatchback", "clear", 3, 1),
     ],
 )
-def test_the_body_is_as_the_file_says(car: str, body: str, shell: int, tubes: int) -> None:
+def test_the_body_has_the_shape_of_the_file(car: str, body: str, shell: int, tubes: int) -> None:
     shapes = scene(car, body)["shapes"]
     meshes = [shape for shape in shapes if shape["kind"] == "mesh"]
     assert len(meshes) == shell

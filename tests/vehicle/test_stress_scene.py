@@ -97,7 +97,7 @@ def test_the_same_scene_gives_the_gauges_of_the_other_fidelities(
         )
 
 
-def test_a_rigid_chassis_has_the_same_outputs_and_says_that_nothing_is_computed(part: dict[str, Any]) -> None:
+def test_a_rigid_chassis_has_the_same_outputs_marked_as_not_computed(part: dict[str, Any]) -> None:
     """With amplitudes as outputs there is no model with ports that follows it."""
     run = kerb_run(0)
     assert part["computed"] == "stress.computed"

@@ -81,7 +81,7 @@ def test_the_validator_finds_nothing(tmp_path):
     assert [report["info"]["animationCount"] for report in reports] == [1, 1, 1, 1, 0, 0, 1, 1, 1, 1, 1, 1]
 
 
-def test_the_validator_finds_what_is_wrong(corner, tmp_path):
+def test_the_validator_finds_faults(corner, tmp_path):
     data = bytearray(corner.read_bytes())
     length = struct.unpack_from("<I", data, 12)[0]
     data[20 : 20 + length] = data[20 : 20 + length].replace(b'"VEC4"', b'"VEC5"')

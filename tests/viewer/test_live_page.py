@@ -282,9 +282,7 @@ def test_two_run_side_by_side_and_one_that_stops_does_not_stop_the_other(
 
 
 @pytest.mark.slow
-def test_an_fmu_that_cannot_begin_says_why_and_says_it_again_when_it_is_to_run(
-    reach: Path, chromium: Any, tmp_path: Path
-) -> None:
+def test_an_fmu_that_cannot_start_is_reported_at_each_attempt(reach: Path, chromium: Any, tmp_path: Path) -> None:
     """One starts outside of the reach of its cable, the binary of the other is none."""
     far = written([reach], tmp_path / "far", "--set", "pull=9")
     text = written([reach], tmp_path / "binary").read_text(encoding="utf-8")
@@ -301,7 +299,7 @@ def test_an_fmu_that_cannot_begin_says_why_and_says_it_again_when_it_is_to_run(
 
 
 @pytest.mark.proof  # as `live.test.js` has it
-def test_a_browser_that_lacks_a_part_says_so(reach: Path, chromium: Any, tmp_path: Path) -> None:
+def test_a_browser_that_lacks_a_feature_is_reported(reach: Path, chromium: Any, tmp_path: Path) -> None:
     file = written([reach], tmp_path)
     for missing, script in (
         ("WebAssembly", "delete window.WebAssembly;"),

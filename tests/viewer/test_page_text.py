@@ -168,7 +168,7 @@ def test_a_page_has_as_many_times_as_were_asked_for(most: int, tmp_path: Path) -
         ({"theme": "blue"}, "must be 'auto', 'light' or 'dark'"),
     ],
 )
-def test_options_that_are_none(options: dict[str, Any], sentence: str) -> None:
+def test_invalid_options_are_refused(options: dict[str, Any], sentence: str) -> None:
     with pytest.raises(ViewerError, match=re.escape(sentence)):
         page_html(crank(TIMES), options=options)
 

@@ -223,7 +223,7 @@ def test_the_path_has_no_gaps_however_far_the_eye_is(opened: Callable[..., Opene
     assert (below[..., 0] - below[..., 2]).max() < 30  # the ground is grey
 
 
-def test_the_camera_beside_the_track_looks_at_what_moves_past(seen: Opened) -> None:
+def test_the_camera_beside_the_track_follows_passing_bodies(seen: Opened) -> None:
     seen("() => window.player.camera('trackside')")
     eyes = []
     for t in (1.0, 1.05):
@@ -311,7 +311,7 @@ def test_a_flexible_ghost_is_drawn_where_it_bends_otherwise_only(opened: Callabl
     assert is_magenta(*both.picture()[y, x])
 
 
-def test_a_picture_of_two_runs_tells_whose_colour_is_whose(opened: Callable[..., Opened]) -> None:
+def test_a_picture_of_two_runs_has_a_legend_of_colours(opened: Callable[..., Opened]) -> None:
     """As pictures and films are made, without controls; a picture of one run has no names."""
     ghost = run("two")
     ghost.columns["body.y"] += 1.5

@@ -155,7 +155,7 @@ def test_it_plays_in_time_and_stops_at_the_key(pair: Opened) -> None:
     pair("player.speed(1)")
 
 
-def test_where_pictures_take_long_there_are_fewer_and_time_goes_on(pair: Opened) -> None:
+def test_slow_pictures_reduce_the_frame_rate_and_not_the_speed_of_time(pair: Opened) -> None:
     """Ten pictures of at least 150 ms: the run goes on by the clock, at its speed, within one picture."""
     pair("player.speed(0.2)")
     passed, shown, longest = pair(
@@ -197,7 +197,7 @@ def test_the_difference_of_runs(pair: Opened) -> None:
     assert count == 3
 
 
-def test_the_settings_show_what_is_set_by_keys_and_programs(opened: Callable[..., Opened]) -> None:
+def test_the_settings_show_values_set_by_keys_and_programs(opened: Callable[..., Opened]) -> None:
     page = opened(crank(TIMES), arrows=False)
     page.page.locator(".a3-bar button", has_text="settings").click()
     box = page.page.locator(".a3-panel input[type=checkbox]").first
@@ -246,7 +246,7 @@ def test_signals_are_searched_and_chosen(pair: Opened) -> None:
     pair("document.activeElement.blur()")
 
 
-def test_the_address_names_what_is_shown(opened: Callable[..., Opened]) -> None:
+def test_the_address_names_the_displayed_state(opened: Callable[..., Opened]) -> None:
     page = opened(crank(TIMES), hash_text="#t=1.5&plots=fx&speed=0.5")
     assert page("player.time") == 1.5
     assert page("player.source.speed") == 0.5
@@ -326,7 +326,7 @@ def test_a_result_without_a_scene_has_its_diagrams(opened: Callable[..., Opened]
     assert page.said == []
 
 
-def test_a_result_without_columns_says_that_there_are_no_signals(opened: Callable[..., Opened]) -> None:
+def test_a_result_without_columns_reports_that_there_are_no_signals(opened: Callable[..., Opened]) -> None:
     page = opened(Recording(None, TIMES, {}, name="empty"))
     assert page.page.inner_text(".a3-list") == "there are no signals"
     assert page.said == []

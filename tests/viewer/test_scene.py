@@ -49,7 +49,7 @@ NEEDED |= {(("scenery", k), "at") for k in (1, 2, 3, 5, 6, 7)} | {(("scenery", 2
 NEEDED |= {(("arrows", k), "name") for k in range(3)} | {((), "name"), (("arrows", 2, "tyre"), "axis")}
 
 
-def test_a_scene_with_one_of_each_is_good_and_the_schema_says_so() -> None:
+def test_a_scene_with_one_of_each_is_valid_by_types_and_schema() -> None:
     assert scene_errors(everything()) == []
     VALIDATOR.validate(everything())
 

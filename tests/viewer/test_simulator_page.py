@@ -130,7 +130,7 @@ def test_a_broken_wire_is_reported_and_mended_and_a_world_that_comes_then_is_no_
 
 
 @pytest.mark.slow
-def test_the_car_is_where_its_frame_says_in_every_camera(chromium: Any, lane_change: Recording) -> None:
+def test_the_car_is_drawn_at_its_frame_in_every_camera(chromium: Any, lane_change: Recording) -> None:
     """Points inside the wheels, which are magenta here."""
     scene = dict(lane_change.scene or {})
     scene["shapes"] = [s | {"color": "#ff00ff", "material": "plastic"} for s in scene["shapes"] if s["kind"] == "wheel"]

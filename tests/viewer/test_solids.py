@@ -166,7 +166,7 @@ def test_rods_of_a_damper_keep_their_length(written: WrittenGltf, parts: list[Pa
         assert np.abs(np.cross(found[:, :3, 3] - begin, along)).max() < 1e-6
 
 
-def test_a_plate_that_bends_keeps_its_form_and_says_so(written: WrittenGltf) -> None:
+def test_a_bending_plate_keeps_its_form_and_is_reported(written: WrittenGltf) -> None:
     (note,) = (note for note in written.notes if "form" in note)
     corners = np.stack([POSES.points(anchor) for anchor in MIXED], axis=1)
     apart = np.linalg.norm(corners[:, 2] - corners[:, 0], axis=1)

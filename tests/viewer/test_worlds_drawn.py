@@ -56,7 +56,7 @@ def stripes() -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("quality", ["medium", pytest.param("high", marks=pytest.mark.proof)])
-def test_each_surface_has_its_colour_and_what_is_wet_mirrors_the_sky(drawn, quality):
+def test_each_surface_has_its_colour_and_wet_ones_mirror_the_sky(drawn, quality):
     drawn.show(world(roads=[stripes()], extent=62.0), at(0, 0, 0), camera="top", quality=quality)
     picture = drawn.picture()
     seen = {name: around(picture, drawn.project((0.0, 10.0 * k - 35.0, 0.0)), 5) for k, name in enumerate(NAMES)}
@@ -100,7 +100,7 @@ def test_a_road_that_is_slick_everywhere_is_drawn_wet_or_as_ice(drawn, quality):
     assert (brightness > 1.0) == (quality == "high"), brightness
 
 
-def test_the_border_of_a_grid_goes_on_before_it_as_road_and_beside_it_as_grass(drawn):
+def test_the_border_of_a_grid_continues_before_it_as_road_and_beside_it_as_grass(drawn):
     """At its height, 2 m: of a ball below it nothing is seen, of one that lies on it the upper half."""
     grid = {"kind": "grid", "origin": [5, -3], "spacing": [10, 6], "shape": [3, 2], "heights": floats(np.full(6, 2.0))}
     result = world(roads=[grid], shapes=[ball(radius=0.5)], extent=12.0)
@@ -270,7 +270,7 @@ def test_far_away_a_world_is_drawn_the_same(drawn):
     assert np.abs(drawn.picture() - far).mean() < 1.0
 
 
-def test_beyond_a_world_its_border_goes_on(drawn):
+def test_beyond_a_world_its_border_continues(drawn):
     drawn.show(world(shapes=[ball(radius=0.3)], extent=1.5), at(9e4, -7e4, 0.0), camera="side")
     r, g, b = np.moveaxis(drawn.picture(), 2, 0)
     assert np.median(g[140:]) > np.median(b[140:]) * 1.2  # grass

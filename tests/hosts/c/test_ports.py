@@ -37,7 +37,7 @@ def table() -> dict[str, np.ndarray]:
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("c++") is None, reason="there is no c++")
-def test_outputs_have_the_bits_of_fmpy_and_silence_is_reported_in_its_words(tmp_path: Path) -> None:
+def test_outputs_and_warnings_of_silent_ports_are_those_of_fmpy(tmp_path: Path) -> None:
     """From the 200th of 600 steps on nobody sets anything, which is told after half a second."""
     path, columns = car_fmu("hatchback", "torque,road,forces"), table()
     rows = np.column_stack(list(columns.values()))

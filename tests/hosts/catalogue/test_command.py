@@ -124,7 +124,7 @@ def test_the_list_has_all_tests_with_their_settings(capsys: pytest.CaptureFixtur
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
 @pytest.mark.slow
-def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> None:
+def test_ctrl_c_keeps_the_written_files(prototype_fmu: Path, tmp_path: Path) -> None:
     """The drop is soon done, the circle goes on for minutes; then Ctrl-C."""
     out, pipe = tmp_path / "out", subprocess.PIPE
     slow = ["--tests", "drop,steady_circle", "--test-setting", "steady_circle.speed_rise=0.02", "--jobs", "2"]

@@ -48,7 +48,7 @@ def test_wheels_droop_in_the_air_and_touch_before_a_point_would(fallen: TestReco
     assert 0.05 < measured["rebound.height"] < 0.5
 
 
-def test_a_fall_that_is_too_short_to_settle_says_so(prototype: TestedCar) -> None:
+def test_a_fall_too_short_to_settle_is_reported(prototype: TestedCar) -> None:
     record = perform(standard_test("drop"), prototype, {"duration": 1.0})
     error = next(m for m in record.measures if m.name == "rest.load_error")
     assert math.isnan(error.value)

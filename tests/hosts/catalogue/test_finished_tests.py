@@ -25,7 +25,7 @@ def kept(task: Task, out: Path) -> TestRecord | None:
 
 
 @pytest.mark.slow
-def test_what_is_kept_is_what_was_done(
+def test_kept_records_are_those_of_the_runs(
     prototype_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     drop = standard_test("drop")

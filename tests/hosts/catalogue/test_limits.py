@@ -109,7 +109,7 @@ def test_a_file_without_limits_is_one_sentence(tmp_path: Path, text: str, messag
     assert "\n" not in str(refusal.value)
 
 
-def test_the_command_says_which_measure_is_outside(
+def test_the_command_names_the_measure_outside_its_limits(
     prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     task = Task(

@@ -31,7 +31,7 @@ TALKING = StandardTest(
 )  # fmt: skip
 
 
-def test_what_the_fmu_says_is_noted_once() -> None:
+def test_messages_of_the_fmu_are_noted_once() -> None:
     record = perform(TALKING, BicycleCar())
     assert record.notes == [
         "Noted.",

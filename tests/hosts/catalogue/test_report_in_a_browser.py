@@ -30,7 +30,7 @@ def seen(tmp_path_factory):
         yield pages, messages, requested
 
 
-def test_it_opens_without_a_word_and_loads_nothing(seen):
+def test_it_opens_without_console_messages_and_loads_nothing(seen):
     _, messages, requested = seen
     assert messages == []
     assert {url.partition(":")[0] for url in requested} <= {"file", "data"}

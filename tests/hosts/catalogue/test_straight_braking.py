@@ -100,7 +100,7 @@ def test_a_car_too_weak_for_the_speed_is_reported(prototype: TestedCar) -> None:
     assert all(math.isnan(m.value) and m.note for m in record.measures if "stopping" in m.name)
 
 
-def test_a_car_that_tells_its_speed_only() -> None:
+def test_a_car_with_speed_as_its_only_output() -> None:
     time = np.arange(0.0, 6.0, 0.01)
     speed = np.clip(20.0 - 5.0 * (time - 1.0), 0.0, 20.0)
     result = Result(["speed"], {"speed": "m/s"}, time, speed[:, None], 0.0, 6.0, 0, [])

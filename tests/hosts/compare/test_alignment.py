@@ -95,7 +95,7 @@ def test_a_delay_that_cannot_be_determined_is_reported(curve: Curve) -> None:
 
 
 @pytest.mark.parametrize("bend", [0.0, 1e-3])
-def test_a_log_too_short_and_straight_tells_no_delay(bend: float) -> None:
+def test_a_short_and_straight_log_gives_no_delay(bend: float) -> None:
     """The rest of another start is enough to move the best delay by samples: of 0.3 s it is none of the log."""
     t = np.arange(0.0, 0.295, 0.01)
     curve = simulated(20.0 - 0.5 * t + 0.1 * t**2, t)

@@ -131,7 +131,7 @@ def test_the_same_car_at_another_step_is_the_same(car: Path, tmp_path: Path) -> 
         ("ay", ["'ay' (chassis.ay) has the opposite sign of the simulation"]),
     ],
 )
-def test_what_is_turned_is_reported_and_not_what_it_moves(
+def test_an_inverted_input_is_reported_and_not_the_outputs(
     car: Path, tmp_path: Path, column: str, reported: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     log = logged(car, tmp_path, {"initial.speed": 15.0})

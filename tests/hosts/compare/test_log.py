@@ -50,7 +50,7 @@ def test_names_of_the_fmu_need_no_aliases(fmu: NamedFmu, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize(("used", "reported"), [((), 1), (("bob.x",), 1), (("speed",), 0)])
-def test_a_sample_left_out_is_reported_of_what_is_used(
+def test_an_omitted_sample_is_reported_for_used_signals(
     fmu: NamedFmu, tmp_path: Path, used: tuple[str, ...], reported: int
 ) -> None:
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012", "0.12,6.0,9.9")

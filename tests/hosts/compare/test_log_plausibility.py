@@ -123,7 +123,7 @@ PLANTED = {
 
 
 @pytest.mark.parametrize("case", PLANTED)
-def test_a_mistake_is_reported_with_what_would_mend_it(case: str) -> None:
+def test_a_mistake_is_reported_with_its_correction(case: str) -> None:
     change, message = PLANTED[case]
     warnings = log_plausibility("log.csv", change(drive(len(case)))).warnings()
     assert any(message in sentence for sentence in warnings), warnings
@@ -203,7 +203,7 @@ def test_peaks_that_are_rounded_are_no_range_that_a_sensor_reaches(step: float) 
         assert "offset" not in warning, "it would make the ends unlike, and mend nothing"
 
 
-def test_the_steering_wheel_tells_the_sign_of_the_yaw_rate_and_no_factor() -> None:
+def test_the_steering_wheel_determines_the_sign_of_the_yaw_rate_and_no_factor() -> None:
     result = {n: s for n, s in drive().items() if n in ("speed", "chassis.wz")}
     wz = result["chassis.wz"]
     turn = replace(wz, name="steering_wheel_angle", source="wheel", unit="rad", values=12.0 * wz.values)

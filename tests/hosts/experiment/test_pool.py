@@ -60,7 +60,7 @@ def driven(task: Path, tell: Tell) -> int:
         return len(run(fmu, Manoeuvre("slow", np.zeros(0), {}, 0.3), 0.01, Slow()).time)
 
 
-def test_a_run_that_goes_on_is_alive_however_long_it_takes(scene_fmu: Callable[..., Path]) -> None:
+def test_a_long_run_that_makes_progress_is_not_ended(scene_fmu: Callable[..., Path]) -> None:
     """A test of a slow FMU was ended, because it told its progress after each of its runs alone."""
     fmu = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:tuned")
     pool: Pool[Path, int] = Pool(driven, int, reads=[fmu], limit=1.5)

@@ -81,7 +81,7 @@ def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS, indirect=True)
-def test_each_port_tells_once_that_it_is_silent_or_no_number(ported: Path) -> None:
+def test_each_silent_or_non_finite_port_is_reported_once(ported: Path) -> None:
     with Car(ported, step=0.002) as car:
         ports = ports_of(car)
         for port in ports:
@@ -190,7 +190,7 @@ def test_a_whole_number_is_set_where_it_changes_alone(ported: Path, silent: str,
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS[1:2], indirect=True)
-def test_a_wheel_in_the_air_and_a_car_that_stood_for_long_are_not_told(ported: Path) -> None:
+def test_a_wheel_in_the_air_and_a_standing_car_cause_no_warning(ported: Path) -> None:
     """Tyres in the air have no force, and those of a car that stands stay as they are: 2 m are not far."""
     with Car(ported, step=0.002) as car:
         for speed, load, steps in ((25.0, 0.0, 300), (0.0, 3065.0, 2900)):
@@ -214,7 +214,7 @@ def test_a_wheel_in_the_air_and_a_car_that_stood_for_long_are_not_told(ported: P
     ],
     indirect=["ported"],
 )
-def test_a_normal_that_is_none_is_a_sentence_at_each_wheel(ported: Path, normal: tuple[float, ...]) -> None:
+def test_an_invalid_normal_is_reported_at_each_wheel(ported: Path, normal: tuple[float, ...]) -> None:
     with Car(ported, step=0.004) as car:
         for wheel in WHEELS:
             car.reset(**{"initial.speed": 10.0})

@@ -193,7 +193,7 @@ def test_a_start_that_there_is_not_is_one_sentence_and_no_start(
     assert car.read(("speed",)) == pytest.approx(15.0, abs=0.01)
 
 
-def test_a_car_without_a_start_or_closed_says_so(rigid_fmu: Path) -> None:
+def test_a_car_without_a_start_or_closed_is_refused(rigid_fmu: Path) -> None:
     car = Car(rigid_fmu, inputs=INPUTS)
     uses = (lambda: car.step([0.0, 0.0]), lambda: car.read(READS), car.save)
     for use in uses:

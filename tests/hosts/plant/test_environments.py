@@ -47,7 +47,7 @@ def test_several_run_beside_each_other(rigid_fmu: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_driver_keeps_the_lane_and_none_leaves_it(rigid_fmu: Path) -> None:
+def test_the_driver_keeps_the_lane_and_zero_steering_leaves_it(rigid_fmu: Path) -> None:
     ends = {}
     for gain in (1.0, 0.0):
         keeping = environments.LaneKeeping(str(rigid_fmu), speed=(12.0, 12.0), seconds=12.0)
@@ -62,7 +62,7 @@ def test_a_driver_keeps_the_lane_and_none_leaves_it(rigid_fmu: Path) -> None:
     assert ends == {1.0: False, 0.0: True}
 
 
-def test_an_action_that_is_none_is_refused_and_changes_nothing(braked_fmu: Path, rigid_fmu: Path) -> None:
+def test_an_invalid_action_is_refused_and_changes_nothing(braked_fmu: Path, rigid_fmu: Path) -> None:
     """Ports hold their last values and a car takes the first of several, which a policy that learns would not know."""
     for make, path in ((environments.AntiLockBraking, braked_fmu), (environments.LaneKeeping, rigid_fmu)):
         with closing(make(str(path))) as env:

@@ -97,7 +97,7 @@ def test_steps_are_under_way_at_once(rigid_fmu: Path) -> None:
     result.close()
 
 
-def test_threads_that_are_none_are_a_sentence(rigid_fmu: Path) -> None:
+def test_an_invalid_number_of_threads_is_refused_in_one_sentence(rigid_fmu: Path) -> None:
     for threads in (0, -1, 1.5):
         with pytest.raises(HostError, match="whole number from 1"):
             gymnasium.make_vec(LANE, 2, threads=threads, car=str(rigid_fmu))

@@ -98,7 +98,7 @@ def pid_of(car: Car) -> int:
     return car._process.pid
 
 
-def test_it_begins_paused_and_tells_what_it_is(make: Made) -> None:
+def test_it_begins_paused_and_describes_itself(make: Made) -> None:
     car = make(start={"initial.speed": 10.0})
     assert car.inputs == ("steering", "throttle", "brake")
     assert car.names[:4] == ("steering", "throttle", "brake", "chassis.x")
@@ -381,7 +381,7 @@ def test_an_fmu_that_refuses_its_start_leaves_no_process(fmu: Callable[[str], Pa
     assert set(multiprocessing.active_children()) == before
 
 
-def test_wants_and_commands_that_are_none(make: Made) -> None:
+def test_invalid_requests_and_commands_are_refused(make: Made) -> None:
     car = make()
     for values, sentence in (
         ({"wings": (1.0, 1.0)}, "no input 'wings'; it has: steering, throttle, brake"),

@@ -150,7 +150,7 @@ def test_unpaced_the_car_waits_for_a_slow_recorder(
     assert not [e for e in car.events() if e.kind == "overflow"]
 
 
-def test_paced_it_does_not_wait_and_counts_what_is_lost(
+def test_in_real_time_it_does_not_wait_and_counts_lost_rows(
     fmu: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(car_module, "_LEAST_ROWS", 16)

@@ -43,7 +43,7 @@ def test_capped_steps_are_summed_over_a_second(clock: Any, times: TimesRecord) -
     assert (times["capped"], times["capped_largest"]) == (100.0, pytest.approx(1.1e-3))
 
 
-def test_small_residuals_are_counted_and_not_said(clock: Any, times: TimesRecord) -> None:
+def test_small_residuals_are_counted_and_not_reported(clock: Any, times: TimesRecord) -> None:
     notices, car = Notices(NAMES, clock, times), Steps()
     for k in range(1, 2001):
         clock.work(0.002)
@@ -57,7 +57,7 @@ def test_small_residuals_are_counted_and_not_said(clock: Any, times: TimesRecord
     assert "4001 inner steps" in notices.of_step(car)[0].text
 
 
-def test_a_count_that_starts_anew_is_not_a_step(clock: Any, times: TimesRecord) -> None:
+def test_a_restarted_count_is_not_a_step(clock: Any, times: TimesRecord) -> None:
     notices, car = Notices(NAMES, clock, times), Steps()
     car.values[1:] = 900.0, 1e-3  # after a rewind over a reset
     notices.jumped(car)

@@ -144,7 +144,7 @@ def test_without_pyarrow_the_table_is_text_and_that_is_reported(
 
 
 @pytest.mark.slow
-def test_bad_recordings_are_refused_in_words(fmus: dict[str, Path], tmp_path: Path) -> None:
+def test_invalid_recordings_are_refused_with_a_message(fmus: dict[str, Path], tmp_path: Path) -> None:
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     meta = json.loads((folder / "recording.json").read_text())
 
@@ -221,7 +221,7 @@ def _with_a_gap(fmu: Path, folder: Path) -> RecordedDrive:
     return read_recording(folder)
 
 
-def test_a_view_tells_of_rows_that_are_missing(fmus: dict[str, Path], tmp_path: Path) -> None:
+def test_a_view_reports_missing_rows(fmus: dict[str, Path], tmp_path: Path) -> None:
     step = _with_a_gap(fmus["sledge"], tmp_path / "drive").step
     _, sentences = recorded_view(tmp_path / "drive", "drive")
     gap = f"first from {10 * step:g} s to {14 * step:g} s"

@@ -104,7 +104,7 @@ def test_the_runs_of_signals_that_have_gone_are_made_again(
     assert not (folder / "done").exists()
 
 
-def test_a_study_that_goes_on_reads_each_part_once(
+def test_a_resumed_study_reads_each_part_once(
     study_file: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file, folder = study_file(more=SIGNALS), tmp_path / "out"

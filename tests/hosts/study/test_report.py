@@ -84,7 +84,7 @@ def test_nothing_is_written_through_a_link(frame: pd.DataFrame, tmp_path: Path) 
     assert [file.name for file in folder.iterdir()] == ["report.html"]
 
 
-def test_half_a_study_says_so(frame: pd.DataFrame, tmp_path: Path) -> None:
+def test_the_report_of_an_incomplete_study_says_so(frame: pd.DataFrame, tmp_path: Path) -> None:
     half = frame.iloc[:60]
     half.attrs = frame.attrs
     text = report_of(half, tmp_path, commands)[0].read_text(encoding="utf-8")

@@ -43,7 +43,7 @@ def test_the_slope_is_that_of_a_run_beside_it(top: float, law: Callable[[float],
     assert abs(actual.between[1] - actual.between[0]) == pytest.approx(0.01 * actual.between[0])
 
 
-def test_what_is_far_off_is_not_what_a_change_is_measured_by() -> None:
+def test_a_far_target_does_not_hide_the_slope_of_a_measure() -> None:
     """A thousandth of what is wanted is more than all that the measure changes by."""
     far = sought(lambda x: 9.0 + x, 1e4, 0.0, 1.0)
     assert (far.met, far.rises, far.falls) == (False, True, False)

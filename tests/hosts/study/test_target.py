@@ -163,7 +163,7 @@ def test_what_is_no_real_number_is_not_sought(
     assert f"--by spring.stiffness: {message}" in capsys.readouterr().err
 
 
-def test_a_range_that_is_open_above_is_none(
+def test_a_range_without_an_upper_end_is_refused(
     seek: Callable[..., int], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = Variables.settable

@@ -104,7 +104,7 @@ def test_after_a_refused_step_all_parts_are_where_they_were(partners: dict[str, 
         assert system.read(("mass.position",)) == undisturbed[-1]
 
 
-def test_a_system_that_cannot_go_back_says_so_and_starts_again(partners: dict[str, Path]) -> None:
+def test_a_system_that_cannot_repeat_a_step_reports_it_and_restarts(partners: dict[str, Path]) -> None:
     parts = {"mass": partners["half_mass"], "source": partners["stateless"]}
     with CoupledFmus(parts, CHAIN, step=0.1) as system:
         with pytest.raises(HostError, match="must be initialised before a step"):
@@ -253,7 +253,7 @@ def test_the_stored_distance_is_that_of_steps_of_a_tenth_of_a_millisecond() -> N
 
 
 @pytest.mark.slow
-def test_gears_that_another_program_asks_for_are_held_whatever_other_inputs_do() -> None:
+def test_gears_requested_by_another_program_are_held_for_all_kinds_of_inputs() -> None:
     """A whole number has no derivative; against steps of 1 ms the distance is the nearer the shorter the step."""
     late = [abs(distance_with_shifts(h) / distance_with_shifts(0.001) - 1.0) for h in (0.002, 0.01)]
     assert 1e-6 < late[0] < 1e-4
@@ -389,7 +389,7 @@ def test_the_car_behind_keeps_its_distance_when_the_one_ahead_brakes() -> None:
 
 
 @pytest.mark.slow
-def test_the_code_of_the_page_stops_where_it_says(tmp_path: Path) -> None:
+def test_the_code_of_the_page_stops_at_its_stated_position(tmp_path: Path) -> None:
     root = Path(__file__).parents[3]
     page = (root / "docs" / "systems.md").read_text(encoding="utf-8")
     code = page.split("```python\n")[1].split("```")[0]

@@ -28,7 +28,7 @@ def halves(partners: dict[str, Path]) -> dict[str, Path]:
     return {"mass": partners["half_mass"], "spring": partners["half_spring"]}
 
 
-def test_fmpy_reads_what_was_wired(partners: dict[str, Path], tmp_path: Path) -> None:
+def test_fmpy_reads_the_connections(partners: dict[str, Path], tmp_path: Path) -> None:
     file = write_ssp(tmp_path / "oscillator.ssp", halves(partners), WIRES, {"mass.start": 0.5})
     system = fmpy.ssp.ssd.read_ssd(str(file)).system
     assert [c.name for c in system.elements] == ["mass", "spring"]

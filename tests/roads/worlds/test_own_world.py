@@ -337,7 +337,7 @@ def test_a_cache_that_cannot_be_written_is_reported(tmp_path, monkeypatch, capsy
 
 
 @pytest.mark.slow
-def test_a_thin_world_is_off_by_what_it_says(folder, own_cache, tmp_path, capsys):
+def test_a_thinned_world_deviates_by_its_stated_error(folder, own_cache, tmp_path, capsys):
     results = {}
     for kind, more in (("whole", []), ("thin", ["--thin"])):
         assert main(["--world", str(folder / "mine.toml"), "--out", str(tmp_path / kind), *more]) == 0

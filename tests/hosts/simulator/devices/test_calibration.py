@@ -55,7 +55,7 @@ class Person:
     st.floats(0.5, 1.0),
     st.booleans(),
 )
-def test_everything_is_found_whatever_way_the_device_counts(left, right, rest, mirrored, up, down, pressed_is_low):
+def test_axes_are_found_for_both_directions_of_counting(left, right, rest, mirrored, up, down, pressed_is_low):
     sign, press = (-1.0 if mirrored else 1.0), (-1.0 if pressed_is_low else 1.0)
     person = Person(WHEEL_AND_PEDALS, sign * rest, press * up, -1.0)
     person.move(0, sign * left, sign * right, sign * rest)
@@ -98,7 +98,7 @@ def test_it_waits_until_everything_is_let_go():
     assert "fully to the left" in calibration.words
 
 
-def test_an_axis_that_told_nothing_until_it_was_touched_rests_where_it_begins():
+def test_an_axis_without_an_initial_state_rests_at_its_first_value():
     calibration, known = Calibration(mapped(throttle=InputMapping("axis 0"))), (False,)
     for k in range(300):
         calibration.feed(0.004 * k, at(0.0, known=known))

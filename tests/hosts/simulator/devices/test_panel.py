@@ -160,7 +160,7 @@ def test_an_input_is_assigned_by_move_it_now(panel, start, wheel):
     assert panel.at("moving").count() == 0
 
 
-def test_a_calibration_is_led_by_words_and_kept(panel, start, wheel):
+def test_a_calibration_is_guided_by_texts_and_stored(panel, start, wheel):
     panel.run = start()
     panel.show()
     panel.at("calibrate").click()
