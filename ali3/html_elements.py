@@ -58,12 +58,12 @@ def table(
     return element("div", content, class_="wide", tabindex=0, **named)
 
 
-def picture(drawn: Drawing) -> HtmlElement:
+def picture(drawing: Drawing) -> HtmlElement:
     """A drawing within the page, with what it shows in words."""
-    source = f"data:image/svg+xml;base64,{base64.b64encode(drawn.svg).decode('ascii')}"
-    width, height = map(str, drawn.size)
+    source = f"data:image/svg+xml;base64,{base64.b64encode(drawing.svg).decode('ascii')}"
+    width, height = map(str, drawing.size)
     # With its size a page that has not drawn it yet keeps its place: a link to what stands below ends there.
-    image = element("img", alt=drawn.words, src=source, width=width, height=height, loading="lazy")
+    image = element("img", alt=drawing.words, src=source, width=width, height=height, loading="lazy")
     return element("figure", image, class_="plot")
 
 

@@ -31,8 +31,8 @@ class Parser(argparse.ArgumentParser):
 
     def _near(self, word: str) -> list[str]:
         """Long options that a word is like."""
-        known = [name for name in self._option_string_actions if name.startswith("--")]
-        return near_names(word.partition("=")[0], known, 1, 0.7)
+        options = [name for name in self._option_string_actions if name.startswith("--")]
+        return near_names(word.partition("=")[0], options, 1, 0.7)
 
     def error(self, message: str) -> NoReturn:
         """End the program with a message."""

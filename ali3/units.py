@@ -144,9 +144,9 @@ def _named(unit: str) -> str:
 
 
 def _scale(unit: str) -> float:
-    known = known_unit(unit)
-    assert known is not None
-    return known.factor
+    definition = known_unit(unit)
+    assert definition is not None
+    return definition.factor
 
 
 def typeset(unit: str) -> str:

@@ -169,13 +169,13 @@ class Recording:
                 return f"the result has no column '{name}'"
             return f"the column '{name}' holds no number" if name in empty else None
 
-        drawn, why = drawable(scene, fault)
+        drawable_scene, why = drawable(scene, fault)
         self.missing = [dict(item) for item in scene.get("missing", [])]
         self.missing += [{"name": name, "why": reason} for name, reason in why.items()]
-        frames = {key: self._started(frame) for key, frame in drawn["frames"].items()}
-        self.scene = drawn | {"frames": frames, "missing": self.missing}
-        self._note_gaps(name for name in pose_columns(drawn))
-        for frame in drawn["frames"].values():
+        frames = {key: self._started(frame) for key, frame in drawable_scene["frames"].items()}
+        self.scene = drawable_scene | {"frames": frames, "missing": self.missing}
+        self._note_gaps(name for name in pose_columns(drawable_scene))
+        for frame in drawable_scene["frames"].values():
             if "angle" in frame:
                 self._unwrap(frame["angle"])
 

@@ -109,7 +109,7 @@ def _native(fmu: Path, folder: Path) -> Measure:
 
     def measure(plan: Mapping[str, Any]) -> dict[str, Any]:
         inputs = [variables[n].valueReference for n in plan["inputs"]]
-        known, put = (fmi2ValueReference * len(inputs))(*inputs), (fmi2Real * len(inputs))(*plan["values"])
+        input_references, put = (fmi2ValueReference * len(inputs))(*inputs), (fmi2Real * len(inputs))(*plan["values"])
         c = slave.component
 
         def start() -> None:
@@ -124,7 +124,7 @@ def _native(fmu: Path, folder: Path) -> Measure:
             plan,
             start,
             lambda t, h: slave.fmi2DoStep(c, t, h, 1),
-            lambda: slave.fmi2SetReal(c, known, len(inputs), put),
+            lambda: slave.fmi2SetReal(c, input_references, len(inputs), put),
             lambda: slave.fmi2GetReal(c, references, len(outputs), values),
         )
         return result | {"end": values[0]}
@@ -142,7 +142,7 @@ def _wasmtime(fmu: Path) -> Measure:
 
     def measure(plan: Mapping[str, Any]) -> dict[str, Any]:
         inputs = [variables[n].valueReference for n in plan["inputs"]]
-        known = module.block(struct.pack(f"<{len(inputs)}I", *inputs))
+        input_references = module.block(struct.pack(f"<{len(inputs)}I", *inputs))
         put = module.block(struct.pack(f"<{len(inputs)}d", *plan["values"]))
 
         def start() -> None:
@@ -157,7 +157,7 @@ def _wasmtime(fmu: Path) -> Measure:
             plan,
             start,
             lambda t, h: do_step(t, h, 1),
-            lambda: set_real(known, len(inputs), put),
+            lambda: set_real(input_references, len(inputs), put),
             lambda: get_real(references, len(outputs), values),
         )
         return result | {"end": struct.unpack("<d", module.bytes_at(values, 8))[0]}

@@ -136,11 +136,11 @@ def _drift(t: Array, v: Array) -> PchipInterpolator:
     return PchipInterpolator(knots, [v[0], *(float(v[w].mean()) for w in windows), v[-1]])
 
 
-def driven(found: Motion, settings: Settings | None = None) -> Trajectory:
+def driven(guide_motion: Motion, settings: Settings | None = None) -> Trajectory:
     """The kerb test in its own steps, the chassis guided by a motion."""
 
     def guide(m: Model, start: float) -> Guide:
-        pieces = PPoly(found.guide.c.copy(), found.guide.x)
+        pieces = PPoly(guide_motion.guide.c.copy(), guide_motion.guide.x)
         pieces.c[-1] += start
         return m.guide_time("way of the chassis", pieces, unit="m")
 
@@ -223,17 +223,17 @@ def row(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int]) ->
     results = []
     for seed in seeds:
         signals = measured(true, seed=seed, **options)
-        found = motion(signals.filtered(frequency) if frequency else signals, float(x[-1]))
-        run = driven(found)
+        guide_motion = motion(signals.filtered(frequency) if frequency else signals, float(x[-1]))
+        run = driven(guide_motion)
         got = moments(run)
         later, off = shifted(reference, got)
         peaks = np.abs(got).max(axis=0) / np.abs(reference).max(axis=0) - 1.0
         results.append(
             {
-                "way, m": _rms(found.way - x),
-                "speed, m/s": _rms(found.speed - np.gradient(x, found.time)),
-                "heave, m": _rms(found.heave - z),
-                "pitch, deg": float(np.degrees(_rms(found.pitch - pitch))),
+                "way, m": _rms(guide_motion.way - x),
+                "speed, m/s": _rms(guide_motion.speed - np.gradient(x, guide_motion.time)),
+                "heave, m": _rms(guide_motion.heave - z),
+                "pitch, deg": float(np.degrees(_rms(guide_motion.pitch - pitch))),
                 **cost(run),
                 "later, s": later * kerb_test.STEP,
                 "moments, %": 100.0 * off,
@@ -266,15 +266,15 @@ def draw(file: Path) -> None:
     plt = pyplot()
     true, plain = smooth(), simulate(compile(kerb_test.build()), kerb_test.DURATION, kerb_test.STEP)
     signals = measured(true)
-    found = motion(signals, float(true["chassis.x"][-1] - true["chassis.x"][0]))
-    run = driven(found)
+    guide_motion = motion(signals, float(true["chassis.x"][-1] - true["chassis.x"][0]))
+    run = driven(guide_motion)
     shown = [k for k, name in enumerate(MOMENTS) if name.endswith(("SG1", "SG3"))]
     figure, parts = plt.subplots(2 + len(shown), 1, figsize=(9.0, 8.4), sharex=True, layout="constrained")
     parts[0].plot(signals.time, signals.force[:, 0, 0], color=_SIGNAL, linewidth=0.6, label="accelerometer FL, along")
     parts[0].plot(signals.time, np.gradient(kerb_test.speed(signals.time), signals.time), color=_SMOOTH, label="smooth")
     parts[0].set_ylabel("m/s²")
-    parts[1].plot(found.time, kerb_test.speed(found.time), color=_SMOOTH, label="smooth guide")
-    parts[1].plot(found.time, found.speed, color=_MEASURED, linewidth=1.0, label="from accelerations")
+    parts[1].plot(guide_motion.time, kerb_test.speed(guide_motion.time), color=_SMOOTH, label="smooth guide")
+    parts[1].plot(guide_motion.time, guide_motion.speed, color=_MEASURED, linewidth=1.0, label="from accelerations")
     parts[1].set_ylabel("speed, m/s")
     reference, got = moments(plain), moments(run)
     for axes, k in zip(parts[2:], shown, strict=True):

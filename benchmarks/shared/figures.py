@@ -63,8 +63,8 @@ def written(again: RemadeTable, text: str) -> str:
         kept = {name: cell for name, cell in rows.get(key, {}).items() if name in again.left_out}
         rows[key] = row | kept
     cells = [list(new_rows[0]), ["---"] * len(new_rows[0]), *(list(row.values()) for row in rows.values())]
-    drawn = "".join(f"| {' | '.join(line)} |\n" for line in cells)
-    return replace(text, {again.table: _TABLE.sub(lambda _: drawn, block, count=1) if rows_of(block) else drawn})
+    table = "".join(f"| {' | '.join(line)} |\n" for line in cells)
+    return replace(text, {again.table: _TABLE.sub(lambda _: table, block, count=1) if rows_of(block) else table})
 
 
 def same(shown: str | None, computed: str) -> bool:
@@ -92,9 +92,9 @@ def differences(again: RemadeTable, text: str) -> list[str]:
     if again.picture and not text:
         return [f"{again.page} does not say what it shows; python -m benchmarks.figures --write draws it again."]
     if again.picture:
-        shown, drawn = text.splitlines(), again.text.splitlines()
-        gone = [f"{again.page} shows what is not drawn now: {line}" for line in shown if line not in drawn]
-        return gone + [f"{again.page} does not show what is drawn now: {line}" for line in drawn if line not in shown]
+        shown, current = text.splitlines(), again.text.splitlines()
+        gone = [f"{again.page} shows what is not drawn now: {line}" for line in shown if line not in current]
+        return gone + [f"{again.page} does not show what is drawn now: {line}" for line in current if line not in shown]
     if not again.table:
         present = " ".join(again.text.split()) in " ".join(text.split())
         return [] if present else [f"{again.page} does not say: {again.text}"]

@@ -118,7 +118,7 @@ def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others:
             )
         )
     numbers = min(results, key=lambda r: float(r.cost)).x if results else np.zeros(0)
-    vy, rate = (found[0] for found in judged.driven(numbers[None]))
+    vy, rate = (states[0] for states in judged.driven(numbers[None]))
     path = drive_of(model, body, drive, np.array([0]), len(drive.time) - 1, numbers[None])[1][0, 0]
     turning = rate - drive.yaw_rate[judged.samples]
     return Fitted(

@@ -218,8 +218,8 @@ class FmuBuilder:
 
         `kind`: one of `KINDS`; `file`: replaced at once when all is done.
         """
-        drawn = geometry_file(self._scene) if self._scene is not None else b""
-        contents = replace(self._contents, model_name=fmu_name(self._name, kind), geometry=drawn)
+        geometry = geometry_file(self._scene) if self._scene is not None else b""
+        contents = replace(self._contents, model_name=fmu_name(self._name, kind), geometry=geometry)
         if kind == "python":
             from fmu_src.python_slave.package import pack_python  # PythonFMU is needed for this kind only
 

@@ -77,8 +77,8 @@ class SensorRows:
         if body.axes is None:
             return np.zeros(3) if _same(offset, 0.0 * offset, body.origin) else None
         matrix = body.axes.transpose(1, 2, 0).reshape(-1, 3)
-        found: Array = np.asarray(np.linalg.lstsq(matrix, offset.ravel(), rcond=None)[0], float)
-        return found if _same(matrix @ found, offset.ravel(), offset) else None
+        place: Array = np.asarray(np.linalg.lstsq(matrix, offset.ravel(), rcond=None)[0], float)
+        return place if _same(matrix @ place, offset.ravel(), offset) else None
 
     def quaternions(self) -> list[tuple[tuple[str, ...], Array]]:
         """Names of sensors of a quaternion with the rows of the axes that it orients."""
@@ -101,7 +101,10 @@ class SensorRows:
     def angle(self, row: int) -> str | None:
         """The sensor of an angle, from its row among the places."""
         coefficients = self._full(row, 1)[0]
-        return next((name for name, found in self._linear.items() if _same(found, coefficients, coefficients)), None)
+        return next(
+            (name for name, row_of_sensor in self._linear.items() if _same(row_of_sensor, coefficients, coefficients)),
+            None,
+        )
 
     def spin_angle(self, row: int) -> str | None:
         """The sensor of the angle of a wheel on its carrier, from the row of its spin."""
@@ -142,6 +145,6 @@ def _same(a: Array, b: Array, scale: Array) -> bool:
 
 
 def _constant(row: Array, value: float) -> Array:
-    found = np.zeros_like(row)
-    found[-1] = value
-    return found
+    constant = np.zeros_like(row)
+    constant[-1] = value
+    return constant

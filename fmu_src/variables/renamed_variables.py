@@ -44,8 +44,8 @@ def renamed(table: Sequence[Variable], content: Content) -> Renamed:
     for ours, entry in content.entries.items():
         if ours not in place:
             if not entry.partial and "from" not in entry.value:
-                known = did_you_mean(ours, place)
-                raise UserError(f"{entry.where}: this model has no such variable{known} partial = true leaves it out.")
+                hint = did_you_mean(ours, place)
+                raise UserError(f"{entry.where}: this model has no such variable{hint} partial = true leaves it out.")
             continue
         k = place[ours]
         theirs = _theirs(table[k], entry, content, values)

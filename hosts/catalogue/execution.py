@@ -23,18 +23,18 @@ def settings_of_test(test: StandardTest, values: Mapping[str, float]) -> dict[st
 
     Raises `HostError` if a name is not known or a value out of its range.
     """
-    known = {s.name: s for s in test.settings}
+    by_name = {s.name: s for s in test.settings}
     for name, value in values.items():
-        if name not in known:
-            raise HostError(f"The test {test.name} has no setting '{name}'; it has: {', '.join(known) or 'none'}.")
-        s = known[name]
+        if name not in by_name:
+            raise HostError(f"The test {test.name} has no setting '{name}'; it has: {', '.join(by_name) or 'none'}.")
+        s = by_name[name]
         if not s.lowest <= value <= s.highest:  # nor is a NaN
             unit = f" {typeset(s.unit)}".rstrip()
             raise HostError(
                 f"The setting {name} of the test {test.name} is {value:g}{unit}; it must be from {s.lowest:g} to "
                 f"{s.highest:g}{unit}."
             )
-    return {name: float(values.get(name, s.value)) for name, s in known.items()}
+    return {name: float(values.get(name, s.value)) for name, s in by_name.items()}
 
 
 def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float]) -> Reason | None:

@@ -68,18 +68,18 @@ def fitted(
             unknown = [n for n in outputs if not math.isfinite(float(result[n].sum()))]
             return f"{unknown[0]} is not finite with them." if unknown else result
 
-        found = fit(outputs, unknowns, simulate, starts=options.starts, parts=parts_of(outputs, task.segments))
-        best = replay.run(dict(found.parameters))
+        fit_result = fit(outputs, unknowns, simulate, starts=options.starts, parts=parts_of(outputs, task.segments))
+        best = replay.run(dict(fit_result.parameters))
     if request.coarse:
-        apart = replay.run(request.coarse | found.parameters)
+        apart = replay.run(request.coarse | fit_result.parameters)
         changes = [f"{n} by {shown_number(rms(apart[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
         task.notes.append(
             f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
             f"the fitted FMU differ by (root mean square): {', '.join(changes)}."
         )
         print(f"note: {task.notes[-1]}")
-    curves = {n: SensedCurve(Curve(best, n), *found.sensor(n)) for n in outputs}
-    return found, compare(outputs, curves, options.longest_delay, options.skip)
+    curves = {n: SensedCurve(Curve(best, n), *fit_result.sensor(n)) for n in outputs}
+    return fit_result, compare(outputs, curves, options.longest_delay, options.skip)
 
 
 def _delays(before: Comparison, kinds: list[str]) -> dict[str, float]:

@@ -43,7 +43,7 @@ def write_report(
     notes: Sequence[str],
     problems: Sequence[str],
     paths: Mapping[str, Path],
-    drawn: Drawing,
+    figure: Drawing,
 ) -> None:
     """Write the page into ``.html`` of the paths, and what is drawn into ``.svg``.
 
@@ -63,8 +63,8 @@ def write_report(
     if bins:
         binned = table("", _BIN_COLUMNS, bin_rows(bins, before), "numbers")
         sections.append(Section("By speed and lateral acceleration", [binned]))
-    drawn.write(paths[".svg"])
-    sections.append(Section("Signals", [picture(drawn), *(paragraph(line, NOTE) for line in notes)]))
+    figure.write(paths[".svg"])
+    sections.append(Section("Signals", [picture(figure), *(paragraph(line, NOTE) for line in notes)]))
     facts = [paragraph(line, PROBLEM) for line in problems]
     write_text(paths[".html"], page(title, facts, sections, _FOOT))
 

@@ -62,15 +62,14 @@ def windows(comparison: Comparison, segments: Sequence[Segment]) -> list[Window]
     return results
 
 
-def window_text(found: Sequence[Window]) -> str:
+def window_text(windows: Sequence[Window]) -> str:
     """How many windows there are, and which have departed, in a sentence."""
-    gone = [w for w in found if w.departed]
+    gone = [w for w in windows if w.departed]
     if not gone:
-        return f"{len(found)} windows; none has departed."
+        return f"{len(windows)} windows; none has departed."
     which = ", ".join(f"{w.begin:g} s ({w.departed})" for w in gone)
-    return (
-        f"{len(found)} windows; {len(gone)} departed, by more than the range of what was measured: those from {which}."
-    )
+    count = f"{len(windows)} windows; {len(gone)} departed"
+    return f"{count}, by more than the range of what was measured: those from {which}."
 
 
 def scales_of(signals: Mapping[str, Signal]) -> dict[str, Signal]:

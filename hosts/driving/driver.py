@@ -34,12 +34,12 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
     or missing both there and in the FMU.
     """
     numbers = {name: constants[constant] for name, constant in CONSTANTS.items() if constant in constants}
-    known = {f.name for f in fields(DriverSettings)}
+    setting_names = {f.name for f in fields(DriverSettings)}
     for name, text in settings.items():
         if name == "course":
             continue
-        if name not in known:
-            names = ["course", *sorted(known)]
+        if name not in setting_names:
+            names = ["course", *sorted(setting_names)]
             near = did_you_mean(name, names, f"known are {', '.join(names)}")
             raise HostError(f"[driver] has '{name}'{near}")
         try:

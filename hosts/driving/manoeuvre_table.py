@@ -27,7 +27,7 @@ LIKE = 0.75
 """Share of its characters that a remark has in common with a key that it is taken for."""
 
 
-def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
+def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeuvre:
     """Read a CSV file of inputs over time in FMPy's format: ``"time"``, then names of inputs.
 
     Lines that begin with ``#`` may say more: ``# start: NAME=VALUE, ...`` gives start values, ``# state: FILE at TIME``
@@ -37,13 +37,13 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     straight, and a time that stands twice is a jump. ``# step: H`` is the communication step that it was recorded
     with. A table that a run has written is read with the record beside it.
 
-    `known`: inputs that there are; columns of other names are not read. By default all columns are inputs. Raises
-    `HostError` with the line and the reason.
+    `input_names`: columns of other names are not read. By default all columns are inputs. Raises `HostError` with the
+    line and the reason.
     """
     table = TextTable(path, HostError, known=("time",))
     names = table.names
     for match in filter(None, map(HEADING.fullmatch, names)):
-        if known is None or match[0] not in known:
+        if input_names is None or match[0] not in input_names:
             raise HostError(
                 f"{path}: the heading {brief(match[0])} has a unit; here it is {brief(match['name'])} alone, and its "
                 "values are in the unit that the FMU has for it, times in s."
@@ -89,7 +89,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     if recorded and recorded not in names[1:]:
         raise HostError(f"{path}: there is no column {brief(recorded)}, with which outputs would begin.")
     inputs = names[1 : names.index(recorded)] if recorded else names[1:]
-    if lost := [n for n in inputs if n in record.lost and (known is None or n in known)]:
+    if lost := [n for n in inputs if n in record.lost and (input_names is None or n in input_names)]:
         raise HostError(
             f"{path} was written every {record.interval:g} s, and {', '.join(lost)} moved in between otherwise than "
             "its rows tell, so that the run cannot be repeated; run without --interval to have a table that repeats."
@@ -97,7 +97,9 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     for k, before in rows_before_jumps(record, path, [row[0] for row in rows], len(inputs)):
         rows.insert(k, [rows[k][0], *before, *rows[k][len(before) + 1 :]])
     values = np.array(rows)
-    columns = {name: values[:, k] for k, name in enumerate(inputs, start=1) if known is None or name in known}
+    columns = {
+        name: values[:, k] for k, name in enumerate(inputs, start=1) if input_names is None or name in input_names
+    }
     kept = frozenset(inputs if held is None and recorded else held or ())
     if not kept <= set(inputs):
         raise HostError(f"{path}: {brief(min(kept - set(inputs)))} is listed as held but is not an input of the table.")

@@ -158,8 +158,8 @@ class Car(Closable):
             return float(random.uniform(float(ends[0]), float(ends[1])))
         if not (isinstance(value, (bool, float, str)) or is_finite(value)):
             raise HostError(f"'{name}' is {brief(value)}; it must be a number, or a range of two.")
-        known = self.fmu.variables.get(name)
-        if known is not None and isinstance(value, str) and known.type != "String":
+        variable = self.fmu.variables.get(name)
+        if variable is not None and isinstance(value, str) and variable.type != "String":
             raise HostError(f"'{name}' is {brief(value)}; it must be a number.")
         return value
 
@@ -250,9 +250,9 @@ class Car(Closable):
 
     def _known(self, names: Sequence[str], causalities: tuple[str, ...]) -> list[str]:
         have = {n for causality in causalities for n in self.fmu.names(causality)}
-        for name in (known := texts(names, "The names")):
+        for name in (checked := texts(names, "The names")):
             if name not in have:
                 what = "input" if causalities == ("input",) else "variable that is a number"
                 some = f"there are {', '.join(sorted(have)[:6])} and others"
                 raise HostError(f"The car has no {what} {brief(name)}{did_you_mean(name, have, some)}")
-        return list(known)
+        return list(checked)

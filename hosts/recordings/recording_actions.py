@@ -53,14 +53,14 @@ def replay_recording(folder: Path, fmu: Path | None) -> int:
     """Repeat a recording, by default in the FMU that was recorded; gives the exit code, 1 for other bits."""
     drive = _drive(folder)
     with _bar(drive, "replay") as progress:
-        found = replay(drive, None if fmu is None else fmu_file(fmu), progress)
-    for note in found.notes[len(drive.notes) :]:
+        replayed = replay(drive, None if fmu is None else fmu_file(fmu), progress)
+    for note in replayed.notes[len(drive.notes) :]:
         print(note)
-    if not found.different:
-        print(f"{found.rows} rows, the same bits in all of them")
+    if not replayed.different:
+        print(f"{replayed.rows} rows, the same bits in all of them")
         return 0
-    print(f"{found.different} of {found.rows} rows differ; the first differences:")
-    for difference in found.first[:_SHOWN]:
+    print(f"{replayed.different} of {replayed.rows} rows differ; the first differences:")
+    for difference in replayed.first[:_SHOWN]:
         print(f"  {difference}")
     return 1
 

@@ -89,7 +89,7 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.run.run_summary import energy_balance, pace, summary
 
     check_asked(options.manoeuvre)
-    path, known = fmu_file(options.fmu), dict(options.driver)
+    path, driver_settings = fmu_file(options.fmu), dict(options.driver)
     with Fmu(path) as opened:
         other: RenamedRun | None = None
         if options.aliases is not None:
@@ -98,10 +98,10 @@ def _run(options: argparse.Namespace) -> int:
             other = RenamedRun(opened, options.aliases)
         fmu: SimulatedFmu = opened if other is None else other.fmu
         manoeuvre = manoeuvre_of(fmu, options.manoeuvre, options.stop_time)
-        if known:
+        if driver_settings:
             from hosts.driving.driver import with_settings
 
-            manoeuvre = with_settings(manoeuvre, known, fmu.variables, options.stop_time)
+            manoeuvre = with_settings(manoeuvre, driver_settings, fmu.variables, options.stop_time)
         manoeuvre = with_names_of(manoeuvre, fmu.variables)
         check_columns(fmu, manoeuvre)
         driver: Driver | None = None

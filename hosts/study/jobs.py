@@ -50,11 +50,11 @@ class Job:
 
 def named_manoeuvre(name: str, file: Path) -> Manoeuvre:
     """A manoeuvre of the package by its name, else a file beside the study; `HostError` where there is neither."""
-    known = manoeuvre_names()
-    if name in known:
+    names = manoeuvre_names()
+    if name in names:
         return load_manoeuvre(name)
     if Path(name).suffix not in SUFFIXES and not is_folder(file.parent / name):
-        hint = did_you_mean(name, known, f"known are {', '.join(known)}, or a TOML or CSV file")
+        hint = did_you_mean(name, names, f"known are {', '.join(names)}, or a TOML or CSV file")
         raise HostError(f"{file}: there is no manoeuvre '{name}'{hint}")
     return load_manoeuvre(str(file.parent / name))
 

@@ -79,8 +79,8 @@ def parted(text: str, parts: Mapping[str, Fmu]) -> tuple[str, str]:
     """Part and variable of ``part.variable``; a `HostError` where there is no such part."""
     part, dot, name = text.partition(".") if isinstance(text, str) else ("", "", "")
     if part not in parts:
-        known = f"the parts are {', '.join(parts)}"
-        raise HostError(f"{brief(text)} names no part{did_you_mean(part, parts, known)}")
+        hint = f"the parts are {', '.join(parts)}"
+        raise HostError(f"{brief(text)} names no part{did_you_mean(part, parts, hint)}")
     if not dot:
         raise HostError(f"'{text}' names a part and no variable; it must be PART.VARIABLE.")
     return part, name
@@ -88,7 +88,7 @@ def parted(text: str, parts: Mapping[str, Fmu]) -> tuple[str, str]:
 
 def _split(text: str, parts: Mapping[str, Fmu], causality: str) -> tuple[str, str]:
     part, name = parted(text, parts)
-    known: Sequence[str] = parts[part].names(causality)
-    if name not in known:
-        raise HostError(f"The part '{part}' has no {causality} '{name}'{did_you_mean(name, known)}")
+    names: Sequence[str] = parts[part].names(causality)
+    if name not in names:
+        raise HostError(f"The part '{part}' has no {causality} '{name}'{did_you_mean(name, names)}")
     return part, name

@@ -121,8 +121,8 @@ def _manoeuvre(fmus: Sequence[FmuParts], named: str | None) -> Manoeuvre | None:
     names = [name for fmu in fmus for name in fmu.variables.names]
     manoeuvre = with_names_of(load_manoeuvre(named), names)
     script_of(manoeuvre)
-    known = [v.name for fmu in fmus for v in map(fmu.variables.__getitem__, fmu.variables.names) if _held(v)]
-    unknown = next((name for name in manoeuvre.inputs if name not in known), None)
+    settable = [v.name for fmu in fmus for v in map(fmu.variables.__getitem__, fmu.variables.names) if _held(v)]
+    unknown = next((name for name in manoeuvre.inputs if name not in settable), None)
     if unknown is not None:
         raise HostError(
             f"The manoeuvre '{manoeuvre.name}' has a column '{unknown}', which is neither an input nor a tunable "

@@ -95,8 +95,8 @@ def _report_other_grounds(recordings: Sequence[Recording]) -> None:
     """Note of each run that is a ghost on the ground of the first but ran on another."""
     grounds = [(one, one.scene.get("roads", [])) for one in recordings if one.scene is not None]
     for ghost, ground in grounds[1:]:
-        first, drawn = grounds[0]
-        if ground != drawn:
+        first, drawn_ground = grounds[0]
+        if ground != drawn_ground:
             ghost.notes.append(f"It ran on another ground than {first.name}, whose ground is drawn.")
 
 
@@ -135,8 +135,8 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
         source = geometry or _fmu_of(record, record_file)
         scene = scene_from(source, settings, record.get("world"))
         if is_archive(source):
-            known, same = _units(source, str(record.get("token", "")))
-            units = known | units
+            declared, same = _units(source, str(record.get("token", "")))
+            units = declared | units
             if not same:
                 notes.append(other_build(source, name))
         _add_names_of_fmu(table, units, record, record_file)
@@ -180,13 +180,13 @@ def _add_names_of_fmu(table: Table, units: dict[str, str], record: dict[str, Any
     """Columns that a run with an alias file has under our names, under those of the FMU too: its drawing reads them."""
     names = record.get("names", {})
     try:
-        known = {str(theirs): (str(ours), float(f), float(o)) for theirs, (ours, f, o) in names.items()}
+        converted = {str(theirs): (str(ours), float(f), float(o)) for theirs, (ours, f, o) in names.items()}
     except (AttributeError, TypeError, ValueError):
         raise HostError(
             f"{file}, the record of the result, does not say by 'names' a name, a factor and an offset for each of the "
             "FMU's names."
         ) from None
-    for theirs, (ours, factor, offset) in known.items():
+    for theirs, (ours, factor, offset) in converted.items():
         if ours in table.columns and theirs not in table.columns:
             table.columns[theirs] = factor * table.columns[ours] + offset
             if (factor, offset) == (1.0, 0.0):
@@ -199,7 +199,7 @@ def _with_course(scene: dict[str, Any], record: dict[str, Any], file: Path) -> d
     if course is None:
         return scene
     track, width = (course.get(key) if isinstance(course, dict) else None for key in ("track", "vehicle_width"))
-    name = next((name for name, known in TRACKS.items() if known == track), None)
+    name = next((name for name, gates in TRACKS.items() if gates == track), None)
     if name is None or not isinstance(width, (int, float)) or not 0.0 < width < _WIDEST:
         raise HostError(
             f"{file}, the record of the result, does not say by 'course' a track of ISO 3888 and a vehicle_width, m."

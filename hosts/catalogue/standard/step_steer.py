@@ -31,7 +31,7 @@ def drive(sheet: Sheet) -> None:
         else:
             left = _to_the_left(sheet, ramp.speed, acceleration, angle, 0.2 + 0.8 * k / len(levels))
             sides = {"left": left, "right": _step(sheet, ramp.speed, acceleration, -left["given"])}
-            sheet.runs |= {f"{level}_{side}": found["run"].thinned() for side, found in sides.items()}
+            sheet.runs |= {f"{level}_{side}": step["run"].thinned() for side, step in sides.items()}
             driven.append({"wanted": acceleration, "run": left["run"]})
         sheet.progress(0.2 + 0.8 * (k + 1) / len(levels))
         sheet.add("level", level=level, wanted=acceleration, **sides)

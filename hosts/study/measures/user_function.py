@@ -71,11 +71,11 @@ class UserFunction:
             note = sentence_of(result.refusal)
         else:
             try:
-                found = self._named(self._call(result, dict(parameters or {})), columns)
-                values = {name: _number(value) for name, value in found.items()}
+                named = self._named(self._call(result, dict(parameters or {})), columns)
+                values = {name: _number(value) for name, value in named.items()}
                 notes = {
                     name: f"{self.text} gave {value!r:.60} for it, not a finite number."
-                    for name, value in found.items()
+                    for name, value in named.items()
                     if not math.isfinite(values[name])
                 }
             except Exception as error:
