@@ -38,10 +38,10 @@ export class Runner {
       await this[`_${message.do}`](message);
       if (begins) this._refused = null;
     } catch (error) {
-      const told = { is: "error", at: message.do, text: String(error.message ?? error) };
-      if (begins) this._refused = told;
+      const failure = { is: "error", at: message.do, text: String(error.message ?? error) };
+      if (begins) this._refused = failure;
       this._halt();
-      this._post(told);
+      this._post(failure);
     }
   }
 
@@ -140,8 +140,8 @@ export class Runner {
   }
 
   _tellMessages(quiet = false) {
-    const told = this.engine.messages();
-    if (!quiet) for (const { which, text, status } of told) this._post({ is: "message", which, text, status });
+    const messages = this.engine.messages();
+    if (!quiet) for (const { which, text, status } of messages) this._post({ is: "message", which, text, status });
   }
 
   _send(is) {

@@ -46,7 +46,7 @@ export class FmuInstance {
    */
   set(name, value) {
     if (typeof name !== "string") {
-      for (const [each, given] of Object.entries(name)) this.set(each, given);
+      for (const [each, entry] of Object.entries(name)) this.set(each, entry);
       return;
     }
     this[`set${this._variable(name).type}`](name, value);
