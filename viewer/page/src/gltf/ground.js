@@ -72,7 +72,7 @@ function sheet(patches, ways, nameAt, border = 0) {
   while (inside.reduce((sum, part) => sum + cells(part), 0) > MOST) spacing *= 2;
   const base = [...ways.map(([low, high]) => Math.round(0.5 * (low + high))), 0];
   /** @type {Object<string, {positions: number[], index: number[]}>} */
-  const surfaces = {};
+  const sheets = {};
   for (const part of inside) {
     const { patch, i0, n } = part;
     const [rows, columns] = lines(part).map((list, k) => list.map((line) => [line, patch.origin[k] + patch.spacing[k] * line]));
@@ -83,20 +83,20 @@ function sheet(patches, ways, nameAt, border = 0) {
       const key = `${name} ${a} ${b}`;
       if (!numbers.has(key)) {
         const [[i, x], [j, y]] = [rows[a], columns[b]];
-        numbers.set(key, surfaces[name].positions.push(x - base[0], y - base[1], patch.heights[i * patch.shape[1] + j]) / 3 - 1);
+        numbers.set(key, sheets[name].positions.push(x - base[0], y - base[1], patch.heights[i * patch.shape[1] + j]) / 3 - 1);
       }
       return numbers.get(key);
     };
     for (let a = 0; a + 1 < rows.length; a++) {
       for (let b = 0; b + 1 < columns.length; b++) {
         const name = nameAt(0.5 * (rows[a][1] + rows[a + 1][1]), 0.5 * (columns[b][1] + columns[b + 1][1]));
-        surfaces[name] ??= { positions: [], index: [] };
+        sheets[name] ??= { positions: [], index: [] };
         const [p, q, r, s] = [[a, b], [a + 1, b], [a, b + 1], [a + 1, b + 1]].map(([c, d]) => number(name, c, d)); // prettier-ignore
-        surfaces[name].index.push(p, q, r, q, s, r); // as the page cuts its cells
+        sheets[name].index.push(p, q, r, q, s, r); // as the page cuts its cells
       }
     }
   }
-  const parts = new Map(Object.entries(surfaces).sort().map(([name, { positions, index }]) => {
+  const parts = new Map(Object.entries(sheets).sort().map(([name, { positions, index }]) => {
     const geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
     return [surface(name), geometry.setIndex(index)];
   })); // prettier-ignore

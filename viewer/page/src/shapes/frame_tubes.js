@@ -101,9 +101,9 @@ export class FrameTubes {
 /** Points and triangles of a solid, each point once. @param {THREE.BufferGeometry} soup is freed */
 function merged(soup) {
   for (const name of ["normal", "uv"]) soup.deleteAttribute(name);
-  const merged = mergeVertices(soup, 1e-6);
-  const found = { points: [...merged.getAttribute("position").array], index: [...merged.index.array] };
-  for (const geometry of [soup, merged]) geometry.dispose();
+  const welded = mergeVertices(soup, 1e-6);
+  const found = { points: [...welded.getAttribute("position").array], index: [...welded.index.array] };
+  for (const geometry of [soup, welded]) geometry.dispose();
   return found;
 }
 
