@@ -1,4 +1,4 @@
-// Bytes that a page carries as text.
+// Decodes bytes that a page carries as base64 text, compressed or not.
 
 /** @param {string} text base64 @returns {Uint8Array<ArrayBuffer>} */
 export function bytesOf(text) {

@@ -1,4 +1,4 @@
-// Where the coil of a spring stands between its ends.
+// The position of the coil of a spring between its ends.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { spring } from "../src/shapes/spring.js";

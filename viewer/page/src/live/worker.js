@@ -1,4 +1,4 @@
-// The FMUs run here, in a thread of their own, so that drawing does not hold them up. `Desk` is the other side.
+// Runs the FMUs in a thread of their own, so that drawing does not delay them. `Desk` is the other side.
 import { loadFmu } from "../wasm/fmu.js";
 import { Engine } from "./engine.js";
 import { RealTimeClock } from "./real_time_clock.js";

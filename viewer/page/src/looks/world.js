@@ -1,4 +1,4 @@
-// A world: its terrain and scenery with what they are made of, put together.
+// A world: terrain and scenery with their materials, at two levels of detail.
 import * as THREE from "three";
 import { coverage } from "./coverage.js";
 import { HeightField, SURFACES, SurfaceRaster } from "./heights.js";

@@ -1,4 +1,4 @@
-// The tyres of a scene, with the wheels that wear them; pure numbers.
+// The tyres of a scene and their wheels; pure numbers.
 import { dot, finite, rotate, subtract, transpose, unit } from "./math.js";
 
 /**

@@ -1,4 +1,4 @@
-// Solids of which a shape is put together, about y, from the table that glTF files are made of too.
+// Solids that compose a shape, about y, from the table that glTF files use too.
 import * as THREE from "three";
 import { rounded } from "./box.js";
 import { between } from "./place.js";

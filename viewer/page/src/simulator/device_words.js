@@ -1,4 +1,4 @@
-// What the panel of devices says and asks for, without elements of the page.
+// Texts of the panel of devices, without elements of the page.
 
 const HAT = ["up", "right", "down", "left"];
 const CENTRED = ["steering"];

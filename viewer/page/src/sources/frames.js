@@ -1,4 +1,4 @@
-// Frames of the car as they come over the wire, and which two of them a picture stands between. Knows no page.
+// Received frames of the car, and the two between which a picture lies. Has no access to the page.
 
 /** Frames are remembered for so long, s of the page's clock. */
 const KEPT = 1.0;

@@ -1,4 +1,4 @@
-// An instance of an FMU: its life, values, steps and states.
+// An instance of an FMU: life cycle, values, steps and states.
 import { FmuError, STATUSES } from "./errors.js";
 import { Transfer } from "./transfer.js";
 

@@ -1,4 +1,4 @@
-// Scenery: what stands and is painted along a road, gathered by places so that what is not in the picture costs nothing.
+// Scenery: objects and paint along a road, grouped by squares so that those outside the picture cost nothing.
 import * as THREE from "three";
 import { dot, fromColumns } from "../../scene/math.js";
 import { turn } from "../../shapes/place.js";

@@ -1,4 +1,4 @@
-// A picture of a twig, made by code: leaves with holes between.
+// Draws the texture of a twig: leaves with gaps between.
 import * as THREE from "three";
 import { smoothTexture } from "../noise.js";
 import { randomNumbers } from "../../common/random.js";

@@ -1,4 +1,4 @@
-// Triangles with colours that are put together by hand.
+// Collects triangles with colours and builds a geometry from them.
 import * as THREE from "three";
 
 /** Collects triangles; places are relative to `base`. */
