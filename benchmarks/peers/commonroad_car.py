@@ -105,7 +105,7 @@ def _compile(function: Any) -> Any:
 
 
 def _tuple(name: str, content: Any) -> Any:
-    """Numbers of a class and of those in it that are known."""
+    """A named tuple of the numeric attributes of a parameter object, nested as the object is."""
     results = {}
     for key in content if not dataclasses.is_dataclass(content) else [f.name for f in dataclasses.fields(content)]:
         value = getattr(content, key)

@@ -123,7 +123,7 @@ def _work(name: str, part: Part, options: Namespace) -> int:
     if options.json is not None:
         write_json(options.json, meta, rows)
         print(f"written: {options.json}")
-    print(f"{_told(part, rows)}\n\n{conditions(meta)}")
+    print(f"{_text_of(part, rows)}\n\n{conditions(meta)}")
     if part.chart is not None and options.chart is not None:
         part.chart(rows, options.chart)
     if part.blocks is not None and options.write:
@@ -134,7 +134,7 @@ def _work(name: str, part: Part, options: Namespace) -> int:
     return int(bool(faults))
 
 
-def _told(part: Part, rows: Sequence[Row]) -> str:
+def _text_of(part: Part, rows: Sequence[Row]) -> str:
     """The text that is printed for the rows."""
     if part.words is not None:
         return part.words(rows)

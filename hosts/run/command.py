@@ -116,23 +116,23 @@ def _run(options: argparse.Namespace) -> int:
 
             set_options = options_with_road(options, options.out)
         manoeuvre, settings = set_all(manoeuvre, set_options, options.fidelity)
-        still = options.manoeuvre is None
-        stem = _words(path.stem) if still else f"{_words(path.stem)}_{manoeuvre.name}"
+        without_manoeuvre = options.manoeuvre is None
+        stem = _words(path.stem) if without_manoeuvre else f"{_words(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
         step = communication_step(fmu, manoeuvre, options.step)
         every = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
         result = run_with_bar(fmu, manoeuvre, step, driver, every)
-    of_course: Sequence[tuple[str, str]] = ()
+    course_rows: Sequence[tuple[str, str]] = ()
     gates: NDArray[np.float64] | None = None
     if driver is not None:
         from hosts.run.course_result import course_result
 
-        of_course, gates = course_result(result, driver)
-    rows = summary(result, step, of_course)
+        course_rows, gates = course_result(result, driver)
+    rows = summary(result, step, course_rows)
     write_csv(result, table)
     names = None if other is None else other.names
     write_record(fmu, manoeuvre, step, settings, result, record, driver, names)
-    title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
+    title = settings.title(path.stem if without_manoeuvre else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, gates)
     printed = (settings.rows(), [*rows, pace(result, step)], energy_balance(result))
     return print_result(printed, result, (table, picture, record))

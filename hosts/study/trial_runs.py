@@ -14,7 +14,7 @@ from hosts.study.worker_data import FAILED, INCOMPLETE, Outcome, Work
 
 _LONGEST = 2.0  # s of a run that is repeated for the test of reuse
 _ROW = 60.0  # bytes of a row in a part beside its numbers
-_COMPRESSED = 1.0  # of signals, at worst
+_COMPRESSED = 1.0  # stored over raw bytes of signals, at worst
 
 
 @dataclass(frozen=True)

@@ -46,11 +46,11 @@ class DrawnPage:
         self._late = True
 
     def ask(self, code: str, *values: Any) -> Any:
-        """What an expression of `view` is worth, or a function of one value."""
+        """Value of a JavaScript expression of `view`, or of a function applied to one value."""
         return self.page.evaluate(code, *values)
 
     def picture(self) -> np.ndarray:
-        """Pixels (height, width, 3) from 0 to 255, without the words over them."""
+        """Pixels (height, width, 3) from 0 to 255, without the texts over them."""
         from PIL import Image
 
         self._page.evaluate("() => { document.body.className = 'hidden'; view.render(); }")

@@ -64,11 +64,11 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
   };
 }
 
-/** Other materials of ground and paint. @param {THREE.Group} group @param {Data[]} pair those that it has, and those that it gets */
-function dress(group, [now, then]) {
+/** Replaces the materials of ground and paint. @param {THREE.Group} group @param {Data[]} pair old and new materials */
+function dress(group, [old, fresh]) {
   group.traverse((/** @type {THREE.Mesh} */ part) => {
-    if (part.material === now.ground) part.material = then.ground;
-    else if (part.material === now.paint) part.material = then.paint;
+    if (part.material === old.ground) part.material = fresh.ground;
+    else if (part.material === old.paint) part.material = fresh.paint;
   });
 }
 
@@ -87,7 +87,7 @@ function versionOf(land, scenery) {
   };
 }
 
-/** All is asphalt. */
+/** A coverage of asphalt only. */
 function nothing() {
   const texture = new THREE.DataTexture(Uint8Array.of(255, 128, 128, 128), 1, 1);
   texture.needsUpdate = true;
