@@ -102,10 +102,10 @@ class Archive:
         except OSError as fault:
             raise self._error(f"{label} cannot be read: {reason(fault)}.") from None
 
-    def unpack(self, folder: Path, wanted: Callable[[str], bool] = lambda name: True) -> None:
-        """Write the files whose names are `wanted` into a folder. Raises `OSError` too: it cannot be written."""
+    def unpack(self, folder: Path, is_needed: Callable[[str], bool] = lambda name: True) -> None:
+        """Write the files whose names `is_needed` accepts into a folder. Raises `OSError` too: it cannot be written."""
         for entry in self.names:
-            if wanted(entry):
+            if is_needed(entry):
                 file = folder / entry
                 file.parent.mkdir(parents=True, exist_ok=True)
                 file.write_bytes(self.read(entry))

@@ -22,17 +22,17 @@ def cache_folder(*parts: str, name: str = "ali3", variable: str = VARIABLE) -> P
     written, the folder is a temporary one that goes when this process ends. Raises `FileError`: the variable names a
     folder that cannot be written.
     """
-    given = os.environ.get(variable)
+    path = os.environ.get(variable)
     try:
-        cache = Path(given) if given else platformdirs.user_cache_path(name, appauthor=False, opinion=False)
+        cache = Path(path) if path else platformdirs.user_cache_path(name, appauthor=False, opinion=False)
         folder = cache.expanduser().joinpath(*parts)
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             return folder.absolute()
     except (OSError, RuntimeError) as error:  # no home folder, or none to write to
-        if given:
+        if path:
             message = reason(error) if isinstance(error, OSError) else str(error)
-            raise FileError(f"{variable} is '{given}', which cannot be written: {message}.") from None
+            raise FileError(f"{variable} is '{path}', which cannot be written: {message}.") from None
     folder = _passing(name).joinpath(*parts)
     folder.mkdir(parents=True, exist_ok=True)
     return folder
@@ -40,6 +40,6 @@ def cache_folder(*parts: str, name: str = "ali3", variable: str = VARIABLE) -> P
 
 @functools.cache
 def _passing(name: str) -> Path:
-    held = ExitStack()
-    atexit.register(held.close)
-    return held.enter_context(temporary_folder())
+    stack = ExitStack()
+    atexit.register(stack.close)
+    return stack.enter_context(temporary_folder())

@@ -45,8 +45,8 @@ def how_ended(code: int | None, message: str = "", call: str = "") -> str:
     last = (message.strip().splitlines() or [""])[-1]
     words = f"{call}: {last}" if last else call
     if code is not None and code < 0:
-        known = {int(number): number.name for number in signal.Signals}
-        name = known.get(-code, f"signal {-code}")
+        signal_names = {int(number): number.name for number in signal.Signals}
+        name = signal_names.get(-code, f"signal {-code}")
         if name == "SIGKILL":  # no program does that to itself
             return f"was killed (SIGKILL){call}, by a user or by the system because memory ran out"
         return f"crashed ({name}){words}" if name in _CRASHES else f"was ended by {name}{words}"

@@ -21,15 +21,15 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3") -> int:
     `arguments`: by default those of the command line; `prog`: how the user typed the command. Returns the exit code: 0
     done, 1 done and not good, 2 an error of the user's, 130 Ctrl-C.
     """
-    given = list(sys.argv[1:] if arguments is None else arguments)
+    words = list(sys.argv[1:] if arguments is None else arguments)
     forget_current_folder()
     typed_as(prog)
-    if given and not given[0].startswith("-"):
-        command = next((c for c in COMMANDS if c.name == given[0]), None)
+    if words and not words[0].startswith("-"):
+        command = next((c for c in COMMANDS if c.name == words[0]), None)
         if command is None:
-            return _unknown(given[0], prog)
-        return run_command(lambda: _run(command, given[1:], prog))
-    return run_command(lambda: _help(given, prog))
+            return _unknown(words[0], prog)
+        return run_command(lambda: _run(command, words[1:], prog))
+    return run_command(lambda: _help(words, prog))
 
 
 def _run(command: Command, arguments: Sequence[str], prog: str) -> int:

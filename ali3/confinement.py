@@ -44,10 +44,10 @@ def confined(command: Sequence[str], readable: Iterable[Path], writable: Sequenc
     ]
 
 
-def environment(given: dict[str, str], folder: Path) -> dict[str, str]:
+def environment(variables: dict[str, str], folder: Path) -> dict[str, str]:
     """Environment variables that a confined process gets."""
     temporary = dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), str(folder))
-    return {name: value for name, value in given.items() if name in _KEPT} | temporary
+    return {name: value for name, value in variables.items() if name in _KEPT} | temporary
 
 
 @cache

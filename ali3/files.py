@@ -30,9 +30,9 @@ def atomic_file(file: str | os.PathLike[str], make_parents: bool = True) -> Iter
         if make_parents:
             make_folder(target.parent)
         with temporary_folder(target.parent) as folder:
-            made = folder / target.name
-            yield made
-            made.replace(target)
+            temporary = folder / target.name
+            yield temporary
+            temporary.replace(target)
     except (FileError, BrokenPipeError):
         raise
     except OSError as error:

@@ -24,11 +24,11 @@ def atomic_folder(folder: str | os.PathLike[str]) -> Iterator[Path]:
     parent = make_folder(target.parent)
     try:
         with temporary_folder(parent) as room:
-            made = room / target.name
-            made.mkdir()
-            yield made
+            temporary = room / target.name
+            temporary.mkdir()
+            yield temporary
             try:
-                made.rename(target)
+                temporary.rename(target)
             except OSError:
                 if not target.is_dir():
                     raise

@@ -19,8 +19,8 @@ _HEAD = struct.Struct("<BQQ")
 _ARRAY = "\0array"
 _BYTES = "\0bytes"
 _KINDS = "biufS"
-MOST_TEXT, MOST_BYTES = 200_000_000, 8_000_000_000
-"""Bytes that a frame may have, of text and of arrays."""
+MOST_TEXT = 200_000_000  # bytes of text of a frame
+MOST_BYTES = 8_000_000_000  # bytes of arrays of a frame
 
 
 class FrameError(Exception):

@@ -22,8 +22,8 @@ Content: TypeAlias = "HtmlElement | str"
 
 def element(tag: str, /, *content: Content, **attributes: Any) -> HtmlElement:
     """One element. `attributes`: a trailing underscore is left out, others become hyphens."""
-    made = getattr(builder, tag.upper(), None)
-    node = made() if made is not None else builder.E(tag)
+    builder_of_tag = getattr(builder, tag.upper(), None)
+    node = builder_of_tag() if builder_of_tag is not None else builder.E(tag)
     for key, value in attributes.items():
         node.set(key.rstrip("_").replace("_", "-"), clean(str(value)))
     for part in content:
@@ -54,16 +54,16 @@ def table(
     heads = [element("th", cell, scope="col") if cell else element("td") for cell in head]
     above, named = ([element("caption", caption)], {"role": "region", "aria_label": caption}) if caption else ([], {})
     parts = [*above, element("thead", element("tr", *heads)), element("tbody", *body)]
-    made = element("table", *parts) if kind is None else element("table", *parts, class_=kind)
-    return element("div", made, class_="wide", tabindex=0, **named)
+    content = element("table", *parts) if kind is None else element("table", *parts, class_=kind)
+    return element("div", content, class_="wide", tabindex=0, **named)
 
 
-def picture(drawn: Drawing) -> HtmlElement:
+def picture(drawing: Drawing) -> HtmlElement:
     """A drawing within the page, with what it shows in words."""
-    source = f"data:image/svg+xml;base64,{base64.b64encode(drawn.svg).decode('ascii')}"
-    width, height = map(str, drawn.size)
+    source = f"data:image/svg+xml;base64,{base64.b64encode(drawing.svg).decode('ascii')}"
+    width, height = map(str, drawing.size)
     # With its size a page that has not drawn it yet keeps its place: a link to what stands below ends there.
-    image = element("img", alt=drawn.words, src=source, width=width, height=height, loading="lazy")
+    image = element("img", alt=drawing.words, src=source, width=width, height=height, loading="lazy")
     return element("figure", image, class_="plot")
 
 

@@ -75,12 +75,12 @@ class _Process:
             self.store = Path(f"/proc/self/fd/{self._memory}")
         passed = (life, self._memory) if life >= 0 else ()
         command = module_command("ali3.worker", str(self.folder), str(life), str(Path.cwd()), str(self.store))
-        reported = {**os.environ, **environment}
-        environment = reported | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
+        variables = {**os.environ, **environment}
+        environment = variables | dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self.folder))
         self._confined = is_confined()
         if self._confined:
             command = confined(command, reads, (*writes, self.folder))
-            environment = confined_environment(reported, self.folder)
+            environment = confined_environment(variables, self.folder)
         try:
             self.process = subprocess.Popen(
                 command,
@@ -191,7 +191,7 @@ class Isolated(Generic[T, R]):
     """A process that does one task after the other. After one that was lost, the next has a new process.
 
     `work`: ``work(task, tell)`` gives the result. It is pickled, once for each process, as are tasks; so it is of a
-    module, not of the file that is run as a program. `answer`, `told`: types of the result and of what is given to
+    module, not of the file that is run as a program. `answer`, `message`: types of the result and of what is passed to
     ``tell``, of which dataclasses, arrays, numbers and texts come back; paths in tasks are absolute. `reads`: files of
     the user that it may read where processes are confined, `writes`: that it may write too; `environment`: variables
     that it has beside those of this process.
@@ -201,14 +201,14 @@ class Isolated(Generic[T, R]):
         self,
         work: Callable[[T, Tell], R],
         answer: Any,
-        told: Any = float,
+        message: Any = float,
         reads: Iterable[Path] = (),
         writes: Iterable[Path] = (),
         environment: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         self._work, self._environment = work, environment
         self._reads, self._writes = [file.absolute() for file in reads], list(writes)
-        self._types = {DONE: answer, TOLD: told, ERROR: tuple[str, int], READY: int, ALIVE: int}
+        self._types = {DONE: answer, TOLD: message, ERROR: tuple[str, int], READY: int, ALIVE: int}
         self._process: _Process | None = None
         self._lock, self._closed = threading.Lock(), False
         self.left = 0
@@ -325,6 +325,6 @@ class Isolated(Generic[T, R]):
             process, self._process = self._process, None
         if process is None:
             return "was ended", "", None
-        how, call, kept, remaining = process.end(finish)
-        self.left += remaining
+        how, call, kept, survivors = process.end(finish)
+        self.left += survivors
         return how, call, kept

@@ -48,7 +48,7 @@ class _TwiceError(Exception):
 
 
 def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    made = dict(pairs)
-    if len(made) < len(pairs):
+    table = dict(pairs)
+    if len(table) < len(pairs):
         raise _TwiceError(max(Counter(key for key, _ in pairs).items(), key=itemgetter(1))[0])
-    return made
+    return table

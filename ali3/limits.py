@@ -27,6 +27,6 @@ def raised(most: float) -> int:
     return int(most * factor())
 
 
-def at_most(found: float, most: float, form: str = "d") -> str:
+def at_most(size: float, most: float, form: str = "d") -> str:
     """The end of a sentence on what is beyond a limit, with what would raise it. `form`: of the number."""
-    return f"at most {format(raised(most), form)} (or {VARIABLE}={math.ceil(found / most)} set)"
+    return f"at most {format(raised(most), form)} (or {VARIABLE}={math.ceil(size / most)} set)"

@@ -5,8 +5,8 @@ import math
 import re
 from collections.abc import Iterable, Mapping
 
-VALUE, SENTENCE = 60, 400
-"""Characters of a value in a sentence, and of a sentence with texts of a file in it."""
+VALUE = 60  # characters of a value in a sentence
+SENTENCE = 400  # characters of a sentence with texts of a file in it
 _WORD = 240  # longest word that is shown as it is
 _MESSAGE = 2000  # longest message that is shown as it is
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")  # by XML

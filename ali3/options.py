@@ -16,23 +16,23 @@ from ali3.units import quantity
 class Parser(argparse.ArgumentParser):
     """A parser of a command line whose messages shorten long words and whose descriptions keep their lines."""
 
-    def __init__(self, **given: Any) -> None:
-        super().__init__(**{"formatter_class": argparse.RawDescriptionHelpFormatter} | given)
+    def __init__(self, **options: Any) -> None:
+        super().__init__(**{"formatter_class": argparse.RawDescriptionHelpFormatter} | options)
         # values with a minus sign, such as -30mm, -1e3 or -1:1, of which argparse knows plain decimals only
         self._negative_number_matcher = re.compile(rf"-{DECIMAL}")
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """As `argparse.ArgumentParser` does; a long option with one minus sign is none of one letter with its value."""
-        given = list(sys.argv[1:] if args is None else args)
-        for word in given[: given.index("--")] if "--" in given else given:
+        words = list(sys.argv[1:] if args is None else args)
+        for word in words[: words.index("--")] if "--" in words else words:
             if re.fullmatch(r"-[A-Za-z][A-Za-z-]{2,}(=.*)?", word) and self._near(f"-{word}"):
                 self.error(f"unrecognized arguments: {word}")
-        return super().parse_known_args(given, namespace)
+        return super().parse_known_args(words, namespace)
 
     def _near(self, word: str) -> list[str]:
         """Long options that a word is like."""
-        known = [name for name in self._option_string_actions if name.startswith("--")]
-        return near_names(word.partition("=")[0], known, 1, 0.7)
+        options = [name for name in self._option_string_actions if name.startswith("--")]
+        return near_names(word.partition("=")[0], options, 1, 0.7)
 
     def error(self, message: str) -> NoReturn:
         """End the program with a message."""
@@ -159,6 +159,6 @@ def given_of(parser: argparse.ArgumentParser, options: argparse.Namespace, names
 
     `names`: of attributes of `options`.
     """
-    given = [name for name in names if getattr(options, name) != parser.get_default(name)]
+    differing = [name for name in names if getattr(options, name) != parser.get_default(name)]
     actions = {action.dest: action for action in parser._actions}
-    return [next(iter(actions[name].option_strings), name.upper()) for name in given]
+    return [next(iter(actions[name].option_strings), name.upper()) for name in differing]

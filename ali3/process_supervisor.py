@@ -47,10 +47,10 @@ def begin_supervisor(life: int, folder: Path) -> None:
     with suppress(ProcessLookupError):
         os.kill(process, signal.SIGKILL)
     status = os.waitpid(process, 0)[1]
-    remaining = _end_children()
-    if remaining:
+    survivors = _end_children()
+    if survivors:
         with suppress(OSError):
-            (folder / LEFT).write_text(str(remaining), encoding="ascii")
+            (folder / LEFT).write_text(str(survivors), encoding="ascii")
     if _is_orphan(life):
         shutil.rmtree(folder, ignore_errors=True)
     code = os.waitstatus_to_exitcode(status)

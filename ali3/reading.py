@@ -175,10 +175,10 @@ def check_content(content: Any, error: Error, name: str, finite: bool) -> None:
     """Refuse what the programs behind a parser cannot take."""
     waiting: list[tuple[Any, tuple[Any, ...], int]] = [([content], (), 0)]
     while waiting:
-        held, place, depth = waiting.pop()
+        content_part, place, depth = waiting.pop()
         if depth > DEEPEST:
             too_deep(error, name)
-        for key, value in held.items() if isinstance(held, dict) else enumerate(held):
+        for key, value in content_part.items() if isinstance(content_part, dict) else enumerate(content_part):
             if isinstance(value, (dict, list)):
                 waiting.append((value, (place, key), depth + 1))
             elif isinstance(value, int):

@@ -143,12 +143,12 @@ class TextTable:
 
     def values(self, every: int = 1, finite: bool = True, least: int = 1) -> NDArray[np.float64]:
         """Numbers of the lines, shape (n, columns). `every`, `finite`: as of `rows` and `numbers`; `least`: least n."""
-        held = array("d")
+        numbers = array("d")
         for row in self.rows(every):
-            held.extend(self.numbers(row, finite))
-        if len(held) < least * self.width:
+            numbers.extend(self.numbers(row, finite))
+        if len(numbers) < least * self.width:
             raise self.error(f"{self.name} contains no values; it needs a heading and at least one row.")
-        return np.array(held).reshape(-1, self.width)
+        return np.array(numbers).reshape(-1, self.width)
 
     def _read(self, file: str | os.PathLike[str], largest: int, whole: bool) -> Iterator[tuple[int, str]]:
         line = 0

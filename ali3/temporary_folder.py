@@ -57,8 +57,8 @@ def _clear(parent: Path) -> None:
     if sys.platform == "win32":
         return
     with suppress(OSError), os.scandir(parent) as entries:
-        remaining = [entry.path for entry in entries if entry.name.startswith(PREFIX)]
-        for folder in remaining:
+        folders = [entry.path for entry in entries if entry.name.startswith(PREFIX)]
+        for folder in folders:
             with suppress(OSError):
                 lock = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
                 try:

@@ -19,8 +19,8 @@ def keys_of(table: Table) -> dict[str, FieldInfo]:
 
 def annotation_of(field: FieldInfo) -> Any:
     """Type of a field with what is annotated to it."""
-    reported = [*field.metadata, *([field] if field.title else [])]
-    return Annotated[(field.annotation, *reported)] if reported else field.annotation
+    metadata = [*field.metadata, *([field] if field.title else [])]
+    return Annotated[(field.annotation, *metadata)] if metadata else field.annotation
 
 
 def templates(annotation: Any) -> list[Table]:
@@ -133,9 +133,9 @@ def words(annotation: Any) -> str:
         return title
     if templates(annotation) or value_type_of(annotation) is not None:
         return "a table"
-    reported = next((item.range for item in _metadata(annotation) if hasattr(item, "range")), None)
-    if reported is not None:  # a physical quantity
-        return f"a number, {reported}"
+    range_text = next((item.range for item in _metadata(annotation) if hasattr(item, "range")), None)
+    if range_text is not None:  # a physical quantity
+        return f"a number, {range_text}"
     origin, inner = get_origin(annotation), get_args(annotation)
     if origin is Annotated:
         limits = [item for item in inner[1:] if not isinstance(item, FieldInfo)]

@@ -193,8 +193,8 @@ def _in_table(paths: Sequence[Sequence[str]], path: Sequence[str]) -> list[str]:
 
 def _tag(item: Any) -> Any:
     """The value given as the kind of a template."""
-    given = item["input"]
-    return given.get("kind") if isinstance(given, Mapping) else item["ctx"]["tag"]
+    entry = item["input"]
+    return entry.get("kind") if isinstance(entry, Mapping) else item["ctx"]["tag"]
 
 
 def _limits(item: Any) -> str:

@@ -144,9 +144,9 @@ def _named(unit: str) -> str:
 
 
 def _scale(unit: str) -> float:
-    known = known_unit(unit)
-    assert known is not None
-    return known.factor
+    definition = known_unit(unit)
+    assert definition is not None
+    return definition.factor
 
 
 def typeset(unit: str) -> str:
@@ -214,13 +214,13 @@ def number_with_unit(text: str, unit: str) -> float:
     except ValueError:
         if match is None:
             raise
-    own, given = known_unit(unit), known_unit(match["unit"])
+    own, source = known_unit(unit), known_unit(match["unit"])
     if not unit or own is None:
         raise ValueError(f"{short(word)} is not a number; write it without a unit, such as {match['number']}")
-    if given is None or given.exponents != own.exponents:
+    if source is None or source.exponents != own.exponents:
         which = f"in {unit}, or with a unit of the same quantity behind it" if own.exponents else "without a unit"
         raise ValueError(f"{short(word)} is not a number; write one {which}, such as {match['number']}{_example(unit)}")
-    return given.convert(parse_number(match["number"]), own)
+    return source.convert(parse_number(match["number"]), own)
 
 
 def _example(unit: str) -> str:

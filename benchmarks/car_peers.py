@@ -98,10 +98,10 @@ def _exudyn(speed: float, h: float, angles: Array) -> dict[str, Drive]:
     from benchmarks.peers import exudyn_car
 
     car, mass = _prototype()
-    given = rig.kinematics(car)
+    curves = rig.kinematics(car)
 
     def run() -> tuple[tuple[Array, Array], float]:
-        rates, used = exudyn_car.drive(car, mass, speed, h, angles, given, lanes.CARS)
+        rates, used = exudyn_car.drive(car, mass, speed, h, angles, curves, lanes.CARS)
         return (rates[:, exudyn_car.YAW], np.linalg.norm(rates[:, :2], axis=1)), used
 
     return {"single": run}

@@ -90,24 +90,24 @@ def changes(
     plan = (dict(inputs or {}), pose, round(t_end / h), h)
     base = kernel_run(system, {}, *plan)
     chosen = {p["name"]: other_value(p) for p in system.meta["parameters"]} | dict(values or {})
-    wanted = [name for name in chosen if names is None or name in names]
+    compared = [name for name in chosen if names is None or name in names]
     differences: dict[str, tuple[float, float | None]] = {}
 
     def compare(group: Sequence[str]) -> bool:
         """Whether all runs with the values of a group are the same."""
-        given = {name: chosen[name] for name in group}
-        run = kernel_run(system, given, *plan)
-        of_rebuilt = difference(run, kernel_run(rebuilt(given), {}, *plan))
-        of_fmu = None if fmu is None else difference(fmu_run(fmu, given, *plan), run)
+        values = {name: chosen[name] for name in group}
+        run = kernel_run(system, values, *plan)
+        of_rebuilt = difference(run, kernel_run(rebuilt(values), {}, *plan))
+        of_fmu = None if fmu is None else difference(fmu_run(fmu, values, *plan), run)
         well = of_rebuilt <= same and not of_fmu
         if well or len(group) == 1 or all([compare(group[::2]), compare(group[1::2])]):
             differences.update(dict.fromkeys(group, (of_rebuilt, of_fmu)))
         return well
 
-    for k in range(groups := -(-len(wanted) // TOGETHER)):
-        compare(wanted[k::groups])
-    effects = {name: difference(kernel_run(system, {name: chosen[name]}, *plan), base) for name in wanted}
-    return [Change(name, chosen[name], *differences[name], effects[name]) for name in wanted]
+    for k in range(groups := -(-len(compared) // TOGETHER)):
+        compare(compared[k::groups])
+    effects = {name: difference(kernel_run(system, {name: chosen[name]}, *plan), base) for name in compared}
+    return [Change(name, chosen[name], *differences[name], effects[name]) for name in compared]
 
 
 def kernel_run(
@@ -119,8 +119,8 @@ def kernel_run(
     h: float,
 ) -> Rows:
     """Outputs after every step, the start first."""
-    given = {name: at(0.0) for name, at in inputs.items()}
-    simulation = mbs.Simulation(system, inputs=given, parameters=dict(parameters), pose=pose)
+    start_inputs = {name: at(0.0) for name, at in inputs.items()}
+    simulation = mbs.Simulation(system, inputs=start_inputs, parameters=dict(parameters), pose=pose)
     rows = [list(simulation.sensors.values())]
     for k in range(steps):
         for name, at in inputs.items():

@@ -218,14 +218,14 @@ def _copy(folder: Path) -> Path:
 
 def _environment(folder: Path, what: str, name: str) -> Path:
     python = folder / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
-    wanted = what if name == "none" else f"{what}[{name}]"
-    wanted = ["-e", wanted] if name in OF_THE_CLONE else [wanted]
+    requirement = what if name == "none" else f"{what}[{name}]"
+    requirement = ["-e", requirement] if name in OF_THE_CLONE else [requirement]
     if UV:
         subprocess.run([UV, "venv", "-q", "--python", sys.executable, folder], check=True)
-        subprocess.run([UV, "pip", "install", "-q", "--python", python, *wanted], check=True)
+        subprocess.run([UV, "pip", "install", "-q", "--python", python, *requirement], check=True)
     else:
         subprocess.run([sys.executable, "-m", "venv", folder], check=True)
-        subprocess.run([python, "-m", "pip", "install", "-q", *wanted], check=True)
+        subprocess.run([python, "-m", "pip", "install", "-q", *requirement], check=True)
     return python
 
 
@@ -251,13 +251,13 @@ def _make_files(folder: Path) -> None:
         "road heights.csv heights.road --spacing 1 1",
     ):
         subprocess.run([sys.executable, "-m", "ali3", *line.split()], cwd=folder, check=True, capture_output=True)
-    for made, name in (
+    for built, name in (
         ("PrototypeCar.fmu", "car.fmu"),
         ("PrototypeCar.ssv", "car.ssv"),
         ("KerbTest.fmu", "kerb.fmu"),
         ("prototype_car_inputs.csv", "result.csv"),
     ):
-        shutil.move(folder / "dist" / made, folder / name)
+        shutil.move(folder / "dist" / built, folder / name)
     Image.fromarray(np.arange(64, dtype=np.uint8).reshape(8, 8)).save(folder / "picture.png")
     ball = trimesh.creation.icosphere(1)
     for suffix in ("stl", "obj", "ply", "off", "glb"):

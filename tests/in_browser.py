@@ -1,4 +1,4 @@
-"""What playwright does by means that the policy of our pages forbids: waits, and pictures without instruments."""
+"""Playwright functions that the content security policy of pages blocks: waits, pictures without instruments."""
 
 import gc
 import io
@@ -64,9 +64,9 @@ def headless_chromium() -> Iterator[Any]:
     gc.collect()  # an error of another test may hold a browser of its own, beside which there can be no second
     with play.sync_playwright() as started:
         arguments = ["--headless=new", *launch_arguments(), *_LESS_AROUND]
-        made = started.chromium.launch(executable_path=program, args=arguments, timeout=60_000)
-        yield made
-        made.close()
+        browser = started.chromium.launch(executable_path=program, args=arguments, timeout=60_000)
+        yield browser
+        browser.close()
 
 
 def bundle_or_skip() -> Path:

@@ -1,4 +1,4 @@
-"""Commands run in the process of the tests: what their programs print, without a start of Python for each."""
+"""Commands run inside the process of the tests, without a start of Python for each; their output."""
 
 import io
 from collections.abc import Callable, Sequence

@@ -1,4 +1,4 @@
-"""The register that says how this thread computes with floating point: MXCSR, through the C library of x86-64 Linux."""
+"""The floating-point control register of this thread: MXCSR, through the C library of x86-64 Linux."""
 
 import ctypes
 import functools
@@ -17,7 +17,9 @@ ODD = {
     "traps on": DEFAULT & ~0x680,
 }
 FLAGS = {"invalid": 1, "denormal": 2, "division by zero": 4, "overflow": 8, "underflow": 16, "inexact": 32}
-_ALL_FLAGS, _PLACE, _BYTES = 0x3F, 28, 32  # of MXCSR in fenv_t
+_ALL_FLAGS = 0x3F  # of MXCSR
+_PLACE = 28  # offset of MXCSR in fenv_t
+_BYTES = 32  # of fenv_t
 
 
 @functools.cache

@@ -1,4 +1,4 @@
-"""Cases of a sweep, of which few are in more runs of the tests than the others."""
+"""Cases of a parameter sweep, few of which are in every run of the tests."""
 
 from collections.abc import Collection, Iterable
 from typing import Any

@@ -67,7 +67,7 @@ def objects(command: Sequence[str], sources: Sequence[Path], folder: Path) -> li
     version = subprocess.run([command[0], "--version"], capture_output=True, check=True).stdout
     message = version + " ".join(part for part in command if "-I" not in part).encode()
 
-    def made(source: Path) -> str:
+    def object_of(source: Path) -> str:
         text = subprocess.run([*command, "-E", "-P", source], capture_output=True, check=True).stdout
         file = folder / f"{hashlib.sha256(message + text).hexdigest()}.o"
         if not file.is_file():
@@ -77,7 +77,7 @@ def objects(command: Sequence[str], sources: Sequence[Path], folder: Path) -> li
         return str(file)
 
     with ThreadPoolExecutor(available_cores()) as pool:
-        return list(pool.map(made, sources))
+        return list(pool.map(object_of, sources))
 
 
 def compiled(library: Path) -> tuple[str, dict[str, str]]:
@@ -88,8 +88,8 @@ def compiled(library: Path) -> tuple[str, dict[str, str]]:
             continue
         shared = [] if "gcc" in compiler else ["-shared-libsan"]
         command = [compiler, *FLAGS, *ADDRESSES, *UNDEFINED]
-        made = objects(command, build.sources(), Path(os.environ.get(OBJECTS, library.parent / "objects")))
-        subprocess.run([*command, *shared, "-shared", "-o", library, *made, "-lm"], check=True)
+        object_files = objects(command, build.sources(), Path(os.environ.get(OBJECTS, library.parent / "objects")))
+        subprocess.run([*command, *shared, "-shared", "-o", library, *object_files, "-lm"], check=True)
         return f"addresses and undefined behaviour ({compiler})", OPTIONS | {"LD_PRELOAD": ":".join(preload)}
     flags = [*FLAGS, "-shared", *UNDEFINED, "-fsanitize-trap=undefined"]
     subprocess.run(

@@ -1,4 +1,4 @@
-"""C that is compiled without optimisation, in a fifth of the time: for what does not depend on it."""
+"""Compiles C without optimisation, in a fifth of the time, for tests that do not depend on it."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

@@ -156,10 +156,10 @@ def _answer(question: Mapping[str, Any], numbers: NDArray[np.float64]) -> tuple[
     except RuntimeError as error:
         raise ViewerError(f"A glTF file cannot be written. {error}") from None
     with temporary_folder() as folder:
-        given, written = folder / "question", folder / "written"
-        given.write_bytes(json.dumps(question).encode() + b"\n" + numbers.astype("<f8").tobytes())
+        question_file, written = folder / "question", folder / "written"
+        question_file.write_bytes(json.dumps(question).encode() + b"\n" + numbers.astype("<f8").tobytes())
         try:
-            done = subprocess.run([*command, str(given), str(written)], capture_output=True, check=False)
+            done = subprocess.run([*command, str(question_file), str(written)], capture_output=True, check=False)
         except OSError as error:
             raise ViewerError(f"A glTF file cannot be written: {command[0]} does not start: {reason(error)}.") from None
         if done.returncode != 0:

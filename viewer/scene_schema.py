@@ -11,13 +11,13 @@ SCHEMA_FILE = Path(__file__).with_name("scene.schema.json")
 
 def json_schema() -> dict[str, Any]:
     """JSON Schema (draft 2020-12) of a scene; what holds between several places is not in it."""
-    made = Scene.model_json_schema()
+    generated = Scene.model_json_schema()
     head = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Scene of ALi3",
         "$comment": "Written by python -m viewer.scene_schema from ali3/scene/scene_types.py.",
     }
-    schema = {key: value for key, value in made.items() if key != "title"}
+    schema = {key: value for key, value in generated.items() if key != "title"}
     plain: dict[str, Any] = _without_nulls(schema)
     return head | plain
 

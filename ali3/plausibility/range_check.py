@@ -132,7 +132,7 @@ class Plausibility:
                 "inside": v.inside(self.kind),
                 "follows": v.quantity.follows,
                 "keys": {
-                    key: given if isinstance(given, (int, float)) else str(given) for key, given in v.keys.items()
+                    key: value if isinstance(value, (int, float)) else str(value) for key, value in v.keys.items()
                 },
                 "source": v.quantity.source,
             }
@@ -183,21 +183,21 @@ class Plausibility:
         poor = {v.name for v in self.values if v.inside(self.kind) and not v.mended(self.kind)}
         wrong |= {v.name for v in after if v.name in own - poor and not v.mended(self.kind)}
         mended = (names & {v.name for v in after}) - wrong
-        remaining = {key for v in self.outside if v.name not in mended for key in v.keys} - changed
-        mended -= {v.name for v in self.outside if remaining & set(v.keys)}
+        outside_keys = {key for v in self.outside if v.name not in mended for key in v.keys} - changed
+        mended -= {v.name for v in self.outside if outside_keys & set(v.keys)}
         return frozenset() if wrong & own or wrong - before else frozenset(mended)
 
     def _sentence(self, group: Sequence[Value], cause: str) -> str:
         first, q = group[0], group[0].quantity
-        keys = {key: given for v in group for key, given in v.keys.items()}
-        shown = [f"{key} = {_given(given)}" for key, given in list(keys.items())[:MOST_KEYS]]
+        keys = {key: value for v in group for key, value in v.keys.items()}
+        shown = [f"{key} = {_given(value)}" for key, value in list(keys.items())[:MOST_KEYS]]
         more = f" and {len(keys) - MOST_KEYS} more" if len(keys) > MOST_KEYS else ""
         sentence = f"{first.name} is {q.shown(first.value)}; usual is {_range(q, self.kind)}"
         sentence += f"; {cause}" if cause else ""
         if len(group) > 1:
             others = (f"{v.name} {v.quantity.shown(v.value)} ({_range(v.quantity, self.kind)})" for v in group[1:])
-            remaining = f" and {len(group) - 1 - MOST_OTHERS} more" if len(group) - 1 > MOST_OTHERS else ""
-            sentence += f"; outside too: {', '.join(list(others)[:MOST_OTHERS])}{remaining}"
+            and_others = f" and {len(group) - 1 - MOST_OTHERS} more" if len(group) - 1 > MOST_OTHERS else ""
+            sentence += f"; outside too: {', '.join(list(others)[:MOST_OTHERS])}{and_others}"
         sentence += "."
         sentence += f" It follows from {', '.join(shown)}{more}." if shown else ""
         return (f"{self.what}: " if self.what else "") + sentence

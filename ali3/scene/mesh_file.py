@@ -32,8 +32,9 @@ _LARGEST = 1_000_000_000  # bytes of a file, and of those that it names
 MOST_TRIANGLES = 100_000
 """Of a mesh that is drawn: 1.8 MB of a page."""
 _OF_POINT = 64  # bytes of memory, or of an index
-_LEAST_SIZE, _MOST_SIZE = 1e-3, 500.0
-"""Sizes of a mesh beyond which its unit is doubted, m."""
+# m, sizes of a mesh beyond which its unit is doubted
+_LEAST_SIZE = 1e-3
+_MOST_SIZE = 500.0
 
 
 class MeshError(ViewerError):
@@ -176,8 +177,8 @@ def _thinned(
         index = index.ravel()
         count = np.bincount(index)
         merged = np.column_stack([np.bincount(index, points[:, k]) / count for k in range(3)])
-        remaining = _proper(index[triangles])
-        _, first = np.unique(np.sort(remaining, axis=1), axis=0, return_index=True)
+        proper = _proper(index[triangles])
+        _, first = np.unique(np.sort(proper, axis=1), axis=0, return_index=True)
         if len(first) <= most:
             break
         cells *= 0.8
@@ -188,4 +189,4 @@ def _thinned(
         UserWarning,
         stacklevel=3,
     )
-    return merged, remaining[np.sort(first)]
+    return merged, proper[np.sort(first)]

@@ -105,16 +105,16 @@ class Recording:
         if count <= most:
             return self
         kept = chosen_times(self.t, int(most), self.epoch)
-        made = object.__new__(Recording)
-        made.name, made.scene, made.units, made.missing = self.name, self.scene, self.units, self.missing
-        made.t, made.epoch = self.t[kept], self.epoch[kept]
-        made.columns = {name: values[kept] for name, values in self.columns.items()}
+        shorter = object.__new__(Recording)
+        shorter.name, shorter.scene, shorter.units, shorter.missing = self.name, self.scene, self.units, self.missing
+        shorter.t, shorter.epoch = self.t[kept], self.epoch[kept]
+        shorter.columns = {name: values[kept] for name, values in self.columns.items()}
         span = float(self.t[-1] - self.t[0])
         note = f"{len(kept)} of {count} times are shown, one every {span / (len(kept) - 1):.2g} s."
         if self.scene is not None:
             note += largest_gap_of_motion(self.scene, self.t, self.columns, kept, self.epoch)
-        made.notes = [*self.notes, note]
-        return made
+        shorter.notes = [*self.notes, note]
+        return shorter
 
     def between(self, begin: float, end: float) -> Recording:
         """The part of this recording from one time to another.
@@ -135,14 +135,14 @@ class Recording:
                 f"There is no time from {begin:g} s to {end:g} s in {self.name!r}; it was recorded from "
                 f"{self.t[0]:g} s to {self.t[-1]:g} s."
             )
-        made = object.__new__(Recording)
-        made.__dict__ |= self.__dict__ | {
+        part = object.__new__(Recording)
+        part.__dict__ |= self.__dict__ | {
             "t": self.t[kept],
             "epoch": self.epoch[kept],
             "columns": {name: values[kept] for name, values in self.columns.items()},
             "notes": list(self.notes),
         }
-        return made
+        return part
 
     def __repr__(self) -> str:
         span = f"{len(self.t)} times from {self.t[0]:g} s to {self.t[-1]:g} s"
@@ -152,30 +152,30 @@ class Recording:
 
     def _take(self, scene: dict[str, Any]) -> None:
         """Take out of the scene what the columns do not move, and say so."""
-        wanted = pose_columns(scene)
-        if wanted and not any(name in self.columns for name in wanted):
+        needed = pose_columns(scene)
+        if needed and not any(name in self.columns for name in needed):
             self.notes.append(
-                f"{scene['name']} is not drawn: the result has none of its poses, such as the column '{wanted[0]}'; "
+                f"{scene['name']} is not drawn: the result has none of its poses, such as the column '{needed[0]}'; "
                 "its signals can be plotted."
             )
             self._note_gaps(self.columns)
             return
-        for name in wanted:
+        for name in needed:
             self._cut(name)
-        empty = {name for name in wanted if name in self.columns and not _any_number(self.columns[name])}
+        empty = {name for name in needed if name in self.columns and not _any_number(self.columns[name])}
 
         def fault(name: str) -> str | None:
             if name not in self.columns:
                 return f"the result has no column '{name}'"
             return f"the column '{name}' holds no number" if name in empty else None
 
-        drawn, why = drawable(scene, fault)
+        drawable_scene, why = drawable(scene, fault)
         self.missing = [dict(item) for item in scene.get("missing", [])]
         self.missing += [{"name": name, "why": reason} for name, reason in why.items()]
-        frames = {key: self._started(frame) for key, frame in drawn["frames"].items()}
-        self.scene = drawn | {"frames": frames, "missing": self.missing}
-        self._note_gaps(name for name in pose_columns(drawn))
-        for frame in drawn["frames"].values():
+        frames = {key: self._started(frame) for key, frame in drawable_scene["frames"].items()}
+        self.scene = drawable_scene | {"frames": frames, "missing": self.missing}
+        self._note_gaps(name for name in pose_columns(drawable_scene))
+        for frame in drawable_scene["frames"].values():
             if "angle" in frame:
                 self._unwrap(frame["angle"])
 

@@ -65,24 +65,24 @@ def drawable(scene: Mapping[str, Any], fault: Callable[[str], str | None]) -> tu
     def stands(part: Mapping[str, Any]) -> bool:
         return not any(other in lost for other in frames_of(part))
 
-    made: dict[str, Any] = dict(scene)
-    made["frames"] = {name: frame for name, frame in scene["frames"].items() if name not in lost}
-    made["shapes"] = []
+    drawn: dict[str, Any] = dict(scene)
+    drawn["frames"] = {name: frame for name, frame in scene["frames"].items() if name not in lost}
+    drawn["shapes"] = []
     for shape in scene["shapes"]:
         if stands(shape):
-            made["shapes"].append(shape)
+            drawn["shapes"].append(shape)
             continue
         body = shape.get("body") or shape.get("name")
         if body is not None and body not in why:
             why[body] = next(lost[other] for other in frames_of(shape) if other in lost)
     for key, noun in (("flexible", "deformation of"), ("arrows", "arrow")):
-        made[key] = []
+        drawn[key] = []
         for part in scene.get(key) or []:
             reason = lacks(part)
             if reason is None and stands(part):
-                made[key].append(part)
+                drawn[key].append(part)
             elif reason is not None:
                 why[f"{noun} {part.get('name') or part.get('frame', '')}"] = reason
-    if made.get("focus", "") not in ("", GROUND, *made["frames"]):
-        made["focus"] = ""
-    return made, why
+    if drawn.get("focus", "") not in ("", GROUND, *drawn["frames"]):
+        drawn["focus"] = ""
+    return drawn, why

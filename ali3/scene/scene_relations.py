@@ -43,19 +43,19 @@ def _known(scene: Mapping[str, Any]) -> list[str]:
 
 
 def _no_frame(scene: Mapping[str, Any], path: tuple[str | int, ...], name: str) -> str:
-    known = some_of(map(repr, _known(scene)), 8)
-    return f"{place(path)} is {value_text(name)}, which is not a frame; there are {known}."
+    frames = some_of(map(repr, _known(scene)), 8)
+    return f"{place(path)} is {value_text(name)}, which is not a frame; there are {frames}."
 
 
 def _frames(scene: Mapping[str, Any]) -> Iterator[str]:
-    known = _known(scene)
+    frames = _known(scene)
     good = True
     for name, frame in scene["frames"].items():
         path = ("frames", name)
         if name == GROUND:
             yield f"{place(path)} is given; the frame 'ground' is there always: earth axes."
         for other in frames_of(frame):
-            if other not in known:
+            if other not in frames:
                 good = False
                 yield _no_frame(scene, (*path, "parent" if "parent" in frame else "on"), other)
         for key in ("axis", "direction"):
@@ -85,9 +85,9 @@ def _circles(scene: Mapping[str, Any]) -> Iterator[str]:
             del remaining[name]
 
 
-def _length(found: int, right: int, path: tuple[str | int, ...], each: str) -> Iterator[str]:
-    if found != right:
-        yield f"{place(path)} has {found} entries; it must have {right}, one for each {each}."
+def _length(count: int, right: int, path: tuple[str | int, ...], each: str) -> Iterator[str]:
+    if count != right:
+        yield f"{place(path)} has {count} entries; it must have {right}, one for each {each}."
 
 
 def _direction(vector: Any, path: tuple[str | int, ...]) -> Iterator[str]:
@@ -96,13 +96,13 @@ def _direction(vector: Any, path: tuple[str | int, ...]) -> Iterator[str]:
 
 
 def _users(scene: Mapping[str, Any], part: Mapping[str, Any], path: tuple[str | int, ...]) -> Iterator[str]:
-    known = _known(scene)
+    frames = _known(scene)
     for key in ("frame", "axes"):
-        if isinstance(part.get(key), str) and part[key] not in known:
+        if isinstance(part.get(key), str) and part[key] not in frames:
             yield _no_frame(scene, (*path, key), part[key])
     key = next((k for k in ("points", "ends", "between") if k in part), "at")
     for k, anchor in enumerate(anchors_of(part)):
-        if anchor[0] not in known:
+        if anchor[0] not in frames:
             yield _no_frame(scene, (*path, key, 0) if key == "at" else (*path, key, k, 0), anchor[0])
 
 

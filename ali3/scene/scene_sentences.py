@@ -108,34 +108,34 @@ def _sentence(
         return _length_sentence(scene, item, path, lengths)
     key = "[key]" in item["loc"]
     if kind == "string_pattern_mismatch":
-        wanted = _PATTERNS.get(item["ctx"]["pattern"], "a colour such as '#3366cc'")
+        requirement = _PATTERNS.get(item["ctx"]["pattern"], "a colour such as '#3366cc'")
     elif key and kind != "literal_error":
-        wanted = "a text that is not empty"
+        requirement = "a text that is not empty"
     else:
-        wanted = str(item["msg"])
+        requirement = str(item["msg"])
         for theirs, ours in _REPLACEMENTS:
-            wanted = re.sub(theirs, ours, wanted)
+            requirement = re.sub(theirs, ours, requirement)
     if key:
-        return f"{place(path[:-1])} has the key {value_text(value)}; it must be {wanted}."
-    return f"{place(path)} is {value_text(value)}; it must be {wanted}."
+        return f"{place(path[:-1])} has the key {value_text(value)}; it must be {requirement}."
+    return f"{place(path)} is {value_text(value)}; it must be {requirement}."
 
 
 def _choice_sentence(item: Any, path: tuple[str | int, ...]) -> str:
     """Of a table whose keys, or whose key `kind`, choose none of the types that it could be."""
-    given = item["input"]
+    entry = item["input"]
     by_keys = path[:1] in _CHOICES and item["type"] == "union_tag_not_found"
-    if not isinstance(given, Mapping):
+    if not isinstance(entry, Mapping):
         table = "a table" if by_keys else "a table with a key 'kind'"
-        return f"{place(path)} is {value_text(given)}; it must be {table}."
+        return f"{place(path)} is {value_text(entry)}; it must be {table}."
     if by_keys:
-        unknown = next((key for key in given if key not in ("name", "unit", "start")), None)
+        unknown = next((key for key in entry if key not in ("name", "unit", "start")), None)
         hint = "" if unknown is None else f" ({brief(str(unknown))} is not known)"
         return f"{place(path)} must have {_CHOICES[path[:1]]}{hint}."
     known = item.get("ctx", {}).get("expected_tags") or ", ".join(map(repr, _kinds_at(path)))
     where = place((*path, "kind"))
-    if "kind" in given:
-        return f"{where} is {value_text(given['kind'])}; it must be one of {known}."
-    near = _near("kind", list(map(str, given)))
+    if "kind" in entry:
+        return f"{where} is {value_text(entry['kind'])}; it must be one of {known}."
+    near = _near("kind", list(map(str, entry)))
     return f"{where} is missing{f' ({near!r} is not known)' if near else ''}; it is one of {known}."
 
 
@@ -145,9 +145,9 @@ def _length_sentence(
     """Of a list with too few or too many entries."""
     path = path[:-1] if item["type"] == MISSING else path
     limits = item.get("ctx", {})
-    wanted = limits.get("max_length", limits.get("min_length", lengths.get(path)))
+    count = limits.get("max_length", limits.get("min_length", lengths.get(path)))
     at_least = "at least " if item["type"] == "too_short" and "min_length" in limits else ""
-    right = ", too few" if wanted is None else f"; it must have {at_least}{wanted}"
+    right = ", too few" if count is None else f"; it must have {at_least}{count}"
     return f"{place(path)} has {len(_at(scene, path))} entries{right}."
 
 

@@ -92,13 +92,13 @@ def run(
                         times.append(k * h)
                         states.append(x)
             else:
-                wanted = h * every * np.arange(1, steps // every + 1)
+                t_eval = h * every * np.arange(1, steps // every + 1)
                 solution = solve_ivp(
                     chosen.rates,
                     (0.0, t_end),
                     mechanism.start,
                     method=solver,
-                    t_eval=wanted,
+                    t_eval=t_eval,
                     rtol=rtol,
                     atol=0.01 * rtol,
                 )

@@ -104,13 +104,13 @@ def measure(name: str, h: float, fmu: Path | None, repeats: int, car: str = mano
         "halvings": report.halvings,
         "us_per_step": 1e6 * spent * h / duration,
         "realtime_factor": duration / spent,
-        **{f"{key}{way}": None for way in (held, followed) for key in ERRORS},
+        **{f"{key}{suffix}": None for suffix in (held, followed) for key in ERRORS},
     }
     if fmu is not None and name not in manoeuvres.OTHER_ROAD:
-        for way in (held, followed):
-            through = run_of_fmu(fmu, name, h, way == followed, car)
+        for key_suffix in (held, followed):
+            through = run_of_fmu(fmu, name, h, key_suffix == followed, car)
             errors = trajectories.path_error(through, values) / length, trajectories.load_error(through, values)
-            row |= {f"{key}{way}": value for key, value in zip(ERRORS, errors, strict=True)}
+            row |= {f"{key}{key_suffix}": value for key, value in zip(ERRORS, errors, strict=True)}
     return row
 
 
@@ -125,8 +125,8 @@ def build_fmu_of(folder: Path, car: str = manoeuvres.PROTOTYPE) -> Path | None:
     return build_fmu(manoeuvres.system_of("drop", car), f"{car}_car", folder, (fmpy.platform,), say)
 
 
-def _errors(row: Row, way: str = "") -> str | None:
-    path, load = row[f"path_error_rel{way}"], row[f"wheel_load_error_rel{way}"]
+def _errors(row: Row, suffix: str = "") -> str | None:
+    path, load = row[f"path_error_rel{suffix}"], row[f"wheel_load_error_rel{suffix}"]
     return None if path is None else f"{path:.1e}, {100.0 * load:.2g} %"
 
 
@@ -146,7 +146,7 @@ def car_blocks(rows: Sequence[Row]) -> dict[str, str]:
                     "iterations, mean (most)": f"{r['iterations_mean']:.2f} ({r['iterations_max']})",
                 }
             )
-    held = [
+    rows_of_held = [
         {
             "manoeuvre": TITLES[r["manoeuvre"]],
             "h, ms": f"{1e3 * r['h_s']:g}",
@@ -158,7 +158,7 @@ def car_blocks(rows: Sequence[Row]) -> dict[str, str]:
         if r["h_s"] in (0.01, 0.002) and r["manoeuvre"] not in WITHOUT_INPUTS and _errors(r, "_fmpy_held")
     ]
     blocks = {"car": table(lines, dict.fromkeys(lines[0], ""))}
-    return blocks | ({"held inputs": table(held, dict.fromkeys(held[0], ""))} if held else {})
+    return blocks | ({"held inputs": table(rows_of_held, dict.fromkeys(rows_of_held[0], ""))} if rows_of_held else {})
 
 
 def error_table(rows: Sequence[Row]) -> str:

@@ -66,8 +66,8 @@ def commands_of(checkout: Path, scenes: Sequence[Scene], folder: Path, steps: in
     build.compile_c(
         [SOURCE, *sources], build.host_target(), program, include=include, defines=defines, what=label, shared=False
     )
-    wanted = json.dumps([[scene.name, scene.step] for scene in scenes])
-    command = [sys.executable, "-c", _COMMANDS, scene_instructions.__file__, str(program), wanted, str(steps)]
+    scene_steps = json.dumps([[scene.name, scene.step] for scene in scenes])
+    command = [sys.executable, "-c", _COMMANDS, scene_instructions.__file__, str(program), scene_steps, str(steps)]
     environment = os.environ | {"PYTHONPATH": str(checkout)}
     done = subprocess.run(command, cwd=checkout, env=environment, capture_output=True, text=True)
     if done.returncode != 0:

@@ -138,8 +138,8 @@ def gauge_moments(refinement: int) -> list[float]:
     """
     frame, tubes = FRAME.frame("timoshenko", refinement)
     forces = interface_forces(INTERFACES).reshape(-1, 3)
-    held = frame.names.index(REFERENCE) + 1
-    lines = ["*ELSET,ELSET=BEAMS", *(f"E{e + 1}," for e in range(len(frame.beams))), "*BOUNDARY", f"{held},1,6"]
+    clamped_node = frame.names.index(REFERENCE) + 1
+    lines = ["*ELSET,ELSET=BEAMS", *(f"E{e + 1}," for e in range(len(frame.beams))), "*BOUNDARY", f"{clamped_node},1,6"]
     lines += ["*STEP", "*STATIC", "*DLOAD", f"BEAMS,GRAV,{GRAVITY},0.,0.,-1.", "*CLOAD"]
     for name, force in zip(INTERFACES, forces, strict=True):
         lines += [f"{frame.names.index(name) + 1},{axis + 1},{force[axis]:.9g}" for axis in range(3)]

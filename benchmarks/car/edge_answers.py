@@ -63,19 +63,19 @@ def climb(car: str, edge: float, kind: str = "", time: float = TIME) -> tuple[fl
     Returns the largest load of the left front wheel, N; by how much the normal of a wheel turned between two answers,
     as the length of the difference of both unit vectors; the car at the end.
     """
-    made = load(car)
-    system = with_port(car) if kind else mbs.compile(made.model(KerbRoad(EDGE, edge, upper="after")))
+    data = load(car)
+    system = with_port(car) if kind else mbs.compile(data.model(KerbRoad(EDGE, edge, upper="after")))
     s = mbs.Simulation(system, pose=mbs.Pose(speed=SPEED), inputs={"selector": 0.0})
-    radius, largest, turn = {"F": made.front.tyre.radius, "R": made.rear.tyre.radius}, 0.0, 0.0
+    radius, largest, turn = {"F": data.front.tyre.radius, "R": data.rear.tyre.radius}, 0.0, 0.0
     last = dict.fromkeys(WHEELS, UP)
     for _ in range(round(time / STEP)):
         now = s.sensors
         largest = max(largest, now["wheel_FL.Fz"])
         for w in WHEELS if kind else ():
             centre = np.array([now[f"wheel_{w}.{a}"] for a in "xyz"])
-            given = answer(kind, edge, centre, radius[w[0]], now[f"wheel_{w}.contact_x"])
-            turn, last[w] = max(turn, float(np.linalg.norm(last[w] - given[3:]))), np.array(given[3:])
-            for name, value in zip(ANSWER, (*given, made.road.friction), strict=True):
+            road = answer(kind, edge, centre, radius[w[0]], now[f"wheel_{w}.contact_x"])
+            turn, last[w] = max(turn, float(np.linalg.norm(last[w] - road[3:]))), np.array(road[3:])
+            for name, value in zip(ANSWER, (*road, data.road.friction), strict=True):
                 s.set_input(f"wheel_{w}.road_{name}", float(value))
         s.step(STEP)
     return largest, turn, s

@@ -52,9 +52,9 @@ def size_of(name: str, fidelity: Fidelity) -> dict[str, int]:
     return {"coordinates": len(arrays["q0"]), "rows": len(arrays["row_const"]), "modes": modes_of(fidelity)}
 
 
-def errors_of(found: Trajectory, name: str, fidelity: Fidelity, h: float) -> dict[str, float | None]:
+def errors_of(trajectory: Trajectory, name: str, fidelity: Fidelity, h: float) -> dict[str, float | None]:
     """By `OUTPUTS`; those of stresses are None where there are none."""
-    values = fidelity_runs.sampled(found, h, stresses=not fidelity.rigid)
+    values = fidelity_runs.sampled(trajectory, h, stresses=not fidelity.rigid)
     return dict.fromkeys(STRESSES) | fidelity_runs.errors(values, fidelity_runs.read_reference(name))
 
 

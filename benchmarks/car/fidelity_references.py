@@ -19,10 +19,10 @@ def write(name: str) -> str:
         f"step {2 * STEP:g} s": fidelity_runs.sampled(fidelity_runs.run(name, Fidelity.MANY_MODES, 2 * STEP), 2 * STEP),
         "5 dynamic modes": fidelity_runs.sampled(fidelity_runs.run(name, Fidelity.DYNAMIC, STEP), STEP),
     }
-    reported = []
+    differences = []
     for what, other in checks.items():
         e = fidelity_runs.errors(other, values)
-        reported.append(
+        differences.append(
             f"{what}: moments {e['moment']:.1e} after the low-pass and {e['moment_unfiltered']:.1e} before it, "
             f"place {e['motion']:.1e} m, wheel loads {e['wheel_load']:.1e}"
         )
@@ -30,12 +30,12 @@ def write(name: str) -> str:
     lines = [
         f"# Prototype car, flexible chassis, {name.replace('_', ' ')}: this engine, 106 modes, steps of {STEP:g} s; "
         "made by python -m benchmarks.car fidelity-references",
-        *(f"# differences with {text}" for text in reported),
+        *(f"# differences with {text}" for text in differences),
     ]
     t = INTERVAL * np.arange(len(values[POSITION[0]]))
     write_csv(FOLDER / f"{name}.csv", lines, {"time": t} | {s: values[s] for s in signals}, 7)
     _write_peaks(name, fidelity_runs.peaks(fine, STEP))
-    return f"{name}: " + "; ".join(reported)
+    return f"{name}: " + "; ".join(differences)
 
 
 def _write_peaks(name: str, peaks: dict[str, float]) -> None:

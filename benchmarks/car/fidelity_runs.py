@@ -51,11 +51,11 @@ def cpu_time(name: str, fidelity: Fidelity, h: float, repeats: int) -> float:
     return manoeuvres.time_on(system_of(name, fidelity), manoeuvre_of(name), h, repeats, time.process_time)
 
 
-def sampled(found: Trajectory, h: float, *, stresses: bool = True) -> dict[str, NDArray[np.float64]]:
+def sampled(trajectory: Trajectory, h: float, *, stresses: bool = True) -> dict[str, NDArray[np.float64]]:
     """Signals at the times of a reference, moments (where asked for) also filtered before they are sampled."""
     every, moments = round(INTERVAL / h), MOMENTS if stresses else ()
-    values = {s: np.asarray(found[s])[::every] for s in (*POSITION, *LOADS, *moments)}
-    return values | {FILTERED + s: low_pass(found[s], h, FREQUENCY)[::every] for s in moments}
+    values = {s: np.asarray(trajectory[s])[::every] for s in (*POSITION, *LOADS, *moments)}
+    return values | {FILTERED + s: low_pass(trajectory[s], h, FREQUENCY)[::every] for s in moments}
 
 
 def read_reference(name: str) -> dict[str, NDArray[np.float64]]:
@@ -63,11 +63,11 @@ def read_reference(name: str) -> dict[str, NDArray[np.float64]]:
     return read_csv(FOLDER / f"{name}.csv")[1]
 
 
-def peaks(found: Trajectory, h: float) -> dict[str, float]:
+def peaks(trajectory: Trajectory, h: float) -> dict[str, float]:
     """Largest changes of the moments from the start over all steps, before and after the filter, N m."""
     changes = {}
     for s in MOMENTS:
-        x = np.asarray(found[s]) - found[s][0]
+        x = np.asarray(trajectory[s]) - trajectory[s][0]
         changes[s] = float(np.abs(x).max())
         changes[FILTERED + s] = float(np.abs(low_pass(x, h, FREQUENCY)).max())
     return changes

@@ -43,8 +43,8 @@ def measure(fmu: Path, kind: str, folder: Path, steps: int, repeats: int, instan
         "C": time_from_c(folder, steps, repeats, instances if kind == "native" else 30),
         "FMPy": time_from_fmpy(folder, steps, repeats),
     }
-    for host, found in hosts.items():
-        rows += [{"quantity": name, "kind": kind, "host": host, "value": value} for name, value in found.items()]
+    for host, values in hosts.items():
+        rows += [{"quantity": name, "kind": kind, "host": host, "value": value} for name, value in values.items()]
     return rows
 
 

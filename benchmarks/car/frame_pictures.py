@@ -115,7 +115,7 @@ def _frame_and_gauges(a: Any, car: Car, i: int, j: int) -> None:
     if names:
         a.plot(*np.array(list(names)).T, "s", ms=8, color="tab:red", label="strain gauges")
     places = list(names)
-    for k, (place, found) in enumerate(names.items()):
+    for k, (place, gauges) in enumerate(names.items()):
         beside = any(abs(place[0] - x0) < NEAR[0] and abs(place[1] - y0) < NEAR[1] for x0, y0 in places[:k])
         style = {"xytext": (0, 9 if beside else -17), "textcoords": "offset points", "ha": "center", "color": "tab:red"}
-        a.annotate(", ".join(found), place, **style)
+        a.annotate(", ".join(gauges), place, **style)

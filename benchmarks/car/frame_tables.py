@@ -102,8 +102,8 @@ def frame_figures(theory: str) -> dict[str, Array]:
     frame, _ = FRAME.frame(theory, 2)
     model = frame.finite_element_model()
     bare = FRAME.frame(theory, 2, carried_masses=False)[0].finite_element_model()
-    held = np.concatenate([model.freedoms("TRL"), model.freedoms("TRR"), model.freedoms(REFERENCE)[1:2]])
-    free = np.setdiff1d(np.arange(model.n_dof), held)
+    fixed = np.concatenate([model.freedoms("TRL"), model.freedoms("TRR"), model.freedoms(REFERENCE)[1:2]])
+    free = np.setdiff1d(np.arange(model.n_dof), fixed)
     left, right = (model.freedoms(n)[2] for n in ("TFL", "TFR"))
     F, u = np.zeros(model.n_dof), np.zeros(model.n_dof)
     F[left], F[right] = calculix.TOWER_FORCE, -calculix.TOWER_FORCE

@@ -83,8 +83,8 @@ def start_of(manoeuvre: Manoeuvre, system: System) -> tuple[dict[str, float], Po
 def inputs_of(manoeuvre: Manoeuvre, system: System) -> dict[str, Signal]:
     """Inputs over time as `mbs.simulate` takes them."""
     inputs: dict[str, Signal] = {name: (manoeuvre.time, values) for name, values in manoeuvre.inputs.items()}
-    held = _names(system, "inputs")
-    return inputs | {k: v for k, v in _start(manoeuvre, system).items() if k in held and k not in inputs}
+    inputs_of_system = _names(system, "inputs")
+    return inputs | {k: v for k, v in _start(manoeuvre, system).items() if k in inputs_of_system and k not in inputs}
 
 
 def _start(manoeuvre: Manoeuvre, system: System) -> dict[str, float]:

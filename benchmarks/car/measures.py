@@ -210,7 +210,7 @@ def measure_rows(measured: Mapping[str, Mapping[str, float]]) -> list[dict[str, 
     """A row a measure, a column a car."""
     return [
         {"measure": m.name, "unit": m.unit}
-        | {car: found[m.name] for car, found in measured.items()}
+        | {car: values[m.name] for car, values in measured.items()}
         | {"usual": usual_text(m), "meaning": m.meaning}
         for m in MEASURES
     ]

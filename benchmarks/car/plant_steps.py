@@ -49,7 +49,7 @@ def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -
             FMPY: _fmpy(plain, folder),
             CAR: _car(plain),
             ONE: _one(single),
-            **{way: _several(made, way, last) for way, made in together.items()},
+            **{way: _several(vector_env, way, last) for way, vector_env in together.items()},
         }
         walls, spent = {way: np.full(steps, np.inf) for way in ways}, dict.fromkeys(ways, 0.0)
         for _ in range(repeats):
@@ -66,8 +66,8 @@ def measure(name: str, several: int, repeats: int, steps: int, **options: Any) -
             raise RuntimeError(f"{name}: several environments are not the same in all ways.")
     finally:
         single.close()
-        for made in together.values():
-            made.close()
+        for env in together.values():
+            env.close()
         shutil.rmtree(folder)
     count = {way: steps * (several if way in together else 1) for way in ways}
     return [
@@ -126,13 +126,13 @@ def _one(environment: gymnasium.Env[Any, Any]) -> Way:
     return lambda: environment.reset(seed=0), lambda k: environment.step(action)
 
 
-def _several(made: VectorEnv[Any, Any, Any], way: str, last: dict[str, np.ndarray]) -> Way:
-    actions = np.zeros(made.action_space.shape or (), np.float32)
+def _several(vector_env: VectorEnv[Any, Any, Any], way: str, last: dict[str, np.ndarray]) -> Way:
+    actions = np.zeros(vector_env.action_space.shape or (), np.float32)
 
     def advance(k: int) -> None:
-        last[way] = made.step(actions)[0]
+        last[way] = vector_env.step(actions)[0]
 
-    return lambda: made.reset(seed=0), advance
+    return lambda: vector_env.reset(seed=0), advance
 
 
 def plant_blocks(rows: Sequence[Row]) -> dict[str, str]:

@@ -148,10 +148,10 @@ def instruction_blocks(rows: Sequence[Row]) -> dict[str, str]:
 
 def compared(rows: Sequence[Row], stored: Sequence[Row]) -> list[str]:
     """A sentence for each scene that takes over 3 % more than in stored rows; factorizations count without valgrind."""
-    known = {(row["scene"], row["step_ms"]): row for row in stored}
+    stored_rows = {(row["scene"], row["step_ms"]): row for row in stored}
     lines = []
     for row in rows:
-        before = known.get((row["scene"], row["step_ms"]))
+        before = stored_rows.get((row["scene"], row["step_ms"]))
         if before is None:
             continue
         what = "instructions" if row["instructions"] and before["instructions"] else "factorizations"

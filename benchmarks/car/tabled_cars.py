@@ -27,7 +27,7 @@ def tabled(name: str, car: str) -> System:
 def compare(car: str, name: str, h: float, repeats: int = 0) -> dict[str, Any]:
     """A row: errors, and without repeats no times."""
     manoeuvre, (_, reference, length) = manoeuvres.load(name, car), trajectories.read(name, car)
-    way, every = max(length, 1.0), round(manoeuvres.sampling(name, car) / h)
+    path_length, every = max(length, 1.0), round(manoeuvres.sampling(name, car) / h)
     systems = {"tables": tabled(name, car), "links": manoeuvres.system_of(name, car)}
     runs = {kind: manoeuvres.run_on(system, manoeuvre, h, every=every) for kind, system in systems.items()}
     row: dict[str, Any] = {"car": car, "manoeuvre": name, "h_s": h, "way_m": length}
@@ -37,13 +37,13 @@ def compare(car: str, name: str, h: float, repeats: int = 0) -> dict[str, Any]:
         if repeats:
             spent = manoeuvres.time_on(systems[kind], manoeuvre, h, repeats, time.process_time)
         row |= {
-            f"{kind}_path": path_error(run, reference) / way,
+            f"{kind}_path": path_error(run, reference) / path_length,
             f"{kind}_load": load_error(run, reference),
             f"{kind}_iterations": run.report.mean_iterations,
             f"{kind}_us": None if spent is None else 1e6 * spent * h / manoeuvre.stop_time,
         }
     return row | {
-        "apart_path": path_error(runs["tables"], runs["links"]) / way,
+        "apart_path": path_error(runs["tables"], runs["links"]) / path_length,
         "apart_load": load_error(runs["tables"], runs["links"]),
     }
 
@@ -74,11 +74,11 @@ def verdict(rows: Sequence[Row]) -> str:
         if r["tables_path"] > accuracy.PATH_BOUND or r["tables_load"] > accuracy.LOAD_BOUND
     ]
     smooth = [r for r in rows if r["manoeuvre"] in SMOOTH]
-    reported = f"Tables are outside of 1 % of the path and 3 % of the loads in: {'; '.join(outside) or 'none'}."
+    sentence = f"Tables are outside of 1 % of the path and 3 % of the loads in: {'; '.join(outside) or 'none'}."
     if smooth:
         path, loads = (max(r[f"tables_{key}"] for r in smooth) for key in ("path", "load"))
-        reported += f" In smooth manoeuvres they are within {path:.1e} and {100.0 * loads:.2g} %."
-    return reported
+        sentence += f" In smooth manoeuvres they are within {path:.1e} and {100.0 * loads:.2g} %."
+    return sentence
 
 
 def _errors(row: Row, what: str) -> str:

@@ -58,12 +58,16 @@ def read(
     return values.pop("time"), values, length
 
 
-def load_error_in_time(found: Trajectory, fine: Trajectory, late: float) -> float:
+def load_error_in_time(trajectory: Trajectory, fine: Trajectory, late: float) -> float:
     """The same against a run of small steps, each load against those up to `late` seconds before and after it."""
     peak, times = max(float(fine[s].max()) for s in LOADS), np.linspace(-late, late, 11)
     return (
         max(
-            float(np.min([np.abs(found[s] - np.interp(found.t + by, fine.t, fine[s])) for by in times], axis=0).max())
+            float(
+                np.min(
+                    [np.abs(trajectory[s] - np.interp(trajectory.t + by, fine.t, fine[s])) for by in times], axis=0
+                ).max()
+            )
             for s in LOADS
         )
         / peak

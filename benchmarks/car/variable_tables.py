@@ -40,10 +40,10 @@ def tables(cars: Sequence[str] | None = None) -> dict[str, tuple[Variable, ...]]
     return {name: _table(name) for name in names}
 
 
-def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
+def shown(tables: Mapping[str, Sequence[Variable]]) -> list[Shown]:
     """The variables of all cars in the order of the first, without repetition for wheels and axles."""
     merged: dict[tuple[str, str, str], Shown] = {}
-    for car, table in found.items():
+    for car, table in tables.items():
         present = {v.name for v in table}
         alike = Counter(_alike(v) for v in table)
         for v in table:
@@ -57,20 +57,26 @@ def shown(found: Mapping[str, Sequence[Variable]]) -> list[Shown]:
     return sorted(merged.values(), key=lambda s: list(_TITLES).index(s.variable.causality))
 
 
-def blocks(found: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
+def blocks(tables: Mapping[str, Sequence[Variable]]) -> dict[str, str]:
     """Tables of the page by their marks, from `tables`: one for each causality, start values of every car beside each
     other.
     """
     results = {}
     for causality, title in _TITLES.items():
-        members = [s for s in shown(found) if s.variable.causality == causality]
+        members = [s for s in shown(tables) if s.variable.causality == causality]
         starts = causality != "output"
         ranged = causality in ("input", "parameter")
-        head = ["name", "unit", *(found if starts else ["cars"]), *(["range", "variability"] if ranged else []), "what"]
+        head = [
+            "name",
+            "unit",
+            *(tables if starts else ["cars"]),
+            *(["range", "variability"] if ranged else []),
+            "what",
+        ]
         rows = [head, ["---"] * len(head)]
         for s in members:
             v = s.variable
-            values = [_starts(s, car) for car in found] if starts else [_of(s, found)]
+            values = [_starts(s, car) for car in tables] if starts else [_of(s, tables)]
             low, high = (float("-inf") if v.min is None else v.min), (float("inf") if v.max is None else v.max)
             rows.append(
                 [
@@ -135,5 +141,5 @@ def _starts(s: Shown, car: str) -> str:
     return ", ".join(f"{value:.6g}" for value in (values if len(set(values)) > 1 else values[:1]))
 
 
-def _of(s: Shown, found: Mapping[str, Sequence[Variable]]) -> str:
-    return "all" if len(s.cars) == len(found) else ", ".join(s.cars)
+def _of(s: Shown, tables: Mapping[str, Sequence[Variable]]) -> str:
+    return "all" if len(s.cars) == len(tables) else ", ".join(s.cars)

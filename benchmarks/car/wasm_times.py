@@ -108,8 +108,8 @@ def _native(fmu: Path, folder: Path) -> Measure:
     values = (fmi2Real * len(outputs))()
 
     def measure(plan: Mapping[str, Any]) -> dict[str, Any]:
-        given = [variables[n].valueReference for n in plan["inputs"]]
-        known, put = (fmi2ValueReference * len(given))(*given), (fmi2Real * len(given))(*plan["values"])
+        inputs = [variables[n].valueReference for n in plan["inputs"]]
+        input_references, put = (fmi2ValueReference * len(inputs))(*inputs), (fmi2Real * len(inputs))(*plan["values"])
         c = slave.component
 
         def start() -> None:
@@ -124,7 +124,7 @@ def _native(fmu: Path, folder: Path) -> Measure:
             plan,
             start,
             lambda t, h: slave.fmi2DoStep(c, t, h, 1),
-            lambda: slave.fmi2SetReal(c, known, len(given), put),
+            lambda: slave.fmi2SetReal(c, input_references, len(inputs), put),
             lambda: slave.fmi2GetReal(c, references, len(outputs), values),
         )
         return result | {"end": values[0]}
@@ -137,13 +137,13 @@ def _wasmtime(fmu: Path) -> Measure:
     wasm, resources = resources_of(fmu)
     module = FmuModule(wasm, resources, fmpy.read_model_description(str(fmu)).guid)
     do_step, set_real, get_real = (module.caller(f"fmi2{name}") for name in ("DoStep", "SetReal", "GetReal"))
-    wanted = [variables[n].valueReference for n in outputs]
-    references, values = module.block(struct.pack(f"<{len(wanted)}I", *wanted)), module.block(bytes(8 * len(wanted)))
+    read = [variables[n].valueReference for n in outputs]
+    references, values = module.block(struct.pack(f"<{len(read)}I", *read)), module.block(bytes(8 * len(read)))
 
     def measure(plan: Mapping[str, Any]) -> dict[str, Any]:
-        given = [variables[n].valueReference for n in plan["inputs"]]
-        known = module.block(struct.pack(f"<{len(given)}I", *given))
-        put = module.block(struct.pack(f"<{len(given)}d", *plan["values"]))
+        inputs = [variables[n].valueReference for n in plan["inputs"]]
+        input_references = module.block(struct.pack(f"<{len(inputs)}I", *inputs))
+        put = module.block(struct.pack(f"<{len(inputs)}d", *plan["values"]))
 
         def start() -> None:
             module.reset()
@@ -157,7 +157,7 @@ def _wasmtime(fmu: Path) -> Measure:
             plan,
             start,
             lambda t, h: do_step(t, h, 1),
-            lambda: set_real(known, len(given), put),
+            lambda: set_real(input_references, len(inputs), put),
             lambda: get_real(references, len(outputs), values),
         )
         return result | {"end": struct.unpack("<d", module.bytes_at(values, 8))[0]}

@@ -67,14 +67,16 @@ class Case:
 def simulated(system: mbs.System, span: float, run: Callable[..., mbs.Trajectory] | None = None) -> dict[str, Any]:
     """What a case has of `mbs.simulate`, or of another function of ``h`` and the same names."""
 
-    def found(h: float | None = None, **more: Any) -> CaseRun:
-        made = (run or partial(mbs.simulate, system, span, progress=False))(h=h, **more)
-        if made.control is not None:
-            return CaseRun(made, made.control.error, None, made.control.method)
-        known = made.accuracy
-        return CaseRun(made, known.error if known else None, 1.0 + known.check_cost if known else None)
+    def case_run(h: float | None = None, **more: Any) -> CaseRun:
+        trajectory = (run or partial(mbs.simulate, system, span, progress=False))(h=h, **more)
+        if trajectory.control is not None:
+            return CaseRun(trajectory, trajectory.control.error, None, trajectory.control.method)
+        accuracy = trajectory.accuracy
+        return CaseRun(
+            trajectory, accuracy.error if accuracy else None, 1.0 + accuracy.check_cost if accuracy else None
+        )
 
-    return {"system": system, "span": span, "run": found}
+    return {"system": system, "span": span, "run": case_run}
 
 
 def _drawn(kind: str, drawing: Drawing) -> Case:
@@ -110,8 +112,8 @@ def cars(rng: np.random.Generator) -> Case:
     def run(h: float | None = None, **more: Any) -> mbs.Trajectory:
         return drive.run("auto" if h is None else "ali3p", h, **more)
 
-    given = simulated(drive.system, drive.span, run)
-    return Case(kind, truth=drive.truth(), **given, steps=random_cars.STEPS, tolerances=TOLERANCES[:2])
+    simulation = simulated(drive.system, drive.span, run)
+    return Case(kind, truth=drive.truth(), **simulation, steps=random_cars.STEPS, tolerances=TOLERANCES[:2])
 
 
 def box(rng: np.random.Generator) -> Case:
@@ -122,20 +124,20 @@ def box(rng: np.random.Generator) -> Case:
         ContactPoints.for_mass(mass / 4.0, depth=depth, onset=onset, loss=float(rng.uniform(0.1, 1.0))),
         friction_factor=0.0,
     )
-    drawn = boxes.Box(
+    falling_box = boxes.Box(
         mass, half, float(np.linalg.norm(half) + rng.uniform(0.01, 0.5)), np.append(rng.normal(0.0, 0.5, 2), -0.5),
         rng.normal(0.0, 3.0, 3), contact.stiffness, onset, contact.loss, 1.0,
     )  # fmt: skip
-    truth = boxes.motion(drawn)
+    truth = boxes.motion(falling_box)
     m = mbs.Model("box", gravity=(0.0, 0.0, -9.81))
-    centre = np.array([0.0, 0.0, drawn.height])
-    body = m.body("box", mass=mass, com=centre, inertia=drawn.inertia)
-    m.contact_points("corners", body, centre + drawn.corners, road=m.road(PlaneRoad()), contact=contact)
-    m.initial_velocity(body, linear=drawn.velocity, angular=drawn.omega)
+    centre = np.array([0.0, 0.0, falling_box.height])
+    body = m.body("box", mass=mass, com=centre, inertia=falling_box.inertia)
+    m.contact_points("corners", body, centre + falling_box.corners, road=m.road(PlaneRoad()), contact=contact)
+    m.initial_velocity(body, linear=falling_box.velocity, angular=falling_box.omega)
     for c in "xyz":
         m.sense_position(f"centre.{c}", body, None, c)
-        m.sense_position(f"corner.{c}", body, centre + drawn.corners[0], c)
-    return Case("box", truth=truth, **simulated(mbs.compile(m), drawn.span))
+        m.sense_position(f"corner.{c}", body, centre + falling_box.corners[0], c)
+    return Case("box", truth=truth, **simulated(mbs.compile(m), falling_box.span))
 
 
 def _swinging(rng: np.random.Generator) -> tuple[str, Drawing]:
@@ -175,8 +177,8 @@ def switches(rng: np.random.Generator) -> Case:
     def run(h: float, every: int) -> CaseRun:
         simulation = mbs.Simulation(case.system)
         parts, errors = [], []
-        for end, held in ((on, False), (off, True), (drawing.span, False)):
-            simulation.set_switch(name, held)
+        for end, closed in ((on, False), (off, True), (drawing.span, False)):
+            simulation.set_switch(name, closed)
             parts.append(simulation.run(end, h, every=every, progress=False))
             errors.append(parts[-1].accuracy.error if parts[-1].accuracy else None)
         values = {n: np.concatenate([part[n][int(k > 0) :] for k, part in enumerate(parts)]) for n in case.truth}

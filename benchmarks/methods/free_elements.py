@@ -229,11 +229,11 @@ def tabled(rate: float) -> Free:
     base = m.body("base", mass=1.0, com=O, inertia=INERTIA)
     m.revolute("pin", m.ground, base, point=O, axis=Z)
     m.initial_rate(m.relative_angle("turn", m.ground, base, axis=Z), 0.1 * rate)
-    way = m.travel("way", rate=0.3 * rate)
+    travel = m.travel("way", rate=0.3 * rate)
     places, still = np.c_[axis, 0.0 * axis, 0.5 * axis**2], np.tile(np.eye(3), (21, 1, 1))
     shape: dict[str, Any] = {"mass": 1.0, "com": O, "inertia": INERTIA}
-    m.tabled_body("body", base=base, parameters=way, axes=[axis], places=places, rotations=still, **shape)
-    m.torsional_spring_damper("spring", way, stiffness=rate**2)
+    m.tabled_body("body", base=base, parameters=travel, axes=[axis], places=places, rotations=still, **shape)
+    m.torsional_spring_damper("spring", travel, stiffness=rate**2)
     return free
 
 

@@ -60,9 +60,9 @@ def measure(name: str, turn: float, steps: int = STEPS, method: str = "ali3p", t
         kinds = {w.category.__name__ for w in caught} | {"notice" for _ in checked.notices}
         row["told"] = ", ".join(sorted(kinds))
     if free.angles:
-        way = {end: r[end] - r[end][0] for end in {*free.angles, *(end for tie in free.ties for end in tie[:2])}}
-        slips = [np.max(np.abs(way[a] - i * way[b])) / np.max(np.abs(way[a])) for a, b, i in free.ties]
-        late = [np.max(np.abs(way[a] - rate * r.t)) for a, (_, rate) in free.angles.items()]
+        travel = {end: r[end] - r[end][0] for end in {*free.angles, *(end for tie in free.ties for end in tie[:2])}}
+        slips = [np.max(np.abs(travel[a] - i * travel[b])) / np.max(np.abs(travel[a])) for a, b, i in free.ties]
+        late = [np.max(np.abs(travel[a] - rate * r.t)) for a, (_, rate) in free.angles.items()]
         row |= {"slip": float(max(slips, default=0.0)), "late": float(max(late) / (turn * steps))}
         row["alone_late"] = alone_late(turn)
     return row
@@ -73,29 +73,29 @@ def rows(names: Sequence[str], methods: Sequence[str], steps: int) -> list[dict[
     return [measure(name, turn, steps, method, True) for name in names for method in methods for turn in TURNS]
 
 
-def blocks(found: Sequence[Row]) -> dict[str, str]:
+def blocks(rows: Sequence[Row]) -> dict[str, str]:
     """The tables of the page."""
     lines: dict[str, dict[str, Any]] = {}
-    for row in found:
+    for row in rows:
         if row["method"] == "ali3p" and row["mechanism"] in WHEELS | TWO_AXES and row["energy"] is not None:
             line = lines.setdefault(row["mechanism"], {"mechanism": row["mechanism"]})
             line |= {"slip": max(row["slip"], line.get("slip", 0.0)), f"late at {row['turn']:g}": row["late"]}
     heads = ("slip", f"late at {TURNS[0]:g}", f"late at {TURNS[-1]:g}")
-    cells = {(row["mechanism"], row["method"]): cell(found, row["mechanism"], row["method"]) for row in found}
+    cells = {(row["mechanism"], row["method"]): cell(rows, row["mechanism"], row["method"]) for row in rows}
     one = [{"mechanism": name, "method": method, "cell": text} for (name, method), text in cells.items()]
     return {
         "gears": table([*lines.values()], {"mechanism": ""} | dict.fromkeys(heads, ".1e")),
         "free": crossed(one, lambda r: r["mechanism"], "method", lambda r: r["cell"], "mechanism"),
         "free wrong": table(
-            [row for row in found if row["energy"] is not None and row["energy"] > WRONG and not row["told"]],
+            [row for row in rows if row["energy"] is not None and row["energy"] > WRONG and not row["told"]],
             {"mechanism": "", "method": "", "turn": "g", "energy": ".1e", "drift": ".1e"},
         ),
     }
 
 
-def cell(found: Sequence[Row], name: str, method: str) -> str:
+def cell(rows: Sequence[Row], name: str, method: str) -> str:
     """Largest change over the rates, from which rate it grows or is beyond `WRONG`, and what the run says."""
-    own = sorted((r for r in found if (r["mechanism"], r["method"]) == (name, method)), key=lambda r: r["turn"])
+    own = sorted((r for r in rows if (r["mechanism"], r["method"]) == (name, method)), key=lambda r: r["turn"])
     ran = [row for row in own if row["energy"] is not None]
     if not ran:
         return "–" if all(row["told"] == "no" for row in own) else "refused"
@@ -108,14 +108,14 @@ def cell(found: Sequence[Row], name: str, method: str) -> str:
     return text + (f", refused from {refused[0]:g}" if refused else "")
 
 
-def draw(found: Sequence[Row], folder: Path) -> None:
+def draw(rows: Sequence[Row], folder: Path) -> None:
     """A map of mechanism over method and rate times step: the largest change of the energy."""
     plt = pyplot()
-    methods = list(dict.fromkeys(row["method"] for row in found))
-    names = list(dict.fromkeys(row["mechanism"] for row in found))
+    methods = list(dict.fromkeys(row["method"] for row in rows))
+    names = list(dict.fromkeys(row["mechanism"] for row in rows))
     figure, axes = plt.subplots(figsize=(9.5, 2.0 + 0.2 * len(names)), layout="constrained")
     change = np.full((len(names), len(methods) * len(TURNS)), np.nan)
-    for row in found:
+    for row in rows:
         column = methods.index(row["method"]) * len(TURNS) + TURNS.index(row["turn"])
         if row["energy"] is not None:
             change[names.index(row["mechanism"]), column] = np.log10(max(row["energy"], 1e-12))

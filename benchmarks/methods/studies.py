@@ -162,10 +162,10 @@ def study_runs(case: str, fmu: Path, runs: int, workers: int, stop_time: float, 
         store.into(OutcomeTable(folder, plan.record))
         runner = on_cluster(client, plan, trial, plan.runs)
         before, processor, started = me.memory_info().rss, sum(me.cpu_times()[:2]), time.perf_counter()
-        made = experiment_of(plan.work, plan.fmu).results(
+        results = experiment_of(plan.work, plan.fmu).results(
             missing(plan, np.zeros(plan.runs, np.bool_)), runner, whole=plan.runs
         )
-        for _, run, result in made:
+        for _, run, result in results:
             store.add(str(run.index), "", (run, outcome_of(plan.work, result)))
             memory.append(me.memory_info().rss)
         store.write()
@@ -238,12 +238,12 @@ def rows_written(case: str, fmu: Path, rows: int, folder: Path) -> Row:
     table, spent = OutcomeTable(folder, plan.record), 0.0
     for first in range(0, rows, chunk):
         indices = list(range(first, min(first + chunk, rows)))
-        made = [
+        outcomes = [
             Outcome(measures=dict(zip(plan.work.columns, numbers[k], strict=True)), simulated=1.0, wall=numbers[k][0])
             for k in indices
         ]
         begin = time.perf_counter()
-        for run, outcome in zip(plan.runs_at(indices), made, strict=True):
+        for run, outcome in zip(plan.runs_at(indices), outcomes, strict=True):
             table.take("", (run, outcome))
         if table.is_full:
             table.write()

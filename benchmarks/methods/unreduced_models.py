@@ -45,8 +45,8 @@ class NaiveModel(Model):
         if any(isinstance(end, SlidingPoint) for end in (end_1, end_2)):
             return super().distance(name, end_1, end_2, length=length)
         (first, p), (second, q) = end_1, end_2
-        way = np.subtract(q, p)
-        inertia = ROD_MASS * (way @ way * np.eye(3) - np.outer(way, way)) / 12.0 + 1e-4 * np.eye(3)
+        axis = np.subtract(q, p)
+        inertia = ROD_MASS * (axis @ axis * np.eye(3) - np.outer(axis, axis)) / 12.0 + 1e-4 * np.eye(3)
         rod = self.body(name, mass=ROD_MASS, com=0.5 * np.add(p, q), inertia=inertia)
         self.spherical(f"{name} first end", first, rod, point=p)
         return self.spherical(f"{name} second end", rod, second, point=q)
@@ -70,12 +70,12 @@ class NaiveModel(Model):
         x, y, z = (spin.carrier.vector(axis) for axis in np.eye(3))
         return WrittenAxis(spin.name, spin, (x, y, z), (0.0, 0.0), leaning)
 
-    def parameter(self, *given: Any, targets: Any, **more: Any) -> Any:
+    def parameter(self, *arguments: Any, targets: Any, **more: Any) -> Any:
         """Those that turn the axis of a wheel are left out."""
         if not any(isinstance(target[0], WrittenAxis) for target in targets):
-            return super().parameter(*given, targets=targets, **more)
+            return super().parameter(*arguments, targets=targets, **more)
 
-    def shape(self, *given: Any, **more: Any) -> None:
+    def shape(self, *arguments: Any, **more: Any) -> None:
         """Nothing: nobody looks at this model, and its wheels are bodies."""
 
 
@@ -85,8 +85,8 @@ def spatial_four_bars(windows: int) -> Model:
     rods: list[Body] = []
 
     def rod(name: str, a: tuple[float, ...], b: tuple[float, ...]) -> Body:
-        way = np.subtract(b, a)
-        inertia = (way @ way * np.eye(3) - np.outer(way, way)) / 12.0 + 1e-3 * np.eye(3)
+        axis = np.subtract(b, a)
+        inertia = (axis @ axis * np.eye(3) - np.outer(axis, axis)) / 12.0 + 1e-3 * np.eye(3)
         rods.append(m.body(name, mass=1.0, com=0.5 * np.add(a, b), inertia=inertia))
         return rods[-1]
 

@@ -28,12 +28,12 @@ def left_at_the_end(model: Fidelity, h: float) -> tuple[float, float]:
     names = [f"bending_moment.{g}" for g in GAUGES]
     t = car.run(RELEASE, h, progress=False)
     peaks = {n: float(np.abs(t[n] - t[n][0]).max()) for n in names}
-    held = car.sensors
+    at_rest = car.sensors
     with expected_errors():
         car.set_parameter("road.friction", 0.0)
     car.run(kerb_test.DURATION, h, progress=False)
     free = car.sensors
-    one, other = (max(abs(s[n] - float(t[n][0])) / peaks[n] for n in names) for s in (held, free))
+    one, other = (max(abs(s[n] - float(t[n][0])) / peaks[n] for n in names) for s in (at_rest, free))
     return one, other
 
 

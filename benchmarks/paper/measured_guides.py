@@ -99,22 +99,22 @@ def measured(
     return Signals(time, (seen + noise * rng.normal(size=seen.shape)).reshape(-1, 4, 3))
 
 
-def motion(signals: Signals, way: float) -> Motion:
+def motion(signals: Signals, distance: float) -> Motion:
     """The motion of the chassis, with the drift taken out where the car is known to stand.
 
     The four places give the acceleration of the reference point and the angular acceleration, by least squares; squares
     of angular velocities are left out. Each is integrated once; where the car stands, means over a second are what the
-    rate has drifted by, between them a monotone cubic. The speed is then scaled to the way that is known.
+    rate has drifted by, between them a monotone cubic. The speed is then scaled to the known distance.
 
-    `way`: from rest to rest, m: places can be measured on the road. It takes out the part of the weight that the pitch
-    of the braked car puts into the signal.
+    `distance`: from rest to rest, m, as measured on the road. It takes out the part of the weight that the pitch of the
+    braked car puts into the signal.
     """
     t = signals.time
     arms = np.vstack([np.hstack([np.eye(3), -_cross(place)]) for place in _AT])
     rigid = np.linalg.lstsq(arms, signals.force.reshape(len(t), 12).T, rcond=None)[0]
     drifts = {k: _drift(t, cumulative_trapezoid(rigid[k], t, initial=0)) for k in (0, 2, 4)}
     rates = {k: cumulative_trapezoid(rigid[k], t, initial=0) - drift(t) for k, drift in drifts.items()}
-    scale = way / float(cumulative_trapezoid(rates[0], t)[-1])
+    scale = distance / float(cumulative_trapezoid(rates[0], t)[-1])
     speed = scale * rates[0]
     heave, pitch = (cumulative_trapezoid(rates[k], t, initial=0) for k in (2, 4))
     change = scale * (rigid[0] - drifts[0].derivative()(t))
@@ -136,11 +136,11 @@ def _drift(t: Array, v: Array) -> PchipInterpolator:
     return PchipInterpolator(knots, [v[0], *(float(v[w].mean()) for w in windows), v[-1]])
 
 
-def driven(found: Motion, settings: Settings | None = None) -> Trajectory:
+def driven(guide_motion: Motion, settings: Settings | None = None) -> Trajectory:
     """The kerb test in its own steps, the chassis guided by a motion."""
 
     def guide(m: Model, start: float) -> Guide:
-        pieces = PPoly(found.guide.c.copy(), found.guide.x)
+        pieces = PPoly(guide_motion.guide.c.copy(), guide_motion.guide.x)
         pieces.c[-1] += start
         return m.guide_time("way of the chassis", pieces, unit="m")
 
@@ -186,12 +186,12 @@ def moments(run: Trajectory) -> Array:
     return changes[: -round(_EDGE / h)]
 
 
-def shifted(wanted: Array, found: Array) -> tuple[int, float]:
+def shifted(reference: Array, replayed: Array) -> tuple[int, float]:
     """Steps by which moments come later, and how far they are off then, rms over the rms of what is wanted."""
     most = round(_LATEST / kerb_test.STEP)
 
     def off(k: int) -> float:
-        one, other = (found[k:], wanted[: len(wanted) - k]) if k >= 0 else (found[:k], wanted[-k:])
+        one, other = (replayed[k:], reference[: len(reference) - k]) if k >= 0 else (replayed[:k], reference[-k:])
         return float(np.sqrt(np.mean((one - other) ** 2) / np.mean(other**2)))
 
     errors = {k: off(k) for k in range(-most, most + 1)}
@@ -215,25 +215,25 @@ def row(name: str, true: Trajectory, plain: Trajectory, seeds: Sequence[int]) ->
 
     `name`: of `CASES`; `true`, `plain`: the run that is measured, and the test with its own guide and steps.
     """
-    given = dict(CASES[name])
-    frequency = given.pop("filter", 0.0)
+    options = dict(CASES[name])
+    frequency = options.pop("filter", 0.0)
     every = round(RATE / FINE)
     x, z, pitch = (true[f"chassis.{k}"][::every] - true[f"chassis.{k}"][0] for k in ("x", "z", "pitch"))
-    wanted = moments(plain)
+    reference = moments(plain)
     results = []
     for seed in seeds:
-        signals = measured(true, seed=seed, **given)
-        found = motion(signals.filtered(frequency) if frequency else signals, float(x[-1]))
-        run = driven(found)
+        signals = measured(true, seed=seed, **options)
+        guide_motion = motion(signals.filtered(frequency) if frequency else signals, float(x[-1]))
+        run = driven(guide_motion)
         got = moments(run)
-        later, off = shifted(wanted, got)
-        peaks = np.abs(got).max(axis=0) / np.abs(wanted).max(axis=0) - 1.0
+        later, off = shifted(reference, got)
+        peaks = np.abs(got).max(axis=0) / np.abs(reference).max(axis=0) - 1.0
         results.append(
             {
-                "way, m": _rms(found.way - x),
-                "speed, m/s": _rms(found.speed - np.gradient(x, found.time)),
-                "heave, m": _rms(found.heave - z),
-                "pitch, deg": float(np.degrees(_rms(found.pitch - pitch))),
+                "way, m": _rms(guide_motion.way - x),
+                "speed, m/s": _rms(guide_motion.speed - np.gradient(x, guide_motion.time)),
+                "heave, m": _rms(guide_motion.heave - z),
+                "pitch, deg": float(np.degrees(_rms(guide_motion.pitch - pitch))),
                 **cost(run),
                 "later, s": later * kerb_test.STEP,
                 "moments, %": 100.0 * off,
@@ -266,19 +266,19 @@ def draw(file: Path) -> None:
     plt = pyplot()
     true, plain = smooth(), simulate(compile(kerb_test.build()), kerb_test.DURATION, kerb_test.STEP)
     signals = measured(true)
-    found = motion(signals, float(true["chassis.x"][-1] - true["chassis.x"][0]))
-    run = driven(found)
+    guide_motion = motion(signals, float(true["chassis.x"][-1] - true["chassis.x"][0]))
+    run = driven(guide_motion)
     shown = [k for k, name in enumerate(MOMENTS) if name.endswith(("SG1", "SG3"))]
     figure, parts = plt.subplots(2 + len(shown), 1, figsize=(9.0, 8.4), sharex=True, layout="constrained")
     parts[0].plot(signals.time, signals.force[:, 0, 0], color=_SIGNAL, linewidth=0.6, label="accelerometer FL, along")
     parts[0].plot(signals.time, np.gradient(kerb_test.speed(signals.time), signals.time), color=_SMOOTH, label="smooth")
     parts[0].set_ylabel("m/s²")
-    parts[1].plot(found.time, kerb_test.speed(found.time), color=_SMOOTH, label="smooth guide")
-    parts[1].plot(found.time, found.speed, color=_MEASURED, linewidth=1.0, label="from accelerations")
+    parts[1].plot(guide_motion.time, kerb_test.speed(guide_motion.time), color=_SMOOTH, label="smooth guide")
+    parts[1].plot(guide_motion.time, guide_motion.speed, color=_MEASURED, linewidth=1.0, label="from accelerations")
     parts[1].set_ylabel("speed, m/s")
-    wanted, got = moments(plain), moments(run)
+    reference, got = moments(plain), moments(run)
     for axes, k in zip(parts[2:], shown, strict=True):
-        axes.plot(plain.t[: len(wanted)], wanted[:, k], color=_SMOOTH, label="smooth guide")
+        axes.plot(plain.t[: len(reference)], reference[:, k], color=_SMOOTH, label="smooth guide")
         axes.plot(run.t[: len(got)], got[:, k], color=_MEASURED, linewidth=1.0, label="from accelerations")
         axes.set_ylabel(f"change at {MOMENTS[k].split('.')[-1]}, N m")
     parts[-1].set_xlabel("time, s")

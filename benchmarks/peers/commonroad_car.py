@@ -89,10 +89,10 @@ def _derivative() -> Any:
     for name in HELPERS:
         names[name] = _compile(names[name])
     tyre = ModuleType("tire_model")
-    given = names["tireModel"]
-    sign = numba.njit(given.sign)
+    tyre_model = names["tireModel"]
+    sign = numba.njit(tyre_model.sign)
     for name in ("formula_longitudinal", "formula_lateral", "formula_longitudinal_comb", "formula_lateral_comb"):
-        function = getattr(given, name)
+        function = getattr(tyre_model, name)
         setattr(tyre, name, numba.njit(FunctionType(function.__code__, {"math": math, "sign": sign}, name)))
     names["tireModel"] = tyre
     return numba.njit(FunctionType(source.__code__, names, source.__name__))
@@ -105,7 +105,7 @@ def _compile(function: Any) -> Any:
 
 
 def _tuple(name: str, content: Any) -> Any:
-    """Numbers of a class and of those in it that are known."""
+    """A named tuple of the numeric attributes of a parameter object, nested as the object is."""
     results = {}
     for key in content if not dataclasses.is_dataclass(content) else [f.name for f in dataclasses.fields(content)]:
         value = getattr(content, key)

@@ -155,8 +155,8 @@ def drive(
     spent, first = 0.0, np.empty(0)
     for number in range(cars):
         varied = rates | {f"{axle}.wheel_rate": rates[f"{axle}.wheel_rate"] * (1.0 + 0.01 * number) for axle in AXLES}
-        _, found, used = ExudynCar(car, mass, speed, h, angles, varied).drive()
-        first, spent = found if number == 0 else first, spent + used
+        _, states, used = ExudynCar(car, mass, speed, h, angles, varied).drive()
+        first, spent = states if number == 0 else first, spent + used
     return first, spent
 
 

@@ -155,12 +155,12 @@ def _tree(mbs: Any, tree: Tree) -> tuple[int, int]:
     return int(kinematic_tree), int(sensor)
 
 
-def _on_link(mbs: Any, made: int, tree: Tree, body: int, place: Vector) -> int:
+def _on_link(mbs: Any, tree_object: int, tree: Tree, body: int, place: Vector) -> int:
     """Marker on a link."""
     local = _frame(tree.links[body - 1].axis).T @ place
     return int(
         mbs.AddMarker(
-            itemInterface.MarkerKinematicTreeRigid(objectNumber=made, linkNumber=body - 1, localPosition=local)
+            itemInterface.MarkerKinematicTreeRigid(objectNumber=tree_object, linkNumber=body - 1, localPosition=local)
         )
     )
 
@@ -175,10 +175,10 @@ def _frame(axis: Vector) -> Vector:
 
 def _closed_tree(mbs: Any, scene: str, tree: Tree) -> int:
     """A tree with its loops: in Bricard's mechanism one hinge, elsewhere points in the plane of the links."""
-    made, sensor = _tree(mbs, tree)
+    tree_object, sensor = _tree(mbs, tree)
     if scene == "bricard":
         loop, hinge = tree.closures[0], _frame(np.array(bricard.AXES[5], float))
-        end = _on_link(mbs, made, tree, loop.body_1, loop.place_1)
+        end = _on_link(mbs, tree_object, tree, loop.body_1, loop.place_1)
         ground = mbs.AddObject(itemInterface.ObjectGround())
         foot = mbs.AddMarker(itemInterface.MarkerBodyRigid(bodyNumber=ground, localPosition=loop.place_2))
         turned = _frame(tree.links[loop.body_1 - 1].axis).T @ hinge
@@ -192,7 +192,7 @@ def _closed_tree(mbs: Any, scene: str, tree: Tree) -> int:
         )
         return sensor
     for loop in tree.closures:
-        far = _on_link(mbs, made, tree, loop.body_1, loop.place_1)
-        tip = _on_link(mbs, made, tree, loop.body_2, loop.place_2)
+        far = _on_link(mbs, tree_object, tree, loop.body_1, loop.place_1)
+        tip = _on_link(mbs, tree_object, tree, loop.body_2, loop.place_2)
         mbs.AddObject(itemInterface.GenericJoint(markerNumbers=[far, tip], constrainedAxes=[1, 1, 0, 0, 0, 0]))
     return sensor

@@ -85,10 +85,10 @@ def drive(models: Sequence[Any], speed: float, angles: Array, threads: int) -> t
         In which its threads had a core.
     """
     first = np.array([start(m, speed) for m in models])
-    given = np.broadcast_to(angles, (len(models), *angles.shape)).copy()
+    controls = np.broadcast_to(angles, (len(models), *angles.shape)).copy()
     data = [mujoco.MjData(models[0]) for _ in range(max(1, threads))]
     with Rollout(nthread=threads) as runner:
         begin = time.process_time()
-        states, _ = runner.rollout(list(models), data, first, given)
+        states, _ = runner.rollout(list(models), data, first, controls)
         spent = time.process_time() - begin
     return states[:, :, 1 + models[0].nq : 1 + models[0].nq + models[0].nv], spent

@@ -104,9 +104,9 @@ def compare(options: Namespace) -> list[dict[str, Any]]:
         for name in watched(options.only):
             shown = PAGES[name]
             files = {end: folder / f"{name}{end}.png" for end in scripts}
-            for end, made in scripts.items():
+            for end, page_script in scripts.items():
                 with _served(name, folder) as (address, text):
-                    files[end].write_bytes(_drawn(chromium, shown, address, text, made))
+                    files[end].write_bytes(_drawn(chromium, shown, address, text, page_script))
             row = {"page": name, "size": " x ".join(map(str, shown.size)), "shows": ", ".join(shown.runs)}
             if options.other:
                 row["pixels that differ"] = _differing(*files.values())
@@ -163,7 +163,7 @@ def _car() -> Path:
     return Path(fmu_of_scene("prototype_car", lambda words: None))
 
 
-def _drawn(chromium: Any, shown: Shown, address: str, text: str, made: str) -> bytes:
+def _drawn(chromium: Any, shown: Shown, address: str, text: str, page_script: str) -> bytes:
     """A picture of a page with a script in place of its own."""
     width, height = shown.size
     scheme = shown.options.get("theme", "light")
@@ -175,9 +175,9 @@ def _drawn(chromium: Any, shown: Shown, address: str, text: str, made: str) -> b
     )
     page.set_default_timeout(120_000)
     if text:
-        Path(address.removeprefix("file://")).write_text(text.replace(script(), made), encoding="utf-8")
+        Path(address.removeprefix("file://")).write_text(text.replace(script(), page_script), encoding="utf-8")
     else:
-        page.route(re.compile(re.escape(address)), lambda route: _with_script(route, made))
+        page.route(re.compile(re.escape(address)), lambda route: _with_script(route, page_script))
     page.goto(address)
     if shown.runs == (SIMULATOR,):
         _until(page, "Boolean(window.player?.frames?.newest)")
@@ -211,9 +211,9 @@ def _until(page: Any, holds: str) -> None:
     raise RuntimeError(f"Not within a minute: {holds}")
 
 
-def _with_script(route: Any, made: str) -> None:
+def _with_script(route: Any, page_script: str) -> None:
     answer = route.fetch()
-    route.fulfill(response=answer, body=answer.text().replace(script(), made))
+    route.fulfill(response=answer, body=answer.text().replace(script(), page_script))
 
 
 def _differing(*files: Path) -> int:

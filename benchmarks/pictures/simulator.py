@@ -48,14 +48,14 @@ def simulator(fmu: Path, options: Sequence[str]) -> Iterator[str]:
     """Start the simulator; gives its address."""
     command = [sys.executable, "-m", "ali3", "simulator", str(fmu), "--no-open", "--no-devices", *options]
     host = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    reported = ""
+    output = ""
     try:
         for line in host.stdout or ():
-            reported += line
+            output += line
             if match := re.search(r"http://\S+", line):
                 break
         else:
-            raise RuntimeError(f"The simulator did not start: {reported}")
+            raise RuntimeError(f"The simulator did not start: {output}")
         yield match[0]
     finally:
         host.terminate()

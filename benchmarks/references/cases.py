@@ -212,8 +212,8 @@ def store(name: str) -> None:
     """Write a motion that is stored."""
     case = CASES[name]
     rows = np.column_stack([np.linspace(0.0, case.end, SAMPLES + 1), computed(name)])
-    made = f"python -m benchmarks.work_precision motions --only {name}"
-    header = f"{made}\n" + ",".join(["time_s", *case.sensors])
+    command = f"python -m benchmarks.work_precision motions --only {name}"
+    header = f"{command}\n" + ",".join(["time_s", *case.sensors])
     np.savetxt(STORED / f"{name}.csv", rows, fmt="%.17g", delimiter=",", header=header)
 
 

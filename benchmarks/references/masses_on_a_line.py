@@ -119,11 +119,11 @@ def _run(machine: Machine, tolerance: float, parts: int) -> Array:
                     force[end] += pulled
         for f, z in zip(machine.frictions, y[2 * len(free) :], strict=True):
             rate = v[f.mass] - (0.0 if f.on is None else v[f.on])
-            held = min(max(f.stiffness * z + f.damping * rate, -f.largest), f.largest)
-            slips.append((held - f.stiffness * z) / f.damping)
-            force[f.mass] -= held
+            friction = min(max(f.stiffness * z + f.damping * rate, -f.largest), f.largest)
+            slips.append((friction - f.stiffness * z) / f.damping)
+            force[f.mass] -= friction
             if f.on is not None:
-                force[f.on] += held
+                force[f.on] += friction
         values = np.concatenate([v[free], force[free] / mass[free], slips])
         values[np.abs(values) < REST] = 0.0
         return values

@@ -90,9 +90,9 @@ class Drawing:
     @property
     def events(self) -> list[float]:
         """When rows change, from 0 to the end, s."""
-        held = [t for joint in self.joints for t in joint.held]
+        switch_times = [t for joint in self.joints for t in joint.held]
         breaks = [] if self.drive is None else list(self.drive.x)
-        return [0.0, *sorted({float(t) for t in (*held, *breaks) if 0.0 < t < self.span}), self.span]
+        return [0.0, *sorted({float(t) for t in (*switch_times, *breaks) if 0.0 < t < self.span}), self.span]
 
     @property
     def size(self) -> float:

@@ -67,12 +67,12 @@ class RollingBicycle:
         outputs = np.array([self.lean_row(), self.steer])
         J = m.evaluate(0.0, self.q0, np.zeros(m.nq))[1]
         heights = self.contact_rows(self.q0)[[2, 5]]
-        given = np.concatenate([np.zeros(m.nc + 2), [lean, steer]])
-        q = self.q0 + np.linalg.lstsq(np.vstack([J, heights, outputs]), given, rcond=1e-10)[0]
+        targets = np.concatenate([np.zeros(m.nc + 2), [lean, steer]])
+        q = self.q0 + np.linalg.lstsq(np.vstack([J, heights, outputs]), targets, rcond=1e-10)[0]
         J = m.evaluate(0.0, q, np.zeros(m.nq))[1]
         rows = np.vstack([J, self.contact_rows(q), outputs, self.spins["rear wheel"]])
-        given = np.concatenate([np.zeros(m.nc + 6), [lean_rate, steer_rate, speed / bicycle.REAR_RADIUS]])
-        return q, np.linalg.lstsq(rows, given, rcond=1e-10)[0]
+        targets = np.concatenate([np.zeros(m.nc + 6), [lean_rate, steer_rate, speed / bicycle.REAR_RADIUS]])
+        return q, np.linalg.lstsq(rows, targets, rcond=1e-10)[0]
 
     def accelerations(self, q: Array, qd: Array) -> Array:
         """qdd (nq,) with the wheels rolling."""

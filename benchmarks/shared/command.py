@@ -64,10 +64,10 @@ def run(name: str, text: str | None, parts: Mapping[str, Part], arguments: Seque
         chosen = parser.add_subparsers(dest="part", metavar="PART", required=True)
         for key, part in parts.items():
             _add_options(chosen.add_parser(key, help=part.about, description=part.about), part)
-    given = [*(sys.argv[1:] if arguments is None else arguments)]
-    if given and given[0].startswith("--") and given[0] != "--help":
-        given = [key for key, part in parts.items() if part.meant and len(parts) > 1] + given
-    options = parser.parse_args(given)
+    words = [*(sys.argv[1:] if arguments is None else arguments)]
+    if words and words[0].startswith("--") and words[0] != "--help":
+        words = [key for key, part in parts.items() if part.meant and len(parts) > 1] + words
+    options = parser.parse_args(words)
     part = parts[options.part]
     for key, (default, _) in part.options.items():
         value = getattr(options, key)
@@ -123,7 +123,7 @@ def _work(name: str, part: Part, options: Namespace) -> int:
     if options.json is not None:
         write_json(options.json, meta, rows)
         print(f"written: {options.json}")
-    print(f"{_told(part, rows)}\n\n{conditions(meta)}")
+    print(f"{_text_of(part, rows)}\n\n{conditions(meta)}")
     if part.chart is not None and options.chart is not None:
         part.chart(rows, options.chart)
     if part.blocks is not None and options.write:
@@ -134,7 +134,7 @@ def _work(name: str, part: Part, options: Namespace) -> int:
     return int(bool(faults))
 
 
-def _told(part: Part, rows: Sequence[Row]) -> str:
+def _text_of(part: Part, rows: Sequence[Row]) -> str:
     """The text that is printed for the rows."""
     if part.words is not None:
         return part.words(rows)

@@ -53,36 +53,36 @@ def between(text: str, table: str) -> str:
 
 def written(again: RemadeTable, text: str) -> str:
     """The text of a page with the cells of a table as they are made; what is left out and other rows stay."""
-    block, made = between(text, again.table), rows_of(again.text)
+    block, new_rows = between(text, again.table), rows_of(again.text)
     shown = rows_of(block)
-    if not shown or list(shown[0]) != list(made[0]):
+    if not shown or list(shown[0]) != list(new_rows[0]):
         shown = []
     rows = {tuple(row[key] for key in again.keys): row for row in shown}
-    for row in made:
+    for row in new_rows:
         key = tuple(row[k] for k in again.keys)
         kept = {name: cell for name, cell in rows.get(key, {}).items() if name in again.left_out}
         rows[key] = row | kept
-    cells = [list(made[0]), ["---"] * len(made[0]), *(list(row.values()) for row in rows.values())]
-    drawn = "".join(f"| {' | '.join(line)} |\n" for line in cells)
-    return replace(text, {again.table: _TABLE.sub(lambda _: drawn, block, count=1) if rows_of(block) else drawn})
+    cells = [list(new_rows[0]), ["---"] * len(new_rows[0]), *(list(row.values()) for row in rows.values())]
+    table = "".join(f"| {' | '.join(line)} |\n" for line in cells)
+    return replace(text, {again.table: _TABLE.sub(lambda _: table, block, count=1) if rows_of(block) else table})
 
 
-def same(shown: str | None, made: str) -> bool:
+def same(shown: str | None, computed: str) -> bool:
     """Whether two cells say the same; the last of three or more digits of a fraction may be one off, as libraries of
     other machines round it.
     """
-    one, other = _NUMBER.split(shown or ""), _NUMBER.split(made)  # words, number, words, ...
+    one, other = _NUMBER.split(shown or ""), _NUMBER.split(computed)  # words, number, words, ...
     if len(one) != len(other) or one[::2] != other[::2]:
         return False
     return all(map(_same_number, one[1::2], other[1::2]))
 
 
-def _same_number(shown: str, made: str) -> bool:
-    if shown == made:
+def _same_number(shown: str, computed: str) -> bool:
+    if shown == computed:
         return True
-    one, other = Decimal(shown).as_tuple(), Decimal(made).as_tuple()
+    one, other = Decimal(shown).as_tuple(), Decimal(computed).as_tuple()
     digits = min(len(one.digits), len(other.digits))
-    if digits < _DIGITS or one.exponent != other.exponent or one.sign != other.sign or "." not in made:
+    if digits < _DIGITS or one.exponent != other.exponent or one.sign != other.sign or "." not in computed:
         return False
     return abs(int("".join(map(str, one.digits))) - int("".join(map(str, other.digits)))) == 1
 
@@ -92,31 +92,31 @@ def differences(again: RemadeTable, text: str) -> list[str]:
     if again.picture and not text:
         return [f"{again.page} does not say what it shows; python -m benchmarks.figures --write draws it again."]
     if again.picture:
-        shown, drawn = text.splitlines(), again.text.splitlines()
-        gone = [f"{again.page} shows what is not drawn now: {line}" for line in shown if line not in drawn]
-        return gone + [f"{again.page} does not show what is drawn now: {line}" for line in drawn if line not in shown]
+        shown, current = text.splitlines(), again.text.splitlines()
+        gone = [f"{again.page} shows what is not drawn now: {line}" for line in shown if line not in current]
+        return gone + [f"{again.page} does not show what is drawn now: {line}" for line in current if line not in shown]
     if not again.table:
         present = " ".join(again.text.split()) in " ".join(text.split())
         return [] if present else [f"{again.page} does not say: {again.text}"]
     place = f"{again.page}, table '{again.table}'"
     shown = {tuple(row.get(key) for key in again.keys): row for row in rows_of(between(text, again.table))}
     rows = rows_of(again.text)
-    reported = [] if rows else [f"{place}: there are no rows when it is made again."]
+    messages = [] if rows else [f"{place}: there are no rows when it is made again."]
     for row in rows:
         key = tuple(row[k] for k in again.keys)
         page = shown.get(key)
         name = ", ".join(key)
         if page is None:
-            reported.append(f"{place} has no row {name}.")
+            messages.append(f"{place} has no row {name}.")
             continue
-        reported += [
+        messages += [
             f"{place}, row {name}: {column} is {page.get(column)} on the page and {cell} when it is made again."
             for column, cell in row.items()
             if column not in again.left_out and not same(page.get(column), cell)
         ]
-    return reported
+    return messages
 
 
-def all_differences(made: Sequence[RemadeTable]) -> list[str]:
+def all_differences(tables: Sequence[RemadeTable]) -> list[str]:
     """Differences on all pages, a line each."""
-    return [line for again in made for line in differences(again, read(again.page))]
+    return [line for again in tables for line in differences(again, read(again.page))]

@@ -133,9 +133,9 @@ class FmuModule:
     def set(self, kind: str, references: Sequence[int], values: Sequence[Any]) -> None:
         """Set variables of a type."""
         n = len(references)
-        given = [self.text(v) for v in values] if kind == "String" else values
+        encoded = [self.text(v) for v in values] if kind == "String" else values
         data, where = (
-            self.block(struct.pack(f"<{n}{_FORMATS[kind]}", *given)),
+            self.block(struct.pack(f"<{n}{_FORMATS[kind]}", *encoded)),
             self.block(struct.pack(f"<{n}I", *references)),
         )
         self.fmi(f"fmi2Set{kind}", where, n, data)

@@ -96,8 +96,8 @@ def _drive(options: Namespace) -> list[dict[str, Any]]:
     rows = [_of_bicycle(f, drive) for f in simple] + [_of_car("multibody car", car, FITTED_NUMBERS, drive)]
     if options.banked_car is not None and drive.bank.size:
         with tempfile.TemporaryDirectory() as folder:
-            given = write_banked(Path(folder), log, aliases, drive.bank, BODY.mass)
-            banked = judge(str(options.banked_car), *given, {"step_size": STEP})
+            files = write_banked(Path(folder), log, aliases, drive.bank, BODY.mass)
+            banked = judge(str(options.banked_car), *files, {"step_size": STEP})
         rows.append(_of_car(BANKED, banked, FITTED_NUMBERS, drive))
     best = min((f for f in simple if np.isfinite(f.lateral)), key=lambda f: f.windows)
     swapped = fit(best.model, BODY, _banked(drive, JUDGED), JUDGED, FITTED)
@@ -153,8 +153,8 @@ def _by_acceleration(drive: Drive, predicted: tuple[Array, Array]) -> dict[str, 
         return {"acceleration": None, "understeer": "–", "sideslip": "–"}
     result = curves(drive, BODY.wheelbase, *predicted)
     counts = {quantity: within(result, quantity, aim) for quantity, aim in AIMS.items()}
-    reported = {quantity.split()[0]: f"{good} of {of}" for quantity, (good, of) in counts.items()}
-    return {"acceleration": acceleration_error(drive, *predicted), **reported}
+    agreement = {quantity.split()[0]: f"{good} of {of}" for quantity, (good, of) in counts.items()}
+    return {"acceleration": acceleration_error(drive, *predicted), **agreement}
 
 
 def _curves(models: dict[str, tuple[Array, Array]], drive: Drive) -> list[dict[str, Any]]:
@@ -178,12 +178,12 @@ def _folds(one: Fitted, other: Fitted) -> list[dict[str, Any]]:
         {"number": f"{u.name}, {u.unit}", "fitted seconds": a, "others": b}
         for (u, a), (_, b) in zip(_named(one), _named(other), strict=True)
     ]
-    reported = {
+    yaw_rate_row = {
         "number": "yaw rate in windows of the other part, rad/s",
         "fitted seconds": one.windows,
         "others": other.windows,
     }
-    return [*rows, reported]
+    return [*rows, yaw_rate_row]
 
 
 def _of_car(name: str, j: Judged, numbers: int, drive: Drive) -> dict[str, Any]:

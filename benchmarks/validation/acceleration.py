@@ -63,15 +63,15 @@ DRIVES = (
 )
 
 
-def reached(time: Array, speed: Array, wanted: float) -> float:
+def reached(time: Array, speed: Array, target: float) -> float:
     """The time at which a speed is first reached, s.
 
-    `time`, `speed`: in s and m/s, shape (n,); `wanted`: in km/h.
+    `time`, `speed`: in s and m/s, shape (n,); `target`: in km/h.
     """
-    after = int(np.argmax(speed >= wanted / KMH))
-    if not speed[after] >= wanted / KMH:
-        raise ValueError(f"The car reaches {KMH * speed.max():.1f} km/h; {wanted:g} km/h were asked for.")
-    return float(np.interp(wanted / KMH, speed[after - 1 : after + 1], time[after - 1 : after + 1]))
+    after = int(np.argmax(speed >= target / KMH))
+    if not speed[after] >= target / KMH:
+        raise ValueError(f"The car reaches {KMH * speed.max():.1f} km/h; {target:g} km/h were asked for.")
+    return float(np.interp(target / KMH, speed[after - 1 : after + 1], time[after - 1 : after + 1]))
 
 
 def compared() -> list[tuple[Published, float]]:

@@ -61,15 +61,15 @@ def bank_of(drive: Drive, seconds: Spans = FITTED) -> Bank:
     columns = np.column_stack([moved, np.ones_like(moved)])
     share = np.linalg.lstsq(columns[inside], (felt - moved)[inside], rcond=None)[0]
     by_sensor = -(felt - moved - columns @ share)
-    way, lap = way_of(drive)
+    distance, lap = way_of(drive)
     count = round(lap / PIECE)
-    piece = pieces(way, lap)
+    piece = pieces(distance, lap)
     passed = np.bincount(piece[inside], minlength=count)
     seen = np.flatnonzero(passed)
     means = np.bincount(piece[inside], by_sensor[inside], count)[seen] / passed[seen]
     middle = (seen + 0.5) * lap / count
-    by_place = np.interp(way % lap, middle, means, period=lap)
-    later = np.interp(way + lap, way, by_sensor, right=np.nan)
+    by_place = np.interp(distance % lap, middle, means, period=lap)
+    later = np.interp(distance + lap, distance, by_sensor, right=np.nan)
     both = np.isfinite(later)
     repeated = float(np.corrcoef(by_sensor[both], later[both])[0, 1])
     return Bank(by_sensor, by_place, float(share[0]), lap, repeated, 1.0 - len(seen) / count)
@@ -77,20 +77,20 @@ def bank_of(drive: Drive, seconds: Spans = FITTED) -> Bank:
 
 def way_of(drive: Drive) -> tuple[Array, float]:
     """Way along the track at each sample, of shape (n,), and the length of a lap, m. Raises `ValueError`: no laps."""
-    way = drive.interval * np.concatenate([[0.0], np.cumsum(0.5 * (drive.vx[1:] + drive.vx[:-1]))])
-    return way, _lap(way, drive.yaw_rate / np.maximum(drive.vx, _SLOWEST))
+    distance = drive.interval * np.concatenate([[0.0], np.cumsum(0.5 * (drive.vx[1:] + drive.vx[:-1]))])
+    return distance, _lap(distance, drive.yaw_rate / np.maximum(drive.vx, _SLOWEST))
 
 
-def pieces(way: Array, lap: float) -> NDArray[np.intp]:
-    """Number of the piece of the lap in which each sample lies, shape (n,). `way`, `lap`: of `way_of`."""
+def pieces(distance: Array, lap: float) -> NDArray[np.intp]:
+    """Number of the piece of the lap in which each sample lies, shape (n,). `distance`, `lap`: of `way_of`."""
     count = round(lap / PIECE)
-    return np.asarray(((way % lap) / lap * count).astype(np.intp) % count)
+    return np.asarray(((distance % lap) / lap * count).astype(np.intp) % count)
 
 
-def _lap(way: Array, curvature: Array) -> float:
+def _lap(distance: Array, curvature: Array) -> float:
     """Length of a lap, m: the shift at which the curvature of the path correlates best with itself."""
-    even = np.interp(np.arange(0.0, way[-1]), way, curvature)
-    shifts = np.arange(int(_SHORTEST), int(min(_LONGEST, way[-1] - _SHORTEST)))
+    even = np.interp(np.arange(0.0, distance[-1]), distance, curvature)
+    shifts = np.arange(int(_SHORTEST), int(min(_LONGEST, distance[-1] - _SHORTEST)))
     alike = np.array([np.corrcoef(even[:-k], even[k:])[0, 1] for k in shifts])
     if not alike.max() > _LIKE:
         raise ValueError(

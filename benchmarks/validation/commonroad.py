@@ -55,8 +55,8 @@ def compared(name: str, manoeuvre: str) -> Compared:
     names = {"vx": "chassis.vx", "yaw_rate": "chassis.wz", "roll": "chassis.roll", "pitch": "chassis.pitch"}
     names |= {"x": "chassis.x", "y": "chassis.y"} | {f"Fz_{wheel}": f"wheel_{wheel}.Fz" for wheel in WHEELS}
     results = {ours: np.interp(reference["time"], run.t, run[theirs]) for ours, theirs in names.items()}
-    for way in ("x", "y"):
-        reference[way], results[way] = reference[way] - reference[way][0], results[way] - results[way][0]
+    for axis in ("x", "y"):
+        reference[axis], results[axis] = reference[axis] - reference[axis][0], results[axis] - results[axis][0]
     return Compared(reference, results)
 
 

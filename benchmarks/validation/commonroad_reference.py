@@ -64,12 +64,12 @@ def run(number: int, manoeuvre: str) -> list[list[float]]:
     from vehiclemodels.init_mb import init_mb
     from vehiclemodels.vehicle_dynamics_mb import vehicle_dynamics_mb
 
-    made: Callable[[], Any] = (
+    parameters_of: Callable[[], Any] = (
         parameters_vehicle1.parameters_vehicle1,
         parameters_vehicle2.parameters_vehicle2,
         parameters_vehicle3.parameters_vehicle3,
     )[number - 1]
-    p = made()
+    p = parameters_of()
     if manoeuvre.startswith("consistent"):
         consistent(p)
     x: list[float] = init_mb([0.0, 0.0, 0.0, MANOEUVRES[manoeuvre], 0.0, 0.0, 0.0], p)

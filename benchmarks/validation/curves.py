@@ -105,7 +105,7 @@ def curves(drive: Drive, wheelbase: float, vy: Array, rate: Array) -> list[Curve
     return results
 
 
-def within(found: list[Curve], quantity: str, aim: float) -> tuple[int, int]:
+def within(curves: list[Curve], quantity: str, aim: float) -> tuple[int, int]:
     """How many bins with enough seconds have a mean difference within an aim in degrees, and how many there are."""
-    judged = [c for c in found if c.quantity == quantity and c.seconds >= ENOUGH]
+    judged = [c for c in curves if c.quantity == quantity and c.seconds >= ENOUGH]
     return sum(abs(c.difference) <= aim for c in judged), len(judged)

@@ -48,9 +48,9 @@ def begins(drive: Drive, seconds: Spans, every: float = EVERY) -> NDArray[np.int
     return np.array([round((t - drive.time[0]) / drive.interval) for t in times], dtype=np.intp)
 
 
-def drive_of(model: Model, *given: Any) -> tuple[Array, Array]:
+def drive_of(model: Model, *arguments: Any) -> tuple[Array, Array]:
     """Lateral velocity (m/s) and yaw rate (rad/s) of a model, by its own `simulate` or that of a bicycle."""
-    return (model.simulate or simulate)(model, *given)
+    return (model.simulate or simulate)(model, *arguments)
 
 
 class Windows:
@@ -101,7 +101,7 @@ class Windows:
 
 def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others: Spans = JUDGED) -> Fitted:
     """Fit a model to yaw rate and, if it has one, lateral velocity in the spans `seconds`; judge it in `others`."""
-    windows, judged = (Windows(model, body, drive, given) for given in (seconds, others))
+    windows, judged = (Windows(model, body, drive, spans) for spans in (seconds, others))
     low, high = windows.low, windows.high
     random, results = np.random.default_rng(SEED), []
     for _ in range(STARTS if len(low) else 0):
@@ -118,7 +118,7 @@ def fit(model: Model, body: Body, drive: Drive, seconds: Spans = FITTED, others:
             )
         )
     numbers = min(results, key=lambda r: float(r.cost)).x if results else np.zeros(0)
-    vy, rate = (found[0] for found in judged.driven(numbers[None]))
+    vy, rate = (states[0] for states in judged.driven(numbers[None]))
     path = drive_of(model, body, drive, np.array([0]), len(drive.time) - 1, numbers[None])[1][0, 0]
     turning = rate - drive.yaw_rate[judged.samples]
     return Fitted(

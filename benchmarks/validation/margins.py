@@ -49,9 +49,9 @@ def margins(car: str, log: Path, aliases: Path, settings: dict[str, float]) -> l
             rates = [_driven(fmu, [moved(s, 0.0, 0.0, rate, point) for s in segments])[1] for rate in (0.0, DISTURBED)]
             quick = [_driven(fmu, [quickened(s, factor) for s in segments]) for factor in FASTER]
         growth = np.abs(rates[1] - rates[0])[:, round(_SINCE / INTERVAL) :] / DISTURBED
-        reported = (len(segments), len(corners) * len(segments), sum(_departed(task, driven) for driven in beside))
-        reported += (float(growth.max()), float(growth[:, -1].max()), *(_departed(task, driven) for driven in quick))
-        rows.append({"windows": name} | dict(zip(list(COLUMNS)[1:], reported, strict=True)))
+        values = (len(segments), len(corners) * len(segments), sum(_departed(task, driven) for driven in beside))
+        values += (float(growth.max()), float(growth[:, -1].max()), *(_departed(task, driven) for driven in quick))
+        rows.append({"windows": name} | dict(zip(list(COLUMNS)[1:], values, strict=True)))
     return rows
 
 
@@ -73,9 +73,9 @@ def moved(segment: Segment, along: float, across: float, rate: float, point: tup
 def quickened(segment: Segment, factor: float) -> Segment:
     """A segment with another speed, held and at the start, and the steering as it is."""
     assert segment.speed is not None
-    held = replace(segment.speed, values=factor * segment.speed.values)
+    speed = replace(segment.speed, values=factor * segment.speed.values)
     name = "initial.speed"
-    return replace(_started(segment, {name: factor * float(segment.manoeuvre.start[name])}), speed=held)
+    return replace(_started(segment, {name: factor * float(segment.manoeuvre.start[name])}), speed=speed)
 
 
 def _started(segment: Segment, start: dict[str, float]) -> Segment:

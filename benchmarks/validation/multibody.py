@@ -63,15 +63,15 @@ def judge(car: str, log: Path, aliases: Path, settings: dict[str, float], brief:
         across, turning = (in_windows(*_signal(file, name), len(others["windows"])) for name in _COLUMNS)
         predicted = across, turning
         departed = [f"{w['begin']:g} s ({w['departed']})" for w in others["windows"] if w["departed"]]
-        reported = _rms(others, YAW), _rms(others, LATERAL), departed
+        errors = _rms(others, YAW), _rms(others, LATERAL), departed
         if brief:
-            return Judged(math.nan, math.nan, *reported, [], np.zeros(0), np.zeros(0), predicted)
+            return Judged(math.nan, math.nan, *errors, [], np.zeros(0), np.zeros(0), predicted)
         first = _rms(run("fitted", *windows, "--seconds", text_of(FITTED))[0], YAW)
         whole, signals = run("whole")
         time, path = _signal(signals, f"{YAW}.simulated [rad/s]")
         measured = _signal(signals, f"{YAW}.measured [rad/s]")[1]
     error = _rms_inside(time, path - measured, JUDGED)
-    return Judged(first, error, *reported, whole["notes"] + whole["problems"], time, path, predicted)
+    return Judged(first, error, *errors, whole["notes"] + whole["problems"], time, path, predicted)
 
 
 def task_of(car: str, log: Path, aliases: Path, settings: dict[str, float], seconds: Spans) -> Task:
@@ -84,9 +84,9 @@ def task_of(car: str, log: Path, aliases: Path, settings: dict[str, float], seco
 
 def arguments_of(car: str, log: Path, aliases: Path, settings: dict[str, float]) -> list[str]:
     """Of ``ali3 compare`` for the signals that are judged. `car`, `settings`: as of `judge`."""
-    given = [part for key, value in settings.items() for part in ("--set", f"{key}={value!r}")]
+    options = [part for key, value in settings.items() for part in ("--set", f"{key}={value!r}")]
     signals = ["--signals", f"{YAW},{LATERAL}"]
-    return [car, str(log), "--log-aliases", str(aliases), "--hold-speed", *signals, *given]
+    return [car, str(log), "--log-aliases", str(aliases), "--hold-speed", *signals, *options]
 
 
 def in_windows(time: Array, values: Array, count: int) -> Array:

@@ -50,8 +50,8 @@ class Family:
 
 def families(drive: Drive) -> dict[str, Family]:
     """Corners by place, ranges of speed, ranges of longitudinal acceleration. Raises `ValueError`: no laps."""
-    way, lap = way_of(drive)
-    piece, count = pieces(way, lap), round(lap / PIECE)
+    distance, lap = way_of(drive)
+    piece, count = pieces(distance, lap), round(lap / PIECE)
     curvature = np.bincount(piece, drive.yaw_rate / drive.vx, count) / np.maximum(
         np.bincount(piece, minlength=count), 1
     )
@@ -75,30 +75,30 @@ def _ranges(values: Array, edges: Sequence[float] | Array, unit: str) -> Family:
     return Family([f"{n} {unit}" for n in names], np.searchsorted(edges, values))
 
 
-def without_kinds(jacobian: Array, residual: Array, rows: Kinds, found: Mapping[str, Family]) -> dict[str, Any]:
+def without_kinds(jacobian: Array, residual: Array, rows: Kinds, families: Mapping[str, Family]) -> dict[str, Any]:
     """Mean and worst yaw rate over kinds that are left out, rad/s, by the columns of `COLUMNS`.
 
     `jacobian`, `residual`: of yaw rate and then lateral velocity in `SCALES`, shapes (2 m, p) and (2 m,); `rows`: of
     the drive, in the order of either, shape (m,).
     """
-    reported: dict[str, Any] = {}
+    row: dict[str, Any] = {}
     worst = []
-    for name, family in found.items():
+    for name, family in families.items():
         number = family.number[rows]
         parts = Parts(np.tile(number, 2), np.arange(len(family.names) + 1.0), 1.0)
         turning = left_out(jacobian, residual, parts)[: len(rows)] * SCALES[0]
         sizes = [float(np.sqrt(np.mean(turning[number == k] ** 2))) for k in range(len(family.names))]
-        reported |= {f"{name}, mean": float(np.mean(sizes)), f"{name}, worst": max(sizes)}
+        row |= {f"{name}, mean": float(np.mean(sizes)), f"{name}, worst": max(sizes)}
         worst.append((max(sizes), family.names[int(np.argmax(sizes))]))
-    return reported | {"worst kind": max(worst)[1]}
+    return row | {"worst kind": max(worst)[1]}
 
 
-def of_simple(model: Model, body: Body, drive: Drive, found: Mapping[str, Family]) -> dict[str, Any]:
+def of_simple(model: Model, body: Body, drive: Drive, families: Mapping[str, Family]) -> dict[str, Any]:
     """A row of `COLUMNS` of a simple model."""
     numbers = fit(model, body, drive).numbers
     windows = Windows(model, body, drive, _all(drive), LENGTH)
     jacobian, residual = windows.jacobian(numbers), windows.residuals(numbers)
-    return {"model": model.name} | without_kinds(jacobian, residual, windows.samples.ravel(), found)
+    return {"model": model.name} | without_kinds(jacobian, residual, windows.samples.ravel(), families)
 
 
 def of_car(
@@ -108,7 +108,7 @@ def of_car(
     settings: dict[str, float],
     bounds: Path,
     drive: Drive,
-    found: Mapping[str, Family],
+    families: Mapping[str, Family],
 ) -> dict[str, Any]:
     """A row of `COLUMNS` of the multibody car: by the numbers that `refit` seeks, from those of its file."""
     ranges = sought_in(bounds)
@@ -128,7 +128,7 @@ def of_car(
     window = np.floor((place + 0.5 * GAP) / (LENGTH + GAP)).astype(np.intp)
     first = begins(drive, _all(drive), LENGTH)
     rows = first[window] + np.round((place - window * (LENGTH + GAP)) / drive.interval).astype(np.intp)
-    return {"model": "multibody car"} | without_kinds(jacobian, residual, rows, found)
+    return {"model": "multibody car"} | without_kinds(jacobian, residual, rows, families)
 
 
 def _all(drive: Drive) -> Spans:

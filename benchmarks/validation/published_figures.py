@@ -52,9 +52,9 @@ TOP_SPEED = Published(
 def full_throttle(car: str, settings: dict[str, float]) -> tuple[Array, Array]:
     """Time in s and speed in m/s of a car that starts from rest with full throttle, steering held."""
     time = np.array([0.0, LENGTH])
-    held = {"steering": np.zeros(2), "throttle": np.ones(2), "brake": np.zeros(2)}
+    inputs = {"steering": np.zeros(2), "throttle": np.ones(2), "brake": np.zeros(2)}
     with Fmu(fmu_file(Path(car))) as fmu:
-        result = run(fmu, Manoeuvre("full throttle", time, held, LENGTH, dict(settings)), STEP)
+        result = run(fmu, Manoeuvre("full throttle", time, inputs, LENGTH, dict(settings)), STEP)
     assert not result.failed_steps, result.messages
     return result.time, result["speed"]
 

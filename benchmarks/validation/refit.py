@@ -53,18 +53,18 @@ def refit(car: str, log: Path, aliases: Path, bounds: Path) -> list[dict[str, An
     return [row_of(f, *map(float, ranges[f["name"]].split(":"))) for f in content["fit"]["found"]]
 
 
-def row_of(found: dict[str, Any], low: float, high: float) -> dict[str, Any]:
-    """A row of `COLUMNS`. `found`: as the record of ``ali3 compare --fit`` has it."""
-    value, folds = found["value"], found["folds"]
+def row_of(fitted: dict[str, Any], low: float, high: float) -> dict[str, Any]:
+    """A row of `COLUMNS`. `fitted`: as the record of ``ali3 compare --fit`` has it."""
+    value, folds = fitted["value"], fitted["folds"]
     near = min(value - low, high - value) < NEAR * (high - low)
     return {
-        "number": f"`{found['name']}`",
+        "number": f"`{fitted['name']}`",
         "low": low,
         "high": high,
         "found": value,
-        "within": found["half_width_95"],
+        "within": fitted["half_width_95"],
         "without a quarter": f"{min(folds):.4g} to {max(folds):.4g}" if folds else "–",
-        "without it": None if found["without"] is None else 100.0 * (found["without"] - 1.0),
+        "without it": None if fitted["without"] is None else 100.0 * (fitted["without"] - 1.0),
         "near a bound": "yes" if near else "no",
     }
 

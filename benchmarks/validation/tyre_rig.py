@@ -100,11 +100,11 @@ def on_the_rig(tyre: MagicTyre | Tyre, load: float, angle: float = 0.0, slip: fl
     """
     height = RADIUS - load / STIFFNESS
     rolling = (2.0 * RADIUS + height) / 3.0  # of both formulas, where a tyre tells no other
-    way = np.array([cos(angle * pi / 180.0), -sin(angle * pi / 180.0), 0.0])
+    direction = np.array([cos(angle * pi / 180.0), -sin(angle * pi / 180.0), 0.0])
     m = Model("tyre rig")
     centre = (0.0, 0.0, height)
     sled = m.body("sled", mass=_SLED, com=centre, inertia=(1.0, 1.0, 1.0))
-    m.prismatic("track", m.ground, sled, axis=way)
+    m.prismatic("track", m.ground, sled, axis=direction)
     hub = m.body("hub", mass=load / 9.81 - 1.0, com=centre, inertia=(1.0, 1.0, 1.0))
     m.prismatic("slide", sled, hub, axis=(0.0, 0.0, 1.0))
     inertia = 1e6 if slip else 0.1
@@ -114,9 +114,9 @@ def on_the_rig(tyre: MagicTyre | Tyre, load: float, angle: float = 0.0, slip: fl
     )  # fmt: skip
     road = m.road(PlaneRoad(friction=1.0))
     element = m.add(tyre.record("tyre", wheel.centre, wheel.axis, wheel.coordinate, road))
-    m.initial_velocity(sled, SPEED * way)
-    m.initial_velocity(hub, SPEED * way)
-    m.initial_rate(wheel, (1.0 + 0.01 * slip) * SPEED * way[0] / rolling)
+    m.initial_velocity(sled, SPEED * direction)
+    m.initial_velocity(hub, SPEED * direction)
+    m.initial_rate(wheel, (1.0 + 0.01 * slip) * SPEED * direction[0] / rolling)
     for name in ("longitudinal_force", "lateral_force", "vertical_force"):
         m.sense_element(name, element, name)
     run = simulate(compile(m), _SETTLED, _STEP)
@@ -131,11 +131,9 @@ def compared() -> list[tuple[Published, float]]:
     for name, tyre in (("Magic Formula", own), ("TMeasy, fitted at 4 and 8 kN", tmeasy_of_magic(own)[0])):
         for load in LOADS:
             for lateral, at in [*((True, angle) for angle in ANGLES), *((False, slip) for slip in SLIPS)]:
-                reported = published(LATERAL if lateral else LONGITUDINAL, lateral, load, at)
+                force = published(LATERAL if lateral else LONGITUDINAL, lateral, load, at)
                 forces = on_the_rig(tyre, load, angle=at) if lateral else on_the_rig(tyre, load, slip=at)
                 label = f"side force at {at:g} deg" if lateral else f"force along at {at:g} % slip"
                 test = f"tyre MXV8 on the rig, {name}: {label}, {1e-3 * load:g} kN"
-                results.append(
-                    (Published(test, "N", {SOURCE: reported}, read_within(lateral, load, at)), forces[lateral])
-                )
+                results.append((Published(test, "N", {SOURCE: force}, read_within(lateral, load, at)), forces[lateral]))
     return results

@@ -19,21 +19,21 @@ def systems_by_number(system: Systems) -> dict[int, mbs.System]:
     `system`: the numbers may be members of an enumeration, which they stay. Raises `mbs.ArgumentTypeError`: something
     is not a System. Raises `ValueError`: there is none, or the numbers are not 0, 1, 2 and on.
     """
-    given: Any = system
-    if isinstance(given, (list, tuple)):
-        given = dict(enumerate(given))
-    elif not isinstance(given, Mapping):
-        given = {0: given}
-    for each in given.values():
+    systems: Any = system
+    if isinstance(systems, (list, tuple)):
+        systems = dict(enumerate(systems))
+    elif not isinstance(systems, Mapping):
+        systems = {0: systems}
+    for each in systems.values():
         instance_of(mbs.System, each, "the system of an FMU", "a System, which compile(model) makes")
-    numbers = list(given)
+    numbers = list(systems)
     if not numbers:
         raise ValueError("An FMU needs a System; none was given.")
     if any(isinstance(k, bool) or not isinstance(k, int) for k in numbers) or sorted(numbers) != list(
-        range(len(given))
+        range(len(systems))
     ):
         raise ValueError(f"The Systems of an FMU are numbered {shown(numbers)}; the numbers must be 0, 1, 2 and on.")
-    return {k: given[k] for k in sorted(numbers)}
+    return {k: systems[k] for k in sorted(numbers)}
 
 
 def default_fidelity(fidelity: int, count: int) -> int:

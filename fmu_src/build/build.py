@@ -208,18 +208,18 @@ class FmuBuilder:
         return run + sum(1 + self._libraries_to_make(kind, platforms) for kind, platforms in work.items())
 
     def _libraries_to_make(self, kind: str, platforms: Sequence[str]) -> int:
-        made = {folder for name, folder in self._libraries if name == fmu_name(self._name, kind)}
+        compiled = {folder for name, folder in self._libraries if name == fmu_name(self._name, kind)}
         face = _FACES.get(kind)
         folders = [f for platform in platforms for f in (face.binaries[platform] if face is not None else [platform])]
-        return len([folder for folder in folders if folder not in made])
+        return len([folder for folder in folders if folder not in compiled])
 
     def build(self, kind: str, platforms: Sequence[str], file: Path) -> Path:
         """Build the FMU of a kind.
 
         `kind`: one of `KINDS`; `file`: replaced at once when all is done.
         """
-        drawn = geometry_file(self._scene) if self._scene is not None else b""
-        contents = replace(self._contents, model_name=fmu_name(self._name, kind), geometry=drawn)
+        geometry = geometry_file(self._scene) if self._scene is not None else b""
+        contents = replace(self._contents, model_name=fmu_name(self._name, kind), geometry=geometry)
         if kind == "python":
             from fmu_src.python_slave.package import pack_python  # PythonFMU is needed for this kind only
 

@@ -64,29 +64,29 @@ def build_car(
     ValueError
         The file does not describe a car that can be built; the message says why.
     """
-    made, name = load(Path(car) if _is_path(car) else car), None
+    data, name = load(Path(car) if _is_path(car) else car), None
     if ports is not None:
-        name = f"{made.name}_ports"
+        name = f"{data.name}_ports"
         chosen = chosen_ports(ports)
-        made = made.changed({f"ports.{key}": kind for key, kind in chosen.items()})
+        data = data.changed({f"ports.{key}": kind for key, kind in chosen.items()})
     if fidelity is not None:
         only = Fidelity.of(int(fidelity) if fidelity % 1.0 == 0.0 else fidelity)  # type: ignore[arg-type]
-        name = f"{name or made.name}_{only.name.lower()}"
-    where = f"{made.folder / _FILE}: the car '{made.name}' cannot be built"
+        name = f"{name or data.name}_{only.name.lower()}"
+    where = f"{data.folder / _FILE}: the car '{data.name}' cannot be built"
     try:
-        makers: Mapping[Any, Maker] = made.fidelities()
+        makers: Mapping[Any, Maker] = data.fidelities()
         if fidelity is not None:
-            makers = {0: partial(made.model, None, only)}
+            makers = {0: partial(data.model, None, only)}
         systems = posed_systems(makers, min(makers), poses, tell)
     except (ValueError, RuntimeError) as error:
         raise SceneError(f"{where}: {error}") from error
     except (ArithmeticError, LookupError) as error:
         raise SceneError(f"{where}: {type(error).__name__}: {error}.") from error
-    files = car_files(made)
+    files = car_files(data)
     if ports is not None and b"[ports]" not in files[f"{FOLDER}/{_FILE}"]:  # so that the FMU can be built again from it
         table = "\n".join(["\n[ports]", *(f'{key} = "{kind}"' for key, kind in chosen.items()), ""])
         files[f"{FOLDER}/{_FILE}"] += table.encode()
-    return BuiltCar(name or made.name, made.description, systems, files, grip_of(made))
+    return BuiltCar(name or data.name, data.description, systems, files, grip_of(data))
 
 
 def grip_of(car: Car) -> dict[str, str]:

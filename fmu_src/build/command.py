@@ -189,8 +189,8 @@ def _build_kinds(options: argparse.Namespace, kinds: Sequence[str], first: Seque
     rights = (options.author, options.copyright, options.license)
     builder = FmuBuilder(systems, name, fidelity, rights, line.told, description, origin, names, options.plain)
     _report_names(builder.renamed, len(builder.renamed.table))
-    wanted = [p for p in TARGETS if p in first or p in rest]
-    able = {kind: [p for p in wanted if _able(kind, p)] for kind in kinds}
+    platforms = [p for p in TARGETS if p in first or p in rest]
+    able = {kind: [p for p in platforms if _able(kind, p)] for kind in kinds}
     for kind in [k for k in kinds if not able[k]]:
         print(f"{kind}: left out, it runs on {', '.join(able_platforms(kind))} only", flush=True)
         del able[kind]
@@ -245,15 +245,15 @@ def _report_tables(tables: Sequence[str]) -> None:
     print("".join(f"{table}\n" for table in tables), end="", flush=True)
 
 
-def _report_names(found: Renamed, variables: int) -> None:
-    named = found.named.values()
+def _report_names(renamed: Renamed, variables: int) -> None:
+    named = renamed.named.values()
     if not named:
         return
     odd = {v.unit for v in named if v.scale != 1.0}
     units = f", in {', '.join(sorted(odd))} where they have another unit" if odd else ""
     print(f"{len(named)} of {variables} variables have other names{units}; the rest keep theirs", flush=True)
     reasons: dict[str, list[str]] = {}
-    for ours, why in found.left_out.items():
+    for ours, why in renamed.left_out.items():
         reasons.setdefault(why, []).append(ours)
     for why, names in reasons.items():
         print(f"{', '.join(names)}: no other name; {why}", flush=True)

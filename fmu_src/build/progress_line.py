@@ -8,7 +8,8 @@ from contextlib import contextmanager
 
 PATIENCE = 2.0
 """What takes longer is reported, s."""
-_REDRAWN, _REPEATED = 0.5, 30.0
+_REDRAWN = 0.5
+_REPEATED = 30.0
 
 
 @contextmanager

@@ -93,13 +93,13 @@ def load_fidelities(
 
 def car_of_scene(scene: str) -> Car | None:
     """The car that a scene of the package is; None of another. `scene`: as for `load_scene`."""
-    made = None if _is_path(scene) else getattr(_scene_module(scene), "car", None)
-    return None if made is None else cast("Car", made())
+    make_car = None if _is_path(scene) else getattr(_scene_module(scene), "car", None)
+    return None if make_car is None else cast("Car", make_car())
 
 
 def _system(scene: str, build: Callable[..., Any]) -> mbs.System:
-    made = _built(scene, build)
-    return mbs.compile(made) if isinstance(made, mbs.Model) else made
+    model = _built(scene, build)
+    return mbs.compile(model) if isinstance(model, mbs.Model) else model
 
 
 def _built(scene: str, build: Callable[..., Any]) -> mbs.Model | mbs.System:

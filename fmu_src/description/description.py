@@ -278,11 +278,11 @@ def _structure(root: ElementTree.Element, reach: Dependencies) -> None:
             structure.append(group)
 
 
-def dependency_attributes(known: Sequence[int] | None, offset: int = 0) -> dict[str, str]:
+def dependency_attributes(dependencies: Sequence[int] | None, offset: int = 0) -> dict[str, str]:
     """Attributes of an unknown that depends on the variables at these places, None: all; `offset` is added to them."""
-    if known is None:
+    if dependencies is None:
         return {}
-    attributes = {"dependencies": " ".join(str(k + offset) for k in known)}
-    if known:
-        attributes["dependenciesKind"] = " ".join(["dependent"] * len(known))
+    attributes = {"dependencies": " ".join(str(k + offset) for k in dependencies)}
+    if dependencies:
+        attributes["dependenciesKind"] = " ".join(["dependent"] * len(dependencies))
     return attributes

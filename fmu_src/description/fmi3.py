@@ -152,14 +152,14 @@ def terminals(arrays: Sequence[Array]) -> bytes:
 
 def tables_of(arrays: Sequence[Array]) -> dict[str, list[Array]]:
     """Arrays of constants of one length under one name: the points of a table, then its values there."""
-    found: dict[str, list[Array]] = {}
+    by_prefix: dict[str, list[Array]] = {}
     for array in arrays:
         prefix, _, _ = array.name.rpartition(".")
         if array.of.source == "constant" and len(array.items) > 1 and prefix:
-            found.setdefault(prefix, []).append(array)
+            by_prefix.setdefault(prefix, []).append(array)
     return {
         name: members
-        for name, members in found.items()
+        for name, members in by_prefix.items()
         if len(members) > 1 and len({len(a.items) for a in members}) == 1
     }
 
@@ -169,8 +169,8 @@ def map_manifest(arrays: Sequence[Array]) -> dict[str, bytes]:
     if not tables_of(arrays):
         return {}
     what = "Layered standard for structuring of variables"
-    found = manifest("fmiLayeredStandardManifest", name=LS_STRUCT, version="1.0.0-rc.1", description=what)
-    return {f"extra/{LS_STRUCT}/fmi-ls-manifest.xml": to_bytes(found)}
+    root = manifest("fmiLayeredStandardManifest", name=LS_STRUCT, version="1.0.0-rc.1", description=what)
+    return {f"extra/{LS_STRUCT}/fmi-ls-manifest.xml": to_bytes(root)}
 
 
 def manifest(tag: str, **named: str) -> ElementTree.Element:
@@ -220,7 +220,7 @@ _PLUGS: dict[str, tuple[str, tuple[tuple[str, str, str], ...]]] = {
 def _plugs(arrays: Sequence[Array]) -> list[tuple[str, list[tuple[str, str, str]]]]:
     """Names and members of the terminals of ports: variable, name for the partner, kind."""
     names = {(array.of.ours if len(array.items) == 1 else "") or array.name: array.name for array in arrays}
-    found = []
+    plugs = []
     for ours, array in zip(names, arrays, strict=True):
         prefix, dot, last = ours.rpartition(".")
         if not array.of.port or last not in _PLUGS:
@@ -229,8 +229,8 @@ def _plugs(arrays: Sequence[Array]) -> list[tuple[str, list[tuple[str, str, str]
         there = [(f"{prefix}{dot}{name}", member, kind) for name, member, kind in members]
         there = [(names[place], member, kind) for place, member, kind in there if place in names]
         if len(there) > 1:
-            found.append((f"{prefix}{dot}{called}", there))
-    return found
+            plugs.append((f"{prefix}{dot}{called}", there))
+    return plugs
 
 
 def _time(parent: ElementTree.Element, reference: int) -> None:
@@ -281,5 +281,7 @@ def _structure(root: ElementTree.Element, arrays: Sequence[Array], reach: Depend
         for i, a in enumerate(arrays):
             if a.of.causality == "output":
                 reached = [of[item] for item in a.items]
-                known = None if None in reached else sorted({array_of[k] for places in reached for k in places or ()})
-                ElementTree.SubElement(structure, tag, {"valueReference": str(i)} | dependency_attributes(known))
+                dependencies = (
+                    None if None in reached else sorted({array_of[k] for places in reached for k in places or ()})
+                )
+                ElementTree.SubElement(structure, tag, {"valueReference": str(i)} | dependency_attributes(dependencies))

@@ -14,8 +14,10 @@ from mbs.kernel.binding.instance import Instance
 
 SECONDS = 4.0
 _SPEED = 15.0  # m/s, where the pose has one
-_SHARE, _OPEN = 0.3, 1.0  # of the way from the start value to the ends of a range; of one that is open
-_FIRST, _RATIO = 0.4, 1.3  # Hz, of the first input, and how much quicker each other one is
+_SHARE = 0.3  # amplitude of an input over the distance from its start value to the ends of its range
+_OPEN = 1.0  # half-width of the range of an input that has none
+_FIRST = 0.4  # Hz, of the first input
+_RATIO = 1.3  # of the frequencies of an input and the one before it
 # Wheels and sides, which are one size: _FL and _RR, left and right.
 _SIDE = re.compile(r"(?<![A-Za-z])(FL|FR|RL|RR|left|right)(?![A-Za-z])")
 

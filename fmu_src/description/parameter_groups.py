@@ -29,7 +29,7 @@ def parameter_groups(
     moving: list[int] = []
     roads: list[int] = []
     others: list[int] = []
-    held = {int(p) for p in arrays["static_par"]}  # their values do not count while the equilibrium is sought
+    static = {int(p) for p in arrays["static_par"]}  # their values do not count while the equilibrium is sought
     settles = len(arrays["static_start"]) > 0
     places = [place for d in _DISPLACEMENTS for place in _beside(arrays["q0"].tolist(), d, rng)]
     forces = [_force(kernel, q) for q in places]
@@ -39,7 +39,7 @@ def parameter_groups(
             moving.append(p)
         elif ParameterTarget.ROAD in targets:
             roads.append(p)
-        elif settles and p not in held and _changes_force(kernel, p, value, places, forces):
+        elif settles and p not in static and _changes_force(kernel, p, value, places, forces):
             moving.append(p)
         else:
             others.append(p)
@@ -49,8 +49,8 @@ def parameter_groups(
 
 def _beside(q0: list[float], size: float, rng: random.Random) -> list[list[float]]:
     """Two opposite places, for stops at both ends."""
-    way = [rng.choice((-size, size)) * rng.uniform(0.5, 1.0) for _ in q0]
-    return [[q + sign * d for q, d in zip(q0, way, strict=True)] for sign in (1.0, -1.0)]
+    offsets = [rng.choice((-size, size)) * rng.uniform(0.5, 1.0) for _ in q0]
+    return [[q + sign * d for q, d in zip(q0, offsets, strict=True)] for sign in (1.0, -1.0)]
 
 
 def _changes_force(

@@ -62,9 +62,9 @@ def bind(system: mbs.System, frames: Mapping[str, Frame], shared: Sequence[Share
             bound.frames[name] = dict(frame) | {key: column, "at": [float(x) for x in at]}
     for place in system.drawing.places.amplitudes:
         for k, column in enumerate(place.columns):
-            found = rows.angle(place.row + k)
-            if found is not None:
-                bound.amplitudes[column] = found
+            angle = rows.angle(place.row + k)
+            if angle is not None:
+                bound.amplitudes[column] = angle
     return bound
 
 
@@ -72,19 +72,19 @@ def _by_columns(rows: SensorRows, name: str, frame: Frame, place: BodyPlace, bou
     """A body whose pose is output, at any of its points."""
     body = rows.body(place)
     turns = [names for names, axes in rows.quaternions() if body.axes is not None and np.allclose(axes, body.axes)]
-    found = []
+    poses = []
     for names in rows.points():
         at = rows.place_of(names, body)
         if at is None:
             continue
         beside = tuple(f"{names[0][:-1]}q{c}" for c in "wxyz")
         if body.axes is None:
-            found += [(names, at, beside)] if rows.unturned(beside) else []
+            poses += [(names, at, beside)] if rows.unturned(beside) else []
         elif turns:
-            found.append((names, at, beside if beside in turns else turns[0]))
-    if not found:
+            poses.append((names, at, beside if beside in turns else turns[0]))
+    if not poses:
         return
-    names, at, quaternion = next((f for f in found if f[2][0] == f"{f[0][0][:-1]}qw"), found[0])
+    names, at, quaternion = next((f for f in poses if f[2][0] == f"{f[0][0][:-1]}qw"), poses[0])
     shift = -np.where(np.abs(at) < 1e-12, 0.0, at)
     if np.any(shift):
         bound.moved[name] = shift
@@ -103,28 +103,28 @@ def _shifted(start: Sequence[Sequence[float]], local: Array) -> list[float]:
 def _by_points(frames: Mapping[str, Frame], shared: Sequence[Shared], bound: Bound) -> None:
     """Bodies that share three points with frames that are moved, one after the other."""
     waiting = [name for name, frame in frames.items() if "position" in frame and name not in bound.frames]
-    known = True
-    while known:
-        known = False
+    has_new = True
+    while has_new:
+        has_new = False
         for name in list(waiting):
             frame = _carried(frames[name], _anchors(name, shared, bound))
             if frame is not None:
                 bound.frames[name] = frame
                 waiting.remove(name)
-                known = True
+                has_new = True
     for name in waiting:
         bound.lost[name] = f"no outputs give its pose; {BUILD_ALL}"
 
 
 def _anchors(name: str, shared: Sequence[Shared], bound: Bound) -> list[tuple[Array, list[Any]]]:
     """Points of a frame, each with the point of a moved frame that it lies on."""
-    found = []
+    anchors = []
     for one, place, other, there in shared:
         for mine, local, theirs, away in ((one, place, other, there), (other, there, one, place)):
             if mine == name and (theirs == GROUND or theirs in bound.frames):
                 anchor = [theirs, [float(x) for x in np.array(away) + bound.moved.get(theirs, 0.0)]]
-                found.append((np.array(local, float), anchor))
-    return found
+                anchors.append((np.array(local, float), anchor))
+    return anchors
 
 
 def _carried(frame: Frame, anchors: Sequence[tuple[Array, list[Any]]]) -> Frame | None:

@@ -24,7 +24,7 @@ def with_renamed_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]
     for name in sorted(lost):
         units = ", ".join(f"{named[c].name} in {named[c].unit}" for c in columns_of(frames[name]) if c in odd)
         missing.append({"name": name, "why": f"a scene is in SI units, and the FMU has {units or 'what it stands on'}"})
-    made = {key: _called(part, named) for key, part in frames.items() if key not in lost}
+    kept_frames = {key: _called(part, named) for key, part in frames.items() if key not in lost}
     kept = {
         key: [p for p in scene[key] if not (odd.intersection(columns_of(p)) or lost.intersection(frames_of(p)))]
         for key in ("shapes", "arrows", "flexible")
@@ -35,7 +35,7 @@ def with_renamed_columns(scene: Mapping[str, Any], named: Mapping[str, Variable]
     ]
     called["flexible"] = [part | _gauges(part, named, odd) for part in called["flexible"]]
     focus = "" if scene["focus"] in lost else scene["focus"]
-    return {**scene, **called, "frames": made, "missing": missing, "focus": focus}
+    return {**scene, **called, "frames": kept_frames, "missing": missing, "focus": focus}
 
 
 def _gauges(part: Mapping[str, Any], named: Mapping[str, Variable], odd: set[str]) -> dict[str, Any]:

@@ -15,34 +15,34 @@ TARGET_ROAD = 2
 
 
 def with_parameters(
-    roads: Sequence[Mapping[str, Any]], system: mbs.System, known: Collection[str]
+    roads: Sequence[Mapping[str, Any]], system: mbs.System, numbers_of_fmu: Collection[str]
 ) -> list[dict[str, Any]]:
     """Roads as a host may change them.
 
-    `roads`: of the drawing; the first are those of the System in its order, or have their numbers; `known`: names of
-    the FMU's variables that are numbers. Result: with `variables`, the parameters by what they set: the keys of `MOVED`
-    and `file`; paths are those in the FMU.
+    `roads`: of the drawing; the first are those of the System in its order, or have their numbers;
+    `numbers_of_fmu`: names of the FMU's variables that are numbers. Result: with `variables`, the parameters by what
+    they set: the keys of `MOVED` and `file`; paths are those in the FMU.
     """
     files = {entry["road"]: entry for entry in system.meta.get("road_files", ())}
-    found = []
+    entries = []
     for place, road in enumerate(roads):
-        made, k = dict(road), road.get("number", place)
-        if made["kind"] == "file" and made.get("path"):
-            made["path"] = f"{ROADS}/{Path(made['path']).name}"
+        changed, k = dict(road), road.get("number", place)
+        if changed["kind"] == "file" and changed.get("path"):
+            changed["path"] = f"{ROADS}/{Path(changed['path']).name}"
         variables = {}
         if k < len(system.arrays["road_type"]):
             first = int(system.arrays["road_real_ptr"][k])
             numbers = NUMBERS.get(RoadType(int(system.arrays["road_type"][k])), ())
             for name, number in MOVED.items():
                 real = first + numbers.index(number) if number in numbers else -1
-                if _writing(system, real) in known:
+                if _writing(system, real) in numbers_of_fmu:
                     variables[name] = _writing(system, real)
-                    if name == number and made["kind"] != "file":
-                        made[name] = float(system.arrays["road_real"][real])
-        if k in files and made["kind"] != "file":
+                    if name == number and changed["kind"] != "file":
+                        changed[name] = float(system.arrays["road_real"][real])
+        if k in files and changed["kind"] != "file":
             variables["file"] = files[k]["name"]
-        found.append(made | ({"variables": variables} if variables else {}))
-    return found
+        entries.append(changed | ({"variables": variables} if variables else {}))
+    return entries
 
 
 def _writing(system: mbs.System, real: int) -> str:

@@ -73,12 +73,12 @@ class SensorRows:
 
     def place_of(self, names: Sequence[str], body: Body) -> Array | None:
         """The place in a body, from its origin, m, whose components these sensors are; None: none is."""
-        wanted = np.array([self._linear[name] for name in names]) - body.origin
+        offset = np.array([self._linear[name] for name in names]) - body.origin
         if body.axes is None:
-            return np.zeros(3) if _same(wanted, 0.0 * wanted, body.origin) else None
+            return np.zeros(3) if _same(offset, 0.0 * offset, body.origin) else None
         matrix = body.axes.transpose(1, 2, 0).reshape(-1, 3)
-        found: Array = np.asarray(np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0], float)
-        return found if _same(matrix @ found, wanted.ravel(), wanted) else None
+        place: Array = np.asarray(np.linalg.lstsq(matrix, offset.ravel(), rcond=None)[0], float)
+        return place if _same(matrix @ place, offset.ravel(), offset) else None
 
     def quaternions(self) -> list[tuple[tuple[str, ...], Array]]:
         """Names of sensors of a quaternion with the rows of the axes that it orients."""
@@ -100,19 +100,22 @@ class SensorRows:
 
     def angle(self, row: int) -> str | None:
         """The sensor of an angle, from its row among the places."""
-        wanted = self._full(row, 1)[0]
-        return next((name for name, found in self._linear.items() if _same(found, wanted, wanted)), None)
+        coefficients = self._full(row, 1)[0]
+        return next(
+            (name for name, row_of_sensor in self._linear.items() if _same(row_of_sensor, coefficients, coefficients)),
+            None,
+        )
 
     def spin_angle(self, row: int) -> str | None:
         """The sensor of the angle of a wheel on its carrier, from the row of its spin."""
-        wanted, arrays = self._full(row, 1)[0], self._arrays
+        coefficients, arrays = self._full(row, 1)[0], self._arrays
         for k, kind in enumerate(self._types):
             if kind != SensorType.ELEMENT_OUTPUT or self._reals(k)[0] != 1.0:
                 continue
             element = self._integers(k)[0]
             if ElementType(arrays["el_type"][element]) == ElementType.SPIN_ANGLE:
                 spin = self._signal(int(arrays["el_sig"][int(arrays["el_sig_ptr"][element]) + 6]))
-                if _same(spin[:-1], wanted[:-1], wanted):
+                if _same(spin[:-1], coefficients[:-1], coefficients):
                     return self.names[k]
         return None
 
@@ -142,6 +145,6 @@ def _same(a: Array, b: Array, scale: Array) -> bool:
 
 
 def _constant(row: Array, value: float) -> Array:
-    found = np.zeros_like(row)
-    found[-1] = value
-    return found
+    constant = np.zeros_like(row)
+    constant[-1] = value
+    return constant

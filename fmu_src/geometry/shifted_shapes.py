@@ -13,25 +13,25 @@ def moved_part(part: Mapping[str, Any], moved: Mapping[str, Array]) -> dict[str,
 
     `moved`, shape (3,): place of the old origin in the new frame, m, by frame.
     """
-    found = dict(part)
+    shifted = dict(part)
     frame = part.get("frame")
     if frame is not None:
         shift = moved.get(frame)
         if shift is None:
-            return found
+            return shifted
         if part.get("kind") == "cylinder":
-            found["ends"] = [_plus(place, shift) for place in part["ends"]]
+            shifted["ends"] = [_plus(place, shift) for place in part["ends"]]
         elif "nodes" in part:
-            found["nodes"] = [_plus(place, shift) for place in part["nodes"]]
+            shifted["nodes"] = [_plus(place, shift) for place in part["nodes"]]
         else:
-            found["at"] = _plus(part.get("at", (0.0, 0.0, 0.0)), shift)
-        return found
+            shifted["at"] = _plus(part.get("at", (0.0, 0.0, 0.0)), shift)
+        return shifted
     for key in ("points", "ends", "between"):
         if key in part:
-            found[key] = [_anchor(anchor, moved) for anchor in part[key]]
+            shifted[key] = [_anchor(anchor, moved) for anchor in part[key]]
     if "vector" in part:
-        found["at"] = _anchor(part["at"], moved)
-    return found
+        shifted["at"] = _anchor(part["at"], moved)
+    return shifted
 
 
 def _anchor(anchor: Any, moved: Mapping[str, Array]) -> list[Any]:

@@ -52,10 +52,10 @@ def posed_systems(
     most = max(makers)
 
     def compiled(k: Any, outputs: Outputs | None, needed: bool) -> mbs.System:
-        made = makers[k]()
-        if k == most and isinstance(made, mbs.Model) and (table := made.summary()):
+        model = makers[k]()
+        if k == most and isinstance(model, mbs.Model) and (table := model.summary()):
             tell(table)
-        return _compiled(made, outputs, needed)
+        return _compiled(model, outputs, needed)
 
     first = compiled(default, outputs, needed)
     if poses is None and lost_frames(first):
@@ -65,14 +65,14 @@ def posed_systems(
     return {k: first if k == default else compiled(k, outputs, needed) for k in makers}
 
 
-def _compiled(made: mbs.Model | mbs.System, outputs: Outputs | None, needed: bool) -> mbs.System:
-    if isinstance(made, mbs.System):
+def _compiled(model: mbs.Model | mbs.System, outputs: Outputs | None, needed: bool) -> mbs.System:
+    if isinstance(model, mbs.System):
         if needed:
             raise PosesError(
                 "The scene returns a System, to which no outputs can be added; for --poses all it must "
                 "return the Model."
             )
-        return made
+        return model
     if outputs is not None:
-        outputs(made)
-    return mbs.compile(made)
+        outputs(model)
+    return mbs.compile(model)

@@ -46,8 +46,8 @@ def add_platforms(fmu: Path, platforms: Sequence[str], file: Path, told: Telling
         for platform in added:
             library = name + SUFFIXES[platform]
             with told(f"compiling for {platform}", first_time(platform)):
-                made = _compiled(files, TARGETS[platform], Path(folder, platform), library)
-            files[f"binaries/{platform}/{library}"] = made
+                binary = _compiled(files, TARGETS[platform], Path(folder, platform), library)
+            files[f"binaries/{platform}/{library}"] = binary
     write_zip(files, file)
     return added
 

@@ -46,7 +46,10 @@ def licence(distribution: str) -> bytes:
 def write_zip(files: Mapping[str, bytes], file: Path) -> None:
     """Write an archive; an older file is replaced only when the new one is whole."""
     # One level for all: the same content gives the same bytes with the same zlib; the identity is of the content alone.
-    with atomic_file(file) as made, zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+    with (
+        atomic_file(file) as temporary,
+        zipfile.ZipFile(temporary, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive,
+    ):
         # The description first: readers that stream find it at once.
         for name in sorted(files, key=lambda n: (n != "modelDescription.xml", n)):
             info = zipfile.ZipInfo(name, _ZIP_DATE)

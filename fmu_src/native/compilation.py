@@ -49,14 +49,14 @@ def compile_packed(targets: Sequence[str], sources: Path, folder: Path, name: st
 
 
 def _library(targets: Sequence[str], files: Sequence[Path], include: Sequence[Path], folder: Path, name: str) -> bytes:
-    made = []
+    binaries = []
     for target in targets:
         library = folder / target / name
         build.compile_c(
             files, target, library, include=include, what="the FMU", defines=_DEFINES, exports=exports(files)
         )
-        made.append(library.read_bytes())
-    return made[0] if len(made) == 1 else universal(made)
+        binaries.append(library.read_bytes())
+    return binaries[0] if len(binaries) == 1 else universal(binaries)
 
 
 def library_command(face: str, target: str, table: Path, library: Path) -> list[str]:
@@ -68,8 +68,8 @@ def library_command(face: str, target: str, table: Path, library: Path) -> list[
 def exports(files: Sequence[Path]) -> list[str]:
     """Functions that a WebAssembly module of these C files exports: those of FMI 2.0 and what its host needs beside."""
     shell = [f.read_text(encoding="utf-8") for f in files if f.name.startswith("fmi2_")]
-    found = re.findall(r"^FMI2_(?:ENTRY|EXPORT .*\bFMI2_NAME)\((\w+)", "\n".join(shell), re.MULTILINE)
-    return [*found, *build.WASM_HELPERS]
+    functions = re.findall(r"^FMI2_(?:ENTRY|EXPORT .*\bFMI2_NAME)\((\w+)", "\n".join(shell), re.MULTILINE)
+    return [*functions, *build.WASM_HELPERS]
 
 
 def _files(face: str, table: Path, generated: Mapping[str, str]) -> tuple[list[Path], list[Path]]:

@@ -223,8 +223,10 @@ def pack_native(
             for folder, targets in face.binaries[platform].items():
                 if (name, folder) not in libraries:
                     with told(f"{face.name}: compiling for {folder}", first_time(platform)):
-                        made = compile_library(targets, face.name, table, contents.generated, Path(temporary), library)
-                    libraries[name, folder] = made
+                        binary = compile_library(
+                            targets, face.name, table, contents.generated, Path(temporary), library
+                        )
+                    libraries[name, folder] = binary
                 files[f"binaries/{folder}/{library}"] = libraries[name, folder]
     head = contents.description_head(
         guid,

@@ -104,7 +104,7 @@ def _run(
     sensors = system.meta["sensors"]
     left_out = np.array([not entry.get("computed", True) for entry in sensors])
     names, starts = [e["name"] for e in system.meta["inputs"]], np.arange(steps) * step
-    held = {names.index(name): np.interp(starts, corners, values) for name, values in inputs.items()}
+    step_values = {names.index(name): np.interp(starts, corners, values) for name, values in inputs.items()}
     times, rows, every = [], [], max(1, steps // _ROWS)
     for k in range(steps + 1):
         if k % every == 0:
@@ -116,7 +116,7 @@ def _run(
             times.append(simulation.time)
             rows.append(row)
         if k < steps:
-            for index, values in held.items():
+            for index, values in step_values.items():
                 instance.set_input(index, values[k])
             try:
                 instance.step(step)
@@ -174,11 +174,11 @@ def reference_files(
             ElementTree.SubElement(experiment, "Parameters", source=given_parameters)
         source = f"{name}_out.csv" if label == "default" else f"{name}_{label}_out.csv"
         if run.inputs:
-            given = f"{name}_{label}_in.csv"
-            ElementTree.SubElement(experiment, "Stimuli", source=given)
+            inputs_file = f"{name}_{label}_in.csv"
+            ElementTree.SubElement(experiment, "Stimuli", source=inputs_file)
             # no role of the standard is that of inputs
-            related(given, "text/csv", "other", "Inputs, straight between rows, held over each step")
-            files[f"{FOLDER}/{given}"] = _csv(run.corners, run.inputs)
+            related(inputs_file, "text/csv", "other", "Inputs, straight between rows, held over each step")
+            files[f"{FOLDER}/{inputs_file}"] = _csv(run.corners, run.inputs)
         ElementTree.SubElement(experiment, "References", source=source)
         related(source, "text/csv", "result", f"Outputs of the default experiment, {words}")
         files[f"{FOLDER}/{source}"] = _csv(run.t, run.columns)

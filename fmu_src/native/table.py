@@ -76,7 +76,7 @@ def c_table(
         for v, unit, bits in zip(table, units, uncomputed, strict=True)
     )
     code = ", ".join(f"0x{identity[i : i + 2]}" for i in range(0, 32, 2))
-    known = sum(v.causality in ("input", "parameter") for v in table)
+    count = sum(v.causality in ("input", "parameter") for v in table)
     roll, ground = (
         next((k for k, v in enumerate(table) if (v.ours or v.name) == name), len(table)) for name in (ROLL, GROUND)
     )
@@ -89,7 +89,7 @@ def c_table(
         f"{_generated(generated, len(names['row']))}"
         f"static const int32_t follower[] = {{{', '.join(map(str, followers))}}};\n\n"
         f"const slave_table slave_the_table = {{\n    {c_string(token)},\n    {{{code}}},\n    variables, "
-        f"{len(table)}, {known},\n    row, first_row, element, first_element, coordinate, first_coordinate, "
+        f"{len(table)}, {count},\n    row, first_row, element, first_element, coordinate, first_coordinate, "
         f"notice, first_notice, {len(names['row'])}, follower, generated,\n"
         f"    texts, {len(texts)}, {roll}, {ground}, {_number(length, '1.0')},\n}};\n"
     )

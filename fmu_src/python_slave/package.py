@@ -95,10 +95,10 @@ def pack_python(
             library = name + SUFFIXES[platform]
             if (name, platform) not in libraries:
                 with told(f"python: compiling for {platform}", first_time(platform)):
-                    made = compile_library(
+                    binary = compile_library(
                         TARGETS[platform], "python", table, contents.generated, Path(temporary), library
                     )
-                libraries[name, platform] = made
+                libraries[name, platform] = binary
             files[f"binaries/{platform}/{library}"] = libraries[name, platform]
     with told("python: packing"):
         write_zip(files, file)

@@ -56,8 +56,10 @@ class Slave(Fmi2Slave):
         self, start_time: float, stop_time: float | None = None, tolerance: float | None = None
     ) -> None:
         """Start and stop time, s; the tolerance has no use, since the inner step is fixed."""
-        given = stop_time is not None
-        self._link.answer = self._link.setup(self._slave, start_time, given, stop_time if given else 0.0)
+        has_stop_time = stop_time is not None
+        self._link.answer = self._link.setup(
+            self._slave, start_time, has_stop_time, stop_time if has_stop_time else 0.0
+        )
 
     def enter_initialization_mode(self) -> None:
         """Start values may be set from now on."""

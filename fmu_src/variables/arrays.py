@@ -42,7 +42,7 @@ def arrays(table: Sequence[Variable]) -> tuple[Array, ...]:
     Returns vectors where all components are outputs of one unit and follow each other, series of outputs or constants
     such as gauge_1.stress, gauge_2.stress ..., else single variables; in the order of the table.
     """
-    found: list[Array] = []
+    groups: list[Array] = []
     taken: set[int] = set()
     names = {v.name for v in table}
     for i, v in enumerate(table):
@@ -52,8 +52,8 @@ def arrays(table: Sequence[Variable]) -> tuple[Array, ...]:
         if group is None or group.name in names:
             group = Array(v.name, (i,), v, v.description)
         taken |= set(group.items)
-        found.append(group)
-    return tuple(found)
+        groups.append(group)
+    return tuple(groups)
 
 
 def scalars(table: Sequence[Variable]) -> tuple[Array, ...]:

@@ -40,12 +40,12 @@ def renamed(table: Sequence[Variable], content: Content) -> Renamed:
     # watches of answers compare triples of values with those of the System and of the wheel
     bound = {v.index for v in table if v.source == "ahead"} | {v.other for v in table if v.source == "ahead"}
     bound |= {k + j for at, v in enumerate(table) if v.role for k in (at, v.other) if k >= 0 for j in range(3)}
-    made, left_out = list(table), {}
+    variables, left_out = list(table), {}
     for ours, entry in content.entries.items():
         if ours not in place:
             if not entry.partial and "from" not in entry.value:
-                known = did_you_mean(ours, place)
-                raise UserError(f"{entry.where}: this model has no such variable{known} partial = true leaves it out.")
+                hint = did_you_mean(ours, place)
+                raise UserError(f"{entry.where}: this model has no such variable{hint} partial = true leaves it out.")
             continue
         k = place[ours]
         theirs = _theirs(table[k], entry, content, values)
@@ -54,8 +54,8 @@ def renamed(table: Sequence[Variable], content: Content) -> Renamed:
         if isinstance(theirs, str):
             left_out[ours] = theirs
         else:
-            made[k] = theirs
-    result = Renamed(tuple(made), left_out)
+            variables[k] = theirs
+    result = Renamed(tuple(variables), left_out)
     if not result.named:
         raise UserError(f"{content.file}: this model has none of the variables that it names, such as 'speed'.")
     try:

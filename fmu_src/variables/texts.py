@@ -22,9 +22,9 @@ def check_texts(description: str, rights: Sequence[str], table: Sequence[Variabl
     for what, text in texts.items():
         if not isinstance(text, str):
             raise ValueError(f"The {what} must be text, not {shown(text)}.")
-        found = _FORBIDDEN.search(text)
-        if found:
+        match = _FORBIDDEN.search(text)
+        if match:
             raise ValueError(
-                f"The {what} has the character U+{ord(found[0]):04X} at place {found.start() + 1}, "
+                f"The {what} has the character U+{ord(match[0]):04X} at place {match.start() + 1}, "
                 "which no XML document can hold; leave it out."
             )

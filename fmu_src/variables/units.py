@@ -118,8 +118,8 @@ def parse_unit(name: str, foreign: bool = False) -> Unit:
         for token in re.split(r"[.*· ]+", part.strip().strip("()")):
             match = _TOKEN.fullmatch(token)
             if match is None or match[1] not in symbols:
-                known = ", ".join(symbols)
-                raise ValueError(f"Unit '{name}' is not understood at '{token}'; known symbols are {known}.")
+                symbol_list = ", ".join(symbols)
+                raise ValueError(f"Unit '{name}' is not understood at '{token}'; known symbols are {symbol_list}.")
             power = sign * int(match[2] or 1)
             base, scale = symbols[match[1]]
             factor *= scale**power

@@ -284,9 +284,9 @@ def _constant(entry: Mapping[str, Any]) -> Variable:
 def _distinct(table: Sequence[Variable]) -> tuple[Variable, ...]:
     """Descriptions that several variables share are preceded by the part of the model, or by the name."""
     shared = Counter(v.description for v in table)
-    told = [_preceded(v, v.name.rpartition(".")[0]) if shared[v.description] > 1 else v for v in table]
-    shared = Counter(v.description for v in told)
-    return tuple(_preceded(v, v.name) if shared[w.description] > 1 else w for v, w in zip(table, told, strict=True))
+    prefixed = [_preceded(v, v.name.rpartition(".")[0]) if shared[v.description] > 1 else v for v in table]
+    shared = Counter(v.description for v in prefixed)
+    return tuple(_preceded(v, v.name) if shared[w.description] > 1 else w for v, w in zip(table, prefixed, strict=True))
 
 
 def _preceded(v: Variable, word: str) -> Variable:

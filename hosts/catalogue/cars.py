@@ -81,14 +81,14 @@ def _cars_of_one(
 
 def _ours(start: Mapping[str, Value], source: FmuSource) -> dict[str, Value]:
     """Start values under our names, in our units."""
-    made = source.ours(start)
-    for ours in made:
+    our_start = source.ours(start)
+    for ours in our_start:
         if ours in _OF_THE_TESTS:
             raise HostError(
                 f"'{ours}' of {source.path.name} cannot be given: the tests themselves say where a car starts and how "
                 "fast; --test-setting sets what may be changed (--list shows it)."
             )
-    return made
+    return our_start
 
 
 def _distinguished(cars: Sequence[TestedCar]) -> list[TestedCar]:

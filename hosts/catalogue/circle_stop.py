@@ -102,7 +102,7 @@ class Stop:
         speed = self.at("speed", 1.0)
         if math.isnan(speed) or speed < SLOWEST:
             return {}
-        t, wanted = self.result.time, float(yaw_rate_on_circle(np.array([speed]), self.signed_radius)[0])
+        t, reference = self.result.time, float(yaw_rate_on_circle(np.array([speed]), self.signed_radius)[0])
         first = (t >= self.onset) & (t <= self.onset + 1.0)
         change = np.gradient(self.result["chassis.wz"], t)[first] if first.sum() > 2 else np.full(1, math.nan)
         yaw_rate = self.at("chassis.wz", 1.0)
@@ -111,8 +111,8 @@ class Stop:
         x, y = (np.array([self.at(n, 1.0)]) for n in ("chassis.x", "chassis.y"))
         # towards the inside of the turn positive, so that left and right turns read alike
         return {
-            "yaw_rate.ratio": yaw_rate / wanted,
-            "yaw_rate.change": side * (yaw_rate - wanted),
+            "yaw_rate.ratio": yaw_rate / reference,
+            "yaw_rate.change": side * (yaw_rate - reference),
             "yaw_acceleration.largest": float(side * change[np.argmax(np.abs(change))]),
             "sideslip.change": side * (self.at("sideslip", 1.0) - self.before("sideslip")),
             "ay.ratio": ay * self.signed_radius / speed**2,

@@ -76,9 +76,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 catalogue") -
     add_option(parser, "--confined")
     add_option(parser, "--out", "out/catalogue", default=Path("out", "catalogue"))
     options = parser.parse_args(arguments)
-    given = list(sys.argv[1:] if arguments is None else arguments)
+    words = list(sys.argv[1:] if arguments is None else arguments)
     return run_command(
-        lambda: _list() if options.list else _catalogue(options, [*prog.split(), *given]), is_confined=options.confined
+        lambda: _list() if options.list else _catalogue(options, [*prog.split(), *words]), is_confined=options.confined
     )
 
 
@@ -103,8 +103,8 @@ def _catalogue(options: argparse.Namespace, command: Sequence[str]) -> int:
         raise HostError("There is no FMU to test; name one or more. --list shows the tests.")
     names = [name.strip() for part in options.tests for name in part.split(",") if name.strip()] or list(TESTS)
     tests = [standard_test(name) for name in dict.fromkeys(names)]
-    given = _test_settings(options.test_setting, [test.name for test in tests])
-    settings = {test.name: settings_of_test(test, given.get(test.name, {})) for test in tests}
+    by_test = _test_settings(options.test_setting, [test.name for test in tests])
+    settings = {test.name: settings_of_test(test, by_test.get(test.name, {})) for test in tests}
     requested = GivenLimits() if options.limits is None else GivenLimits(options.limits, read_limits(options.limits))
     limits = requested.of_tests(list(settings))
     if others := ", ".join(name for name in requested.entries if name not in limits.entries):
@@ -165,15 +165,15 @@ def _do(
         print(f"\nwritten: {', '.join(map(str, files))}{runs}", flush=True)
         pending = sum(outcome == _PENDING for by_car in outcomes.values() for outcome in by_car.values())
         if pending:
-            remaining = "1 test is" if pending == 1 else f"{pending} tests are"
-            print(f"{remaining} not done yet; the same command resumes here.", flush=True)
+            subject = "1 test is" if pending == 1 else f"{pending} tests are"
+            print(f"{subject} not done yet; the same command resumes here.", flush=True)
     return _verdict(judged, faults)
 
 
-def _test_settings(given: Sequence[tuple[str, float]], names: Sequence[str]) -> dict[str, dict[str, float]]:
+def _test_settings(assignments: Sequence[tuple[str, float]], names: Sequence[str]) -> dict[str, dict[str, float]]:
     """Settings by test from ``TEST.NAME=VALUE``."""
     settings: dict[str, dict[str, float]] = {}
-    for key, value in given:
+    for key, value in assignments:
         test, dot, name = key.partition(".")
         if not dot or test not in names:
             raise HostError(

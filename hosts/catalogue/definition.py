@@ -26,10 +26,10 @@ def _plots(plot: dict[str, Any]) -> list[dict[str, Any]]:
     """A plot, or a plot over time for each of the signals that it names."""
     if "signals" not in plot:
         return [plot]
-    given = {name: value for name, value in plot.items() if name not in ("signals", "run", "line")}
+    options = {name: value for name, value in plot.items() if name not in ("signals", "run", "line")}
     time = ["time, s", f"{plot['run']}.time"]
     return [
-        {**given, "title": f"{title}, {plot['title']}", "x": time, "y": y}
+        {**options, "title": f"{title}, {plot['title']}", "x": time, "y": y}
         | {"lines": {plot.get("line", line): value.format(run=plot["run"])}}
         for title, y, value, line in (_shared()["signals"][name] for name in plot["signals"])
     ]

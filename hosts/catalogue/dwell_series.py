@@ -65,7 +65,7 @@ def processed(run: SteeredRun) -> SteeredRun:
         return run
     before = (run.time < -0.1) if (run.time < -0.1).any() else run.time <= 0.0
 
-    def made(values: NDArray[np.float64], frequency: float) -> NDArray[np.float64]:
+    def low_passed(values: NDArray[np.float64], frequency: float) -> NDArray[np.float64]:
         if np.isnan(values).any():
             return values
         filtered = phaseless_low_pass(values, run.interval, min(frequency, 0.4 / run.interval))
@@ -75,9 +75,9 @@ def processed(run: SteeredRun) -> SteeredRun:
         run.result,
         run.begin,
         run.time,
-        made(run.steering, 10.0),
-        made(run.yaw_rate, 6.0),
-        made(run.acceleration, 6.0),
+        low_passed(run.steering, 10.0),
+        low_passed(run.yaw_rate, 6.0),
+        low_passed(run.acceleration, 6.0),
         run.sideslip,
         run.roll,
         run.speed,
@@ -89,19 +89,19 @@ def series(
     car: TestedCar,
     speed: float,
     side: float,
-    wanted: list[float],
+    amplitudes: list[float],
     progress: Callable[[float], None],
 ) -> list[DwellRun]:
     """Runs with rising amplitudes, until the car is lost.
 
     `speed`: at the beginning of the steering, coasting, m/s; `side`: 1: first to the left, -1: first to the right;
-    `wanted`: amplitudes, rad.
+    `amplitudes`: amplitudes, rad.
     """
     done: list[DwellRun] = []
-    for k, amplitude in enumerate(wanted):
+    for k, amplitude in enumerate(amplitudes):
         name = f"{math.degrees(amplitude):.0f} deg {'left' if side > 0.0 else 'right'}"
         run = processed(steer(car, name, speed, *table(side * amplitude), Pedals.COAST))
-        progress((k + 1) / len(wanted))
+        progress((k + 1) / len(amplitudes))
         count = len(run.time) >= 20
         slip = None if np.isnan(run.sideslip).any() else run.sideslip
         measures = sine_with_dwell(run.time, run.steering, run.yaw_rate, run.acceleration, slip) if count else NOTHING

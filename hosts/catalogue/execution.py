@@ -18,23 +18,23 @@ Reason: TypeAlias = str
 """Why a test of a car could not be done: a sentence."""
 
 
-def settings_of_test(test: StandardTest, given: Mapping[str, float]) -> dict[str, float]:
-    """All settings of a test, those that are given and those by default. `given`: by the names of `test.settings`.
+def settings_of_test(test: StandardTest, values: Mapping[str, float]) -> dict[str, float]:
+    """All settings of a test, those of `values` and those by default. `values`: by the names of `test.settings`.
 
     Raises `HostError` if a name is not known or a value out of its range.
     """
-    known = {s.name: s for s in test.settings}
-    for name, value in given.items():
-        if name not in known:
-            raise HostError(f"The test {test.name} has no setting '{name}'; it has: {', '.join(known) or 'none'}.")
-        s = known[name]
+    by_name = {s.name: s for s in test.settings}
+    for name, value in values.items():
+        if name not in by_name:
+            raise HostError(f"The test {test.name} has no setting '{name}'; it has: {', '.join(by_name) or 'none'}.")
+        s = by_name[name]
         if not s.lowest <= value <= s.highest:  # nor is a NaN
             unit = f" {typeset(s.unit)}".rstrip()
             raise HostError(
                 f"The setting {name} of the test {test.name} is {value:g}{unit}; it must be from {s.lowest:g} to "
                 f"{s.highest:g}{unit}."
             )
-    return {name: float(given.get(name, s.value)) for name, s in known.items()}
+    return {name: float(values.get(name, s.value)) for name, s in by_name.items()}
 
 
 def missing_for(test: StandardTest, car: TestedCar, settings: Mapping[str, float]) -> Reason | None:
@@ -68,12 +68,12 @@ def perform(
     `settings`: those that are not by default; `progress`: called with the part that is done, 0 to 1. Raises `HostError`
     if a setting is wrong, or the car cannot do the test.
     """
-    wanted = settings_of_test(test, settings or {})
-    missing = missing_for(test, car, wanted)
+    test_settings = settings_of_test(test, settings or {})
+    missing = missing_for(test, car, test_settings)
     if missing is not None:
         raise HostError(missing)
     progress(0.0)
-    record = test.perform(car, wanted, progress)
+    record = test.perform(car, test_settings, progress)
     progress(1.0)
     return replace(record, notes=[*record.notes, *_said(record)])
 

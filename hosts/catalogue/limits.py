@@ -64,14 +64,14 @@ class GivenLimits:
             )
             return replace(m, limit=_both(m.limit, own))
 
-        made = {
+        judged_outcomes = {
             test: {
                 label: replace(o, measures=[limited(test, m) for m in o.measures]) if isinstance(o, TestRecord) else o
                 for label, o in by_car.items()
             }
             for test, by_car in outcomes.items()
         }
-        return made, faults
+        return judged_outcomes, faults
 
 
 def _measures(outcome: Outcome) -> list[Measure]:

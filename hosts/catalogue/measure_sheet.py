@@ -225,8 +225,8 @@ def _plot(line: _PlotLine, scope: Scope) -> Plot:
             for names in _mappings(scope, line.each):
                 inner = scope.inner(names)
                 x, values = (np.asarray(inner.evaluate(text), float) for text in (line.x[1], y))
-                made = Line(inner.words(label), x, values)
-                lines += [made] if made.y.ndim and np.isfinite(made.y).any() else []
+                curve = Line(inner.words(label), x, values)
+                lines += [curve] if curve.y.ndim and np.isfinite(curve.y).any() else []
     return Plot(scope.words(line.title), line.x[0], line.y, lines, line.log_x, line.log_y, line.equal)
 
 

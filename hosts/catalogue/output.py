@@ -82,11 +82,11 @@ def _of_car(test: str, label: str, outcome: Outcome) -> dict[str, Any]:
 
 
 def _of_measure(m: Measure) -> dict[str, Any]:
-    made: dict[str, Any] = {"value": or_null(m.value), "unit": m.unit, "text": m.text}
+    record: dict[str, Any] = {"value": or_null(m.value), "unit": m.unit, "text": m.text}
     if m.limit is not None:
         limit = {"lowest": or_null(m.limit.lowest), "highest": or_null(m.limit.highest), "source": m.limit.source}
-        made |= {"limit": limit, "kept": m.is_kept}
-    return made | ({"note": m.note} if m.note else {})
+        record |= {"limit": limit, "kept": m.is_kept}
+    return record | ({"note": m.note} if m.note else {})
 
 
 def write_measures(

@@ -73,14 +73,14 @@ def steady_map(car: TestedCar, speed: float, acceleration: float) -> SteadyMap:
     angles are too large by what it turns in this time. That angle is where a straight line through the first part of
     the ramp, 0.3 to 1.2 m/s², meets zero; it is taken off as long as the wheel turns slowly.
     """
-    given = SteeringInput.of(car.facts)
-    if given.is_angle:
-        largest = min(_LARGEST, given.largest)
+    steering = SteeringInput.of(car.facts)
+    if steering.is_angle:
+        largest = min(_LARGEST, steering.largest)
         slow = min(_SLOW_UNTIL, largest)
         time = np.array([0.0, slow / _SLOW, slow / _SLOW + (largest - slow) / _FAST])
         angle = np.array([0.0, slow, largest])
     else:
-        time, angle = np.array([0.0, given.largest / _RATE_OF_INPUT]), np.array([0.0, given.largest])
+        time, angle = np.array([0.0, steering.largest / _RATE_OF_INPUT]), np.array([0.0, steering.largest])
     run = steer(car, "ramp left", speed, time, angle, Pedals.HOLD_SPEED, 1.1 * acceleration)
     if len(run.time) < 20:
         return SteadyMap(speed, np.zeros(0), np.zeros(0), run)
@@ -140,13 +140,13 @@ def refuse_odd(run: SteeredRun) -> None:
     """
     if len(run.time) < FEWEST or not np.abs(run.acceleration).max() >= ENOUGH:
         return
-    given = (
+    columns = (
         ("steering_wheel_angle", "rad", run.steering),
         ("speed", "m/s", run.speed),
         ("chassis.wz", "rad/s", run.yaw_rate),
         ("chassis.ay", "m/s2", run.acceleration),
     )
-    signals = {n: Signal(n, n, unit, run.time, x) for n, unit, x in given if np.all(np.isfinite(x))}
+    signals = {n: Signal(n, n, unit, run.time, x) for n, unit, x in columns if np.all(np.isfinite(x))}
     for sentence in relations_plausibility("In a slow turn", signals).warnings():
         raise HostError(f"{sentence} An alias file gives signs and units by factor.")
 

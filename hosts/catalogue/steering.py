@@ -62,12 +62,12 @@ class SteeringInput:
         """
         if self.is_angle and ANGLE in result:
             return result[ANGLE]
-        held = result[self.name] / self.per_radian
-        if len(held) < 2:
-            return held
+        values = result[self.name] / self.per_radian
+        if len(values) < 2:
+            return values
         # a row has the input of the step that begins there, which stands for the middle of the step
         back = 0.5 * step / float(result.time[1] - result.time[0])
-        return np.asarray(np.append(held[:1], held[1:] - back * np.diff(held)))
+        return np.asarray(np.append(values[:1], values[1:] - back * np.diff(values)))
 
     def why_no_angles(self, test: str) -> str | None:
         """Why a test that demands angles of the steering wheel cannot be done; None if it can."""

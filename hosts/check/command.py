@@ -129,9 +129,9 @@ def _work(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         (_OF_REFERENCE, reference, "--reference"),
         (_OF_BOTH, options.soak or reference, "--soak or --reference"),
     ):
-        given = given_of(parser, options, names)
-        if given and not there:
-            raise HostError(f"{given[0]} needs {what}.")
+        used = given_of(parser, options, names)
+        if used and not there:
+            raise HostError(f"{used[0]} needs {what}.")
     table = given_of(parser, options, _OF_PARAMETERS)
     others = [*table, *(["--reference"] if reference else []), *(["--soak"] if options.soak else [])]
     if (options.soak or reference) and len(others) > 1:
@@ -191,12 +191,12 @@ def _against(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
     return check_references(fmu, options.reference, cases, options.bound, requested, jobs, out, options.again)
 
 
-def _settings(fmu: Path, given: FmuOptions) -> Settings:
+def _settings(fmu: Path, settings: FmuOptions) -> Settings:
     from hosts.fmu.fmu import described
     from hosts.fmu.settings import settings_of
     from hosts.fmu.variables import Variables
 
-    return settings_of(Variables(described(fmu)), given)
+    return settings_of(Variables(described(fmu)), settings)
 
 
 def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
@@ -214,8 +214,8 @@ def _outside(fmu: Path, options: argparse.Namespace, cases: list[Case]) -> int:
             cases.append(Case(fmu.stem, finding.check, "bad" if finding.verdict == "bad" else "good", finding.words))
         raise HostError(f"{fmu} is not unpacked: nothing else in it was checked.")
     start: Mapping[str, Value] = {}
-    if given := fmu_options(options):
-        settings = _settings(fmu, given)
+    if set_options := fmu_options(options):
+        settings = _settings(fmu, set_options)
         start = settings.start
         for name, message in settings.rows():
             print(f" set  {name:<{_WIDTH}}  {message}", flush=True)

@@ -37,30 +37,29 @@ def dependencies(subject: Subject) -> Finding:
         for u in subject.description.outputs
     }
     moved: dict[str, set[str]] = {name: set() for name in declared}
-    instance, made = Instance(subject).start(), 0
+    instance, steps = Instance(subject).start(), 0
     for _ in range(_STATES):
-        made += len(instance.run(max(1, subject.steps // (2 * _STATES)), made))
+        steps += len(instance.run(max(1, subject.steps // (2 * _STATES)), steps))
         for v in subject.inputs:
             before = instance.get(outputs)
             instance.set_input(v, inside(v, 0.37))
             after = instance.get(outputs)
             instance.set_input(v, inside(v, 0.0))
-            known = whole[subject.places[v.name].reference]
+            input_name = whole[subject.places[v.name].reference]
             for name, one, other in zip(names, before, after, strict=True):
                 if one == other or (one != one and other != other):
                     continue
-                moved.setdefault(name, set()).add(known)
+                moved.setdefault(name, set()).add(input_name)
                 listed = declared.get(name)
-                if listed is not None and known not in listed:
-                    message = (
-                        f"{name} goes from {one:g} to {other:g} as {known} is set, on which it is said not to depend"
-                    )
-                    return Finding("dependencies", "bad", f"{message}; declare it in ModelStructure {clause}")
+                if listed is not None and input_name not in listed:
+                    message = f"{name} goes from {one:g} to {other:g} as {input_name} is set, on which it is said not "
+                    message += f"to depend; declare it in ModelStructure {clause}"
+                    return Finding("dependencies", "bad", message)
     nudged = {whole[subject.places[v.name].reference] for v in subject.inputs}
     every = {v.name for v in subject.description.modelVariables if v.causality == "input"}
     listed_of = {name: declared.get(name) for name in dict.fromkeys(names)}
-    reported = {name: every if listed is None else listed & every for name, listed in listed_of.items()}
-    loose = [name for name, known in reported.items() if known and known <= nudged and not moved.get(name)]
+    declared_inputs = {name: every if listed is None else listed & every for name, listed in listed_of.items()}
+    loose = [name for name, known in declared_inputs.items() if known and known <= nudged and not moved.get(name)]
     if loose:
         message = f"{len(loose)} outputs, such as {loose[0]}, are said to depend on inputs that did not change them"
         message += ' before the next step; masters may see loops; dependencies="" where that is so'
@@ -73,8 +72,8 @@ def _provides(subject: Subject) -> bool:
     return subject.face is not None and subject.face.get(name) == "true"
 
 
-def _slopes(subject: Subject, instance: Instance, outputs: list[ScalarVariable], known: ScalarVariable) -> Any:
-    place = subject.places[known.name]
+def _slopes(subject: Subject, instance: Instance, outputs: list[ScalarVariable], input_variable: ScalarVariable) -> Any:
+    place = subject.places[input_variable.name]
     seed = [float(k == place.item) for k in range(place.size)]
     count = (sum(map(count_of, outputs)),) if subject.three else ()
     return np.array(
@@ -92,36 +91,34 @@ def derivatives(subject: Subject) -> Finding:
         return Finding("derivatives", "note", "cannot be compared with differences: states cannot be saved")
     compared, over_steps, span = 0, 0, _span(subject)
     added_along = "" if span is None else span.get("addedAlong", "")
-    for known, instance, time in _states(subject, without=set(added_along.split())):
-        start, change = size_of(known)
+    for input_variable, instance, time in _states(subject, without=set(added_along.split())):
+        start, change = size_of(input_variable)
         part = _PART * change
         before = instance.state()
         at_point, over_step = [], []
         for share in (0.0, 1.0, -1.0):
             instance.restore(before)
-            instance.set_input(known, start + share * part)
+            instance.set_input(input_variable, start + share * part)
             at_point.append(np.array(instance.get(outputs)))
             if not instance.advance(time, subject.step):
                 break
             over_step.append(np.array(instance.get(outputs)))
         if len(over_step) == 3:
             instance.restore(before)
-            instance.set_input(known, start)
+            instance.set_input(input_variable, start)
             instance.advance(time, subject.step)
             try:
-                slopes = _slopes(subject, instance, outputs, known)
+                slopes = _slopes(subject, instance, outputs, input_variable)
             except Exception as error:
                 instance.free_state(before)
-                return Finding("derivatives", "note", f"none by {known.name}: {error}")
-            near = [_agrees(slopes, found, part) for found in (at_point, over_step)]
+                return Finding("derivatives", "note", f"none by {input_variable.name}: {error}")
+            near = [_agrees(slopes, differences, part) for differences in (at_point, over_step)]
             wrong = np.flatnonzero(~(near[0] | near[1]))
             if len(wrong):
                 k = int(wrong[0])
                 step, point = ((found[1][k] - found[2][k]) / (2.0 * part) for found in (over_step, at_point))
-                message = (
-                    f"{names[k]} has the derivative {slopes[k]:g} by {known.name}; differences are {point:g} at a "
-                )
-                message += f"communication point and {step:g} over a step; give one of them"
+                message = f"{names[k]} has the derivative {slopes[k]:g} by {input_variable.name}; differences are "
+                message += f"{point:g} at a communication point and {step:g} over a step; give one of them"
                 return Finding("derivatives", "bad", f"{message} {subject.clause('2.1.9', '2.2.12')}")
             compared += 1
             over_steps += bool(np.any(~near[0]))
@@ -143,20 +140,20 @@ def _span(subject: Subject) -> ElementTree.Element | None:
 
 def _states(subject: Subject, without: Set[str]) -> Iterator[tuple[ScalarVariable, Instance, float]]:
     """Each input with an instance on its way, and the time there."""
-    for known in subject.inputs:
-        if known.name in without:
+    for input_variable in subject.inputs:
+        if input_variable.name in without:
             continue
         instance = Instance(subject).start()
         count = len(instance.run(max(2, subject.steps // 8)))
-        instance.set_input(known, size_of(known)[0])
+        instance.set_input(input_variable, size_of(input_variable)[0])
         if instance.advance(count * subject.step, subject.step):
-            yield known, instance, (count + 1) * subject.step
+            yield input_variable, instance, (count + 1) * subject.step
         instance.free()
 
 
-def _agrees(slopes: NDArray[np.float64], found: list[NDArray[np.float64]], part: float) -> NDArray[np.bool_]:
+def _agrees(slopes: NDArray[np.float64], differences: list[NDArray[np.float64]], part: float) -> NDArray[np.bool_]:
     """Which slopes are those of differences; also those at a kink, where the two sides differ."""
-    middle, plus, minus = found
+    middle, plus, minus = differences
     up, down, both = (plus - middle) / part, (middle - minus) / part, (plus - minus) / (2.0 * part)
     round_off = _ROUND * (np.abs(middle) + np.max(np.abs(both))) / min(1.0, abs(part))
     kink = np.abs(up - down) > _SMOOTH * np.maximum(np.abs(up), np.abs(down)) + round_off

@@ -50,16 +50,16 @@ def functions(subject: Subject) -> Finding:
     except OSError as error:
         return lacks(f"the library cannot be loaded: {error}{cause_text(error)}")
     kind, prefix = (FMU3Slave, "fmi3") if subject.three else (FMU2Slave, "fmi2")
-    wanted = [name for name in dir(kind) if name.startswith(prefix)]
-    missing = [name for name in wanted if not hasattr(loaded, name)]
+    names = [name for name in dir(kind) if name.startswith(prefix)]
+    missing = [name for name in names if not hasattr(loaded, name)]
     if not missing:
-        return Finding(FUNCTIONS, "good", f"the library has all {len(wanted)}")
+        return Finding(FUNCTIONS, "good", f"the library has all {len(names)}")
     if hasattr(loaded, f"{face}_{missing[0]}"):
         return lacks(
             f"they begin with the prefix {face}_, which those of sources and static libraries have, not those of a "
             f"shared library {subject.clause('2.1.1', '2.2.2')}",
         )
-    return lacks(f"{len(missing)} of {len(wanted)} are missing: {some_of(missing)} {subject.clause('2.3', '2.5')}")
+    return lacks(f"{len(missing)} of {len(names)} are missing: {some_of(missing)} {subject.clause('2.3', '2.5')}")
 
 
 def execution_tool(subject: Subject) -> Finding:

@@ -24,17 +24,17 @@ if TYPE_CHECKING:
     from hosts.fmu.settings import Settings
 
 
-def parameters(fmu: Path, given: FmuOptions, out: Path | None, diff: Path | None, show: bool = False) -> int:
+def parameters(fmu: Path, options: FmuOptions, out: Path | None, diff: Path | None, show: bool = False) -> int:
     """Print the parameters of an FMU of FMI 2.0 or 3.0, or what is other in a set, and write them.
 
-    `given`: what is set in it before; `diff`: parameter set of which only what is other is printed; `show`: whether the
-    table is printed when a set is written too. Result: exit code.
+    `options`: values that are set in it first; `diff`: parameter set whose other values alone are printed; `show`:
+    whether the table is printed when a set is written too. Returns the exit code.
     """
     if out is not None:
         check_writable(out)
     description = described(fmu)
     variables = Variables(description)
-    settings = settings_of(variables, given)
+    settings = settings_of(variables, options)
     if diff is not None:
         rows = _differences(variables, settings.start, settings_of_file(diff, variables))
         _print_rows(rows)

@@ -75,12 +75,12 @@ def about_the_file(subject: Subject) -> Finding:
         clause = subject.clause("2.2.1, 2.2.7, 2.3", "2.4.1, 2.4.7, 2.5.1")
         return Finding("about the file", "note", f"{'; '.join(faults)}; all of it is optional {clause}")
     left_out = sum(u.dependencies is None for u in unknowns)
-    reported = (
+    sentence = (
         f"{left_out} of {len(unknowns)} initial outputs depend on all that is set"
         if left_out
         else "sparse dependencies"
     )
-    return Finding("about the file", "good", f"rights, date, distinct descriptions, typical sizes; {reported}")
+    return Finding("about the file", "good", f"rights, date, distinct descriptions, typical sizes; {sentence}")
 
 
 def build_files(subject: Subject) -> Finding:

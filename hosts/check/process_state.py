@@ -65,19 +65,19 @@ def _costs() -> list[int]:
 def costs_of_steps(subject: Subject) -> Finding:
     """Memory, threads and descriptors do not grow with steps."""
     instance, rows = Instance(subject).start(), list[list[int]]()
-    begin, made = time.perf_counter(), 0
+    begin, steps = time.perf_counter(), 0
     for k in range(_WARM_UP_STEPS + _MEASURED_STEPS):
         if not instance.advance(k * subject.step, subject.step):
             break
         if k >= _WARM_UP_STEPS // 3 and (k - _WARM_UP_STEPS // 3) % 10 == 0:
             rows.append(_costs())
-        made = k + 1
+        steps = k + 1
         if time.perf_counter() - begin > _BUDGET and len(rows) > 4:
             break
     rows = rows[1:] if len(rows) > 4 else rows
     if message := _growth(rows, "a step"):
         return Finding("costs of steps", "bad", f"{message} {subject.clause('2.1.5', '2.3.1')}")
-    return Finding("costs of steps", "good", f"{', '.join(_COSTS)} stay over {made} steps")
+    return Finding("costs of steps", "good", f"{', '.join(_COSTS)} stay over {steps} steps")
 
 
 def _growth(rows: list[list[int]], of: str) -> str:

@@ -139,10 +139,10 @@ def check_references(
         if len(files) > 1:
             print(f"BAD   {file.name}: {error}")
 
-    with ExitStack() as held:
-        fmu = held.enter_context(Fmu(path))
+    with ExitStack() as stack:
+        fmu = stack.enter_context(Fmu(path))
         store = (
-            held.enter_context(ResultStore[_Compared](out, _Compared, "checks an FMU", again))
+            stack.enter_context(ResultStore[_Compared](out, _Compared, "checks an FMU", again))
             if place.is_dir()
             else None
         )
@@ -152,13 +152,13 @@ def check_references(
                 references.append(_reference(fmu, file, options))
             except UserError as error:
                 fails(file, error)
-        compared = held.enter_context(closing(_done(fmu, references, store, bounds, options.manoeuvre is None, jobs)))
-        for reference, found in zip(references, in_order(compared), strict=True):
-            if isinstance(found, HostError):
-                fails(reference.file, found)
+        compared = stack.enter_context(closing(_done(fmu, references, store, bounds, options.manoeuvre is None, jobs)))
+        for reference, outcome in zip(references, in_order(compared), strict=True):
+            if isinstance(outcome, HostError):
+                fails(reference.file, outcome)
             else:
-                print("\n".join(found.lines), flush=True)
-                cases += found.cases
+                print("\n".join(outcome.lines), flush=True)
+                cases += outcome.cases
         if store is not None:
             store.clear()
     names = [case.name for case in cases if case.name != "run" and case.verdict in ("good", "bad")]
@@ -182,13 +182,13 @@ def _done(
     keys = [_key(fmu, reference, bounds) for reference in references]
     names = [reference.file.name for reference in references]
     before = [None if kept is None else kept.find(*name_and_key) for name_and_key in zip(names, keys, strict=True)]
-    present = [(number, found) for number, found in enumerate(before) if found is not None]
+    present = [(number, outcome) for number, outcome in enumerate(before) if outcome is not None]
     report_resumed(len(present), len(keys), "tables")
     yield from present
-    remaining = [number for number, found in enumerate(before) if found is None]
-    with closing(runs_with_bar(fmu, [references[number].drive for number in remaining], jobs)) as results:
+    pending = [number for number, outcome in enumerate(before) if outcome is None]
+    with closing(runs_with_bar(fmu, [references[number].drive for number in pending], jobs)) as results:
         for place, result in results:
-            number = remaining[place]
+            number = pending[place]
             if isinstance(result, HostError):
                 yield number, result
                 continue
@@ -235,10 +235,10 @@ def _compared(
     if not any(pattern.startswith(_DIAGNOSTICS) for pattern, _ in bounds):  # of steps, not of the car
         columns = {n: values for n, values in columns.items() if not n.startswith(_DIAGNOSTICS)} or columns
     nominals = {n: abs(float(fmu.variables[n].nominal or 1.0)) for n in columns}
-    found = deviations(nominals, result, times, columns, bounds)
+    deviation_list = deviations(nominals, result, times, columns, bounds)
     lines = [f"{name}  {words}" for name, words in reference.settings.rows()]
-    lines += _table(found[:_WORST])
-    bad = [d for d in found if not d.good]
+    lines += _table(deviation_list[:_WORST])
+    bad = [d for d in deviation_list if not d.good]
     lines += remedies(result, times, columns, bad)
     if still := [n for n in fmu.names("input") if n not in {*driven.inputs, *driven.start} and by_table]:
         lines.append(f"inputs without a column, which keep their start values: {some_of(still)}")
@@ -257,7 +257,8 @@ def _compared(
         lines.append(wrong)
     share = "" if bounds else f"; the bound is {100.0 * BOUND:g} % of the range of each, --bound NAME=SHARE sets others"
     lines.append(
-        f"\n{fmu.path} against {file}, {len(found)} signals up to {result.time[-1]:g} s in steps of {step:g} s: "
+        f"\n{fmu.path} against {file}, {len(deviation_list)} signals up to {result.time[-1]:g} s in steps of "
+        f"{step:g} s: "
         f"{'all within their bounds' if not bad else f'{len(bad)} beyond their bounds'}{share}"
     )
     ended = f"up to {result.time[-1]:g} s in steps of {step:g} s"
@@ -268,7 +269,7 @@ def _compared(
         ended = wrong
     run = Case(file.stem, "run", "good" if result.is_good else "bad", ended, result.wall)
     missing = [Case(file.stem, name, "skipped", f"{fmu.path.name} has no such output") for name in reference.left]
-    return _Compared(lines, [run, *(deviation.case(file.stem) for deviation in found), *missing])
+    return _Compared(lines, [run, *(deviation.case(file.stem) for deviation in deviation_list), *missing])
 
 
 def _read(
@@ -311,8 +312,8 @@ def _check_times(times: NDArray[np.float64], step: float, file: Path) -> None:
         )
 
 
-def _table(found: Sequence[Deviation]) -> list[str]:
+def _table(deviation_list: Sequence[Deviation]) -> list[str]:
     rows = [("", "signal", "largest error", "at", "its range", "share of it", "bound")]
-    for d in found:
+    for d in deviation_list:
         rows.append((" ok " if d.good else "BAD ", d.name, *d.words))
     return in_columns(rows)

@@ -35,8 +35,8 @@ def write_sarif(file: Path, fmu: Path, cases: Sequence[Case]) -> None:
     results: list[dict[str, Any]] = []
     for case in cases:
         kind, level = _KINDS[case.verdict]
-        found = {"ruleId": case.name, "ruleIndex": names.index(case.name), "kind": kind, "level": level}
-        results.append(found | {"message": {"text": case.words}, "locations": [place]})
+        result = {"ruleId": case.name, "ruleIndex": names.index(case.name), "kind": kind, "level": level}
+        results.append(result | {"message": {"text": case.words}, "locations": [place]})
     run = {"tool": {"driver": driver}, "results": results}
     with atomic_file(file) as temporary:
         text = json.dumps({"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}, indent=1, ensure_ascii=False)

@@ -33,9 +33,9 @@ def _initialising(subject: Subject) -> Instance:
 
 def start_values(subject: Subject) -> Finding:
     """What is read before anything was set is what the description says."""
-    known = [v for v in _scalars(subject, "input", "parameter") if v.start not in (None, "")]
+    started = [v for v in _scalars(subject, "input", "parameter") if v.start not in (None, "")]
     instance, rounded = _initialising(subject), ""
-    for v in known:
+    for v in started:
         stated, value = (float if v.type in REAL else int)(v.start), instance.get([v])[0]
         if value != stated:
             message = (
@@ -47,7 +47,7 @@ def start_values(subject: Subject) -> Finding:
             rounded = rounded or message
     if rounded:
         return Finding("start values", "note", rounded)
-    return Finding("start values", "good", f"{len(known)} read as they are described")
+    return Finding("start values", "good", f"{len(started)} read as they are described")
 
 
 def set_values(subject: Subject) -> Finding:

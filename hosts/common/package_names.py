@@ -11,28 +11,28 @@ from hosts.common.errors import HostError
 _MBS = Path(ali3.__file__).parents[1] / "mbs"
 
 
-def check_car(given: Path) -> None:
+def check_car(car: Path) -> None:
     """Refuse a word that is neither a file here nor the name of a car; `HostError` with a near name, or all."""
     names = sorted(file.parent.name for file in (_MBS / "vehicle" / "cars").glob("*/car.toml"))
-    if not _is_there(given) and str(given) not in names:
-        _refuse("car", str(given), names)
+    if not _is_there(car) and str(car) not in names:
+        _refuse("car", str(car), names)
 
 
-def check_world(given: str) -> None:
+def check_world(world: str) -> None:
     """Refuse a word that is neither a file here nor the name of a world or road; `HostError` as `check_car`."""
     roads = (_MBS / "roads" / "files").glob("*.road")
     names = sorted(file.stem for file in (*(_MBS / "worlds").glob("*.toml"), *roads))
-    if not _is_there(given) and given.removesuffix(".road") not in names:
-        _refuse("world", given, names)
+    if not _is_there(world) and world.removesuffix(".road") not in names:
+        _refuse("world", world, names)
 
 
-def _refuse(what: str, given: str, names: list[str]) -> None:
-    near = did_you_mean(given, names, f"the {what}s of the package are {', '.join(names)}", 1)
-    raise HostError(f"There is no {what} {brief(given)} and no such file{near}")
+def _refuse(what: str, name: str, names: list[str]) -> None:
+    near = did_you_mean(name, names, f"the {what}s of the package are {', '.join(names)}", 1)
+    raise HostError(f"There is no {what} {brief(name)} and no such file{near}")
 
 
-def _is_there(given: str | Path) -> bool:
+def _is_there(name: str | Path) -> bool:
     try:
-        return is_file(given) or is_folder(given)
+        return is_file(name) or is_folder(name)
     except (OSError, ValueError):  # a name that no file can have
         return False

@@ -25,26 +25,26 @@ def options_with_road(options: argparse.Namespace, out: Path) -> FmuOptions:
 
     `out`: as of `road_value`.
     """
-    given = fmu_options(options)
+    set_options = fmu_options(options)
     if options.road is None:
-        return given
-    return FmuOptions(given.sets, [(ROAD, road_value(options.road, out)), *given.values])
+        return set_options
+    return FmuOptions(set_options.sets, [(ROAD, road_value(options.road, out)), *set_options.values])
 
 
-def road_value(given: str, out: Path) -> str:
+def road_value(road: str, out: Path) -> str:
     """What the parameter ``road.file`` of an FMU is set to.
 
-    `given`: a road file here; the name of one in the FMU; or what ``ali3 road`` makes one of without further options;
+    `road`: a road file here; the name of one in the FMU; or what ``ali3 road`` makes one of without further options;
     `out`: folder that takes the road file that is made. Returns the path of the file, or the name as it is. Raises
     `HostError`: the file is not a road; with the words of ``ali3 road``.
     """
-    path = Path(given)
+    path = Path(road)
     if path.suffix.lower() not in MADE_OF:
-        return str(path.absolute()) if is_file(path) or is_folder(path) else given
-    made = make_folder(out) / f"{path.stem}.road"
-    output = run_ali3("road", str(path), str(made))
+        return str(path.absolute()) if is_file(path) or is_folder(path) else road
+    road_file = make_folder(out) / f"{path.stem}.road"
+    output = run_ali3("road", str(path), str(road_file))
     print(output, end="", file=sys.stderr)  # what is odd about the road
-    return str(made.absolute())
+    return str(road_file.absolute())
 
 
 def report_starts(starts: Iterable[Mapping[str, object]]) -> None:

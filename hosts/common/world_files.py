@@ -49,14 +49,14 @@ def no_world(roads: list[Any]) -> World:
     return World("", None, content)
 
 
-def make_world(given: str, tell: Callable[[str], None], thin: bool = False) -> World:
+def make_world(world: str, tell: Callable[[str], None], thin: bool = False) -> World:
     """A world by its name, or from a file.
 
-    `given`: a name of the package, or a file that ``ali3 road --world`` takes; `tell`: takes lines that say how far it
+    `world`: a name of the package, or a file that ``ali3 road --world`` takes; `tell`: takes lines that say how far it
     is, where it is made for the first time; `thin`: few and round numbers, as a page carries it. Raises `HostError`: it
     is not a world; with the words of ``ali3 road --world``.
     """
-    file = Path(given)
+    file = Path(world)
     room = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:12] if is_file(file) else "named"
     folder = cache_folder("worlds", f"{room}-thin" if thin else room)
 
@@ -64,7 +64,7 @@ def make_world(given: str, tell: Callable[[str], None], thin: bool = False) -> W
         if line and not line.startswith(ERROR):  # which is raised
             tell(line)
 
-    run_ali3("road", "--world", given, "--out", str(folder), *(["--thin"] if thin else []), hear=hear)
+    run_ali3("road", "--world", world, "--out", str(folder), *(["--thin"] if thin else []), hear=hear)
     # A description has a name of its own; the record of another one that stood in the file before is older.
     record = max(folder.glob("*.json"), key=lambda path: path.stat().st_mtime_ns) if is_file(file) else None
     content = read_world_record(record or folder / f"{file.stem}.json")

@@ -28,11 +28,11 @@ def perform(options: argparse.Namespace) -> int:
     paths = paths_of(options)
     task = prepare(options)
     _check(options, task)
-    wanted = None
+    request = None
     if options.fit:
         from hosts.compare import fitting
 
-        wanted = fitting.wanted(options, task)
+        request = fitting.wanted(options, task)
     for note in task.notes:
         print(f"note: {note}", flush=True)
     long = sum(s.end for s in task.segments) > _WORTH_PROCESSES
@@ -47,17 +47,17 @@ def perform(options: argparse.Namespace) -> int:
         results, after = None, None
         for message in replay.said:
             print(f"FMU: {message}")
-        if wanted is not None:
+        if request is not None:
             _refuse_odd(problems, options)
             try:
-                results, after = fitting.fitted(options, task, replay, before, wanted)
+                results, after = fitting.fitted(options, task, replay, before, request)
             except KeyboardInterrupt:
                 problems = [*problems, f"The fit was stopped after {replay.runs} runs; nothing is fitted."]
                 _write(options, task, Outcome(before, None, None, task.notes, problems), paths)
                 raise
     notes = task.notes + [f"In {n} of {replay.runs} runs the FMU reported: {what}" for what, n in replay.said.items()]
-    if wanted is not None and results is not None and after is not None:
-        print("with the fitted parameters" + (" and sensors:" if wanted.nuisances else ":"))
+    if request is not None and results is not None and after is not None:
+        print("with the fitted parameters" + (" and sensors:" if request.nuisances else ":"))
         print(table(after))
         if task.windowed:
             print(window_text(windows(after, task.segments)))
@@ -78,8 +78,8 @@ def _check(options: argparse.Namespace, task: Task) -> None:
     """Refuse options that cannot be combined."""
     if options.nuisance and not options.fit:
         raise HostError("--nuisance needs --fit; delays and drift are estimated without both.")
-    for option, given in {"--starts": options.starts > 1, "--fit-step": options.fit_step is not None}.items():
-        if given and not options.fit:
+    for option, used in {"--starts": options.starts > 1, "--fit-step": options.fit_step is not None}.items():
+        if used and not options.fit:
             raise HostError(f"{option} needs --fit; without it no parameters are fitted.")
     if task.windowed and any(t.startswith("initial.") for t in options.fit):
         raise HostError("--fit initial.* cannot be combined with --windows: each window begins in its measured state.")

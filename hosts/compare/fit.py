@@ -96,7 +96,7 @@ def fit(
         )
 
     tried: list[OptimizeResult] = []
-    reported: list[Start] = []
+    searches: list[Start] = []
     refused: list[str] = []
     for k, begin in enumerate(_begins(p, unknowns, starts)):
         try:
@@ -106,7 +106,7 @@ def fit(
                 raise
             refused.append(str(error))
             continue
-        reported.append(Start(begin.tolist(), tried[-1].x.tolist(), rms(tried[-1].fun)))
+        searches.append(Start(begin.tolist(), tried[-1].x.tolist(), rms(tried[-1].fun)))
     solution = min(tried, key=lambda t: float(t.cost))
     for _ in range(_ROUNDS - 1):
         if _weighted_anew(residuals, solution.fun):
@@ -116,8 +116,8 @@ def fit(
     p = _polished(residuals, solution.x, bounds)
     _weighted_anew(residuals, residuals(p))
     r, jacobian, begun = residuals(p), residuals.jacobian(p), residuals(start)  # as the weights are now
-    made = _judged(residuals, unknowns, p, r, jacobian, begun, noise, own, runs, converged, reported, parts)
-    return replace(made, refused=refused)
+    result = _judged(residuals, unknowns, p, r, jacobian, begun, noise, own, runs, converged, searches, parts)
+    return replace(result, refused=refused)
 
 
 def _weighted_anew(residuals: Residuals, r: NDArray[np.float64]) -> bool:
@@ -171,7 +171,7 @@ def _judged(
     own: float,
     runs: int,
     converged: bool,
-    reported: list[Start],
+    searches: list[Start],
     parts: Parts | None,
 ) -> Fit:
     blocks = residuals.blocks
@@ -212,7 +212,7 @@ def _judged(
     criterion += len(p) * math.log(max(effective, 1.0))
     return Fit(
         results, correlation, math.sqrt(c0 / count), math.sqrt(c1 / count), float(stats.f.sf(f, len(p), freedom)),
-        noise, misfit, own, count, effective, runs, converged, reported, outside, criterion,
+        noise, misfit, own, count, effective, runs, converged, searches, outside, criterion,
         {n: s.unit for n, s in residuals.outputs.items()},
     )  # fmt: skip
 

@@ -36,12 +36,12 @@ def fit_rows(fit: Fit) -> list[tuple[str, ...]]:
     ]
 
 
-def _value(found: FittedUnknown) -> tuple[str, str]:
-    if not math.isfinite(found.half_width):
-        return f"{found.value:.4g}", "not determined"
-    digits = 2 if found.half_width <= 0.0 else 1 - math.floor(math.log10(found.half_width))
-    value = f"{found.value:.{digits}f}" if 0 < digits < 12 else f"{found.value:.8g}"
-    return value, f"± {found.half_width:.2g}"
+def _value(fitted: FittedUnknown) -> tuple[str, str]:
+    if not math.isfinite(fitted.half_width):
+        return f"{fitted.value:.4g}", "not determined"
+    digits = 2 if fitted.half_width <= 0.0 else 1 - math.floor(math.log10(fitted.half_width))
+    value = f"{fitted.value:.{digits}f}" if 0 < digits < 12 else f"{fitted.value:.8g}"
+    return value, f"± {fitted.half_width:.2g}"
 
 
 def fit_table(fit: Fit) -> str:
@@ -60,15 +60,15 @@ def result_text(fit: Fit) -> list[str]:
 
 def _omitted_text(fit: Fit) -> list[str]:
     """What is left of seconds that were left out of the fit, in a sentence; none where the log is too short for it."""
-    reported = [
+    residuals = [
         f"{name} {shown_number(left, fit.units[name], name)} "
         f"({shown_number(fit.misfit[name], fit.units[name], name)} in the fit)"
         for name, left in fit.left_out.items()
         if math.isfinite(left)
     ]
     return (
-        [f"left of parts of the log that are left out in turn, to first order: {', '.join(reported)}"]
-        if reported
+        [f"left of parts of the log that are left out in turn, to first order: {', '.join(residuals)}"]
+        if residuals
         else []
     )
 
@@ -103,19 +103,19 @@ def fit_problems(fit: Fit) -> list[str]:
     return problems
 
 
-def _of(found: FittedUnknown) -> list[str]:
-    u, lines = found.unknown, []
-    if found.bound:
-        limit = u.low if found.bound == "lower" else u.high
+def _of(fitted: FittedUnknown) -> list[str]:
+    u, lines = fitted.unknown, []
+    if fitted.bound:
+        limit = u.low if fitted.bound == "lower" else u.high
         lines.append(
-            f"{u.name} lies at its {found.bound} bound, {number_in(limit, u.unit)}: its interval is meaningless; give "
+            f"{u.name} lies at its {fitted.bound} bound, {number_in(limit, u.unit)}: its interval is meaningless; give "
             "it a wider range if that makes sense, or look for what else differs."
         )
-    elif not math.isfinite(found.half_width):
+    elif not math.isfinite(fitted.half_width):
         lines.append(f"{u.name} cannot be identified: the compared signals do not determine it.")
-    elif math.isfinite(u.high - u.low) and found.half_width > _WIDE * (u.high - u.low) and u.kind == "parameter":
+    elif math.isfinite(u.high - u.low) and fitted.half_width > _WIDE * (u.high - u.low) and u.kind == "parameter":
         lines.append(
-            f"{u.name} cannot be identified: its interval of ± {number_in(found.half_width, u.unit)} is as wide as "
+            f"{u.name} cannot be identified: its interval of ± {number_in(fitted.half_width, u.unit)} is as wide as "
             "its range."
         )
     return lines

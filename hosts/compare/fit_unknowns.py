@@ -29,30 +29,30 @@ class Unknown:
 
 
 def nuisances(
-    wanted: Sequence[str], outputs: Mapping[str, Signal], delays: Mapping[str, float], longest: float
+    kinds: Sequence[str], outputs: Mapping[str, Signal], delays: Mapping[str, float], longest: float
 ) -> list[Unknown]:
     """The unknowns of sensors and clocks.
 
-    `wanted`: of `NUISANCES`; `delays`: first guesses, s; "" for that in common; `longest`: largest delay, s.
+    `kinds`: of `NUISANCES`; `delays`: first guesses, s; "" for that in common; `longest`: largest delay, s.
     """
-    for name in wanted:
+    for name in kinds:
         if name not in NUISANCES:
             raise HostError(f"--nuisance: '{name}' is not known; known are {', '.join(NUISANCES)}.")
-    if "delay" in wanted and "delays" in wanted:
+    if "delay" in kinds and "delays" in kinds:
         raise HostError("--nuisance: 'delay' is one delay for all signals, 'delays' one for each; give one of them.")
     interval = min(s.interval for s in outputs.values())
     length = max(float(s.time[-1]) for s in outputs.values())
     results = []
-    names = ("",) if "delay" in wanted else tuple(outputs) if "delays" in wanted else ()
+    names = ("",) if "delay" in kinds else tuple(outputs) if "delays" in kinds else ()
     for n in names:
         guess, reach = delays.get(n, 0.0), longest + abs(delays.get(n, 0.0))
         results.append(Unknown(f"{n}.delay".lstrip("."), "s", guess, -reach, reach, interval, n, "delay"))
-    if "drift" in wanted:
+    if "drift" in kinds:
         results.append(Unknown("drift", "1", 0.0, -0.05, 0.05, interval / length, "", "drift"))
     for n, s in outputs.items():
         spread = max(float(np.std(s.values)), 1e-12)
-        if "bias" in wanted:
+        if "bias" in kinds:
             results.append(Unknown(f"{n}.bias", s.unit, 0.0, -np.inf, np.inf, 0.1 * spread, n, "bias"))
-        if "gain" in wanted:
+        if "gain" in kinds:
             results.append(Unknown(f"{n}.gain", "1", 1.0, 0.1, 10.0, 0.1, n, "gain"))
     return results

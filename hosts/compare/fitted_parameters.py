@@ -15,11 +15,11 @@ _STEP = "step_size"
 
 
 def fitted_parameters(
-    texts: Sequence[str], variables: Mapping[str, Variable], given: Mapping[str, Value]
+    texts: Sequence[str], variables: Mapping[str, Variable], set_values: Mapping[str, Value]
 ) -> list[Unknown]:
     """Parameters to be fitted.
 
-    `texts`: ``NAME`` or ``NAME=LOW:HIGH``; `given`: values that the user sets: there the search begins. Raises
+    `texts`: ``NAME`` or ``NAME=LOW:HIGH``; `set_values`: values that the user sets: there the search begins. Raises
     `HostError`: a name, kind or range is wrong.
     """
     results: list[Unknown] = []
@@ -33,7 +33,7 @@ def fitted_parameters(
             raise HostError(f"--fit: the FMU has no parameter '{name}'{hint}")
         if variable.kind != "Real" or variable.start is None:
             raise HostError(f"--fit: '{name}' is of the kind {variable.kind}; only real numbers can be fitted.")
-        start = float(given.get(name, variable.start))
+        start = float(set_values.get(name, variable.start))
         low, high = _range(variable, limits) if equals else _usual_range(variable, start)
         if not low <= start <= high:
             raise HostError(

@@ -47,20 +47,20 @@ def wanted(options: argparse.Namespace, task: Task) -> FitRequest:
 
 
 def fitted(
-    options: argparse.Namespace, task: Task, replay: Replay, before: Comparison, wanted: FitRequest
+    options: argparse.Namespace, task: Task, replay: Replay, before: Comparison, request: FitRequest
 ) -> tuple[Fit, Comparison]:
     """The best fit, and the comparison with it."""
     if not replay.check_reset():
         print("note: the FMU does not repeat itself to the last bit.")
     outputs = {n: task.outputs[n] for n in before.signals}
-    guesses = _delays(before, wanted.nuisances)
+    guesses = _delays(before, request.nuisances)
     outputs = overlapping(outputs, task.end, options.skip, guesses)
-    unknowns = [*wanted.parameters, *nuisances(wanted.nuisances, outputs, guesses, options.longest_delay)]
+    unknowns = [*request.parameters, *nuisances(request.nuisances, outputs, guesses, options.longest_delay)]
     with replay.searching("fit"):
 
         def simulate(values: Mapping[str, float]) -> Result | str:
             try:
-                result = replay.run(wanted.coarse | dict(values))
+                result = replay.run(request.coarse | dict(values))
             except StartRefusedError as error:
                 return str(error)
             if result.refusal:
@@ -68,27 +68,27 @@ def fitted(
             unknown = [n for n in outputs if not math.isfinite(float(result[n].sum()))]
             return f"{unknown[0]} is not finite with them." if unknown else result
 
-        found = fit(outputs, unknowns, simulate, starts=options.starts, parts=parts_of(outputs, task.segments))
-        best = replay.run(dict(found.parameters))
-    if wanted.coarse:
-        apart = replay.run(wanted.coarse | found.parameters)
+        fit_result = fit(outputs, unknowns, simulate, starts=options.starts, parts=parts_of(outputs, task.segments))
+        best = replay.run(dict(fit_result.parameters))
+    if request.coarse:
+        apart = replay.run(request.coarse | fit_result.parameters)
         changes = [f"{n} by {shown_number(rms(apart[n] - best[n]), s.unit, n)}" for n, s in outputs.items()]
         task.notes.append(
             f"Fitted with inner steps of {1e3 * options.fit_step:g} ms; with those of the comparison the signals of "
             f"the fitted FMU differ by (root mean square): {', '.join(changes)}."
         )
         print(f"note: {task.notes[-1]}")
-    curves = {n: SensedCurve(Curve(best, n), *found.sensor(n)) for n in outputs}
-    return found, compare(outputs, curves, options.longest_delay, options.skip)
+    curves = {n: SensedCurve(Curve(best, n), *fit_result.sensor(n)) for n in outputs}
+    return fit_result, compare(outputs, curves, options.longest_delay, options.skip)
 
 
-def _delays(before: Comparison, wanted: list[str]) -> dict[str, float]:
+def _delays(before: Comparison, kinds: list[str]) -> dict[str, float]:
     """First guesses of the delays that are sought; that of all signals under the empty name and under each."""
-    assert set(wanted) <= set(NUISANCES)
+    assert set(kinds) <= set(NUISANCES)
     common = before.common.delay if math.isfinite(before.common.delay) else 0.0
-    if "delay" in wanted:
+    if "delay" in kinds:
         return {"": common} | dict.fromkeys(before.signals, common)
-    if "delays" in wanted:
+    if "delays" in kinds:
         own = {n: s.alignment.delay for n, s in before.signals.items()}
         return {n: d if math.isfinite(d) else common for n, d in own.items()}
     return {}

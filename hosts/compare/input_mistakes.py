@@ -36,10 +36,10 @@ def turned_input(task: Task, compared: Comparison, odd: dict[str, ComparedSignal
         with Replay(task.fmu, [_turned(s, name) for s in task.segments], task.step) as replay:
             result = replay.run()
         curves = {n: Curve(result, n) for n in compared.signals}
-        remaining = [
+        unexplained = [
             n for n, s in compared.signals.items() if turned(s.measured, curves[n], s.alignment.delay) is not None
         ]
-        if result.failed_steps or remaining:
+        if result.failed_steps or unexplained:
             continue
         label = f"input '{signal.source}' ({name})"
         if len(odd) == 1:
@@ -86,16 +86,19 @@ def _correlation(compared: ComparedSignal, curve: Curve) -> float:
 
 def _at_speed(segment: Segment, factor: float) -> Segment:
     """The segment from `factor` times the measured speed on."""
-    made, speed = segment.manoeuvre, segment.speed
-    start = {n: factor * float(v) if n in (_SPEED, _ACROSS) else v for n, v in made.start.items()}
-    held = None if speed is None else replace(speed, values=factor * speed.values)
-    return replace(segment, manoeuvre=replace(made, start=start), speed=held)
+    manoeuvre, speed = segment.manoeuvre, segment.speed
+    start = {n: factor * float(v) if n in (_SPEED, _ACROSS) else v for n, v in manoeuvre.start.items()}
+    scaled = None if speed is None else replace(speed, values=factor * speed.values)
+    return replace(segment, manoeuvre=replace(manoeuvre, start=start), speed=scaled)
 
 
 def _turned(segment: Segment, name: str) -> Segment:
-    made = segment.manoeuvre
-    start = {n: -v if n == name and not isinstance(v, str) else v for n, v in made.start.items()}
-    return replace(segment, manoeuvre=replace(made, inputs=dict(made.inputs) | {name: -made.inputs[name]}, start=start))
+    manoeuvre = segment.manoeuvre
+    start = {n: -v if n == name and not isinstance(v, str) else v for n, v in manoeuvre.start.items()}
+    return replace(
+        segment,
+        manoeuvre=replace(manoeuvre, inputs=dict(manoeuvre.inputs) | {name: -manoeuvre.inputs[name]}, start=start),
+    )
 
 
 def _listed(names: Sequence[str]) -> str:

@@ -46,12 +46,12 @@ class Column(_Scaled):
 
     @model_validator(mode="before")
     @classmethod
-    def _named(cls, given: Any) -> Any:
-        if isinstance(given, dict) and not isinstance(given.get("name"), str):
+    def _named(cls, entry: Any) -> Any:
+        if isinstance(entry, dict) and not isinstance(entry.get("name"), str):
             raise ValueError(f"{_COLUMN} (a name with a dot needs quotation marks)")
-        if not isinstance(given, (dict, str)):
+        if not isinstance(entry, (dict, str)):
             raise ValueError(_COLUMN)
-        return {"name": given} if isinstance(given, str) else given
+        return {"name": entry} if isinstance(entry, str) else entry
 
 
 class Clock(_Scaled):

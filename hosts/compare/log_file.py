@@ -89,12 +89,12 @@ class RawLog:
 
     def line(self, row: int) -> int:
         """Number of the line of a row in the file; empty lines are none of a table."""
-        wanted = int(self.table.index[row])
+        index = int(self.table.index[row])
         if self.path.suffix.lower() in _PARQUET:
-            return wanted + 1
+            return index + 1
         with io.BufferedReader(Unpacked(self.path, LARGEST, HostError, f"The log {self.path}")) as stream:
             lines = (k for k, text in enumerate(stream, 1) if k > self.first_row and text.strip())
-            return next(islice(lines, wanted, None), self.first_row + wanted + 1)
+            return next(islice(lines, index, None), self.first_row + index + 1)
 
 
 def read_log(path: Path, dialect: Dialect) -> RawLog:

@@ -33,7 +33,7 @@ def time_column(raw: RawLog, aliases: LogAliases) -> str:
                 f"{aliases.file}: the log {raw.path.name} has no column '{name}'{near_hint(name, present)}."
             )
         return name
-    result = next((n for wanted in TIMES for n in present if n.lower() == wanted), None)
+    result = next((n for usual in TIMES for n in present if n.lower() == usual), None)
     if result is None:
         raise HostError(
             f"The log {raw.path} has no column of times (one of the names {', '.join(TIMES)}); its columns are "

@@ -64,14 +64,14 @@ def odd_scale(signal: Signal, curve: Curve, delay: float = 0.0) -> str:
     `delay`: of the signal, s.
     """
     x, y = curve(signal.time - (delay if math.isfinite(delay) else 0.0)), signal.values
-    found = deviations(signal.time, y, x)
+    deviation = deviations(signal.time, y, x)
     label = f"'{signal.source}' ({signal.name})"
     if (still := turned(signal, curve, delay)) is not None:
         return (
             f"{label} has the opposite sign of the simulation (correlation {still:.2f}): factor = -1.0 in the alias "
             "file turns it."
         )
-    if not abs(found.correlation) >= ALIKE:
+    if not abs(deviation.correlation) >= ALIKE:
         return ""
     # Of the spreads, not of the regression, which noise makes smaller.
     ratio = float(np.std(y) / np.std(x))

@@ -145,8 +145,8 @@ class Replay(Closable):
         """
         tasks: list[Task] = [(k, dict(values or {}), self._can_reset) for k in range(len(self.segments))]
         with Progress(self._experiment, 1.0) if self._shown is None else nullcontext(self._shown) as shown:
-            made = {k: result for k, _, result in shown.results(tasks, self._pool)}
-        results = [self._result(k, made[k]) for k in range(len(tasks))]
+            by_task = {k: result for k, _, result in shown.results(tasks, self._pool)}
+        results = [self._result(k, by_task[k]) for k in range(len(tasks))]
         self.runs += 1
         for message in dict.fromkeys(m for result in results for m in result.messages):
             self.said[message] = self.said.get(message, 0) + 1

@@ -39,11 +39,11 @@ def write_report(
     before: Comparison,
     after: Comparison | None,
     fit: Fit | None,
-    reported: Sequence[Bin],
+    bins: Sequence[Bin],
     notes: Sequence[str],
     problems: Sequence[str],
     paths: Mapping[str, Path],
-    drawn: Drawing,
+    figure: Drawing,
 ) -> None:
     """Write the page into ``.html`` of the paths, and what is drawn into ``.svg``.
 
@@ -60,19 +60,19 @@ def write_report(
         parts += [paragraph(sentence_of(line)) for line in result_text(fit)]
         parts += [element("h3", "Correlation of the errors"), table("", ("", *names), rows, "numbers")]
         sections.append(Section("Fit", parts))
-    if reported:
-        binned = table("", _BIN_COLUMNS, bin_rows(reported, before), "numbers")
+    if bins:
+        binned = table("", _BIN_COLUMNS, bin_rows(bins, before), "numbers")
         sections.append(Section("By speed and lateral acceleration", [binned]))
-    drawn.write(paths[".svg"])
-    sections.append(Section("Signals", [picture(drawn), *(paragraph(line, NOTE) for line in notes)]))
+    figure.write(paths[".svg"])
+    sections.append(Section("Signals", [picture(figure), *(paragraph(line, NOTE) for line in notes)]))
     facts = [paragraph(line, PROBLEM) for line in problems]
     write_text(paths[".html"], page(title, facts, sections, _FOOT))
 
 
-def bin_rows(reported: Sequence[Bin], comparison: Comparison) -> list[Sequence[str]]:
+def bin_rows(bins: Sequence[Bin], comparison: Comparison) -> list[Sequence[str]]:
     """Rows of the table by speed and lateral acceleration, in the units of reports."""
     rows: list[Sequence[str]] = []
-    for b in reported:
+    for b in bins:
         unit, factor = shown_in(comparison.signals[b.signal].measured.unit, b.signal)
         scale, width = shown_in(b.unit)
         rows.append(

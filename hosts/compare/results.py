@@ -62,9 +62,9 @@ def write_outcome(
     shown = (
         f"{title}: {', '.join(outcome.before.signals)}, measured and simulated, over time, and what remains of each."
     )
-    drawn = drawing(comparison_figure(outcome.before, outcome.after, title, task.inputs), shown)
+    figure = drawing(comparison_figure(outcome.before, outcome.after, title, task.inputs), shown)
     write_report(
-        title, outcome.before, outcome.after, outcome.fit, error_bins, outcome.notes, outcome.problems, paths, drawn
+        title, outcome.before, outcome.after, outcome.fit, error_bins, outcome.notes, outcome.problems, paths, figure
     )
     if outcome.fit is not None:
         values = task.fmu.names.values(dict(task.set_values) | outcome.fit.parameters)

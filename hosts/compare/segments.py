@@ -54,16 +54,16 @@ def spans(text: str | None) -> Spans | None:
     return result
 
 
-def begins(wanted: Spans, length: float, every: float) -> list[float]:
+def begins(spans: Spans, length: float, every: float) -> list[float]:
     """Where windows begin that lie in spans of time, s."""
-    return [float(t) for a, b in wanted for t in np.arange(a, b - length + 1e-9 * length, every)]
+    return [float(t) for a, b in spans for t in np.arange(a, b - length + 1e-9 * length, every)]
 
 
-def in_spans(signal: Signal, wanted: Spans | None) -> Signal:
+def in_spans(signal: Signal, spans: Spans | None) -> Signal:
     """The samples in spans of time."""
-    if wanted is None:
+    if spans is None:
         return signal
-    inside = np.any([(signal.time >= a - 1e-9) & (signal.time <= b + 1e-9) for a, b in wanted], axis=0)
+    inside = np.any([(signal.time >= a - 1e-9) & (signal.time <= b + 1e-9) for a, b in spans], axis=0)
     return replace(signal, time=signal.time[inside], values=signal.values[inside])
 
 

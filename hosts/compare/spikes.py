@@ -20,21 +20,21 @@ def spikes(time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np
     distance (median of those that are not zero) together. What lasts for two samples, and a step, is none; nor are the
     two samples at either end, and where neighbours are 20 ms apart or more nothing is looked for.
     """
-    found = np.zeros(len(values), dtype=np.bool_)
+    is_spike = np.zeros(len(values), dtype=np.bool_)
     if len(values) <= 2 * _SIDE:
-        return found
+        return is_spike
     count = len(values) - 2 * _SIDE
     shifts = [k for k in range(2 * _SIDE + 1) if k != _SIDE]
     neighbours = np.array([values[k : k + count] for k in shifts])
     distance = np.abs(values[_SIDE : _SIDE + count] - np.median(neighbours, axis=0))
     moving = distance[distance > 0.0]
     if not len(moving):
-        return found
+        return is_spike
     allowed = _SPREADS * np.ptp(neighbours, axis=0) + _USUAL * float(np.median(moving))
     steps = np.diff(time)
     near = np.maximum(steps[_SIDE - 1 : _SIDE - 1 + count], steps[_SIDE : _SIDE + count]) < _LONGEST
-    found[_SIDE : _SIDE + count] = (distance > allowed) & near
-    return found
+    is_spike[_SIDE : _SIDE + count] = (distance > allowed) & near
+    return is_spike
 
 
 def spike_text(what: str, unit: str, time: NDArray[np.float64], values: NDArray[np.float64]) -> str:

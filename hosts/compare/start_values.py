@@ -20,7 +20,10 @@ _SETTLED = 2.0
 
 
 def measured_start(
-    fmu: NamedFmu, signals: Mapping[str, Signal], given: Mapping[str, Value], begun: Mapping[str, Value] | None = None
+    fmu: NamedFmu,
+    signals: Mapping[str, Signal],
+    set_values: Mapping[str, Value],
+    begun: Mapping[str, Value] | None = None,
 ) -> tuple[dict[str, Value], list[str]]:
     """Start values of speeds and pose as they are measured, where the FMU has such parameters.
 
@@ -30,7 +33,7 @@ def measured_start(
         Not initialised.
     signals : mapping of str to Signal
         Of the log, which begins at time 0.
-    given : mapping of str to float, int, bool or str
+    set_values : mapping of str to float, int, bool or str
         What the user sets, which wins.
     begun : mapping of str to float, int, bool or str, optional
         Start values of the run whose result the log is: then the start is as there, and not as measured.
@@ -38,16 +41,18 @@ def measured_start(
     Returns
     -------
     start : dict
-        What is set in addition to `given`.
+        What is set in addition to `set_values`.
     notes : list of str
         What the start is, in sentences.
     """
     if begun is not None:
-        same = {n: v for n, v in begun.items() if n.startswith("initial.") and n in fmu.variables and n not in given}
+        same = {
+            n: v for n, v in begun.items() if n.startswith("initial.") and n in fmu.variables and n not in set_values
+        }
         message = ", ".join(f"{n} = {v}" for n, v in same.items()) or "as drawn"
         return same, [f"The log is a result of ali3 run, and the start is that of its record: {message}."]
     start: dict[str, Value] = {}
-    notes, held = [], []
+    notes, unchanged = [], []
     speed = next((at_start(signals[n]) for n in ("speed", "chassis.vx") if n in signals), None)
     across, rate = (_of(signals, f"chassis.{n}") for n in ("vy", "wz"))
     for name, value in (
@@ -59,33 +64,33 @@ def measured_start(
     ):
         if value is None or name not in fmu.variables:
             continue
-        if name in given:
-            held.append(f"{name} = {float(given[name]):.4g} ({value:.4g} in the log)")
+        if name in set_values:
+            unchanged.append(f"{name} = {float(set_values[name]):.4g} ({value:.4g} in the log)")
         else:
             start[name] = value
     if start:
         message = ", ".join(f"{n} = {v:.4g}" for n, v in start.items())
         notes.append(f"The start is as measured: {message}{_WHERE if 'initial.x' in start else ''}.")
-    whole = {**start, **given}
+    whole = {**start, **set_values}
     moves = abs(float(whole.get("initial.speed", 0.0))) > _MOVES and "initial.yaw_rate" in whole
-    if moves and _SETTLING in fmu.variables and _SETTLING not in given:
+    if moves and _SETTLING in fmu.variables and _SETTLING not in set_values:
         start[_SETTLING] = _SETTLED
         notes.append(
             f"Before it the car is held in this motion for {_SETTLED:g} s ({_SETTLING}), so that roll, pitch, tyres "
             "and steering, which were not measured, have settled."
         )
-    if held:
-        notes.append(f"The start is not as measured but as given: {', '.join(held)}.")
-    if speed is not None and abs(speed) > _MOVES and "initial.speed" not in (start | dict(given)):
+    if unchanged:
+        notes.append(f"The start is not as measured but as given: {', '.join(unchanged)}.")
+    if speed is not None and abs(speed) > _MOVES and "initial.speed" not in (start | dict(set_values)):
         notes.append(
             f"The log begins at {speed:.3g} m/s; the FMU has no parameter initial.speed, and starts at its own "
             "speed. Let the log begin at rest (--from), or do not compare the first seconds (--skip)."
         )
-    if speed is None and "initial.speed" in fmu.variables and "initial.speed" not in given:
+    if speed is None and "initial.speed" in fmu.variables and "initial.speed" not in set_values:
         notes.append(
             "The log has no 'speed': the car starts at rest; if it moved, set it by --set initial.speed=VALUE."
         )
-    if rate is not None and abs(rate) > _TURNS and "initial.yaw_rate" not in (start | dict(given)):
+    if rate is not None and abs(rate) > _TURNS and "initial.yaw_rate" not in (start | dict(set_values)):
         notes.append(
             f"The log begins in a turn of {rate:.3g} rad/s; the FMU has no parameter initial.yaw_rate and "
             "starts straight: the first seconds differ (--from begins elsewhere, --skip leaves them out)."
@@ -119,7 +124,7 @@ def of_origin(start: Mapping[str, Value], measured: Collection[str], point: tupl
 
     `point`: of `reference_point`.
     """
-    made = dict(start)
+    of_drawing = dict(start)
     yaw, rate = (float(start.get(f"initial.{n}", 0.0)) for n in ("yaw", "yaw_rate"))
     c, s = math.cos(yaw), math.sin(yaw)
     moved = {
@@ -130,8 +135,8 @@ def of_origin(start: Mapping[str, Value], measured: Collection[str], point: tupl
     }
     for name, by in moved.items():
         if name in measured:
-            made[name] = float(start[name]) - by
-    return made
+            of_drawing[name] = float(start[name]) - by
+    return of_drawing
 
 
 def at_start(signal: Signal) -> float:

@@ -86,14 +86,14 @@ def prepare(options: argparse.Namespace) -> Task:
         source = FmuSource.named(opened.path, opened.table, options.aliases)
         fmu = source.around(opened)
         set_values = settings_of(opened.table, options_with_road(options, options.out)).start
-        given = source.ours(set_values)
+        our_values = source.ours(set_values)
         sought = {source.called([t.partition("=")[0].strip()])[0] for t in options.fit}
         # Those that may drive the car, and the speed for its start, are used whatever is compared.
         used = {*options.signals, "speed", _ANGLE, *ANGLES} if options.signals else ()
-        log = log_for(fmu, raw, log_aliases, {*given, *sought}, used)
+        log = log_for(fmu, raw, log_aliases, {*our_values, *sought}, used)
         notes = log.notes
         inputs, outputs = _chosen(log, fmu, options)
-        followed = _add_steering(fmu, log, inputs, outputs, notes, given, sought)
+        followed = _add_steering(fmu, log, inputs, outputs, notes, our_values, sought)
         pedals = _held_speed(fmu, log, inputs, notes) if options.hold_speed else None
         if not inputs and pedals is None:
             raise HostError(
@@ -101,30 +101,30 @@ def prepare(options: argparse.Namespace) -> Task:
                 f"inputs are {', '.join(fmu.names('input')) or 'none'}: the alias file of the log (--log-aliases) "
                 "names their columns."
             )
-        held = [n for n in fmu.names("input") if n not in inputs and not (pedals and n in PEDALS)]
-        if held:
-            notes.append(f"Not in the log, and held at their start values: {', '.join(held)}.")
+        unlogged = [n for n in fmu.names("input") if n not in inputs and not (pedals and n in PEDALS)]
+        if unlogged:
+            notes.append(f"Not in the log, and held at their start values: {', '.join(unlogged)}.")
         inputs, outputs, end = _window(inputs, outputs, options)
         speed = None if pedals is None else _shifted({"speed": pedals}, options)["speed"]
         check_inputs(fmu, inputs, options.longest_gap, notes)
         note_gaps(outputs, notes)
-        wanted = spans(options.seconds)
-        parts = _parts(options, wanted, end)
+        requested = spans(options.seconds)
+        parts = _parts(options, requested, end)
         step = communication_step(fmu, Manoeuvre("", np.zeros(0), {}, parts[0][1]), _step(fmu, inputs, options))
         whole = {n for n in inputs if fmu.variables[n].type == "Integer"}
         slopes = opened.follows_slopes
         everything = outputs | log_at(log, options)
-        point = reference_point(source, given)
+        point = reference_point(source, our_values)
         segments: list[Segment] = []
         missed: list[str] = []
         for begin, length in parts:
             begun = None if begin or options.begin else log.begun
-            start, message = measured_start(fmu, cut(everything, begin, begin + length), given, begun)
+            start, message = measured_start(fmu, cut(everything, begin, begin + length), our_values, begun)
             notes += message if not segments else []
             manoeuvre = inputs_of(
                 options.log.stem,
                 cut(inputs, begin, begin + length),
-                of_origin(start | given, start if begun is None else (), point),
+                of_origin(start | our_values, start if begun is None else (), point),
                 length,
                 step,
                 not slopes,
@@ -141,7 +141,7 @@ def prepare(options: argparse.Namespace) -> Task:
             segments.append(Segment(manoeuvre, held_speed, 0.0, begin, len(segments) * (length + GAP)))
         notes += missed[:1]
         turnable = [n for n in inputs if all(_can_turn(s.manoeuvre.inputs[n], fmu.table[n]) for s in segments)]
-        parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter" or n in held}
+        parameters = {n: v for n, v in fmu.table.items() if v.causality == "parameter" or n in unlogged}
     if speed is not None:
         segments = starting_pedals(source, segments, step)
         pedal = segments[0].pedal
@@ -152,9 +152,9 @@ def prepare(options: argparse.Namespace) -> Task:
             f"Each of the {len(segments)} windows starts in its measured state; the one above is that of the first."
         )
         outputs, scales = (one_after_the_other(signals, segments) for signals in (outputs, scales))
-    elif wanted is not None:
+    elif requested is not None:
         begin = options.begin or 0.0
-        moved = tuple((a - begin, b - begin) for a, b in wanted)
+        moved = tuple((a - begin, b - begin) for a, b in requested)
         outputs = {n: in_spans(s, moved) for n, s in outputs.items()}
     windowed = options.windows is not None
     plausibility = log_plausibility(options.log.name, everything)
@@ -166,7 +166,7 @@ def prepare(options: argparse.Namespace) -> Task:
         step,
         slopes,
         parameters,
-        given,
+        our_values,
         notes,
         windowed,
         plausibility,
@@ -175,7 +175,7 @@ def prepare(options: argparse.Namespace) -> Task:
     )
 
 
-def _parts(options: argparse.Namespace, wanted: Spans | None, end: float) -> list[tuple[float, float]]:
+def _parts(options: argparse.Namespace, requested: Spans | None, end: float) -> list[tuple[float, float]]:
     """Begin and length of what is driven, s after --from."""
     begin = options.begin or 0.0
     if options.windows is None:
@@ -190,7 +190,7 @@ def _parts(options: argparse.Namespace, wanted: Spans | None, end: float) -> lis
     if options.skip:
         raise HostError("--skip cannot be combined with --windows: each begins in its measured state.")
     last = begin + end + 1e-9
-    results = [t for t in begins(wanted or ((begin, last),), options.windows, every) if t >= begin]
+    results = [t for t in begins(requested or ((begin, last),), options.windows, every) if t >= begin]
     results = [t - begin for t in results if t + options.windows <= last]
     if not results:
         raise HostError(f"No window of {options.windows:g} s lies in --seconds {options.seconds} and in the log.")
@@ -263,7 +263,7 @@ def _add_steering(
     inputs: dict[str, Signal],
     outputs: dict[str, Signal],
     notes: list[str],
-    given: Mapping[str, Value],
+    set_values: Mapping[str, Value],
     sought: Set[str],
 ) -> dict[str, float]:
     """A car that is steered by a normalised input, and a log with the angle of the steering wheel or of road wheels.
@@ -281,7 +281,7 @@ def _add_steering(
             return {}
         angle = log.outputs[_ANGLE]
         outputs.pop(_ANGLE, None)  # what drives is not compared
-        ratio = next((name for name in RATIOS if name in {*given, *sought}), "")
+        ratio = next((name for name in RATIOS if name in {*set_values, *sought}), "")
         if ratio and _DEMAND in fmu.names("input"):
             inputs[_DEMAND] = replace(angle, name=_DEMAND)
             notes.append(f"'{_DEMAND}' is the measured {_ANGLE}, whatever {ratio} is.")
@@ -291,7 +291,7 @@ def _add_steering(
     elif road is not None:
         for name in ANGLES:
             outputs.pop(name, None)
-        inputs[_STEERING] = steering_for(FmuSource.of(fmu), given, road)
+        inputs[_STEERING] = steering_for(FmuSource.of(fmu), set_values, road)
         notes.append(f"'{_STEERING}' is that at which the standing car turns its wheels as measured ({road.source}).")
     else:
         return {}

@@ -62,15 +62,14 @@ def windows(comparison: Comparison, segments: Sequence[Segment]) -> list[Window]
     return results
 
 
-def window_text(found: Sequence[Window]) -> str:
+def window_text(windows: Sequence[Window]) -> str:
     """How many windows there are, and which have departed, in a sentence."""
-    gone = [w for w in found if w.departed]
+    gone = [w for w in windows if w.departed]
     if not gone:
-        return f"{len(found)} windows; none has departed."
+        return f"{len(windows)} windows; none has departed."
     which = ", ".join(f"{w.begin:g} s ({w.departed})" for w in gone)
-    return (
-        f"{len(found)} windows; {len(gone)} departed, by more than the range of what was measured: those from {which}."
-    )
+    count = f"{len(windows)} windows; {len(gone)} departed"
+    return f"{count}, by more than the range of what was measured: those from {which}."
 
 
 def scales_of(signals: Mapping[str, Signal]) -> dict[str, Signal]:
@@ -106,10 +105,10 @@ def held_text(result: Result, segments: Sequence[Segment]) -> list[str]:
     """How well a driver has held the speed, how much of the time he could not, and by which forces, in a sentence; none
     where no driver did.
     """
-    held = [(s.place + s.speed.time, s.speed.values) for s in segments if s.speed is not None]
-    if not held or "speed" not in result:
+    demands = [(s.place + s.speed.time, s.speed.values) for s in segments if s.speed is not None]
+    if not demands or "speed" not in result:
         return []
-    time, values = (np.concatenate(parts) for parts in zip(*held, strict=True))
+    time, values = (np.concatenate(parts) for parts in zip(*demands, strict=True))
     error = np.interp(time, result.time, result["speed"]) - values
     text = f"The driver held the speed within {rms(error):.2g} m/s rms ({np.mean(error):+.1g} on the mean)"
     pedals = np.max([result[n] for n in PEDALS if n in result], axis=0)

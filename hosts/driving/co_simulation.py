@@ -144,19 +144,19 @@ def run(
     begin = due = clock.perf_counter()
     for k in range(steps):
         t = k * step
-        wanted = manoeuvre.at(t, whole)
+        input_values = manoeuvre.at(t, whole)
         if driver is not None:
             acts = acts if k == 0 else driver.act(t, observation)
             if not all(map(math.isfinite, acts.values())):
                 raise FailedFmuError(_not_finite(t, acts, observation))
-            wanted |= acts
-        values = [wanted[n] for n in used]
+            input_values |= acts
+        values = [input_values[n] for n in used]
         if used:
             set_inputs(values)
         rows.begin(values)
         if straight:
             then = manoeuvre.at(t + step, whole, before=True)
-            changes = [then[n] - wanted[n] for n in straight]
+            changes = [then[n] - input_values[n] for n in straight]
             rows.move([then[n] for n in straight], changes)
             follow([change / step for change in changes])
         try:
@@ -190,7 +190,7 @@ def run(
         late=[n for n in used if n not in {*straight, *whole, *fmu.tunable} and (n in acts or n not in manoeuvre.held)],
         jumps=rows.jumps,
         lost=[n for k, n in enumerate(inputs) if k in rows.lost],
-        missed=[reported for reported in (manoeuvre.late_begin(acts), lost, end) if reported is not None],
+        missed=[change for change in (manoeuvre.late_begin(acts), lost, end) if change is not None],
         start=dict(manoeuvre.start),
     )
     if kept is None:

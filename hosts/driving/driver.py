@@ -34,12 +34,12 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
     or missing both there and in the FMU.
     """
     numbers = {name: constants[constant] for name, constant in CONSTANTS.items() if constant in constants}
-    known = {f.name for f in fields(DriverSettings)}
+    setting_names = {f.name for f in fields(DriverSettings)}
     for name, text in settings.items():
         if name == "course":
             continue
-        if name not in known:
-            names = ["course", *sorted(known)]
+        if name not in setting_names:
+            names = ["course", *sorted(setting_names)]
             near = did_you_mean(name, names, f"known are {', '.join(names)}")
             raise HostError(f"[driver] has '{name}'{near}")
         try:
@@ -62,19 +62,19 @@ def make_driver(settings: Mapping[str, str], constants: Mapping[str, float]) -> 
 
 
 def with_settings(
-    manoeuvre: Manoeuvre, given: Mapping[str, float], names: Collection[str], stop_time: float | None
+    manoeuvre: Manoeuvre, settings: Mapping[str, float], names: Collection[str], stop_time: float | None
 ) -> Manoeuvre:
     """The manoeuvre with settings of its driver in place of its own.
 
-    `given`: by name; the car starts at another `speed` where `names`, those of the FMU's variables, have a parameter
+    `settings`: by name; the car starts at another `speed` where `names`, those of the FMU's variables, have a parameter
     for it, and a slower one has more time, whole
     seconds, so that it comes as far; `stop_time`: that was asked for, s, and stays.
     Raises `HostError` if there is no driver.
     """
-    if given and not manoeuvre.driver:
+    if settings and not manoeuvre.driver:
         raise HostError(f"The manoeuvre {manoeuvre.name} has no driver, so there is nothing to set by --driver.")
-    driver = {**manoeuvre.driver, **{name: repr(value) for name, value in given.items()}}
-    start, speed, longest = dict(manoeuvre.start), given.get("speed", 0.0), manoeuvre.stop_time
+    driver = {**manoeuvre.driver, **{name: repr(value) for name, value in settings.items()}}
+    start, speed, longest = dict(manoeuvre.start), settings.get("speed", 0.0), manoeuvre.stop_time
     if speed > 0.0:
         if INITIAL_SPEED in names:
             start[INITIAL_SPEED] = speed

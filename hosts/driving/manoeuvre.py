@@ -51,10 +51,10 @@ class Manoeuvre:
 
     def late_begin(self, acts: Collection[str] = ()) -> tuple[str, str] | None:
         """The note on a table that begins after 0 s, or None. `acts`: inputs that a driver controls."""
-        held = [f"{name} at {values[0]:g}" for name, values in self.inputs.items() if name not in acts]
-        if not held or self.time[0] <= ON_TIME:
+        first_row = [f"{name} at {values[0]:g}" for name, values in self.inputs.items() if name not in acts]
+        if not first_row or self.time[0] <= ON_TIME:
             return None
-        return "begin of the table", f"at {self.time[0]:g} s; before, its first row holds {', '.join(held)}"
+        return "begin of the table", f"at {self.time[0]:g} s; before, its first row holds {', '.join(first_row)}"
 
     def at(self, t: float, held: Collection[str] = (), before: bool = False) -> dict[str, float]:
         """Inputs at time `t`, s; outside the table those of its first or last row.

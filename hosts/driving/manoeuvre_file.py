@@ -109,18 +109,18 @@ def _read_toml(path: Path) -> Manoeuvre:
         for key, value in read_toml(path, HostError, largest=LARGEST_TEXT).items()
     }
     try:
-        given = _ManoeuvreFile.model_validate(content)
+        file = _ManoeuvreFile.model_validate(content)
     except ValidationError as error:
         raise HostError(f"{path}: {Sentences(_ManoeuvreFile, content).of(error)[0]}") from None
-    inputs = {name: np.array(column, dtype=np.float64) for name, column in given.inputs.items()}
+    inputs = {name: np.array(column, dtype=np.float64) for name, column in file.inputs.items()}
     time = inputs.pop("time", np.zeros(0))
-    stop_time = given.stop_time or (float(time[-1]) if len(time) else math.nan)
-    message = {name: value if isinstance(value, str) else text_of(value) for name, value in given.driver.items()}
+    stop_time = file.stop_time or (float(time[-1]) if len(time) else math.nan)
+    message = {name: value if isinstance(value, str) else text_of(value) for name, value in file.driver.items()}
     state: tuple[bytes | None, float] = None, 0.0
-    if given.state is not None:
-        state = read_state(path.parent, given.state.file, str(path)), given.state.time
-    held = frozenset(given.held)
-    return Manoeuvre(path.stem, time, inputs, stop_time, given.start, message, *state, held, given.find_throttle)
+    if file.state is not None:
+        state = read_state(path.parent, file.state.file, str(path)), file.state.time
+    held = frozenset(file.held)
+    return Manoeuvre(path.stem, time, inputs, stop_time, file.start, message, *state, held, file.find_throttle)
 
 
 def _whole(table: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:

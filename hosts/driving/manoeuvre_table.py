@@ -27,7 +27,7 @@ LIKE = 0.75
 """Share of its characters that a remark has in common with a key that it is taken for."""
 
 
-def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
+def read_table(path: Path, input_names: Collection[str] | None = None) -> Manoeuvre:
     """Read a CSV file of inputs over time in FMPy's format: ``"time"``, then names of inputs.
 
     Lines that begin with ``#`` may say more: ``# start: NAME=VALUE, ...`` gives start values, ``# state: FILE at TIME``
@@ -37,13 +37,13 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     straight, and a time that stands twice is a jump. ``# step: H`` is the communication step that it was recorded
     with. A table that a run has written is read with the record beside it.
 
-    `known`: inputs that there are; columns of other names are not read. By default all columns are inputs. Raises
-    `HostError` with the line and the reason.
+    `input_names`: columns of other names are not read. By default all columns are inputs. Raises `HostError` with the
+    line and the reason.
     """
     table = TextTable(path, HostError, known=("time",))
     names = table.names
     for match in filter(None, map(HEADING.fullmatch, names)):
-        if known is None or match[0] not in known:
+        if input_names is None or match[0] not in input_names:
             raise HostError(
                 f"{path}: the heading {brief(match[0])} has a unit; here it is {brief(match['name'])} alone, and its "
                 "values are in the unit that the FMU has for it, times in s."
@@ -60,12 +60,12 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     check_begin(rows[0][0], rows[-1][0], path)
     record = record_of(path)
     recorded, start, held, state = record.outputs_from, dict(record.start), record.held, record.state
-    step, given = record.step, dict[str, Value]()
+    step, start_values = record.step, dict[str, Value]()
     for number, comment in table.comments:
         key, _, rest = comment.lstrip("# ").partition(":")
         where = f"{path}, line {number}"
         if key.strip() == "start":
-            _assign(given, rest.split(","), where)
+            _assign(start_values, rest.split(","), where)
         elif key.strip() == "state":
             name, at, instant = rest.rpartition(" at ")
             if not at:
@@ -89,7 +89,7 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     if recorded and recorded not in names[1:]:
         raise HostError(f"{path}: there is no column {brief(recorded)}, with which outputs would begin.")
     inputs = names[1 : names.index(recorded)] if recorded else names[1:]
-    if lost := [n for n in inputs if n in record.lost and (known is None or n in known)]:
+    if lost := [n for n in inputs if n in record.lost and (input_names is None or n in input_names)]:
         raise HostError(
             f"{path} was written every {record.interval:g} s, and {', '.join(lost)} moved in between otherwise than "
             "its rows tell, so that the run cannot be repeated; run without --interval to have a table that repeats."
@@ -97,11 +97,13 @@ def read_table(path: Path, known: Collection[str] | None = None) -> Manoeuvre:
     for k, before in rows_before_jumps(record, path, [row[0] for row in rows], len(inputs)):
         rows.insert(k, [rows[k][0], *before, *rows[k][len(before) + 1 :]])
     values = np.array(rows)
-    columns = {name: values[:, k] for k, name in enumerate(inputs, start=1) if known is None or name in known}
+    columns = {
+        name: values[:, k] for k, name in enumerate(inputs, start=1) if input_names is None or name in input_names
+    }
     kept = frozenset(inputs if held is None and recorded else held or ())
     if not kept <= set(inputs):
         raise HostError(f"{path}: {brief(min(kept - set(inputs)))} is listed as held but is not an input of the table.")
-    start = {name: value for name, value in (start | given).items() if name not in columns}
+    start = {name: value for name, value in (start | start_values).items() if name not in columns}
     return Manoeuvre(
         path.stem, values[:, 0], columns, float(values[-1, 0]), start, {}, *state, kept & set(columns), step=step
     )
@@ -118,14 +120,14 @@ def check_begin(first: float, last: float, path: Path) -> None:
         )
 
 
-def _assign(given: dict[str, Value], parts: Iterable[str], where: str) -> None:
+def _assign(start_values: dict[str, Value], parts: Iterable[str], where: str) -> None:
     for part in parts:
         name, equals, value = part.partition("=")
         if not equals:
             raise HostError(f"{where}: {brief(part.strip())} is not of the form name=value.")
-        if name.strip() in given:
+        if name.strip() in start_values:
             raise HostError(f"{where}: the start value {brief(name.strip())} is given twice.")
-        given[name.strip()] = value_of(value, f"{where}, start value {brief(name.strip())}")
+        start_values[name.strip()] = value_of(value, f"{where}, start value {brief(name.strip())}")
 
 
 def number_of(text: str, where: str) -> float:

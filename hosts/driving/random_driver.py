@@ -75,13 +75,13 @@ class RandomDriver:
         """
         if time >= self._until:
             self._choose(time, observation)
-        wanted = {"steering": 0.0, "throttle": 0.0, "brake": 0.0, "hand_brake": 0.0, "selector": 1.0}
-        wanted |= self._deed(time - self._begin, observation)
+        inputs = {"steering": 0.0, "throttle": 0.0, "brake": 0.0, "hand_brake": 0.0, "selector": 1.0}
+        inputs |= self._deed(time - self._begin, observation)
         if observation.get("speed", 0.0) > TOP_SPEED:
-            wanted |= {"throttle": 0.0, "brake": max(wanted["brake"], 0.1)}
+            inputs |= {"throttle": 0.0, "brake": max(inputs["brake"], 0.1)}
         if "steering" not in self._inputs and _STEERING in self._inputs:
-            wanted[_STEERING] = _LOCK * wanted["steering"]
-        return {name: value for name, value in wanted.items() if name in self._inputs}
+            inputs[_STEERING] = _LOCK * inputs["steering"]
+        return {name: value for name, value in inputs.items() if name in self._inputs}
 
     def _choose(self, time: float, observation: Mapping[str, float]) -> None:
         """The next deed, its numbers and how long it lasts."""

@@ -22,9 +22,9 @@ def _table(shape: tuple[int, int], file: Path | None) -> NDArray[np.float64]:
         return np.empty(shape)
     try:
         file.touch()
-        with file.open("r+b") as made:
-            made.truncate(8 * shape[0] * shape[1])
-            return np.asarray(np.memmap(made, np.float64, "r+", shape=shape))
+        with file.open("r+b") as opened:
+            opened.truncate(8 * shape[0] * shape[1])
+            return np.asarray(np.memmap(opened, np.float64, "r+", shape=shape))
     except OSError as error:
         size = 8e-6 * shape[0] * shape[1]
         raise HostError(f"The rows of the run take {size:.3g} MB, which cannot be kept: {reason(error)}.") from None

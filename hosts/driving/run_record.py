@@ -62,8 +62,8 @@ def record_of(path: Path) -> RunRecord:
         interval, lost = float(record.get("interval_s", step)), record.get("lost", [])
         texts = [first, *held, *lost] if isinstance(held, list) and isinstance(lost, list) else [None]
         sizes = (float(step), interval, *(1.0 + abs(x) for values in jumps.values() for x in values))
-        known = all(isinstance(text, str) for text in texts) and all(0.0 < size < math.inf for size in sizes)
-        if not known or not all(jumps.values()):
+        valid = all(isinstance(text, str) for text in texts) and all(0.0 < size < math.inf for size in sizes)
+        if not valid or not all(jumps.values()):
             raise ValueError
         if any(not isinstance(value, (bool, int, float, str)) for value in start.values()):
             raise ValueError

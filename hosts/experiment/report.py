@@ -38,11 +38,11 @@ class Plots:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
 
-    def add(self, drawn: Drawing, name: str) -> HtmlElement:
+    def add(self, drawing: Drawing, name: str) -> HtmlElement:
         """Write a drawing, and give its place in the page."""
         stem = re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")[:80]
-        drawn.write(make_folder(self.folder) / f"{stem}.svg")
-        return picture(drawn)
+        drawing.write(make_folder(self.folder) / f"{stem}.svg")
+        return picture(drawing)
 
 
 def page(title: str, facts: Iterable[HtmlElement], sections: Iterable[Section], foot: str = "") -> str:

@@ -11,13 +11,13 @@ from hosts.common.errors import HostError
 from hosts.common.program import program_digest
 
 
-def run_key(fmu: Path, *reported: object, files: Iterable[Path] = ()) -> str:
+def run_key(fmu: Path, *settings: object, files: Iterable[Path] = ()) -> str:
     """A hash of the content of an FMU, of the settings of a run (their `repr`), and of the program.
 
-    `files`: other files that a run reads, such as roads; missing ones count by their names in `told` alone.
+    `files`: other files that a run reads, such as roads; missing ones count by their names in `settings` alone.
     """
     contents = [_file_hash(file, (state := file.stat()).st_size, state.st_mtime_ns) for file in _there(fmu, files)]
-    return hashlib.sha256(f"{contents} {reported!r} {program_digest()}".encode()).hexdigest()
+    return hashlib.sha256(f"{contents} {settings!r} {program_digest()}".encode()).hexdigest()
 
 
 def _there(fmu: Path, files: Iterable[Path]) -> list[Path]:

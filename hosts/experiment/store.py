@@ -44,12 +44,12 @@ class ResultStore(Closable, Generic[R]):
 
     def __init__(self, folder: Path, kind: Any, does: str, again: bool = False) -> None:
         busy = f"Another program {does} in {folder}; wait for it, or give another --out."
-        with ExitStack() as held:
-            held.enter_context(locked(folder, busy))
-            self._journal: Journal[tuple[str, R]] = held.enter_context(Journal(folder / JOURNAL, tuple[str, kind]))
+        with ExitStack() as stack:
+            stack.enter_context(locked(folder, busy))
+            self._journal: Journal[tuple[str, R]] = stack.enter_context(Journal(folder / JOURNAL, tuple[str, kind]))
             present = self._journal.read()
             self._found = {} if again else present
-            self._held = held.pop_all()
+            self._held = stack.pop_all()
         self._table: Table[R] | None = None
         self._began = self._waits = math.inf  # s, of the first result, and of the first that is in the journal alone
 

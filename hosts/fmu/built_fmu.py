@@ -102,11 +102,13 @@ def car_digest(car: str) -> str:
             f"The folder {file.parent} of the car has {1e-6 * size:.0f} MB of files; give the car a folder of its own."
         )
     digest.update(file.name.encode())
-    for found in sorted(files):
+    for source in sorted(files):
         try:
-            digest.update(os.path.relpath(found, file.parent).encode() + b"\n" + read_bytes(found, _LARGEST, HostError))
+            digest.update(
+                os.path.relpath(source, file.parent).encode() + b"\n" + read_bytes(source, _LARGEST, HostError)
+            )
         except OSError as error:
-            raise HostError(f"{found} cannot be read: {reason(error)}.") from None
+            raise HostError(f"{source} cannot be read: {reason(error)}.") from None
     return digest.hexdigest()[:32]
 
 

@@ -7,10 +7,10 @@ from ali3.reading import is_file, is_folder
 CAR_FILE = "car.toml"
 
 
-def is_car(given: Path) -> bool:
+def is_car(car: Path) -> bool:
     """Whether a car is meant: a folder with a car file, a TOML file, or a name that is none of a file here."""
-    if is_folder(given):
-        return is_file(given / CAR_FILE)
-    if is_file(given):
-        return given.suffix.lower() == ".toml"
-    return given.name.isidentifier() and str(given) == given.name
+    if is_folder(car):
+        return is_file(car / CAR_FILE)
+    if is_file(car):
+        return car.suffix.lower() == ".toml"
+    return car.name.isidentifier() and str(car) == car.name

@@ -81,9 +81,9 @@ class Fmu(Closable, NamedScalars):
         if self._loaded is not None:
             return self._loaded
         path = self.path
-        held = ExitStack()
-        folder = held.enter_context(temporary_folder())
-        self._remove = weakref.finalize(self, held.close)
+        stack = ExitStack()
+        folder = stack.enter_context(temporary_folder())
+        self._remove = weakref.finalize(self, stack.close)
         self._folder = folder
         try:
             unpack(path, folder)
@@ -123,7 +123,7 @@ class Fmu(Closable, NamedScalars):
                 some = f"it has {len(settable)}, such as {', '.join(sorted(settable)[:6]) or 'none'}"
                 raise HostError(f"The FMU has no parameter or input {brief(name)}{did_you_mean(name, settable, some)}")
         values = {self._places[name]: self._fitting(name, value) for name, value in start.items()}
-        with self._told("The FMU could not be initialised", StartRefusedError):
+        with self._errors_as("The FMU could not be initialised", StartRefusedError):
             self._instance.initialise(values, start_time)
 
     def _fitting(self, name: str, value: Value) -> Value:
@@ -180,7 +180,7 @@ class Fmu(Closable, NamedScalars):
 
         def set_slopes(slopes: Sequence[float]) -> None:
             buffer[:] = list(slopes)
-            with self._told("A derivative of an input was refused"):
+            with self._errors_as("A derivative of an input was refused"):
                 slave.fmi2SetRealInputDerivatives(slave.component, references, count, orders, buffer)
 
         return set_slopes
@@ -222,18 +222,18 @@ class Fmu(Closable, NamedScalars):
 
     def reset(self) -> None:
         """Back to before `initialise`, which then gives a new start."""
-        with self._told("The FMU could not be reset"):
+        with self._errors_as("The FMU could not be reset"):
             self._instance.reset()
 
     def state(self) -> State:
         """The state now, to be given back by `free`; `HostError` if the FMU cannot save it."""
         self._check_states(self._can("canGetAndSetFMUstate"), "save its state")
-        with self._told("The FMU could not save its state"):
+        with self._errors_as("The FMU could not save its state"):
             return self._instance.state()
 
     def restore(self, state: State) -> None:
         """Go on from a state of `state`, which stays valid."""
-        with self._told("The FMU could not restore a state"):
+        with self._errors_as("The FMU could not restore a state"):
             self._instance.restore(state)
 
     def free(self, state: State) -> None:
@@ -243,13 +243,13 @@ class Fmu(Closable, NamedScalars):
     def state_bytes(self) -> bytes:
         """The state now as bytes, for a file or another process; `HostError` if the FMU cannot give it."""
         self._check_states(self._can("canSerializeFMUstate"), "write its state")
-        with self._told("The FMU could not write its state"):
+        with self._errors_as("The FMU could not write its state"):
             return self._instance.state_bytes()
 
     def restore_bytes(self, content: bytes) -> None:
         """Go on from a state of `state_bytes`; `HostError` if it is of another build or damaged."""
         self._check_states(self._can("canSerializeFMUstate"), "read a state")
-        with self._told("The FMU refused a saved state"):
+        with self._errors_as("The FMU refused a saved state"):
             self._instance.restore_bytes(content)
 
     def _can(self, flag: str) -> bool:
@@ -268,8 +268,8 @@ class Fmu(Closable, NamedScalars):
         return constants_of(self.variables)
 
     @contextmanager
-    def _told(self, what: str, kind: type[HostError] = HostError) -> Iterator[None]:
-        """A context that turns a refusal of the FMU into an error with its messages."""
+    def _errors_as(self, what: str, kind: type[HostError] = HostError) -> Iterator[None]:
+        """A context that turns a refusal of the FMU into an error with its last message."""
         try:
             yield
         except FMICallException as error:

@@ -23,18 +23,18 @@ class FoundFmu:
     """Seconds that its build took; 0: it was there."""
 
 
-def find_fmu(given: Path | None, tell: Callable[[str], None]) -> FoundFmu:
+def find_fmu(fmu_or_car: Path | None, tell: Callable[[str], None]) -> FoundFmu:
     """The FMU that a command takes.
 
-    `given`: of the command line: an FMU; or a car by its name, its folder or its file; `tell`: takes the sentences that
-    are said while a car is built. Raises `HostError`: the car cannot be built; with the words of the build.
+    `fmu_or_car`: of the command line: an FMU; or a car by its name, its folder or its file; `tell`: takes the messages
+    of the build of a car. Raises `HostError`: the car cannot be built; with the message of the build.
     """
-    if given is None and DIST.is_file():
+    if fmu_or_car is None and DIST.is_file():
         return FoundFmu(DIST)
-    if given is not None and not is_car(given):
-        return FoundFmu(given)
-    if given is not None:
-        check_car(given)
+    if fmu_or_car is not None and not is_car(fmu_or_car):
+        return FoundFmu(fmu_or_car)
+    if fmu_or_car is not None:
+        check_car(fmu_or_car)
     begin = time.monotonic()
     built: list[str] = []
 
@@ -42,10 +42,10 @@ def find_fmu(given: Path | None, tell: Callable[[str], None]) -> FoundFmu:
         built.append(line)
         tell(line)
 
-    path = fmu_of_car(CAR if given is None else str(given), said)
+    path = fmu_of_car(CAR if fmu_or_car is None else str(fmu_or_car), said)
     return FoundFmu(path, time.monotonic() - begin if built else 0.0)
 
 
-def fmu_file(given: Path | None) -> Path:
+def fmu_file(fmu_or_car: Path | None) -> Path:
     """`find_fmu` for a command that prints what is said."""
-    return find_fmu(given, lambda line: print(line, flush=True)).path
+    return find_fmu(fmu_or_car, lambda line: print(line, flush=True)).path

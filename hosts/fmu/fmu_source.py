@@ -117,8 +117,8 @@ class FmuSource:
 
         `kind`: of what it makes; `start`: start values, whose files the process may read.
         """
-        made: _Made = in_own_process(work, (self, task), kind, [self.path, *files_of(start)])
-        return made
+        result: _Made = in_own_process(work, (self, task), kind, [self.path, *files_of(start)])
+        return result
 
 
 class LoadedFmu:

@@ -51,8 +51,8 @@ def _roads(
     roads, missing, scenery = list[Any](), list[dict[str, str]](), list[Any]()
     for road in scene.get("roads", []):
         variables = road.get("variables") or {}
-        given = str(settings.get(variables.get("file", road.get("variable", "")), ""))
-        name = given or str(road.get("path", "") if road["kind"] == "file" else "")
+        road_file = str(settings.get(variables.get("file", road.get("variable", "")), ""))
+        name = road_file or str(road.get("path", "") if road["kind"] == "file" else "")
         if not name and road["kind"] != "file":
             roads.append(_set(road, settings))
         elif name:
@@ -65,7 +65,7 @@ def _roads(
                     parts = [_set({"friction_factor": 1.0} | part | kept, settings) for part in parts]
                 roads += parts
                 if world is None:
-                    if given and expected:
+                    if road_file and expected:
                         why = f"{file.with_suffix('.json')} is not there; {_made_by(file)}"
                         missing.append({"name": f"The scenery of {expected}", "why": why})
                 else:
@@ -78,19 +78,21 @@ def _roads(
 def _set(road: dict[str, Any], settings: Mapping[str, Value]) -> dict[str, Any]:
     """A road as slick as the parameters have it, with its kerb where they do: the higher side stays where it is."""
     variables = road.get("variables") or {}
-    given = {key: settings[variables[key]] for key in ("friction", "friction_factor") if variables.get(key) in settings}
-    made = road | {key: float(value) for key, value in given.items()}
+    frictions = {
+        key: settings[variables[key]] for key in ("friction", "friction_factor") if variables.get(key) in settings
+    }
+    entry = road | {key: float(value) for key, value in frictions.items()}
     if road["kind"] != "profile" or len(road["heights"]) != 2:
-        return made
+        return entry
     if variables.get("kerb_x") in settings:
-        made["origin"] = [float(settings[variables["kerb_x"]]), *list(road.get("origin", (0.0, 0.0, 0.0)))[1:]]
+        entry["origin"] = [float(settings[variables["kerb_x"]]), *list(road.get("origin", (0.0, 0.0, 0.0)))[1:]]
     if variables.get("kerb_height") in settings:
         first, last = road["heights"][0], road["heights"][-1]
         high = max(first, last)
         low = high - float(settings[variables["kerb_height"]])
         # Where both sides were level, the kerb is one to drive down, as it is by default.
-        made["heights"] = [low, high] if first < last else [high, low]
-    return made
+        entry["heights"] = [low, high] if first < last else [high, low]
+    return entry
 
 
 def _part(name: str, fmu: Archive) -> dict[str, Any]:

@@ -33,5 +33,5 @@ class NamedRow:
 
     def of(self, time: float, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """A row, of shape (m,); the same array where nothing changes. `time`: s; `values`: shape (n,)."""
-        made = values if self._plain else (values - self._offsets) / self._factors
-        return np.append(made, self._derivation.live(time, made)) if self._derivation.names else made
+        ours = values if self._plain else (values - self._offsets) / self._factors
+        return np.append(ours, self._derivation.live(time, ours)) if self._derivation.names else ours

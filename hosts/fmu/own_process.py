@@ -25,9 +25,9 @@ def files_of(values: Mapping[str, Value]) -> list[Path]:
 
 def files_of_drives(fmu: Path, starts: Iterable[Mapping[str, Value]]) -> list[Path]:
     """Files that drives of an FMU read; a start outside its road is reported now, before any of them begins."""
-    given = list(starts)
-    report_starts(given)
-    return [fmu, *(file for start in given for file in files_of(start))]
+    drive_starts = list(starts)
+    report_starts(drive_starts)
+    return [fmu, *(file for start in drive_starts for file in files_of(start))]
 
 
 def in_own_process(
@@ -46,9 +46,9 @@ def in_own_process(
         try:
             done = process.do(task, tell, PATIENCE)
         except UserError as error:
-            reported = HostError(str(error))
-            reported.status = error.status
-            raise reported from None
+            host_error = HostError(str(error))
+            host_error.status = error.status
+            raise host_error from None
     if isinstance(done, Lost):
         raise FailedFmuError(f"The process of the FMU {done.how}.")
     return done

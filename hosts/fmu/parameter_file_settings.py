@@ -33,8 +33,10 @@ def _of_entry(entry: Entry, parameters: ParameterSet, variables: Variables, sour
         if definition is None
         else _converted(variable, value, entry.unit, definition, source)
     )
-    given = "" if converted == value else f"{value:g} {entry.unit}"
-    return Setting(variable, variable.check(converted, f"{source}, {given}" if given else source), source, given)
+    original = "" if converted == value else f"{value:g} {entry.unit}"
+    return Setting(
+        variable, variable.check(converted, f"{source}, {original}" if original else source), source, original
+    )
 
 
 def _taken(variable: Variable, kind: str, text: str, source: str) -> Value:

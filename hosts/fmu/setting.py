@@ -27,8 +27,8 @@ class Setting:
     def words(self) -> str:
         """Old and new value with their unit."""
         v = self.variable
-        given = f"{self.given} in " if self.given else ""
-        return f"{v.text(v.start)} -> {v.with_unit(self.value)} ({given}{self.source})"
+        original = f"{self.given} in " if self.given else ""
+        return f"{v.text(v.start)} -> {v.with_unit(self.value)} ({original}{self.source})"
 
     def record(self) -> dict[str, Any]:
         """The setting as JSON."""

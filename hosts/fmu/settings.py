@@ -45,12 +45,12 @@ class Settings:
 
     def add_texts(self, values: Iterable[tuple[str, str]], source: str) -> None:
         """Values as a person writes them, in the units of the FMU; see `add_numbers`."""
-        given: dict[str, str] = {}
+        texts_by_name: dict[str, str] = {}
         for name, text in values:
-            if given.setdefault(name, text) != text:
-                raise HostError(f"{source}: '{name}' is given as {given[name]} and as {text}; give it once.")
+            if texts_by_name.setdefault(name, text) != text:
+                raise HostError(f"{source}: '{name}' is given as {texts_by_name[name]} and as {text}; give it once.")
         results = []
-        for name, text in given.items():
+        for name, text in texts_by_name.items():
             variable = self._variables.settable(name, source)
             results.append(Setting(variable, variable.read(text, source, with_unit=True), source))
         self._put(results)

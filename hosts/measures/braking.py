@@ -53,8 +53,8 @@ def mean_fully_developed_deceleration(
     No. 13-H, (vb2 - ve2) / (25.92 (se - sb)).
     """
     fast, slow = 0.8 * initial, 0.1 * initial
-    way = way_between(time, speed, time_below(time, speed, fast, onset), time_below(time, speed, slow, onset))
-    return (fast**2 - slow**2) / (2.0 * way) if way > 0.0 else math.nan
+    distance = way_between(time, speed, time_below(time, speed, fast, onset), time_below(time, speed, slow, onset))
+    return (fast**2 - slow**2) / (2.0 * distance) if distance > 0.0 else math.nan
 
 
 def stopping_distance(

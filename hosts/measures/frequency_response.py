@@ -41,16 +41,16 @@ class FrequencyResponse:
 
 
 def frequency_response(
-    given: NDArray[np.float64],
+    excitation: NDArray[np.float64],
     answer: NDArray[np.float64],
     interval: float,
     frequency: NDArray[np.float64],
 ) -> FrequencyResponse:
-    """Estimate the response of `answer` to `given` from one record that begins and ends at rest.
+    """Estimate the response of `answer` to `excitation` from one record that begins and ends at rest.
 
     Parameters
     ----------
-    given, answer : ndarray of shape (n,)
+    excitation, answer : ndarray of shape (n,)
         Input and output at even times, less their values at rest.
     interval : float
         Between samples, s.
@@ -70,8 +70,8 @@ def frequency_response(
     segments with windows would cut the answer off from its cause. A coherence that is well below 1 says that the output
     has noise, or that the system is not linear.
     """
-    duration = len(given) * interval
-    if len(given) != len(answer) or duration * frequency[0] < 3.0:
+    duration = len(excitation) * interval
+    if len(excitation) != len(answer) or duration * frequency[0] < 3.0:
         raise ValueError(
             f"A response at {frequency[0]:g} Hz needs a record of {3.0 / frequency[0]:.3g} s, not {duration:.3g} s."
         )
@@ -81,13 +81,13 @@ def frequency_response(
             "s."
         )
     # zeros behind the record make its lines closer than the bands are wide
-    padded = 4 * len(given)
+    padded = 4 * len(excitation)
 
     def spectrum(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.complexfloating]:
         return np.asarray(csd(x, y, fs=1.0 / interval, window="boxcar", nperseg=len(x), nfft=padded, detrend=False)[1])
 
     lines = np.fft.rfftfreq(padded, interval)
-    cross, power, other = spectrum(given, answer), spectrum(given, given), spectrum(answer, answer)
+    cross, power, other = spectrum(excitation, answer), spectrum(excitation, excitation), spectrum(answer, answer)
     tiny = np.finfo(float).tiny
     response, coherence = np.empty(len(frequency), complex), np.empty(len(frequency))
     for k, f in enumerate(frequency):

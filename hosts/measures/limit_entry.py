@@ -16,12 +16,12 @@ class LimitEntry(BaseModel):
 
     @model_validator(mode="before")
     @classmethod
-    def _pair(cls, given: object) -> object:
-        if isinstance(given, list) and len(given) != 2:
-            raise ValueError(f"it is a list of {len(given)}; a list has the least and the largest value")
-        if not isinstance(given, (list, dict)):
-            raise ValueError(f"it is {given}; it must be a table with min or max, or a list of both")
-        return dict(zip(("min", "max"), given, strict=True)) if isinstance(given, list) else given
+    def _pair(cls, entry: object) -> object:
+        if isinstance(entry, list) and len(entry) != 2:
+            raise ValueError(f"it is a list of {len(entry)}; a list has the least and the largest value")
+        if not isinstance(entry, (list, dict)):
+            raise ValueError(f"it is {entry}; it must be a table with min or max, or a list of both")
+        return dict(zip(("min", "max"), entry, strict=True)) if isinstance(entry, list) else entry
 
     @model_validator(mode="after")
     def _fits(self) -> LimitEntry:

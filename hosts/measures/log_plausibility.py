@@ -46,9 +46,9 @@ def relations_plausibility(what: str, signals: Signals) -> Plausibility:
 
 
 def _plausibility(
-    what: str, signals: Signals, values: Callable[[Signals], list[Value]], found: list[Value]
+    what: str, signals: Signals, values: Callable[[Signals], list[Value]], log_values: list[Value]
 ) -> Plausibility:
-    plausibility = Plausibility(what, found)
+    plausibility = Plausibility(what, log_values)
     if not plausibility.outside:  # nothing that a mistake would explain
         return plausibility
     undone = [
@@ -90,8 +90,8 @@ def _undone(signals: Signals, plausibility: Plausibility) -> Iterator[tuple[str,
             continue
         s = signals[group[0]]
         of = "the path" if group == PATH else "all wheels" if len(group) > 1 else f"'{s.source}' ({s.name})"
-        known = (*((m.factor, m.words) for m in misread(s.unit)), *RIM * (group[0] in WHEELS))
-        for message, factor, guessed in _factors(plausibility, group, known):
+        factors = (*((m.factor, m.words) for m in misread(s.unit)), *RIM * (group[0] in WHEELS))
+        for message, factor, guessed in _factors(plausibility, group, factors):
             altered = {n: replace(signals[n], values=factor * signals[n].values) for n in group}
             yield f"{message} of {of}", set(group), {**signals, **altered}, guessed
         if len(group) == 1:
@@ -113,7 +113,7 @@ def _exponents(plausibility: Plausibility, part: str, group: Collection[str]) ->
 
 
 def _factors(
-    plausibility: Plausibility, group: Collection[str], known: Sequence[tuple[float, str]]
+    plausibility: Plausibility, group: Collection[str], factors: Sequence[tuple[float, str]]
 ) -> Iterator[tuple[str, float, bool]]:
     """Words, factor that mends all relations of a signal, and whether it has no name.
 
@@ -131,10 +131,10 @@ def _factors(
     if turned and low <= 1.0 <= high:
         yield "the other sign", -1.0, False
     elif not present:
-        yield from ((message, factor, False) for factor, message in known)
+        yield from ((message, factor, False) for factor, message in factors)
     elif low <= high and not low <= 1.0 <= high:
         middle = float(np.sqrt(low * high))
-        inside = [(message, sign * factor, False) for factor, message in known if low <= factor <= high]
+        inside = [(message, sign * factor, False) for factor, message in factors if low <= factor <= high]
         yield from sorted(inside, key=lambda one: abs(np.log(abs(one[1]) / middle)))[:1]
         if not inside:
             yield f"a factor of {sign * middle:.3g} ({low:.3g} to {high:.3g})", sign * middle, True

@@ -34,16 +34,16 @@ NOTHING = OnePeriod(*7 * (math.nan,))
 
 
 def correlation_lag(
-    given: NDArray[np.float64], answer: NDArray[np.float64], interval: float, longest: float
+    excitation: NDArray[np.float64], answer: NDArray[np.float64], interval: float, longest: float
 ) -> tuple[float, float]:
     """Shift at which two signals correlate best.
 
-    `given`, `answer`: at even times, shape (n,); they are taken as zero outside; `interval`: between samples, s;
+    `excitation`, `answer`: at even times, shape (n,); they are taken as zero outside; `interval`: between samples, s;
     `longest`: largest shift that is looked at, s. Returns `lag` and `correlation`: how much later the answer comes, s,
     between samples by a parabola; and the coefficient there.
     """
-    lags = correlation_lags(len(answer), len(given)) * interval
-    product = correlate(answer, given) / math.sqrt(float(np.dot(given, given) * np.dot(answer, answer)))
+    lags = correlation_lags(len(answer), len(excitation)) * interval
+    product = correlate(answer, excitation) / math.sqrt(float(np.dot(excitation, excitation) * np.dot(answer, answer)))
     kept = np.abs(lags) <= longest + 1e-9
     return top(lags[kept], product[kept])
 

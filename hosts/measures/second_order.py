@@ -61,11 +61,11 @@ def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int
             weight = np.sqrt(np.maximum(r.coherence, 0.0) * np.gradient(np.log(r.frequency)))
             weight = weight / math.sqrt(float(np.sum(np.abs(weight * r.response) ** 2)))
             a, b = weight[:, None] * basis, weight * r.response
-            both, wanted = np.concatenate([a.real, a.imag]), np.concatenate([b.real, b.imag])
+            both, right = np.concatenate([a.real, a.imag]), np.concatenate([b.real, b.imag])
             scale = np.linalg.norm(both, axis=0)
-            x = np.linalg.lstsq(both / scale, wanted, rcond=None)[0] / scale
+            x = np.linalg.lstsq(both / scale, right, rcond=None)[0] / scale
             results.append(x)
-            off.append(both @ x - wanted)
+            off.append(both @ x - right)
         return results, np.concatenate(off)
 
     def misfit(p: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -77,13 +77,13 @@ def fit_second_order(responses: Sequence[FrequencyResponse], zeros: Sequence[int
     if best is None:
         return [NOTHING] * len(responses)
     w, zeta = math.exp(best.x[0]), float(best.x[1])
-    made = []
+    fits = []
     for r, x in zip(responses, numerators(best.x)[0], strict=True):
         lead = (*(float(c) for c in x[1:] / x[0]), 0.0, 0.0)
         fit = SecondOrder(float(x[0]), w, zeta, (lead[0], lead[1]), math.nan)
         off = fit.response(r.frequency) - r.response
-        made.append(replace(fit, misfit=math.sqrt(float(np.mean(np.abs(off) ** 2) / np.mean(np.abs(r.response) ** 2)))))
-    return made
+        fits.append(replace(fit, misfit=math.sqrt(float(np.mean(np.abs(off) ** 2) / np.mean(np.abs(r.response) ** 2)))))
+    return fits
 
 
 def _denominator(s: NDArray[np.complexfloating], w: float, zeta: float) -> NDArray[np.complex128]:

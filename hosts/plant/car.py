@@ -79,11 +79,15 @@ class Car(Closable):
         self.step_length = positive(step, "The communication step of a car", "s")
         if not (isinstance(car, (str, Path)) and str(car).isprintable()):
             raise HostError(f"The car is {brief(car)}; it must be a name, a folder or a file.")
-        given = Path(car)
-        if given.suffix.lower() == ".fmu" and ports is not None:
-            raise HostError(f"Ports are chosen when an FMU is built; {given} is one.")
+        path_or_name = Path(car)
+        if path_or_name.suffix.lower() == ".fmu" and ports is not None:
+            raise HostError(f"Ports are chosen when an FMU is built; {path_or_name} is one.")
         names = ports if ports is None or isinstance(ports, str) else ",".join(texts(ports, "The ports"))
-        path = given if given.suffix.lower() == ".fmu" else fmu_of_car(str(car), lambda text: None, ports=names)
+        path = (
+            path_or_name
+            if path_or_name.suffix.lower() == ".fmu"
+            else fmu_of_car(str(car), lambda text: None, ports=names)
+        )
         self._always = dict(mapping({} if parameters is None else parameters, "The parameters"))
         self.fmu = Fmu(path)
         self._used = self._started = self._closed = False
@@ -154,8 +158,8 @@ class Car(Closable):
             return float(random.uniform(float(ends[0]), float(ends[1])))
         if not (isinstance(value, (bool, float, str)) or is_finite(value)):
             raise HostError(f"'{name}' is {brief(value)}; it must be a number, or a range of two.")
-        known = self.fmu.variables.get(name)
-        if known is not None and isinstance(value, str) and known.type != "String":
+        variable = self.fmu.variables.get(name)
+        if variable is not None and isinstance(value, str) and variable.type != "String":
             raise HostError(f"'{name}' is {brief(value)}; it must be a number.")
         return value
 
@@ -246,9 +250,9 @@ class Car(Closable):
 
     def _known(self, names: Sequence[str], causalities: tuple[str, ...]) -> list[str]:
         have = {n for causality in causalities for n in self.fmu.names(causality)}
-        for name in (known := texts(names, "The names")):
+        for name in (checked := texts(names, "The names")):
             if name not in have:
                 what = "input" if causalities == ("input",) else "variable that is a number"
                 some = f"there are {', '.join(sorted(have)[:6])} and others"
                 raise HostError(f"The car has no {what} {brief(name)}{did_you_mean(name, have, some)}")
-        return list(known)
+        return list(checked)

@@ -21,11 +21,11 @@ from hosts.plant.lane import Lane
 Floats = NDArray[np.float32]
 
 
-def two_numbers(given: Any, what: str) -> tuple[float, float]:
+def two_numbers(value: Any, what: str) -> tuple[float, float]:
     """A pair that an environment is given, checked; `what` says in a sentence which it is."""
-    pair = tuple(given) if isinstance(given, (tuple, list, np.ndarray)) else ()
+    pair = tuple(value) if isinstance(value, (tuple, list, np.ndarray)) else ()
     if len(pair) != 2 or not all(is_finite(number) and number >= 0.0 for number in pair):
-        raise HostError(f"The {what} of an environment are {brief(given)}; they must be two finite numbers from 0.")
+        raise HostError(f"The {what} of an environment are {brief(value)}; they must be two finite numbers from 0.")
     return float(pair[0]), float(pair[1])
 
 
@@ -59,13 +59,13 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
         box = self.action_space
         assert isinstance(box, spaces.Box)
         try:
-            given = np.asarray(action, dtype=float)
+            array = np.asarray(action, dtype=float)
         except (TypeError, ValueError, OverflowError):
-            given = np.array(np.nan)
-        if given.shape != box.shape or not np.isfinite(given).all():
+            array = np.array(np.nan)
+        if array.shape != box.shape or not np.isfinite(array).all():
             raise HostError(f"The action is {brief(action)}; it must be {box.shape[0]} finite numbers, in an array.")
-        held: NDArray[np.float64] = np.clip(given, box.low, box.high)
-        return held
+        clipped: NDArray[np.float64] = np.clip(array, box.low, box.high)
+        return clipped
 
     def _advance(self, inputs: NDArray[np.float64]) -> str:
         """A step; the words of the solver where it refuses it."""
@@ -81,8 +81,8 @@ class CarEnvironment(gymnasium.Env[Floats, Floats]):
         """An observation, held within its space."""
         box = self.observation_space
         assert isinstance(box, spaces.Box)
-        held: Floats = np.clip(seen, box.low, box.high).astype(np.float32)
-        return held
+        clipped: Floats = np.clip(seen, box.low, box.high).astype(np.float32)
+        return clipped
 
     def close(self) -> None:
         """Free the car."""
@@ -145,9 +145,9 @@ class LaneKeeping(LaneEnvironment):
         step: float = 0.02,
     ) -> None:
         self._speed = two_numbers(speed, "speeds at the start")
-        made = Car(car, step=step, inputs=("steering", "throttle"))
-        width = made.fmu.constants().get("vehicle.width", 1.6)
-        super().__init__(made, Lane.of_course(course_of("iso_3888_1", width), 200.0), seconds, most=(5.0, 60.0))
+        plant = Car(car, step=step, inputs=("steering", "throttle"))
+        width = plant.fmu.constants().get("vehicle.width", 1.6)
+        super().__init__(plant, Lane.of_course(course_of("iso_3888_1", width), 200.0), seconds, most=(5.0, 60.0))
         self.action_space = spaces.Box(-1.0, 1.0, (1,), np.float32)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Floats, dict[str, Any]]:
@@ -209,8 +209,8 @@ class AntiLockBraking(CarEnvironment):
         self._friction = two_numbers(friction, "frictions of the road")
         self._torque = np.repeat(two_numbers(torque, "torques of the brakes"), 2)
         ports = None if Path(car).suffix.lower() == ".fmu" else "brakes"
-        made = Car(car, ports=ports, step=step, inputs=inputs, parameters={"selector": 0})
-        super().__init__(made, reads, seconds)
+        plant = Car(car, ports=ports, step=step, inputs=inputs, parameters={"selector": 0})
+        super().__init__(plant, reads, seconds)
         self.action_space = spaces.Box(0.0, 1.0, (4,), np.float32)
         high = np.array([100.0, *4 * [10.0], *4 * [200.0], 20.0, 60.0], np.float32)
         self.observation_space = spaces.Box(-high, high, dtype=np.float32)

@@ -45,9 +45,9 @@ class Lane:
             raise HostError(f"Point {int(np.argmin(chords)) + 1} of a lane lies on the one before it.")
         self.width = positive(width, "The width of a lane", "m")
         self.closed = bool((p[0] == p[-1]).all())
-        way = np.concatenate([[0.0], np.cumsum(chords)])
-        self.length = float(way[-1])
-        line = CubicSpline(way, p, bc_type="periodic" if self.closed else "natural")
+        arc_length = np.concatenate([[0.0], np.cumsum(chords)])
+        self.length = float(arc_length[-1])
+        line = CubicSpline(arc_length, p, bc_type="periodic" if self.closed else "natural")
         # One polynomial of place, tangent and its rate: a call costs as much for six numbers as for two.
         lower = [np.pad(line.derivative(order).c, ((order, 0), (0, 0), (0, 0))) for order in range(3)]
         self._line = PPoly(np.concatenate(lower, axis=2), line.x)
@@ -139,12 +139,12 @@ class Lane:
         return results
 
 
-def _numbers(given: ArrayLike, what: str) -> NDArray[np.float64]:
+def _numbers(values: ArrayLike, what: str) -> NDArray[np.float64]:
     """Numbers of a size that a lane has; `what`, a plural, is the subject of the error."""
     try:
-        numbers = np.asarray(given, dtype=float)
+        numbers = np.asarray(values, dtype=float)
     except (TypeError, ValueError, OverflowError):
         numbers = np.array(np.nan)
     if not (np.abs(numbers) <= FARTHEST).all():
-        raise HostError(f"{what} are {brief(given)}; they must be numbers up to {FARTHEST:g} m.")
+        raise HostError(f"{what} are {brief(values)}; they must be numbers up to {FARTHEST:g} m.")
     return numbers

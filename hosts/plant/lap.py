@@ -16,8 +16,11 @@ from hosts.plant.car import Car
 from hosts.plant.environments import Floats, LaneEnvironment, two_numbers
 from hosts.plant.lane import Lane
 
-STRAIGHT, RADIUS, BEGIN, WIDTH = 640.0, 60.0, -20.0, 12.0
-"""m, of the ring in `mbs/worlds/proving_ground.toml`: straights, curves to the left, x of the first straight, road."""
+# of the ring in `mbs/worlds/proving_ground.toml`
+STRAIGHT = 640.0  # m
+RADIUS = 60.0  # m, of the curves to the left
+BEGIN = -20.0  # m, x of the begin of the first straight
+WIDTH = 12.0  # m, of the road
 
 
 def ring() -> Lane:
@@ -70,8 +73,8 @@ class ProvingGroundLap(LaneEnvironment):
         self._speed = two_numbers(speed, "speeds at the start")
         if road is None:
             road = str(make_world("proving_ground", lambda line: None).road)
-        made = Car(car, step=step, inputs=("steering", "throttle", "brake"), parameters={"road.file": road})
-        super().__init__(made, ring(), seconds, most=(20.0, 90.0))
+        plant = Car(car, step=step, inputs=("steering", "throttle", "brake"), parameters={"road.file": road})
+        super().__init__(plant, ring(), seconds, most=(20.0, 90.0))
         self.action_space = spaces.Box(-1.0, 1.0, (2,), np.float32)
         self._way = self.driven = 0.0
 
@@ -89,12 +92,14 @@ class ProvingGroundLap(LaneEnvironment):
         self._steering, pedal = self._held(action).tolist()
         refused = self._advance(np.array([self._steering, max(pedal, 0.0), max(-pedal, 0.0)]))
         observation = self._observed()
-        made = math.remainder(self.lane.way - self._way, self.lane.length)
-        before, self._way, self.driven = self.driven, self.lane.way, self.driven + made
+        advance = math.remainder(self.lane.way - self._way, self.lane.length)
+        before, self._way, self.driven = self.driven, self.lane.way, self.driven + advance
         info: dict[str, Any] = {"refused": refused} if refused else {}
         lap = self.driven >= self.lane.length
         if lap:  # the line is crossed within the step
-            info["lap_time"] = self.car.time - (self.driven - self.lane.length) / max(made, 1e-9) * self.car.step_length
+            info["lap_time"] = (
+                self.car.time - (self.driven - self.lane.length) / max(advance, 1e-9) * self.car.step_length
+            )
         out = abs(float(observation[0])) > 0.5 * self.lane.width
         reward = (self.driven - before) / self.PACE - self.car.step_length - self.OUT * (out or bool(refused))
         return observation, reward, bool(lap or out or refused), self._steps >= self._most, info
@@ -133,8 +138,8 @@ class LapDriver:
         if missing := [name for name in CONSTANTS.values() if name not in constants]:
             raise HostError(f"The driver needs constants that the car does not provide: {', '.join(missing)}.")
         known_names = {name: constants[constant] for name, constant in CONSTANTS.items()}
-        self.environment, wanted = environment, positive(speed, "The speed of the driver", "m/s")
-        self.driver = CourseFollower(_Straightened(environment.lane), DriverSettings(speed=wanted, **known_names))
+        self.environment, driver_speed = environment, positive(speed, "The speed of the driver", "m/s")
+        self.driver = CourseFollower(_Straightened(environment.lane), DriverSettings(speed=driver_speed, **known_names))
 
     def act(self, seen: Floats) -> Floats:
         """The action for an observation."""

@@ -32,8 +32,8 @@ class _Ahead(gymnasium.Wrapper[Floats, Floats, Floats, Floats]):
             if self._ended and autoreset == AutoresetMode.NEXT_STEP:
                 self._made = [partial(_given, self._start())]
                 return
-            made = self._advance(action)
-            self._made = [partial(_given, made)]
+            transition = self._advance(action)
+            self._made = [partial(_given, transition)]
             if self._ended and autoreset == AutoresetMode.SAME_STEP:
                 self._made.append(partial(_given, self._start()))
         except BaseException as error:
@@ -46,18 +46,18 @@ class _Ahead(gymnasium.Wrapper[Floats, Floats, Floats, Floats]):
         return self._made.pop(0)() if self._made else self._start(**options)
 
     def _advance(self, action: Floats) -> Any:
-        made = self.env.step(action)
-        self._ended = bool(made[2] or made[3])
-        return made
+        transition = self.env.step(action)
+        self._ended = bool(transition[2] or transition[3])
+        return transition
 
     def _start(self, **options: Any) -> Any:
-        made = self.env.reset(**options)
+        start = self.env.reset(**options)
         self._ended = False
-        return made
+        return start
 
 
-def _given(made: Any) -> Any:
-    return made
+def _given(transition: Any) -> Any:
+    return transition
 
 
 def _raised(error: BaseException) -> Any:

@@ -65,9 +65,9 @@ def _path(drive: RecordedDrive) -> list[_Row]:
     epoch_before: int | None = None
     for rows in drive.unbroken():
         inputs = rows.values[:, : len(drive.inputs)].tolist()
-        for time, count, epoch, held in zip(*(column.tolist() for column in rows[:3]), inputs, strict=True):
+        for time, count, epoch, values in zip(*(column.tolist() for column in rows[:3]), inputs, strict=True):
             if epoch == epoch_before:
-                path.append(_Row(time, count, epoch, held, True))
+                path.append(_Row(time, count, epoch, values, True))
                 continue
             epoch_before = epoch
             start, back_to = drive.beginning(epoch)
@@ -76,7 +76,7 @@ def _path(drive: RecordedDrive) -> list[_Row]:
                     path.pop()
                 if not path:
                     raise HostError(f"{drive.folder}: the row to which epoch {epoch} goes back is not there.")
-            path.append(_Row(time, count, epoch, held, False, start))
+            path.append(_Row(time, count, epoch, values, False, start))
     return path
 
 

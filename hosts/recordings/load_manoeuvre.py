@@ -17,11 +17,11 @@ def load_manoeuvre(manoeuvre: str, stop_time: float | None = None) -> Manoeuvre:
     """
     if not is_recording(Path(manoeuvre)):
         return read_manoeuvre(manoeuvre, stop_time)
-    made = recorded_manoeuvre(Path(manoeuvre))
-    return made if stop_time is None else replace(made, stop_time=stop_time)
+    recorded = recorded_manoeuvre(Path(manoeuvre))
+    return recorded if stop_time is None else replace(recorded, stop_time=stop_time)
 
 
-def check_asked(given: str | None) -> None:
-    """Refuse a word that is not a manoeuvre, before an FMU is built for it. `given`: as of `load_manoeuvre`, if any."""
-    if given is not None and not is_recording(Path(given)):
-        check_manoeuvre(given)
+def check_asked(manoeuvre: str | None) -> None:
+    """Refuse what is no manoeuvre before an FMU is built for it. `manoeuvre`: as of `load_manoeuvre`, if any."""
+    if manoeuvre is not None and not is_recording(Path(manoeuvre)):
+        check_manoeuvre(manoeuvre)

@@ -7,14 +7,14 @@ from hosts.driving.simulated_fmu import SimulatedFmu
 from hosts.recordings.load_manoeuvre import load_manoeuvre
 
 
-def manoeuvre_of(fmu: SimulatedFmu, given: str | None, stop_time: float | None) -> Manoeuvre:
+def manoeuvre_of(fmu: SimulatedFmu, manoeuvre: str | None, stop_time: float | None) -> Manoeuvre:
     """The manoeuvre that an FMU is run through.
 
-    `given`: see `hosts.recordings.load_manoeuvre.load_manoeuvre`; without it inputs keep their start values;
+    `manoeuvre`: see `hosts.recordings.load_manoeuvre.load_manoeuvre`; without it inputs keep their start values;
     `stop_time`: in s; by default that of the manoeuvre, else that of the FMU's default experiment, else 10 s.
     """
-    if given is not None:
-        return load_manoeuvre(given, stop_time)
+    if manoeuvre is not None:
+        return load_manoeuvre(manoeuvre, stop_time)
     if stop_time is None:
         experiment = fmu.description.defaultExperiment
         stop_time = float(experiment.stopTime) if experiment is not None and experiment.stopTime else 10.0

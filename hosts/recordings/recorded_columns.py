@@ -7,8 +7,9 @@ from ali3.scene.scene_columns import all_columns
 from hosts.driving.run_checks import steps_of
 from hosts.fmu.geometry import scene_of
 
-DRAWN, OTHERS = 0.025, 0.1
-"""Between two values of outputs that are drawn, and of others, s, about; a longer step counts."""
+# about the time between two recorded values of an output; at least a step
+DRAWN = 0.025  # s, of outputs that are drawn
+OTHERS = 0.1  # s
 
 
 def recorded_columns(

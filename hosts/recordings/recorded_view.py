@@ -76,11 +76,11 @@ def _filled(
     finite = np.isfinite(values)
     if finite.all() or not finite.any():
         return values
-    made = values.copy()
+    filled = values.copy()
     for part in np.split(np.arange(len(time)), np.flatnonzero(np.diff(epoch)) + 1):
         present = part[finite[part]]
         if len(present) and held:
-            made[part] = values[present[np.maximum(np.searchsorted(present, part, side="right") - 1, 0)]]
+            filled[part] = values[present[np.maximum(np.searchsorted(present, part, side="right") - 1, 0)]]
         elif len(present):
-            made[part] = np.interp(time[part], time[present], values[present])
-    return made
+            filled[part] = np.interp(time[part], time[present], values[present])
+    return filled

@@ -31,7 +31,7 @@ def show_recording(folder: Path) -> int:
         last = float(block.time[-1])
         rows, starts = rows + len(block), int(block.epoch[-1])
     meta = drive.meta
-    reported = {
+    facts = {
         "FMU": f"{meta['fmu']} (GUID {meta['guid']})",
         "rows": f"{rows} in steps of {drive.step:g} s with {len(drive.inputs)} inputs",
         "outputs": _outputs(drive),
@@ -41,7 +41,7 @@ def show_recording(folder: Path) -> int:
         "seed": "none" if meta.get("seed") is None else str(meta["seed"]),
         "versions": ", ".join(f"{name} {text}" for name, text in meta.get("versions", {}).items()),
     }
-    print("\n".join(in_columns(list(reported.items()))))
+    print("\n".join(in_columns(list(facts.items()))))
     for event in drive.events[:_SHOWN]:
         print(f"{event['kind']} at {event['time']:g} s: {event['text']}")
     if len(drive.events) > _SHOWN:
@@ -53,14 +53,14 @@ def replay_recording(folder: Path, fmu: Path | None) -> int:
     """Repeat a recording, by default in the FMU that was recorded; gives the exit code, 1 for other bits."""
     drive = _drive(folder)
     with _bar(drive, "replay") as progress:
-        found = replay(drive, None if fmu is None else fmu_file(fmu), progress)
-    for note in found.notes[len(drive.notes) :]:
+        replayed = replay(drive, None if fmu is None else fmu_file(fmu), progress)
+    for note in replayed.notes[len(drive.notes) :]:
         print(note)
-    if not found.different:
-        print(f"{found.rows} rows, the same bits in all of them")
+    if not replayed.different:
+        print(f"{replayed.rows} rows, the same bits in all of them")
         return 0
-    print(f"{found.different} of {found.rows} rows differ; the first differences:")
-    for difference in found.first[:_SHOWN]:
+    print(f"{replayed.different} of {replayed.rows} rows differ; the first differences:")
+    for difference in replayed.first[:_SHOWN]:
         print(f"  {difference}")
     return 1
 

@@ -165,8 +165,8 @@ class Repeater(Closable):
         self._states[key] = self.fmu.state()
 
     def _check(self, path: Path) -> None:
-        known = self.fmu.variables
-        missing = [name for name in self.drive.names if name not in known]
+        variables = self.fmu.variables
+        missing = [name for name in self.drive.names if name not in variables]
         if missing:
             raise HostError(f"{path} lacks variables of the recording {self.drive.folder}: {', '.join(missing[:5])}.")
         if self.fmu.description.guid != self.drive.meta["guid"]:
@@ -200,7 +200,7 @@ def _replayed(task: tuple[RecordedDrive, Path], progress: Callable[[int], None])
         epoch = None
         for rows in drive.unbroken():
             steps = repeater.follow(rows)
-            known = drive.recorded(rows, epoch)[:, len(drive.inputs) :]
+            is_recorded = drive.recorded(rows, epoch)[:, len(drive.inputs) :]
             epoch = int(rows.epoch[-1])
             recorded = rows.values[:, len(drive.inputs) :]
             for k in range(len(rows)):
@@ -213,7 +213,7 @@ def _replayed(task: tuple[RecordedDrive, Path], progress: Callable[[int], None])
                     return replayed
                 count, time = int(rows.steps[k]), float(rows.time[k])
                 replayed.rows += 1
-                other = _other_bits(np.where(known[k], recorded[k], repeated), repeated)
+                other = _other_bits(np.where(is_recorded[k], recorded[k], repeated), repeated)
                 replayed.different += bool(len(other))
                 for j in other:
                     if outputs[j] not in visited:
@@ -224,14 +224,14 @@ def _replayed(task: tuple[RecordedDrive, Path], progress: Callable[[int], None])
     return replayed
 
 
-def _last_refusal(drive: RecordedDrive, repeater: Repeater, made: Replayed, count: int, time: float) -> None:
+def _last_refusal(drive: RecordedDrive, repeater: Repeater, replayed: Replayed, count: int, time: float) -> None:
     """A recording that ends with a step that was refused: it must be refused again."""
     last = drive.events[-1] if drive.events else {}
-    if last.get("kind") == REFUSED and "inputs" in last and made.rows:
+    if last.get("kind") == REFUSED and "inputs" in last and replayed.rows:
         with suppress(HostError):
             if not repeater.refuses(list(last["inputs"])):
-                made.first.append(Difference(count, time, "step", 0.0, 1.0))
-                made.different += 1
+                replayed.first.append(Difference(count, time, "step", 0.0, 1.0))
+                replayed.different += 1
 
 
 def _other_bits(a: NDArray[np.float64], b: NDArray[np.float64]) -> list[int]:

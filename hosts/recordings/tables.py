@@ -88,15 +88,15 @@ def blocks_of(folder: Path, names: Sequence[str]) -> Iterator[Rows]:
 def _after(blocks: Iterator[Rows], count: int) -> Iterator[Rows]:
     """All but so many first rows."""
     for rows in blocks:
-        remaining = max(0, count - len(rows))
+        to_skip = max(0, count - len(rows))
         if count < len(rows):
             yield rows.chosen(slice(count, None))
-        count = remaining
+        count = to_skip
 
 
-def _check_names(file: Path, found: Sequence[str], names: Sequence[str]) -> None:
+def _check_names(file: Path, columns: Sequence[str], names: Sequence[str]) -> None:
     """Refuse a table of another recording."""
-    for theirs, ours in zip_longest(found, (*KEYS, *names), fillvalue="no column"):
+    for theirs, ours in zip_longest(columns, (*KEYS, *names), fillvalue="no column"):
         if theirs != ours:
             raise HostError(f"{file} is of another recording: it has {brief(theirs)}, its description {brief(ours)}.")
 

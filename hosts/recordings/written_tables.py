@@ -53,15 +53,15 @@ class ParquetTable:
     def close(self, progress: Callable[[float], object]) -> None:
         def blocks() -> Iterator[Rows]:
             """The rows of several parts at a time: groups of rows that are read at once should not be small."""
-            held: list[Rows] = []
+            group: list[Rows] = []
             for k, part in enumerate(sorted(self._parts.glob(f"*{self.suffix}")), start=1):
-                held += parquet_blocks(part, self._schema.names[len(KEYS) :])
-                if sum(map(len, held)) >= _ROW_GROUP:
-                    yield joined(held, 0)
-                    held = []
+                group += parquet_blocks(part, self._schema.names[len(KEYS) :])
+                if sum(map(len, group)) >= _ROW_GROUP:
+                    yield joined(group, 0)
+                    group = []
                 progress(k / self._count)
-            if held:
-                yield joined(held, 0)
+            if group:
+                yield joined(group, 0)
 
         with atomic_file(self._folder / f"{TABLE}{self.suffix}") as temporary:
             self._write(blocks(), temporary)

@@ -65,9 +65,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 run") -> int:
 def _kerb(options: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     from hosts.run.kerb import kerb_test
 
-    given = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "aliases", "road", "driver"))
-    if given:
-        raise HostError(f"{given[0]} cannot be combined with --kerb, which defines the drive.")
+    used = given_of(parser, options, ("manoeuvre", "stop_time", "interval", "aliases", "road", "driver"))
+    if used:
+        raise HostError(f"{used[0]} cannot be combined with --kerb, which defines the drive.")
     if options.fmu is not None and is_car(options.fmu):
         raise HostError(
             f"--kerb runs the scene kerb_test; --manoeuvre kerb_drop drives the car {options.fmu} down a kerb."
@@ -89,7 +89,7 @@ def _run(options: argparse.Namespace) -> int:
     from hosts.run.run_summary import energy_balance, pace, summary
 
     check_asked(options.manoeuvre)
-    path, known = fmu_file(options.fmu), dict(options.driver)
+    path, driver_settings = fmu_file(options.fmu), dict(options.driver)
     with Fmu(path) as opened:
         other: RenamedRun | None = None
         if options.aliases is not None:
@@ -98,10 +98,10 @@ def _run(options: argparse.Namespace) -> int:
             other = RenamedRun(opened, options.aliases)
         fmu: SimulatedFmu = opened if other is None else other.fmu
         manoeuvre = manoeuvre_of(fmu, options.manoeuvre, options.stop_time)
-        if known:
+        if driver_settings:
             from hosts.driving.driver import with_settings
 
-            manoeuvre = with_settings(manoeuvre, known, fmu.variables, options.stop_time)
+            manoeuvre = with_settings(manoeuvre, driver_settings, fmu.variables, options.stop_time)
         manoeuvre = with_names_of(manoeuvre, fmu.variables)
         check_columns(fmu, manoeuvre)
         driver: Driver | None = None
@@ -110,29 +110,29 @@ def _run(options: argparse.Namespace) -> int:
 
             driver = driver_of(fmu, manoeuvre)
         set_all = partial(set_in, opened) if other is None else other.set_in
-        given = fmu_options(options)
+        set_options = fmu_options(options)
         if options.road is not None:
             from hosts.common.road import options_with_road
 
-            given = options_with_road(options, options.out)
-        manoeuvre, settings = set_all(manoeuvre, given, options.fidelity)
-        still = options.manoeuvre is None
-        stem = _words(path.stem) if still else f"{_words(path.stem)}_{manoeuvre.name}"
+            set_options = options_with_road(options, options.out)
+        manoeuvre, settings = set_all(manoeuvre, set_options, options.fidelity)
+        without_manoeuvre = options.manoeuvre is None
+        stem = _words(path.stem) if without_manoeuvre else f"{_words(path.stem)}_{manoeuvre.name}"
         table, picture, record = result_paths(options.out, stem)
         step = communication_step(fmu, manoeuvre, options.step)
         every = 1 if options.interval is None else steps_of(options.interval, step, "The interval")
         result = run_with_bar(fmu, manoeuvre, step, driver, every)
-    of_course: Sequence[tuple[str, str]] = ()
+    course_rows: Sequence[tuple[str, str]] = ()
     gates: NDArray[np.float64] | None = None
     if driver is not None:
         from hosts.run.course_result import course_result
 
-        of_course, gates = course_result(result, driver)
-    rows = summary(result, step, of_course)
+        course_rows, gates = course_result(result, driver)
+    rows = summary(result, step, course_rows)
     write_csv(result, table)
     names = None if other is None else other.names
     write_record(fmu, manoeuvre, step, settings, result, record, driver, names)
-    title = settings.title(path.stem if still else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
+    title = settings.title(path.stem if without_manoeuvre else f"{path.stem}: {manoeuvre.name.replace('_', ' ')}")
     plot_page(result, picture, title, rows, gates)
     printed = (settings.rows(), [*rows, pace(result, step)], energy_balance(result))
     return print_result(printed, result, (table, picture, record))

@@ -30,16 +30,16 @@ def _verdict(result: Result, driver: Driver) -> str:
     course, length, width = driver.course, driver.settings.vehicle_length, driver.settings.vehicle_width
     x, y, yaw = (result[f"chassis.{name}"] for name in ("x", "y", "yaw"))
     out = course.corners_outside(x, y, yaw, length, width)
-    wanted, speed = 3.6 * driver.settings.speed, 3.6 * result["speed"]
+    requested, speed = 3.6 * driver.settings.speed, 3.6 * result["speed"]
     inside = x + 0.5 * length >= course.gates[0].x_start
     entry = float(speed[int(inside.argmax())]) if inside.any() else math.nan
-    entered = f"entered at {entry:.1f} km/h, {wanted:.1f} km/h asked for"
+    entered = f"entered at {entry:.1f} km/h, {requested:.1f} km/h asked for"
     missing = course.not_driven(x, length)
     if missing:
         return f"missed by {out:.2f} m; {missing}" if out > 0.0 else f"not passed: {missing}{_more(result, driver)}"
     if out > 0.0:
         return f"missed by {out:.2f} m; {entered}"
-    if not abs(entry - wanted) <= _CLOSE:
+    if not abs(entry - requested) <= _CLOSE:
         remedy = f"--driver speed={entry / 3.6:.3g} asks for that"
         if INITIAL_SPEED in result.start and result.start[INITIAL_SPEED] != driver.settings.speed:
             remedy = f"start with --set {INITIAL_SPEED}={driver.settings.speed:g}"
@@ -54,10 +54,10 @@ def _more(result: Result, driver: Driver) -> str:
         return f"; start {late:.4g} m or more before"
     if result.failed_steps:
         return "; the FMU refused the next step"
-    if (way := gates[-1].x_end + 0.5 * driver.settings.vehicle_length - float(x[-1])) <= 0.0:
+    if (distance := gates[-1].x_end + 0.5 * driver.settings.vehicle_length - float(x[-1])) <= 0.0:
         return "; run without --interval"
     if speed < _STANDS:
         return f"; the car stands at {result.time[-1]:.4g} s"
     if len(x) > 1 and x[-1] < x[-2]:
         return "; at its end the car drives back"
-    return f"; --stop-time {math.ceil(result.time[-1] + 1.1 * way / speed)} is long enough at its speed"
+    return f"; --stop-time {math.ceil(result.time[-1] + 1.1 * distance / speed)} is long enough at its speed"

@@ -39,7 +39,7 @@ PLACES = {"SG1": "front left", "SG2": "front right", "SG3": "rear left", "SG4": 
 FREQUENCY = 10.0  # Hz
 
 
-def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out: Path, given: FmuOptions) -> int:
+def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out: Path, options: FmuOptions) -> int:
     """Do the test, print its moments and write its files.
 
     `file`: FMU of the scene; by default `DIST`, else one that is built and kept; `fidelity`: 1 to 3; by default that of
@@ -58,7 +58,7 @@ def kerb_test(file: Path | None, fidelity: float | None, step: float | None, out
                 f"{path} has no {missing[0]}; build the scene of this test: {command_name('build')} --scene {SCENE}"
             )
         table, picture, record = result_paths(out, "kerb_test")
-        manoeuvre, settings = set_in(fmu, manoeuvre, given, fidelity)
+        manoeuvre, settings = set_in(fmu, manoeuvre, options, fidelity)
         result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, step))
     if result["stress.computed"][0] != 1.0:
         raise HostError(f"{path} does not compute the moments (stress.computed is 0); build it with all fidelities.")

@@ -84,9 +84,9 @@ def summary(result: Result, step: float, course: Sequence[tuple[str, str]] = ())
     if "solver.halvings" in result:
         rows.append(("steps repeated in halves", f"{result['solver.halvings'][-1]:.0f}"))
     if "solver.capped_steps" in result and result["solver.capped_steps"][-1] > 0:
-        remaining = 1e3 * result["solver.capped_residual"].max() if "solver.capped_residual" in result else float("nan")
+        residual = 1e3 * result["solver.capped_residual"].max() if "solver.capped_residual" in result else float("nan")
         count = f"{result['solver.capped_steps'][-1]:.0f}"
-        rows.append(("steps ended at the limit of iterations", f"{count}, off by at most {remaining:.2g} mm"))
+        rows.append(("steps ended at the limit of iterations", f"{count}, off by at most {residual:.2g} mm"))
     if any(name.startswith(_COSTLY) and result[name].any() for name in result.names):
         fewer = "" if interval > 1.5 * step else "; --interval reads fewer"
         rows.append(("stresses and moments", f"read every {1e3 * interval:g} ms{fewer}"))

@@ -44,8 +44,8 @@ class AccessControl:
         origin = headers.get("Origin")
         if origin is not None and origin.lower() != f"http://{host.lower()}":
             return f"Only pages of this server may talk to it; the request is from a page of {origin[:80]!r}."
-        given = parse_qs(urlsplit(path).query).get("token", [""])
-        if not secrets.compare_digest(given[0].encode(), self.token.encode()):
+        tokens = parse_qs(urlsplit(path).query).get("token", [""])
+        if not secrets.compare_digest(tokens[0].encode(), self.token.encode()):
             return "This server is guarded; open the address with the token that it printed when it was started."
         return ""
 

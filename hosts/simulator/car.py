@@ -127,9 +127,9 @@ class Car(Closable):
         simulated over wall seconds), ``reset``, ``rewind`` (value: seconds of simulated time), ``upright``. Raises
         `HostError`: there is no such command, or its value cannot be used.
         """
-        known = COMMANDS[:-1]
-        if name not in known:
-            raise HostError(f"There is no command '{name}'; there are: {', '.join(known)}.")
+        commands = COMMANDS[:-1]
+        if name not in commands:
+            raise HostError(f"There is no command '{name}'; there are: {', '.join(commands)}.")
         if name == "step":
             value = value or 1.0
             if not (1.0 <= value <= 1e9 and value == int(value)):

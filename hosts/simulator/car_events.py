@@ -69,10 +69,10 @@ class CarState:
     @staticmethod
     def of(record: NDArray[np.float64]) -> CarState:
         """From the shared memory."""
-        known = dict(zip(MOMENT, record.tolist(), strict=False))
-        whole = {name: int(known[name]) for name in ("count", "epoch", "missed")}
-        flags = {name: bool(known[name]) for name in ("running", "refused", "behind")}
-        return CarState(**(known | whole | flags), values=record[len(MOMENT) :])
+        numbers = dict(zip(MOMENT, record.tolist(), strict=False))
+        whole = {name: int(numbers[name]) for name in ("count", "epoch", "missed")}
+        flags = {name: bool(numbers[name]) for name in ("running", "refused", "behind")}
+        return CarState(**(numbers | whole | flags), values=record[len(MOMENT) :])
 
 
 @dataclass(frozen=True)

@@ -208,9 +208,15 @@ class Loop:
             if state:  # where there is no room, a later one serves
                 shared.states.put(STATE_HEAD.pack(car.count, car.epoch) + state)
 
-    def _tell(self, told: Notice) -> None:
+    def _tell(self, notice: Notice) -> None:
         car = self._car
-        record = {"time": car.time, "epoch": car.epoch, "kind": told.kind, "text": told.text, "details": told.details}
+        record = {
+            "time": car.time,
+            "epoch": car.epoch,
+            "kind": notice.kind,
+            "text": notice.text,
+            "details": notice.details,
+        }
         if not self._shared.messages.put(json.dumps(record).encode()):
             self._shared.flags[LOST_MESSAGES] += 1
 

@@ -41,9 +41,9 @@ def main(arguments: Sequence[str] | None = None, prog: str = "ali3 simulator") -
 def _recorded(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
     from hosts.recordings.recording_actions import replay_recording, save_manoeuvre, show_recording
 
-    given = given_of(parser, options, [name for name in vars(options) if name not in _OF_RECORDINGS])
-    if given:
-        raise HostError(f"{given[0]} is for driving; with --recording nothing is driven, so leave it out.")
+    used = given_of(parser, options, [name for name in vars(options) if name not in _OF_RECORDINGS])
+    if used:
+        raise HostError(f"{used[0]} is for driving; with --recording nothing is driven, so leave it out.")
     if options.replay and options.save_manoeuvre is not None:
         raise HostError("A recording is repeated by --replay or written by --save-manoeuvre; give one of them.")
     if options.save_manoeuvre is None and (options.begin, options.end) != (None, None):
@@ -118,13 +118,13 @@ def _check(options: argparse.Namespace) -> None:
         raise HostError(f"The step is {options.step:g} s; it must be positive and at most 1 s.")
     recorded = {"--replay": options.replay or None, "--save-manoeuvre": options.save_manoeuvre}
     recorded |= {"--from": options.begin, "--to": options.end}
-    if given := [name for name, value in recorded.items() if value is not None]:
-        raise HostError(f"{given[0]} is for a recording; --recording names its folder.")
+    if used := [name for name, value in recorded.items() if value is not None]:
+        raise HostError(f"{used[0]} is for a recording; --recording names its folder.")
     if options.interval is not None and options.record is None:
         raise HostError("--interval is for what --record writes; name a folder for the recording.")
     alone = {"--stop-time": options.stop_time, "--manoeuvre": options.manoeuvre, "--seed": options.seed}
-    if not options.headless and (given := [name for name, value in alone.items() if value is not None]):
-        raise HostError(f"{given[0]} is for a run without a page; add --headless, or leave it out and end with Ctrl-C.")
+    if not options.headless and (used := [name for name, value in alone.items() if value is not None]):
+        raise HostError(f"{used[0]} is for a run without a page; add --headless, or leave it out and end with Ctrl-C.")
     if options.headless and options.stop_time is None and options.manoeuvre is None:
         raise HostError("A run without a page needs its length: --headless --stop-time T, or a --manoeuvre.")
     if options.stop_time is not None and not 0.0 < options.stop_time <= _LONGEST:

@@ -18,7 +18,7 @@ def lacking(inputs: Collection[str], outputs: Collection[str]) -> tuple[list[str
     return steers + pedals, [name for name in POSE if name not in outputs]
 
 
-def not_drivable(path: Path, inputs: Sequence[str], outputs: Sequence[str], drawn: bool) -> str:
+def not_drivable(path: Path, inputs: Sequence[str], outputs: Sequence[str], has_drawing: bool) -> str:
     """What an FMU lacks to be driven, what would help, and what works without; empty where nothing is lacking.
 
     `inputs`, `outputs`: names, after aliases.
@@ -29,7 +29,7 @@ def not_drivable(path: Path, inputs: Sequence[str], outputs: Sequence[str], draw
     if not parts:
         return ""
     still = "its inputs that have our names can be moved; it" if len(no_inputs) < len(PEDALS) + 1 else "it"
-    picture = "" if drawn else ", but is not drawn, since it has no drawing"
+    picture = "" if has_drawing else ", but is not drawn, since it has no drawing"
     return (
         f"{path.name} has {' and '.join(parts)}, which driving needs. If it has them under other names, an alias file "
         f"says so (--aliases FILE). Its inputs are {some_of(inputs)}; its outputs {some_of(outputs)}. As it is, "

@@ -238,19 +238,19 @@ class DrivenFmu:
         """Go back by so much simulated time, or as far as there are saved states."""
         if self._past is None:
             raise HostError(f"{self._fmu.path.name} cannot go back: it does not save its state (canGetAndSetFMUstate).")
-        wanted = round(seconds / self._step)
-        steps = min(wanted, self._past.steps)
+        requested = round(seconds / self._step)
+        steps = min(requested, self._past.steps)
         if not steps:
             raise HostError("There is nothing to go back to: no step was made since the oldest state that is kept.")
         self.epoch += 1
-        mark, held, rows = self._past.back(steps)
+        mark, input_values, rows = self._past.back(steps)
         self._begin, self._steps = mark.begin, mark.steps
         for row in rows:
             self.inputs.values[:] = row
             self._make_step()
-        self.inputs.values[:] = held
+        self.inputs.values[:] = input_values
         self._read()
-        less = f" ({seconds:g} s were asked for; no older state is kept)" if steps < wanted else ""
+        less = f" ({seconds:g} s were asked for; no older state is kept)" if steps < requested else ""
         text = f"The car went back by {steps * self._step:g} s, to {self.time:.3f} s{less}."
         return Notice("rewind", text, {"back_to": mark.count, "back_to_epoch": mark.epoch})
 

@@ -63,9 +63,9 @@ class OfManoeuvre:
         return result if self._driver is None else {**result, **self._driver.act(time, observation)}
 
 
-def manoeuvre_of(given: str | None, tell: Callable[[str], None]) -> Manoeuvre | None:
+def manoeuvre_of(name: str | None, tell: Callable[[str], None]) -> Manoeuvre | None:
     """The manoeuvre that ``--manoeuvre`` names, if it was given; see `load_manoeuvre`."""
-    manoeuvre = None if given is None else load_manoeuvre(given)
+    manoeuvre = None if name is None else load_manoeuvre(name)
     if manoeuvre is not None and (late := manoeuvre.late_begin(ACTS if manoeuvre.driver else ())):
         tell(": ".join(late))
     return manoeuvre
@@ -129,5 +129,5 @@ def run_headless(car: AliasedCar, driver: HeadlessDriver, seconds: float, tell: 
 
 def _act(car: AliasedCar, driver: HeadlessDriver, places: Sequence[tuple[str, int]]) -> None:
     moment = car.latest()
-    if wanted := driver.act(moment.time, {name: float(moment.values[k]) for name, k in places}):
-        car.want({name: (value, math.inf) for name, value in wanted.items()})
+    if inputs := driver.act(moment.time, {name: float(moment.values[k]) for name, k in places}):
+        car.want({name: (value, math.inf) for name, value in inputs.items()})

@@ -83,8 +83,8 @@ class Prepared:
 
     def places(self) -> dict[str, dict[str, Value]]:
         """Start values by name of those places where this FMU can be put."""
-        known = set(self.source.called(self.variables.names))
-        return {n: values for n, values in self.world.places().items() if set(values) <= known}
+        names = set(self.source.called(self.variables.names))
+        return {n: values for n, values in self.world.places().items() if set(values) <= names}
 
 
 def prepare(asked: DriveRequest, tell: Callable[[str], None]) -> Prepared:

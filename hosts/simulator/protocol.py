@@ -128,8 +128,8 @@ def read_message(data: str | bytes, inputs: Collection[str]) -> Message:
     return reader(result, inputs)
 
 
-def _want(found: dict[str, Any], inputs: Collection[str]) -> Want:
-    source, values = found.get("source"), found.get("values")
+def _want(message: dict[str, Any], inputs: Collection[str]) -> Want:
+    source, values = message.get("source"), message.get("values")
     if source not in SOURCES:
         raise HostError(f"The source of a request is {_short(source)}; it must be {', '.join(SOURCES)}.")
     if not isinstance(values, dict) or len(values) > _MOST_INPUTS:
@@ -148,34 +148,34 @@ def _want(found: dict[str, Any], inputs: Collection[str]) -> Want:
     return Want(str(source), results)
 
 
-def _order(found: dict[str, Any], inputs: Collection[str]) -> Order:
-    name = found.get("name")
+def _order(message: dict[str, Any], inputs: Collection[str]) -> Order:
+    name = message.get("name")
     if name not in COMMANDS:
         raise HostError(f"There is no command {_short(name)}; known are {', '.join(COMMANDS)}.")
-    return Order(str(name), _number(found.get("value", 0.0), f"The value of {name}"))
+    return Order(str(name), _number(message.get("value", 0.0), f"The value of {name}"))
 
 
-def _seen(found: dict[str, Any], inputs: Collection[str]) -> Seen:
-    return Seen(_number(found.get("count"), "The count of a frame that was seen", 2.0**53))
+def _seen(message: dict[str, Any], inputs: Collection[str]) -> Seen:
+    return Seen(_number(message.get("count"), "The count of a frame that was seen", 2.0**53))
 
 
-def _place(found: dict[str, Any], inputs: Collection[str]) -> Place:
-    return Place(_text(found.get("name"), "The name of a place"))
+def _place(message: dict[str, Any], inputs: Collection[str]) -> Place:
+    return Place(_text(message.get("name"), "The name of a place"))
 
 
-def _report(found: dict[str, Any], inputs: Collection[str]) -> Report:
+def _report(message: dict[str, Any], inputs: Collection[str]) -> Report:
     return Report()
 
 
-def _watch(found: dict[str, Any], inputs: Collection[str]) -> WatchDevices:
-    on = found.get("on")
+def _watch(message: dict[str, Any], inputs: Collection[str]) -> WatchDevices:
+    on = message.get("on")
     if not isinstance(on, bool):
         raise HostError(f"'on' is {_short(on)}; it must be true or false.")
     return WatchDevices(on)
 
 
-def _for_devices(found: dict[str, Any], inputs: Collection[str]) -> ForDevices:
-    return ForDevices(found)
+def _for_devices(message: dict[str, Any], inputs: Collection[str]) -> ForDevices:
+    return ForDevices(message)
 
 
 _READERS: dict[str, Callable[[dict[str, Any], Collection[str]], Message]] = {

@@ -246,8 +246,8 @@ class Server:
                         page.sent(moment.count)
                         await page.connection.send(protocol.frame(moment, self._car.step))
                         if self._first_frame is not None:
-                            reported, self._first_frame = self._first_frame, None
-                            reported()
+                            callback, self._first_frame = self._first_frame, None
+                            callback()
                 await asyncio.sleep(FRAME_PERIOD)
 
     async def _pump(self) -> None:

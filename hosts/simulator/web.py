@@ -104,10 +104,10 @@ def listening_socket(address: str, port: int | None) -> socket.socket:
 def _bound(address: str, port: int) -> socket.socket:
     family, *_, place = socket.getaddrinfo(address, port, type=socket.SOCK_STREAM)[0]
     both = place[0] == "::" and socket.has_dualstack_ipv6()  # the name of this machine may be one of IPv4 alone
-    with socket.create_server((str(place[0]), port), family=family, dualstack_ipv6=both) as made:
+    with socket.create_server((str(place[0]), port), family=family, dualstack_ipv6=both) as bound:
         if hasattr(socket, "TCP_DEFER_ACCEPT"):  # who is taken has sent first bytes, unless it is silent for a second
-            made.setsockopt(socket.IPPROTO_TCP, socket.TCP_DEFER_ACCEPT, 1)
-        return _Doors(family, socket.SOCK_STREAM, fileno=made.detach())
+            bound.setsockopt(socket.IPPROTO_TCP, socket.TCP_DEFER_ACCEPT, 1)
+        return _Doors(family, socket.SOCK_STREAM, fileno=bound.detach())
 
 
 class Web:
@@ -180,11 +180,11 @@ class Web:
 
             def data_received(self, data: bytes) -> None:
                 if self.request is None:  # the library takes any method for GET, or none but GET
-                    reported = self._method
-                    self._method = (reported + data)[:_LONGEST_METHOD]
+                    received = self._method
+                    self._method = (received + data)[:_LONGEST_METHOD]
                     method, space, _ = self._method.partition(b" ")
                     if space and method not in (b"GET", b"HEAD"):
-                        if b" " not in reported:
+                        if b" " not in received:
                             self.transport.write(_NOT_ALLOWED)
                             self.transport.write_eof()
                         return

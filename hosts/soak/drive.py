@@ -141,8 +141,8 @@ class _Drive:
         self._count, lying = 0, 0
         k = 0
         while k < steps:
-            wanted = driver.act(k * h, {name: row[j] for name, j in self.observation})
-            row = self._step([wanted.get(name, rest) for name, rest in zip(self.inputs, self.rest, strict=True)])
+            inputs = driver.act(k * h, {name: row[j] for name, j in self.observation})
+            row = self._step([inputs.get(name, rest) for name, rest in zip(self.inputs, self.rest, strict=True)])
             k += 1
             if k == again:
                 row = self._repeated(row)
@@ -210,13 +210,13 @@ def drive(task: Task, tell: Callable[[float], None] = lambda seconds: None) -> O
     """
     begin = clock.perf_counter()
     with Fmu(Path(task.fmu)) as fmu:
-        made = _Drive(task, fmu, tell)
-        while made.outcome.simulated < task.seconds - 0.5 * task.step:
-            before = made.outcome.simulated
-            made.run()
-            if made.outcome.simulated == before:  # a start whose first step fails gets no second
-                made.outcome.simulated += task.step
-    outcome = made.outcome
+        driven = _Drive(task, fmu, tell)
+        while driven.outcome.simulated < task.seconds - 0.5 * task.step:
+            before = driven.outcome.simulated
+            driven.run()
+            if driven.outcome.simulated == before:  # a start whose first step fails gets no second
+                driven.outcome.simulated += task.step
+    outcome = driven.outcome
     outcome.wall = clock.perf_counter() - begin
-    _, outcome.memory_last, outcome.memory_growth = made.memory.growth()
+    _, outcome.memory_last, outcome.memory_growth = driven.memory.growth()
     return outcome

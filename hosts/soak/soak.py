@@ -64,16 +64,19 @@ def soak(options: argparse.Namespace, prog: str) -> int:
     keys = [run_key(path, task, files=_files(task)) for task in tasks]
     with ResultStore[Outcome](out, Outcome, "drives", options.again) as store:
         before = [store.find(key, key) for key in keys]
-        outcomes = [made or Outcome(task.seed, task.fidelity) for task, made in zip(tasks, before, strict=True)]
-        remaining = [place for place, outcome in enumerate(before) if outcome is None]
-        report_resumed(len(tasks) - len(remaining), len(tasks), "drives")
+        outcomes = [outcome or Outcome(task.seed, task.fidelity) for task, outcome in zip(tasks, before, strict=True)]
+        pending = [place for place, outcome in enumerate(before) if outcome is None]
+        report_resumed(len(tasks) - len(pending), len(tasks), "drives")
         try:
-            for place in _driven(tasks, outcomes, remaining, options.jobs or available_cores()):
+            for place in _driven(tasks, outcomes, pending, options.jobs or available_cores()):
                 store.add(keys[place], keys[place], outcomes[place])
         finally:  # after Ctrl-C too, of what is done
             print_outcomes(tasks, outcomes, f"{prog} --soak", options.world)
             if options.json is not None:
-                record = {"tasks": [asdict(task) for task in tasks], "outcomes": [asdict(made) for made in outcomes]}
+                record = {
+                    "tasks": [asdict(task) for task in tasks],
+                    "outcomes": [asdict(outcome) for outcome in outcomes],
+                }
                 write_json(options.json, record)
                 print(f"written: {options.json}", flush=True)
     return 0 if all(map(is_good, outcomes)) else 1

@@ -281,17 +281,17 @@ def _outcomes(
     """Make the runs that are not done, on a cluster or in processes of this machine."""
     work, before = plan.work, int(np.count_nonzero(done))
     experiment, runs = experiment_of(work, plan.fmu), missing(plan, done)
-    with ExitStack() as held:
+    with ExitStack() as stack:
         runner: Runner[Run, Outcome]
         if scheduler is None:
             runner = experiment.pool(workers or available_cores())
         else:
             from hosts.experiment.cluster import connected
 
-            client = held.enter_context(connected(scheduler))
-            runner = held.enter_context(on_cluster(client, plan, trial, plan.runs - before))
-        made = held.enter_context(closing(experiment.results(runs, runner, whole=plan.runs, before=before)))
-        for _, run, result in made:
+            client = stack.enter_context(connected(scheduler))
+            runner = stack.enter_context(on_cluster(client, plan, trial, plan.runs - before))
+        results = stack.enter_context(closing(experiment.results(runs, runner, whole=plan.runs, before=before)))
+        for _, run, result in results:
             outcome = outcome_of(work, result)
             if scheduler is not None and isinstance(result, Lost):
                 print(f"note: Run {run.index} failed. {outcome.reason}", file=sys.stderr)

@@ -50,24 +50,26 @@ class Job:
 
 def named_manoeuvre(name: str, file: Path) -> Manoeuvre:
     """A manoeuvre of the package by its name, else a file beside the study; `HostError` where there is neither."""
-    known = manoeuvre_names()
-    if name in known:
+    names = manoeuvre_names()
+    if name in names:
         return load_manoeuvre(name)
     if Path(name).suffix not in SUFFIXES and not is_folder(file.parent / name):
-        hint = did_you_mean(name, known, f"known are {', '.join(known)}, or a TOML or CSV file")
+        hint = did_you_mean(name, names, f"known are {', '.join(names)}, or a TOML or CSV file")
         raise HostError(f"{file}: there is no manoeuvre '{name}'{hint}")
     return load_manoeuvre(str(file.parent / name))
 
 
-def checked_test(name: str, given: Mapping[str, float], fmu: SimulatedFmu, where: str) -> tuple[str, dict[str, float]]:
+def checked_test(
+    name: str, set_values: Mapping[str, float], fmu: SimulatedFmu, where: str
+) -> tuple[str, dict[str, float]]:
     """Name and settings of a test, if it can be done with an FMU.
 
-    `given`: settings that are not by default; `where`: how messages call where it is asked for. Raises `HostError`:
-    there is no such test or setting, or the FMU lacks what it needs.
+    `set_values`: settings that are not by default; `where`: how messages call the entry. Raises `HostError`: there is
+    no such test or setting, or the FMU lacks what it needs.
     """
     try:
         test = standard_test(name)
-        settings = settings_of_test(test, given)
+        settings = settings_of_test(test, set_values)
     except HostError as error:
         raise HostError(f"{where}: {error}") from None
     for need in lacking(test, {*fmu.variables, *fmu.constants()}):

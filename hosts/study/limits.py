@@ -140,10 +140,10 @@ def why_no_interval(about: Mapping[str, Any]) -> str:
     return _NO_INTERVAL.get(str(about["sampling"]["method"]), "")
 
 
-def share_rows(found: Sequence[Share], about: Mapping[str, Any]) -> list[tuple[str, str, str, str, str]]:
+def share_rows(share_list: Sequence[Share], about: Mapping[str, Any]) -> list[tuple[str, str, str, str, str]]:
     """Measure, limit, count, share and interval of each, in words and in the units of reports."""
     rows = []
-    for s in found:
+    for s in share_list:
         several = s.manoeuvre != "" and len(about["manoeuvres"]) > 1 and not s.measure.startswith(f"{s.manoeuvre}.")
         label = f"{s.measure} ({s.manoeuvre})" if several else s.measure
         of = "variants" if s.measure == ALL else "runs"
@@ -164,20 +164,20 @@ def _allowed(s: Share) -> str:
     return "" if s.measure == ALL else shown.words(typeset(unit))
 
 
-def share_notes(found: Sequence[Share], about: Mapping[str, Any]) -> list[str]:
+def share_notes(share_list: Sequence[Share], about: Mapping[str, Any]) -> list[str]:
     """What is to be known of the shares, each in a sentence."""
     why = why_no_interval(about)
     notes = [f"There is no interval: {why}." if why else "Interval of the share: Wilson's score interval, 95 %."]
-    if any(s.without_result for s in found):
+    if any(s.without_result for s in share_list):
         notes.append("Runs that failed or did not yield the measure count as outside of its limits.")
-    if any(s.absent for s in found):
+    if any(s.absent for s in share_list):
         notes.append("Runs in which there is no such measure are left out of its count.")
     return notes
 
 
-def write_shares(found: Sequence[Share], folder: Path) -> list[Path]:
+def write_shares(share_list: Sequence[Share], folder: Path) -> list[Path]:
     """Write ``limits.csv`` and ``limits.json`` into the folder of a study, in the units of the measures."""
-    rows = [{n: or_null(x) if isinstance(x, float) else x for n, x in asdict(s).items()} for s in found]
+    rows = [{n: or_null(x) if isinstance(x, float) else x for n, x in asdict(s).items()} for s in share_list]
     table, record = folder / "limits.csv", folder / "limits.json"
     with atomic_file(table) as temporary:
         pd.DataFrame(rows).to_csv(temporary, index=False)
@@ -188,8 +188,8 @@ def write_shares(found: Sequence[Share], folder: Path) -> list[Path]:
 def report_limits(folder: Path) -> bool:
     """Print and write the shares of a study that has limits; whether all runs keep them."""
     frame = read_study(folder)
-    found = shares(frame)
-    lines = in_columns([("limits", "", "within", "share", "95 %"), *share_rows(found, frame.attrs)])
-    print("\n".join([*lines, *share_notes(found, frame.attrs)]))
-    print(f"written: {' and '.join(map(str, write_shares(found, folder)))}")
-    return all(share.outside == 0 for share in found)
+    share_list = shares(frame)
+    lines = in_columns([("limits", "", "within", "share", "95 %"), *share_rows(share_list, frame.attrs)])
+    print("\n".join([*lines, *share_notes(share_list, frame.attrs)]))
+    print(f"written: {' and '.join(map(str, write_shares(share_list, folder)))}")
+    return all(share.outside == 0 for share in share_list)

@@ -98,22 +98,22 @@ def parameter_of(name: str, entry: ParameterEntry, variable: Variable, file: str
         if entry.log and variable.kind != "Real":
             raise HostError(f"{where} is a whole number; list what it may be as values instead of log = true.")
         return Parameter(name, variable.kind, variable.unit, float(low), float(high), entry.log, (), entry.count)
-    given = entry.values or []
-    values = tuple(in_unit(x, entry.unit, variable, f"{where}.values[{k}]") for k, x in enumerate(given, start=1))
+    entries = entry.values or []
+    values = tuple(in_unit(x, entry.unit, variable, f"{where}.values[{k}]") for k, x in enumerate(entries, start=1))
     if len(set(values)) < len(values):
         twice = next(x for k, x in enumerate(values) if x in values[:k])
         raise HostError(f"{where}.values has {variable.text(twice)} twice; each is run once.")
     return Parameter(name, variable.kind, variable.unit, values=values)
 
 
-def in_unit(given: Value, unit: str | None, variable: Variable, where: str) -> Value:
+def in_unit(value: Value, unit: str | None, variable: Variable, where: str) -> Value:
     """A value in the unit of the FMU, checked.
 
     `unit`: that it is given in; None: that of the FMU; `where`: how messages call its place.
     """
-    if unit is None or unit == variable.unit or isinstance(given, (str, bool)):
-        return variable.check(given, where)
+    if unit is None or unit == variable.unit or isinstance(value, (str, bool)):
+        return variable.check(value, where)
     if unit not in variable.displays:
         others = " or ".join([variable.unit, *variable.displays])
         raise HostError(f"{where}: the unit is '{unit}'; the FMU knows '{variable.name}' in {others}.")
-    return variable.check(variable.from_display(float(given), unit, where), f"{where}, {given:g} {unit}")
+    return variable.check(variable.from_display(float(value), unit, where), f"{where}, {value:g} {unit}")

@@ -29,8 +29,8 @@ def table_schema(record: Mapping[str, Any]) -> Any:
     fields += [(name, pa.float64()) for name in record["measures"]]
     fields += [("status", pa.string()), ("reason", pa.string()), ("missing", pa.string()), ("messages", pa.string())]
     fields += [("simulated", pa.float64()), ("wall_seconds", pa.float64())]
-    made = [pa.field(name, kind, metadata={"unit": units[name]} if name in units else None) for name, kind in fields]
-    return pa.schema(made, metadata={"PANDAS_ATTRS": json.dumps(attributes(record))})
+    columns = [pa.field(name, kind, metadata={"unit": units[name]} if name in units else None) for name, kind in fields]
+    return pa.schema(columns, metadata={"PANDAS_ATTRS": json.dumps(attributes(record))})
 
 
 def signal_schema(record: Mapping[str, Any]) -> Any:
@@ -42,10 +42,10 @@ def signal_schema(record: Mapping[str, Any]) -> Any:
 
 def attributes(record: Mapping[str, Any]) -> dict[str, Any]:
     """What a table says of itself: units of columns, parameters with their ranges, what was run by which program."""
-    reported = ("units", "parameters", "sampling", "seed", "guid", "model", "fmu", "versions", "runs", "points", "file")
+    keys = ("units", "parameters", "sampling", "seed", "guid", "model", "fmu", "versions", "runs", "points", "file")
     return {
         "study": record["name"],
-        **{key: record[key] for key in reported},
+        **{key: record[key] for key in keys},
         "measures": list(record["measures"]),
         "limits": record.get("limits", {}),
         "manoeuvres": [m["name"] for m in record["manoeuvres"]],

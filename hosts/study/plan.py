@@ -208,9 +208,9 @@ def make_plan(study: StudyFile, file: Path, fmu_path: Path) -> Plan:
 
 
 def _job_record(entry: ManoeuvreEntry, job: Job) -> dict[str, Any]:
-    given = entry.model_dump(exclude_none=True)
+    entries = entry.model_dump(exclude_none=True)
     step = None if math.isnan(job.step) else job.step
-    return {**given, "name": job.label, "step": step, "sha256": job_digest(job)}
+    return {**entries, "name": job.label, "step": step, "sha256": job_digest(job)}
 
 
 def job_digest(job: Job) -> str:
@@ -223,10 +223,10 @@ def job_digest(job: Job) -> str:
 def _signals(study: StudyFile, file: Path, fmu: SimulatedFmu) -> list[str]:
     if study.signals is None:
         return []
-    known = [*fmu.names("input"), *fmu.names("output")]
+    variables = [*fmu.names("input"), *fmu.names("output")]
     for k, name in enumerate(study.signals.names):
-        if name not in known:
-            raise HostError(f"{file}: signals.names: {not_known(name, known, 'input or output')}")
+        if name not in variables:
+            raise HostError(f"{file}: signals.names: {not_known(name, variables, 'input or output')}")
         if name in study.signals.names[:k]:
             raise HostError(f"{file}: signals.names has '{name}' twice; each is kept once.")
     return list(study.signals.names)

@@ -84,7 +84,7 @@ def open_signals(folder: str | os.PathLike[str], manoeuvre: str | None = None) -
     time = ("time", round(signals["interval"] / step) * step * np.arange(samples), {"units": "s"})
     coordinates: dict[str, Any] = {"time": time, "point": ("point", np.arange(record["points"]))}
     frame = _frame(record, list(parts.values()))
-    made = frame[frame["manoeuvre"] == manoeuvre].set_index("point").reindex(coordinates["point"][1])
+    by_point = frame[frame["manoeuvre"] == manoeuvre].set_index("point").reindex(coordinates["point"][1])
     for name in record["parameters"]:
-        coordinates[name] = ("point", made[name].to_numpy(), {"units": units[name]} if name in units else {})
+        coordinates[name] = ("point", by_point[name].to_numpy(), {"units": units[name]} if name in units else {})
     return xr.Dataset(columns, coordinates, {**attributes(record), "manoeuvre": manoeuvre})

@@ -84,10 +84,10 @@ class SamplingEntry(_Part):
 
     @model_validator(mode="after")
     def _fits(self) -> SamplingEntry:
-        drawn = self.method in ("latin_hypercube", "sobol", "saltelli")
-        if drawn and self.runs is None:
+        is_random = self.method in ("latin_hypercube", "sobol", "saltelli")
+        if is_random and self.runs is None:
             raise ValueError(f"the method {self.method} needs the number of points, runs")
-        if not drawn and self.runs is not None:
+        if not is_random and self.runs is not None:
             raise ValueError(f"the method {self.method} gives its number of points itself; leave runs out")
         if (self.method == "table") != (self.file is not None):
             raise ValueError("the method table, and no other, needs a file")

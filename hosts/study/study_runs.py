@@ -80,8 +80,8 @@ class Bench:
         if job.every:
             outcome.signals = sampled(result, work.signals, job)
         if outcome.status == DONE:
-            given = {**values, "seed": seed}
-            measures = [m for measure in work.measures for m in measure.evaluate(result, given)]
+            parameters = {**values, "seed": seed}
+            measures = [m for measure in work.measures for m in measure.evaluate(result, parameters)]
             _take(outcome, [(m.name, m) for m in measures])
         return outcome
 

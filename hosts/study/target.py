@@ -39,13 +39,13 @@ def target_of(text: str, by: str, limits: str | None) -> Target:
         raise HostError(f"--target {text}: it must be MEASURE=VALUE, such as 'understeer_gradient=1.3 deg/g'.")
     try:
         ends = None if limits is None else tuple(parse_number(end) for end in limits.split(":"))
-        wanted = parse_number(result[1])
+        target = parse_number(result[1])
     except ValueError as error:
         between = "" if limits is None else f" --between {limits}"
         raise HostError(f"--target {text}{between}: {error}.") from None
     if ends is not None and not (len(ends) == 2 and ends[0] < ends[1]):
         raise HostError(f"--between {limits}: it must be LOW:HIGH, the smaller number first.")
-    return Target(name, wanted, result[2], by, None if ends is None else (ends[0], ends[1]))
+    return Target(name, target, result[2], by, None if ends is None else (ends[0], ends[1]))
 
 
 def find_target(file: Path, target: Target, out: Path | None) -> bool:
@@ -87,23 +87,23 @@ def _plan(study: StudyFile, file: Path, fmu: Path, target: Target) -> Plan:
     entry = study.parameters.get(target.by, ParameterEntry())
     variables = Variables(described(fmu))
     is_named = target.by in variables.names or study.aliases is None  # else it may be a name of the aliases
-    known = variables.settable(target.by, "--by") if is_named else None
-    if known is not None and known.kind != "Real":
+    variable = variables.settable(target.by, "--by") if is_named else None
+    if variable is not None and variable.kind != "Real":
         what = {"Integer": "a whole number", "String": "a text", "Boolean": "true or false"}
-        message = what.get(known.kind, f"of the kind {known.kind}")
+        message = what.get(variable.kind, f"of the kind {variable.kind}")
         raise HostError(f"--by {target.by}: it is {message}; only real numbers can be sought.")
     ends, unit, log = target.range, None, entry.log
     if ends is not None:
         log = log and ends[0] > 0.0
-        if known is not None:
+        if variable is not None:
             for end in ends:
-                known.check(end, "--between")
+                variable.check(end, "--between")
     elif entry.range is not None:
         ends, unit = (entry.range[0], entry.range[1]), entry.unit
-    elif known is not None and math.isfinite(known.high - known.low):
-        ends = (known.low, known.high)
+    elif variable is not None and math.isfinite(variable.high - variable.low):
+        ends = (variable.low, variable.high)
     no_range = f"--by {target.by}: neither the study file nor the FMU gives a range; add --between LOW:HIGH."
-    if ends is None and known is not None:
+    if ends is None and variable is not None:
         raise HostError(no_range)
     if ends is not None and not ends[0] < ends[1]:
         raise HostError(f"--by {target.by}: its range is {ends[0]:g} alone; add --between LOW:HIGH.")

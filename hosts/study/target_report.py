@@ -25,54 +25,54 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def text_lines(runs: TargetRuns, found: SearchResult) -> list[str]:
+def text_lines(runs: TargetRuns, search: SearchResult) -> list[str]:
     """What was found, in sentences."""
-    by, name, failed = runs.target.by, runs.column, [r for r in found.runs if r.reason]
+    by, name, failed = runs.target.by, runs.column, [r for r in search.runs if r.reason]
     lines = []
-    if found.best is None:
+    if search.best is None:
         lines.append(f"No run yields {name}: {failed[0].reason.rstrip('.')}. Give another --between.")
-    elif found.met:
-        lines.append(f"{by} = {runs.x_text(found.best.x)} gives {name} = {runs.y_text(found.best.y)}.")
+    elif search.met:
+        lines.append(f"{by} = {runs.x_text(search.best.x)} gives {name} = {runs.y_text(search.best.y)}.")
         lines.append(f"Wanted: {runs.y_text(runs.wanted)}, to within {TOLERANCE:g} of it.")
     else:
-        lines += _not_met(runs, found, found.best)
-    if found.best is not None and math.isfinite(found.slope) and not _is_flat(runs, found):
-        slope, one, other = runs.shown.factor * found.slope, *map(runs.x_text, found.between)
-        change = number_in(0.01 * found.best.x * slope, runs.shown.unit, ".5g")
+        lines += _not_met(runs, search, search.best)
+    if search.best is not None and math.isfinite(search.slope) and not _is_flat(runs, search):
+        slope, one, other = runs.shown.factor * search.slope, *map(runs.x_text, search.between)
+        change = number_in(0.01 * search.best.x * slope, runs.shown.unit, ".5g")
         lines.append(f"Sensitivity: 1 % more of {by} changes it by {change} (from runs at {one} and {other}).")
-    if found.met and found.rises and found.falls:
+    if search.met and search.rises and search.falls:
         lines.append(f"It is not monotone over {by} in these runs: another value may give the same.")
-    if failed and found.best is not None:
+    if failed and search.best is not None:
         count = "1 run" if len(failed) == 1 else f"{len(failed)} runs"
         lines.append(f"{count} failed, the first at {runs.x_text(failed[0].x)}: {failed[0].reason}")
-    lines.append(f"{len(found.runs)} runs of {runs.job.label}.")
+    lines.append(f"{len(search.runs)} runs of {runs.job.label}.")
     return lines
 
 
-def _not_met(runs: TargetRuns, found: SearchResult, best: Run) -> list[str]:
-    ys = [run.y for run in found.runs if not run.reason]
+def _not_met(runs: TargetRuns, search: SearchResult, best: Run) -> list[str]:
+    ys = [run.y for run in search.runs if not run.reason]
     low, high = runs.y_text(min(ys)), runs.y_text(max(ys))
     ends = " to ".join(runs.x_text(x) for x in (runs.parameter.low, runs.parameter.high))
     lines = [
         f"{runs.column} = {runs.y_text(runs.wanted)} is not met with {runs.target.by} from {ends}.",
         f"The nearest is {runs.y_text(best.y)}, at {runs.x_text(best.x)}; the runs lie between {low} and {high}.",
     ]
-    changes = (False, False) if _is_flat(runs, found) else (found.rises, found.falls)
+    changes = (False, False) if _is_flat(runs, search) else (search.rises, search.falls)
     form = {(True, True): "is not monotone", (True, False): "only rises", (False, True): "only falls"}.get(
         changes, "does not change"
     )
-    if found.crossed:
-        one, other = _around(runs, found)
+    if search.crossed:
+        one, other = _around(runs, search)
         lines.append(
             f"Between {runs.x_text(one.x)} and {runs.x_text(other.x)} the measure goes from "
             f"{runs.y_text(one.y)} to {runs.y_text(other.y)}: it jumps there, runs fail, or the range is too "
             f"wide to resolve it; try --between={one.x:.6g}:{other.x:.6g}."
         )
         return lines
-    known = _variable(runs)
+    variable = _variable(runs)
     at_end = best.x in (runs.parameter.low, runs.parameter.high)
-    wider = at_end and form != "does not change" and (known is None or known.low < best.x < known.high)
-    allowed = f" (the FMU allows {known.range})" if known is not None and known.range else ""
+    wider = at_end and form != "does not change" and (variable is None or variable.low < best.x < variable.high)
+    allowed = f" (the FMU allows {variable.range})" if variable is not None and variable.range else ""
     remedy = f"a wider range, --between{allowed}" if wider else "another parameter (--by)"
     lines.append(
         f"In {len(ys)} runs from end to end the measure {form} with it and does not reach what is wanted; try {remedy}."
@@ -80,15 +80,15 @@ def _not_met(runs: TargetRuns, found: SearchResult, best: Run) -> list[str]:
     return lines
 
 
-def _is_flat(runs: TargetRuns, found: SearchResult) -> bool:
+def _is_flat(runs: TargetRuns, search: SearchResult) -> bool:
     """Whether the measure differs by rounding alone."""
-    ys = np.array([run.y for run in found.runs if not run.reason])
+    ys = np.array([run.y for run in search.runs if not run.reason])
     return len(ys) > 1 and not np.ptp(without_round_off(ys, runs.unit))
 
 
-def _around(runs: TargetRuns, found: SearchResult) -> tuple[Run, Run]:
+def _around(runs: TargetRuns, search: SearchResult) -> tuple[Run, Run]:
     """The nearest two runs on different sides of what is wanted."""
-    known_names = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)
+    known_names = sorted((run for run in search.runs if not run.reason), key=lambda run: run.x)
     sides = [(a, b) for a, b in pairwise(known_names) if (a.y - runs.wanted) * (b.y - runs.wanted) <= 0.0]
     return min(sides, key=lambda pair: pair[1].x - pair[0].x)
 
@@ -98,7 +98,7 @@ def _variable(runs: TargetRuns) -> Variable | None:
     return variables[runs.target.by] if runs.target.by in variables.names else None
 
 
-def write_record(runs: TargetRuns, found: SearchResult, lines: list[str], file: Path) -> Path:
+def write_record(runs: TargetRuns, search: SearchResult, lines: list[str], file: Path) -> Path:
     """All of the search in the units of the measure and of the FMU."""
     record = {
         "measure": runs.column,
@@ -107,22 +107,22 @@ def write_record(runs: TargetRuns, found: SearchResult, lines: list[str], file: 
         "parameter": runs.target.by,
         "parameter_unit": runs.parameter.unit,
         "range": [runs.parameter.low, runs.parameter.high],
-        "met": found.met,
-        "tolerance": found.tolerance,
-        "value": None if found.best is None else found.best.x,
-        "reached": None if found.best is None else found.best.y,
-        "sensitivity": or_null(found.slope),
-        "runs": [{**asdict(run), "y": or_null(run.y)} for run in found.runs],
+        "met": search.met,
+        "tolerance": search.tolerance,
+        "value": None if search.best is None else search.best.x,
+        "reached": None if search.best is None else search.best.y,
+        "sensitivity": or_null(search.slope),
+        "runs": [{**asdict(run), "y": or_null(run.y)} for run in search.runs],
         "words": lines,
     }
     write_json(file, record)
     return file
 
 
-def search_figure(runs: TargetRuns, found: SearchResult) -> Figure:
+def search_figure(runs: TargetRuns, search: SearchResult) -> Figure:
     """The measure over the parameter in all runs."""
     factor, unit = runs.shown.factor, runs.shown.unit
-    known_names = sorted((run for run in found.runs if not run.reason), key=lambda run: run.x)
+    known_names = sorted((run for run in search.runs if not run.reason), key=lambda run: run.x)
     with plt.rc_context(STYLE):
         figure, axes = plt.subplots(figsize=(8.0, 4.5), layout="constrained")
         axes.plot(
@@ -133,19 +133,19 @@ def search_figure(runs: TargetRuns, found: SearchResult) -> Figure:
             label="runs",
             linewidth=1.0,
         )
-        wanted = runs.y_text(runs.wanted)
-        axes.axhline(factor * runs.wanted, color="#555555", linestyle="--", label=f"wanted: {wanted}")
-        if found.best is not None:
-            message = "found" if found.met else "nearest"
-            label = f"{message}: {runs.x_text(found.best.x)}"
-            axes.plot(found.best.x, factor * found.best.y, "D", color=RED, markersize=9, label=label)
-        for k, run in enumerate(r for r in found.runs if r.reason):
+        target = runs.y_text(runs.wanted)
+        axes.axhline(factor * runs.wanted, color="#555555", linestyle="--", label=f"wanted: {target}")
+        if search.best is not None:
+            message = "found" if search.met else "nearest"
+            label = f"{message}: {runs.x_text(search.best.x)}"
+            axes.plot(search.best.x, factor * search.best.y, "D", color=RED, markersize=9, label=label)
+        for k, run in enumerate(r for r in search.runs if r.reason):
             label = "failed run" if k == 0 else "_"
             axes.plot(run.x, 0.02, "|", color=RED, transform=axes.get_xaxis_transform(), label=label, markersize=10)
         if runs.parameter.log:
             axes.set_xscale("log")
         axes.set_xlabel(titled(runs.target.by, runs.parameter.unit))
         axes.set_ylabel(titled(runs.column, unit))
-        axes.set_title(f"{runs.column} by {runs.target.by}, {len(found.runs)} runs")
+        axes.set_title(f"{runs.column} by {runs.target.by}, {len(search.runs)} runs")
         axes.legend()
     return figure

@@ -67,10 +67,10 @@ class TargetRuns:
 
     def _take_unit(self, unit: str) -> None:
         """Learn the unit of the measure: what is wanted in it, and how it is shown."""
-        given = self.target.unit
-        factor = conversion(given, unit, f"--target {self.target.measure}") if given else 1.0
+        target_unit = self.target.unit
+        factor = conversion(target_unit, unit, f"--target {self.target.measure}") if target_unit else 1.0
         self.unit, self.wanted = unit, factor * self.target.value
-        self.shown = Shown(given, 1.0 / factor) if given else shown_in(unit, self.column)
+        self.shown = Shown(target_unit, 1.0 / factor) if target_unit else shown_in(unit, self.column)
 
     def found(self, start: float) -> SearchResult:
         """The search from a start value of the parameter."""

@@ -14,7 +14,7 @@ from hosts.study.worker_data import FAILED, INCOMPLETE, Outcome, Work
 
 _LONGEST = 2.0  # s of a run that is repeated for the test of reuse
 _ROW = 60.0  # bytes of a row in a part beside its numbers
-_COMPRESSED = 1.0  # of signals, at worst
+_COMPRESSED = 1.0  # stored over raw bytes of signals, at worst
 
 
 @dataclass(frozen=True)
@@ -72,8 +72,8 @@ def _columns(units: Mapping[str, str], job: Job, where: str) -> dict[str, str]:
         return dict(units)
     for name in job.measures:
         if f"{job.label}.{name}" not in units:
-            known = [column.removeprefix(f"{job.label}.") for column in units]
-            hint = did_you_mean(name, known, f"it has {', '.join(known)}")
+            measures = [column.removeprefix(f"{job.label}.") for column in units]
+            hint = did_you_mean(name, measures, f"it has {', '.join(measures)}")
             raise HostError(f"{where}.measures: the test {job.test} has no measure '{name}'{hint}")
     return {column: unit for column, unit in units.items() if column.removeprefix(f"{job.label}.") in job.measures}
 
@@ -86,7 +86,7 @@ def _outcomes(work: Work, plan: Plan, number: int, points: Sequence[int]) -> lis
 
 def _reuse(plan: Plan, good: list[tuple[int, Job, int, Outcome]]) -> tuple[bool, float | None]:
     """Whether a run has the same bits in an instance that has made another run; and what it takes there."""
-    driven = [found for found in good if found[1].manoeuvre is not None]
+    driven = [run for run in good if run[1].manoeuvre is not None]
     if not driven:
         return False, None
     number, job, point, outcome = driven[0]

@@ -52,8 +52,8 @@ def wires_of(connections: Mapping[str, str], parts: Mapping[str, Fmu]) -> tuple[
         target, name = _split(end, parts, "input")
         source, output = _split(start, parts, "output")
         units = [parts[p].variables[n].unit for p, n in ((source, output), (target, name))]
-        given, wanted = (known_unit(unit) if unit else None for unit in units)
-        if given is not None and wanted is not None and given != wanted:
+        output_unit, input_unit = (known_unit(unit) if unit else None for unit in units)
+        if output_unit is not None and input_unit is not None and output_unit != input_unit:
             raise HostError(
                 f"'{start}' is in {units[0]} and '{end}' in {units[1]}; a wire converts no units, so wire variables "
                 "of one unit."
@@ -79,8 +79,8 @@ def parted(text: str, parts: Mapping[str, Fmu]) -> tuple[str, str]:
     """Part and variable of ``part.variable``; a `HostError` where there is no such part."""
     part, dot, name = text.partition(".") if isinstance(text, str) else ("", "", "")
     if part not in parts:
-        known = f"the parts are {', '.join(parts)}"
-        raise HostError(f"{brief(text)} names no part{did_you_mean(part, parts, known)}")
+        hint = f"the parts are {', '.join(parts)}"
+        raise HostError(f"{brief(text)} names no part{did_you_mean(part, parts, hint)}")
     if not dot:
         raise HostError(f"'{text}' names a part and no variable; it must be PART.VARIABLE.")
     return part, name
@@ -88,7 +88,7 @@ def parted(text: str, parts: Mapping[str, Fmu]) -> tuple[str, str]:
 
 def _split(text: str, parts: Mapping[str, Fmu], causality: str) -> tuple[str, str]:
     part, name = parted(text, parts)
-    known: Sequence[str] = parts[part].names(causality)
-    if name not in known:
-        raise HostError(f"The part '{part}' has no {causality} '{name}'{did_you_mean(name, known)}")
+    names: Sequence[str] = parts[part].names(causality)
+    if name not in names:
+        raise HostError(f"The part '{part}' has no {causality} '{name}'{did_you_mean(name, names)}")
     return part, name

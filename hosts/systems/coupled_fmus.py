@@ -213,8 +213,8 @@ class CoupledFmus(Closable):
             part, name = parted(text, fmus)
             variables = fmus[part].variables
             if name not in variables or variables[name].type not in ("Real", "Integer"):
-                known = [n for n, v in variables.items() if v.type in ("Real", "Integer")]
-                raise HostError(f"The part '{part}' has no number '{name}'{did_you_mean(name, known)}")
+                numbers = [n for n, v in variables.items() if v.type in ("Real", "Integer")]
+                raise HostError(f"The part '{part}' has no number '{name}'{did_you_mean(name, numbers)}")
             getters.append(fmus[part].getter([name]))
         return lambda: np.array([get()[0] for get in getters])
 
@@ -230,10 +230,10 @@ class CoupledFmus(Closable):
             newest = np.array(
                 [(e or known or begin)[w.source, w.output] for e, w in zip(ends_at, p.wires, strict=True)]
             )
-            reported = [end is not None or (w.source in stepped and self.order == "in turn") for w in p.wires]
+            has_end_value = [end is not None or (w.source in stepped and self.order == "in turn") for w in p.wires]
             try:
                 if p.wires:
-                    self._feed(p, first, newest, np.array(reported), end is not None)
+                    self._feed(p, first, newest, np.array(has_end_value), end is not None)
                 p.fmu.step(self.time, self.step_length)
             except (StepRefusedError, HostError) as error:
                 raise type(error)(f"The part '{p.name}' refused the step from {self.time:.6g} s: {error}") from None
@@ -241,14 +241,14 @@ class CoupledFmus(Closable):
             now |= self._outputs(p, ends)
         return now
 
-    def _feed(self, p: _Part, first: Array, newest: Array, known: NDArray[np.bool_], repeated: bool) -> None:
+    def _feed(self, p: _Part, first: Array, newest: Array, is_end_known: NDArray[np.bool_], repeated: bool) -> None:
         """Inputs of a part over the step that follows: at its start, and at its end where that is known."""
         if p.set_slopes is None or self.inputs == "held":
             p.give(newest.tolist())
             return
         p.give(np.where(p.follows, first, newest).tolist())
         before = np.zeros_like(first) if p.last is None else first - p.last
-        slope = np.where(known, newest - first, before) / self.step_length
+        slope = np.where(is_end_known, newest - first, before) / self.step_length
         if not repeated:
             p.last = first
         p.set_slopes(np.nan_to_num(slope[p.follows], nan=0.0, posinf=0.0, neginf=0.0).tolist())

@@ -79,8 +79,8 @@ def write_ssp(
         content = {f"resources/{part}.fmu": Path(path) for part, path in parts.items()}
         for part, values in starts_of(start, fmus).items():
             if values:
-                made = content[f"resources/{part}.ssv"] = folder / f"{part}.ssv"
-                write_parameter_set(ParameterSet(SET, _entries(fmus[part], values), {}), made, as_built=False)
+                parameter_file = content[f"resources/{part}.ssv"] = folder / f"{part}.ssv"
+                write_parameter_set(ParameterSet(SET, _entries(fmus[part], values), {}), parameter_file, as_built=False)
         document = _document(name or file.stem, fmus, wires, content, version)
         with atomic_file(file) as whole, zipfile.ZipFile(whole, "w", zipfile.ZIP_DEFLATED) as archive:
             archive.writestr("SystemStructure.ssd", document)

@@ -46,7 +46,7 @@ def live(options: argparse.Namespace) -> int:
         return _written(options, options_with_road(options, folder))
 
 
-def _written(options: argparse.Namespace, given: FmuOptions) -> int:
+def _written(options: argparse.Namespace, set_options: FmuOptions) -> int:
     if len(options.what) > _MOST_PICTURES:
         raise HostError(f"{len(options.what)} pictures are too many for a page; it shows at most {_MOST_PICTURES}.")
     results = [path for path in options.what if path.suffix.lower() in (".csv", ".json") or is_recording(path)]
@@ -58,7 +58,7 @@ def _written(options: argparse.Namespace, given: FmuOptions) -> int:
         raise HostError(f"{results[0]} is a result; --live needs an FMU, which the page runs.")
     name = "_".join(dict.fromkeys(path.stem for path in paths))
     file = (options.out or Path("out")) / f"{name}_live.html"
-    road = next((text for name, text in reversed(given.values) if name == ROAD), "")
+    road = next((text for name, text in reversed(set_options.values) if name == ROAD), "")
     check_writable(file)
     world = _world(options, road)
     fmus = [fmu_parts(path, road if world is None else str(world.road)) for path in paths]
@@ -66,16 +66,21 @@ def _written(options: argparse.Namespace, given: FmuOptions) -> int:
     manoeuvre = _manoeuvre(fmus, options.manoeuvre)
     places = {} if world is None else _places(world, fmus[0])
     first = next(iter(places.values()), {})
-    start = {**first, **({} if manoeuvre is None else manoeuvre.start), **_start(fmus, given)}
+    start = {**first, **({} if manoeuvre is None else manoeuvre.start), **_start(fmus, set_options)}
     report_starts([start])
     if fmus[0].own_road is not None:
         start[ROAD] = fmus[0].own_road.name
-    wanted = {"name": name, **_page_options(fmus, options), "start": start, **({"places": places} if places else {})}
+    settings = {
+        "name": name,
+        **_page_options(fmus, options),
+        "start": start,
+        **({"places": places} if places else {}),
+    }
     recordings = _beside(results, fmus[0])
     ends = [f"The recording ends at {float(recording.t[-1]):.4g} s." for recording in recordings]
     with_binaries = [with_binary(fmu) for fmu in fmus]
     with reported_when_long("making the page"):
-        page = Page(with_binaries, names, wanted, manoeuvre, recordings, ends)
+        page = Page(with_binaries, names, settings, manoeuvre, recordings, ends)
         text = page.text(options.title if options.title is not None else ", ".join(names))
     with atomic_file(file) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
@@ -109,15 +114,15 @@ def _places(world: World, fmu: FmuParts) -> dict[str, dict[str, Value]]:
     return {name: values for name, values in world.places().items() if set(values) <= set(fmu.variables.names)}
 
 
-def _manoeuvre(fmus: Sequence[FmuParts], given: str | None) -> Manoeuvre | None:
+def _manoeuvre(fmus: Sequence[FmuParts], named: str | None) -> Manoeuvre | None:
     """Inputs over time, checked."""
-    if given is None:
+    if named is None:
         return None
     names = [name for fmu in fmus for name in fmu.variables.names]
-    manoeuvre = with_names_of(load_manoeuvre(given), names)
+    manoeuvre = with_names_of(load_manoeuvre(named), names)
     script_of(manoeuvre)
-    known = [v.name for fmu in fmus for v in map(fmu.variables.__getitem__, fmu.variables.names) if _held(v)]
-    unknown = next((name for name in manoeuvre.inputs if name not in known), None)
+    settable = [v.name for fmu in fmus for v in map(fmu.variables.__getitem__, fmu.variables.names) if _held(v)]
+    unknown = next((name for name in manoeuvre.inputs if name not in settable), None)
     if unknown is not None:
         raise HostError(
             f"The manoeuvre '{manoeuvre.name}' has a column '{unknown}', which is neither an input nor a tunable "
@@ -144,10 +149,10 @@ def _beside(results: Sequence[Path], fmu: FmuParts) -> list[Recording]:
     return recordings
 
 
-def _names(fmus: Sequence[FmuParts], given: Sequence[str]) -> list[str]:
-    if len(given) > len(fmus):
-        raise HostError(f"--name is given {len(given)} times for {len(fmus)} FMUs; give it once for each.")
-    titles = [*given, *(fmu.name for fmu in fmus[len(given) :])]
+def _names(fmus: Sequence[FmuParts], own_titles: Sequence[str]) -> list[str]:
+    if len(own_titles) > len(fmus):
+        raise HostError(f"--name is given {len(own_titles)} times for {len(fmus)} FMUs; give it once for each.")
+    titles = [*own_titles, *(fmu.name for fmu in fmus[len(own_titles) :])]
     for k, title in enumerate(titles):
         if title in titles[:k]:
             titles[k] = f"{title} {titles[: k + 1].count(title)}"
@@ -175,12 +180,12 @@ def _plottable(fmu: FmuParts, name: str) -> bool:
     return name in fmu.variables.names and fmu.variables[name].causality in ("input", "output")
 
 
-def _start(fmus: Sequence[FmuParts], wanted: FmuOptions) -> dict[str, Value]:
+def _start(fmus: Sequence[FmuParts], set_options: FmuOptions) -> dict[str, Value]:
     """Start values that the first FMU must have; the others take those that they have too."""
     settings = Settings(fmus[0].variables)
-    for file in wanted.sets:
+    for file in set_options.sets:
         settings.add_set(file)
-    settings.add_texts(wanted.values, "--set")
+    settings.add_texts(set_options.values, "--set")
     start = settings.start
     for fmu in fmus[1:]:
         for name in start:

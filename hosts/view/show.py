@@ -38,10 +38,10 @@ def show(options: argparse.Namespace) -> int:
         if file is not None:
             check_writable(file)
     folder = page.parent if page is not None else Path("out")
-    given = options_with_road(options, folder)
-    run = ViewRunOptions(options.manoeuvre, options.stop_time, options.step, given)
-    recordings, told, good = recordings_of(options.what, options.geometry, run)
-    for line in told:
+    set_options = options_with_road(options, folder)
+    run = ViewRunOptions(options.manoeuvre, options.stop_time, options.step, set_options)
+    recordings, lines, good = recordings_of(options.what, options.geometry, run)
+    for line in lines:
         print(line)
     if options.begin is not None or options.end is not None:
         begin = -math.inf if options.begin is None else options.begin
@@ -100,9 +100,9 @@ def _start(recordings: Sequence[Recording], options: argparse.Namespace) -> dict
 
 
 def _write_page(page: Path, recordings: Sequence[Recording], options: argparse.Namespace, notes: list[str]) -> str:
-    made = write_page(page, recordings, options=_start(recordings, options), most=options.most)
-    notes += made.notes
-    return f"{made.path} ({1e-6 * made.size:.2g} MB)"
+    page_file = write_page(page, recordings, options=_start(recordings, options), most=options.most)
+    notes += page_file.notes
+    return f"{page_file.path} ({1e-6 * page_file.size:.2g} MB)"
 
 
 def _exports(recordings: Sequence[Recording], options: argparse.Namespace, notes: list[str]) -> Iterator[Path]:
@@ -110,11 +110,11 @@ def _exports(recordings: Sequence[Recording], options: argparse.Namespace, notes
     start = _look(options)
     size = (options.size[0], options.size[1])
     if options.gltf is not None:
-        made = write_gltf(options.gltf, recordings[0])
-        notes += made.notes
+        gltf_file = write_gltf(options.gltf, recordings[0])
+        notes += gltf_file.notes
         notes.append(
-            f"{made.path}: {1e-6 * made.size:.2g} MB, {made.times} times; between them a point is up to "
-            f"{made.position_error:.2g} mm and an orientation {made.angle_error:.2g} degrees off."
+            f"{gltf_file.path}: {1e-6 * gltf_file.size:.2g} MB, {gltf_file.times} times; between them a point is up to "
+            f"{gltf_file.position_error:.2g} mm and an orientation {gltf_file.angle_error:.2g} degrees off."
         )
         yield options.gltf
     if options.png is not None:

@@ -95,8 +95,8 @@ def _report_other_grounds(recordings: Sequence[Recording]) -> None:
     """Note of each run that is a ghost on the ground of the first but ran on another."""
     grounds = [(one, one.scene.get("roads", [])) for one in recordings if one.scene is not None]
     for ghost, ground in grounds[1:]:
-        first, drawn = grounds[0]
-        if ground != drawn:
+        first, drawn_ground = grounds[0]
+        if ground != drawn_ground:
             ghost.notes.append(f"It ran on another ground than {first.name}, whose ground is drawn.")
 
 
@@ -135,8 +135,8 @@ def _of_result(path: Path, name: str, geometry: Path | None) -> tuple[Recording,
         source = geometry or _fmu_of(record, record_file)
         scene = scene_from(source, settings, record.get("world"))
         if is_archive(source):
-            known, same = _units(source, str(record.get("token", "")))
-            units = known | units
+            declared, same = _units(source, str(record.get("token", "")))
+            units = declared | units
             if not same:
                 notes.append(other_build(source, name))
         _add_names_of_fmu(table, units, record, record_file)
@@ -180,13 +180,13 @@ def _add_names_of_fmu(table: Table, units: dict[str, str], record: dict[str, Any
     """Columns that a run with an alias file has under our names, under those of the FMU too: its drawing reads them."""
     names = record.get("names", {})
     try:
-        known = {str(theirs): (str(ours), float(f), float(o)) for theirs, (ours, f, o) in names.items()}
+        converted = {str(theirs): (str(ours), float(f), float(o)) for theirs, (ours, f, o) in names.items()}
     except (AttributeError, TypeError, ValueError):
         raise HostError(
             f"{file}, the record of the result, does not say by 'names' a name, a factor and an offset for each of the "
             "FMU's names."
         ) from None
-    for theirs, (ours, factor, offset) in known.items():
+    for theirs, (ours, factor, offset) in converted.items():
         if ours in table.columns and theirs not in table.columns:
             table.columns[theirs] = factor * table.columns[ours] + offset
             if (factor, offset) == (1.0, 0.0):
@@ -199,7 +199,7 @@ def _with_course(scene: dict[str, Any], record: dict[str, Any], file: Path) -> d
     if course is None:
         return scene
     track, width = (course.get(key) if isinstance(course, dict) else None for key in ("track", "vehicle_width"))
-    name = next((name for name, known in TRACKS.items() if known == track), None)
+    name = next((name for name, gates in TRACKS.items() if gates == track), None)
     if name is None or not isinstance(width, (int, float)) or not 0.0 < width < _WIDEST:
         raise HostError(
             f"{file}, the record of the result, does not say by 'course' a track of ISO 3888 and a vehicle_width, m."
@@ -245,21 +245,21 @@ def _foreign(path: Path) -> str:
     )
 
 
-def _of_fmu(path: Path, name: str, wanted: ViewRunOptions) -> tuple[Recording, list[str], bool]:
+def _of_fmu(path: Path, name: str, run_options: ViewRunOptions) -> tuple[Recording, list[str], bool]:
     """Run an FMU: through a manoeuvre, or for its default experiment; whether the run is good."""
     notes = []
     with Fmu(path) as fmu:
-        given = wanted.manoeuvre
+        manoeuvre_name = run_options.manoeuvre
         car = set(ACTS) <= set(fmu.names("input")) and set(OBSERVED) <= set(fmu.names("output"))
-        if given is None and car and wanted.stop_time is None:
-            given = _CAR_MANOEUVRE
-            notes.append(f"{path} is driven through {given}; --manoeuvre names another.")
-        manoeuvre = with_names_of(manoeuvre_of(fmu, given, wanted.stop_time), fmu.variables)
+        if manoeuvre_name is None and car and run_options.stop_time is None:
+            manoeuvre_name = _CAR_MANOEUVRE
+            notes.append(f"{path} is driven through {manoeuvre_name}; --manoeuvre names another.")
+        manoeuvre = with_names_of(manoeuvre_of(fmu, manoeuvre_name, run_options.stop_time), fmu.variables)
         check_columns(fmu, manoeuvre)
         driver = driver_of(fmu, manoeuvre)
-        manoeuvre, settings = set_in(fmu, manoeuvre, wanted.fmu_options)
+        manoeuvre, settings = set_in(fmu, manoeuvre, run_options.fmu_options)
         scene = scene_of(path, settings.start)
-        result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, wanted.step), driver)
+        result = run_with_bar(fmu, manoeuvre, communication_step(fmu, manoeuvre, run_options.step), driver)
     if scene is None:
         notes.append(_foreign(path))
     else:
@@ -274,5 +274,5 @@ def _of_fmu(path: Path, name: str, wanted: ViewRunOptions) -> tuple[Recording, l
     elif result.failed_steps:
         notes.append(f"{path} refused the step at {result.time[-1]:g} s; what came before is shown.")
     columns = {n: result.values[:, k] for k, n in enumerate(result.names)}
-    title = name if given is None else f"{name}, {manoeuvre.name.replace('_', ' ')}"
+    title = name if manoeuvre_name is None else f"{name}, {manoeuvre.name.replace('_', ' ')}"
     return Recording(scene, result.time, columns, result.units, settings.title(title)), notes, result.is_good

@@ -56,7 +56,7 @@ def test_every_method_of_a_model_is_in_the_table():
 
 
 def test_every_argument_of_a_model_is_in_the_table():
-    given: dict[str, set[str]] = {}
+    arguments: dict[str, set[str]] = {}
     for call, right in model.RIGHT.items():
-        given.setdefault(model.method_of(call), set()).update(right(model.Bench()))
-    assert given == {method: set(kinds_of(getattr(Model, method))) for method in given}
+        arguments.setdefault(model.method_of(call), set()).update(right(model.Bench()))
+    assert arguments == {method: set(kinds_of(getattr(Model, method))) for method in arguments}

@@ -66,12 +66,12 @@ def problem_of(error: Exception, argument: str, value: Any) -> str:
         return "cannot be printed"
     words = [argument, argument.replace("_", " "), *re.split(r"_\d?", argument)]
     named = any(word and word in message for word in words)
-    reported = shown(value) in message or (isinstance(value, float) and f"{value:g}" in message)
+    shows_value = shown(value) in message or (isinstance(value, float) and f"{value:g}" in message)
     if isinstance(value, (list, tuple)):
-        reported = reported or any(shown(part) in message for part in value)
+        shows_value = shows_value or any(shown(part) in message for part in value)
     if isinstance(value, np.ndarray):
-        reported = reported or str(value.shape) in message or "nan" in message
-    return "" if named or reported else "neither the argument nor the value is named"
+        shows_value = shows_value or str(value.shape) in message or "nan" in message
+    return "" if named or shows_value else "neither the argument nor the value is named"
 
 
 def problems_of(use: Callable[[Any], object], argument: str, allowed: Callable[[str, Any], bool]) -> list[str]:

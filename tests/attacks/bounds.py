@@ -1,4 +1,4 @@
-"""How much an attack may take: seeds by chance, which are printed, within bounds of time and memory."""
+"""Limits of the attacks on readers: random seeds, which are printed, time and memory."""
 
 import os
 import random
@@ -38,8 +38,8 @@ def little_memory() -> Iterator[None]:
     """This process gets no more than `_MEMORY`."""
     resource = pytest.importorskip("resource")
     limits = resource.getrlimit(resource.RLIMIT_AS)
-    held = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
-    resource.setrlimit(resource.RLIMIT_AS, (held + _MEMORY, limits[1]))
+    used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (used + _MEMORY, limits[1]))
     try:
         yield
     finally:

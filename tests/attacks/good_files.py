@@ -38,9 +38,9 @@ GOOD: dict[str, bytes] = {
 
 
 def _bytes_of(write: Callable[[io.BytesIO], object]) -> bytes:
-    made = io.BytesIO()
-    write(made)
-    return made.getvalue()
+    buffer = io.BytesIO()
+    write(buffer)
+    return buffer.getvalue()
 
 
 def _output4() -> bytes:

@@ -1,4 +1,4 @@
-"""Archives by chance: nothing is written outside of the folder, and what is refused is one sentence that names them."""
+"""Randomly altered archives: nothing is written outside the folder; a refusal is one sentence with the file."""
 
 import random
 import shutil
@@ -24,16 +24,16 @@ _MODES = (0, stat.S_IFREG, stat.S_IFLNK, stat.S_IFIFO, stat.S_IFDIR, stat.S_IFCH
 def archive(file: Path, seed: int) -> None:
     """An FMU with entries of any name, kind and method; of half of them bytes are altered."""
     chance = random.Random(seed)
-    with warnings.catch_warnings(), zipfile.ZipFile(file, "w") as made:
+    with warnings.catch_warnings(), zipfile.ZipFile(file, "w") as target:
         warnings.simplefilter("ignore")  # of doubled names
-        made.writestr("modelDescription.xml", DESCRIPTION.format(""))
+        target.writestr("modelDescription.xml", DESCRIPTION.format(""))
         for _ in range(chance.randrange(6)):
             name = "/".join(chance.choice(_PARTS) for _ in range(chance.randrange(1, 4)))
             info = zipfile.ZipInfo("a")
             info.filename = name
             info.external_attr = (chance.choice(_MODES) | 0o777) << 16
             info.compress_type = chance.choice(_METHODS)
-            made.writestr(info, b"/etc/passwd" * chance.choice((1, 1, 10_000)))
+            target.writestr(info, b"/etc/passwd" * chance.choice((1, 1, 10_000)))
     if chance.random() < 0.5:
         file.write_bytes(altered(file.read_bytes(), seed))
 
@@ -53,8 +53,8 @@ def check(seed: int, folder: Path) -> bool:
     fault = fault_of(unpack, file, may_be_read=False)
     assert fault in ("", "it is read"), f"seed {seed}: {fault}"
     assert sorted(folder.iterdir()) == before, f"seed {seed}"
-    for made in inside.rglob("*"):
-        assert made.is_dir() or (made.is_file() and not made.is_symlink()), f"seed {seed}: {made}"
+    for unpacked in inside.rglob("*"):
+        assert unpacked.is_dir() or (unpacked.is_file() and not unpacked.is_symlink()), f"seed {seed}: {unpacked}"
     if fault == "it is read":
         assert faults_of(file) == [], f"seed {seed}"
         assert not [finding for finding in archive_findings(file) if finding.verdict == "bad"], f"seed {seed}"

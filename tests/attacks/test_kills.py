@@ -1,4 +1,4 @@
-"""Commands that are killed at any moment: what was whole stays; the same command goes on and clears what was left."""
+"""Commands that are killed at random times: complete files stay; the same command resumes and removes the rest."""
 
 import os
 import random

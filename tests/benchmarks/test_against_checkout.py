@@ -1,4 +1,4 @@
-"""`python -m benchmarks.cost turns`: this checkout against itself takes the same, and what is no checkout is told."""
+"""`python -m benchmarks.cost turns`: a checkout against itself costs the same; what is no checkout is reported."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Films of the scenes: the command writes what it says, and the documentation has all of them."""
+"""Films of the scenes: the command writes the files that it reports, and the documentation shows all of them."""
 
 from pathlib import Path
 

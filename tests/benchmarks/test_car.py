@@ -55,11 +55,11 @@ def test_a_car_without_references_is_reported(capsys):
 def test_measures_of_a_car(tmp_path, capsys, monkeypatch):
     """What a car has is held by `benchmarks.figures`; here where it is written."""
     file = tmp_path / "handling.json"
-    reported = {m.name: 0.5 + k for k, m in enumerate(MEASURES)}
-    monkeypatch.setattr(measures, "measure", lambda car: reported)
+    values = {m.name: 0.5 + k for k, m in enumerate(MEASURES)}
+    monkeypatch.setattr(measures, "measure", lambda car: values)
     assert car.main(["handling", "--cars", "hatchback", "--json", str(file)]) == 0
     rows = json.loads(file.read_text(encoding="utf-8"))["rows"]
-    assert {row["measure"]: row["hatchback"] for row in rows} == reported
+    assert {row["measure"]: row["hatchback"] for row in rows} == values
     assert all(set(row) == {"measure", "unit", "hatchback", "usual", "meaning"} for row in rows)
     assert "| roll gradient, deg/g |" in capsys.readouterr().out
 

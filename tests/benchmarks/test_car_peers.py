@@ -1,4 +1,4 @@
-"""`python -m benchmarks.car_peers`: cars of other programs turn as cars do, and are driven as ours is."""
+"""`python -m benchmarks.car_peers`: cars in other programs turn as expected, and get the same inputs as ours."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ from benchmarks.peers import commonroad_car  # noqa: E402
 exudyn = pytest.importorskip("exudyn")
 from benchmarks.peers import exudyn_car  # noqa: E402
 
-CAR, MASS, H = load("prototype"), 600.0, 5e-3
+CAR = load("prototype")
+MASS = 600.0  # kg
+H = 5e-3  # s
 
 
 def test_it_stands_on_its_springs_with_its_weight() -> None:
@@ -105,9 +107,9 @@ def test_exudyns_car_turns_and_leans_as_its_numbers_say(rates: dict[str, float])
         CAR.chassis.com[0] - CAR.rear.wheel.centre[0],
         MASS - 2.0 * (CAR.front.wheel.mass + CAR.rear.wheel.mass),
     )
-    for name, axle, way in (("front", CAR.front, ahead), ("rear", CAR.rear, CAR.wheelbase - ahead)):
+    for name, axle, lever in (("front", CAR.front, ahead), ("rear", CAR.rear, CAR.wheelbase - ahead)):
         spring, tyre = rates[f"{name}.wheel_rate"], axle.tyre.stiffness
-        carried = body * way / CAR.wheelbase / 2.0 + axle.wheel.mass
+        carried = body * lever / CAR.wheelbase / 2.0 + axle.wheel.mass
         moment += 2.0 * carried * (9.81 * carried / tyre)
         stiffness += 0.5 * axle.track**2 * spring * tyre / (spring + tyre)
         moment += 2.0 * axle.wheel.mass * axle.wheel.centre[2]
@@ -127,7 +129,7 @@ def test_exudyns_car_comes_to_its_motion_with_order_two(rates: dict[str, float])
     assert (ends[0] - ends[1]) / (ends[1] - ends[2]) > 3.5
 
 
-def test_what_is_not_installed_is_left_out_with_a_word(capsys, monkeypatch) -> None:
+def test_programs_that_are_not_installed_are_left_out_with_a_message(capsys, monkeypatch) -> None:
     monkeypatch.setattr(car_peers, "PEERS", {"Exudyn": ("no_such_module",)})
     monkeypatch.setattr(car_peers, "SCENES", ())
     assert car_peers.main([]) == 0

@@ -48,7 +48,7 @@ def test_work_precision_runs_every_method_and_the_default_gets_better_with_the_s
 
 
 @pytest.mark.slow
-def test_stability_maps_judge_every_method_and_explain_what_stopped(tmp_path, capsys):
+def test_stability_maps_judge_every_method_and_explain_refusals(tmp_path, capsys):
     files = ["--json", str(tmp_path / "s.json"), "--chart", str(tmp_path)]
     assert stability.main(["--quick", "--only", "double_four_bar", *files]) == 0
     _, rows = read(tmp_path / "s.json")
@@ -129,10 +129,10 @@ def test_what_goes_against_the_rule_is_counted_and_named():
     assert (line["right"], line["wrong"], line["missed"], line["false alarms"]) == (2, 2, 1, 1)
     assert line["right without a repeat"] == 0.5
     assert line["above the estimate"] == 1
-    reported = honesty_blocks(rows)["honesty exceptions"]
-    assert "missed: s at 0.3 s (0.3)" in reported
-    assert "false alarm: s at 0.02 s (0.02)" in reported
-    assert "estimate 1.0e-02" in reported
+    exceptions = honesty_blocks(rows)["honesty exceptions"]
+    assert "missed: s at 0.3 s (0.3)" in exceptions
+    assert "false alarm: s at 0.02 s (0.02)" in exceptions
+    assert "estimate 1.0e-02" in exceptions
 
 
 def test_written_sentences_are_wrapped_and_tables_are_not():

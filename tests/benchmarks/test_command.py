@@ -16,7 +16,8 @@ from benchmarks.shared.pages import table
 from benchmarks.shared.timing import step_time
 from mbs import Settings
 
-H, DURATION = 0.01, 0.05  # s
+H = 0.01  # s
+DURATION = 0.05  # s
 ROWS = [{"scene": "a", "h_s": 0.1}, {"scene": "b", "h_s": 0.2}]
 
 
@@ -59,8 +60,8 @@ def test_rows_are_printed_written_drawn_and_put_into_the_page(tmp_path, capsys, 
     assert run("it", "Text.", PARTS, ["some", "--only", "b", "--size", "4", *files]) == 0
     written = json.loads(file.read_text(encoding="utf-8"))
     assert written["rows"] == [{"scene": "b", "h_s": 0.2, "size": 4.0}]
-    reported = {"benchmark": "it", "part": "some", "only": ["b"], "size": 4.0, "many": [1, 2], "fast": False}
-    assert reported.items() <= written["meta"].items()
+    meta = {"benchmark": "it", "part": "some", "only": ["b"], "size": 4.0, "many": [1, 2], "fast": False}
+    assert meta.items() <= written["meta"].items()
     assert written["meta"]["settings"] == Settings().kernel_fields()
     assert chart.read_bytes().startswith(b"\x89PNG")
     printed = capsys.readouterr().out
@@ -91,7 +92,7 @@ def test_rows_of_earlier_runs_are_taken_together(tmp_path, capsys):
 def test_what_is_not_good_ends_with_one_and_wrong_options_with_two(capsys):
     assert run("it", "Text.", PARTS, ["some", "--fast"]) == 1
     assert capsys.readouterr().out.endswith("a is fast\nb is fast\n")
-    for arguments, reported in (
+    for arguments, message in (
         (["some", "--size", "-1"], "--size is -1.0; it is a positive number."),
         (["some", "--only", "c"], "invalid choice: 'c'"),
         ([], "required: PART"),
@@ -99,7 +100,7 @@ def test_what_is_not_good_ends_with_one_and_wrong_options_with_two(capsys):
         with pytest.raises(SystemExit) as ended:
             run("it", "Text.", PARTS, arguments)
         assert ended.value.code == 2
-        assert reported in capsys.readouterr().err
+        assert message in capsys.readouterr().err
 
 
 def test_a_part_that_writes_has_no_rows(capsys):
@@ -109,12 +110,12 @@ def test_a_part_that_writes_has_no_rows(capsys):
         run("it", "Text.", PARTS, ["writer", "--json", "x"])
 
 
-def test_rows_without_a_page_are_printed_with_all_their_columns_or_in_own_words(capsys):
+def test_rows_without_a_page_are_printed_with_all_columns_or_as_their_text(capsys):
     rows = [{"a": 1.25, "b": "x"}, {"a": None, "b": "yz"}]
     assert run("it", "Text.", {"only": Part("two", lambda options: rows)}, []) == 0
     assert capsys.readouterr().out.split()[:8] == ["a", "b", "----", "--", "1.25", "x", "-", "yz"]
-    reported = Part("two", lambda options: rows, words=lambda rows: f"{len(rows)} rows")
-    assert run("it", "Text.", {"only": reported}, []) == 0
+    part = Part("two", lambda options: rows, words=lambda rows: f"{len(rows)} rows")
+    assert run("it", "Text.", {"only": part}, []) == 0
     assert capsys.readouterr().out.startswith("2 rows\n\n")
 
 

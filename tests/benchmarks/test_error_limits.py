@@ -1,4 +1,4 @@
-"""What the page of trust is made of: the closed form of a period, and rows in its tables."""
+"""Tables of the page on trust: the closed form of a period, and the rows of the tables."""
 
 import pytest
 
@@ -7,7 +7,7 @@ from benchmarks.shared.figures import rows_of
 
 
 @pytest.mark.parametrize("steps", error_limits.IN_A_PERIOD)
-def test_the_computed_motion_is_slower_by_what_the_trapezoidal_rule_says(steps):
+def test_the_period_error_is_that_of_the_trapezoidal_rule(steps):
     """Its frequency is 2 atan(omega h / 2) / h: (omega h)^2 / 12 less, and no more than the next term of the series."""
     row = error_limits.frequency(steps)
     phase = 2.0 * 3.141592653589793 / steps

@@ -1,4 +1,4 @@
-"""Figures of the pages are held against new ones, and one that is altered is told by a sentence."""
+"""Figures of the pages are compared with new ones, and a changed figure is reported in one sentence."""
 
 import re
 
@@ -29,11 +29,11 @@ def test_only_the_last_of_three_digits_may_be_one_off():
     assert same("-1.20e-05", "-1.21e-05")
     assert same("17.24%", "17.23%")
     assert same("0.52 mm, 1.30e-04", "0.52 mm, 1.31e-04")
-    for shown, made in (("0.887", "0.885"), ("2.5", "2.6"), ("0.887", "0.0886"), ("117", "118"), ("1.00", "-1.00")):
-        assert not same(shown, made)
-        assert not same(f"{shown}%", f"{made}%")
-    for shown, made in (("17.24%", "17.24"), ("17.24%", "17.23 N"), ("2, 12", "2"), (None, "2")):
-        assert not same(shown, made)
+    for shown, computed in (("0.887", "0.885"), ("2.5", "2.6"), ("0.887", "0.0886"), ("117", "118"), ("1.00", "-1.00")):
+        assert not same(shown, computed)
+        assert not same(f"{shown}%", f"{computed}%")
+    for shown, computed in (("17.24%", "17.24"), ("17.24%", "17.23 N"), ("2, 12", "2"), (None, "2")):
+        assert not same(shown, computed)
 
 
 @pytest.mark.parametrize(
@@ -55,7 +55,7 @@ def test_an_altered_sentence_is_reported():
     assert differences(again, PAGE.replace("0.36", "0.29")) == ["README.md does not say: takes 0.36 s of time"]
 
 
-def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_reported(tmp_path):
+def test_a_chart_carries_its_description_and_changed_panels_are_reported(tmp_path):
     """A panel less, another unit, a curve more, a figure of the summary that is another."""
 
     def drawn(name, panels, load):
@@ -92,19 +92,19 @@ def test_a_chart_carries_what_it_shows_and_what_is_gone_or_new_is_reported(tmp_p
         f"{drawn_now}largest wheel load: 2355 N",
     ]
     assert differences(again, new) == []
-    (reported,) = differences(again, "")
-    assert reported.startswith("docs/images/x.png does not say what it shows; python -m benchmarks.figures --write")
+    (message,) = differences(again, "")
+    assert message.startswith("docs/images/x.png does not say what it shows; python -m benchmarks.figures --write")
 
 
 @pytest.mark.parametrize("name", chart_commands.DRAWN)
-def test_charts_that_are_drawn_again_say_what_they_show(name):
+def test_redrawn_charts_carry_their_description(name):
     page = f"docs/images/{name}"
     assert len(read(page).splitlines()) > 1
     pages = [DOCS.parent / "README.md", *DOCS.glob("*.md")]
     assert any(f"images/{name})" in file.read_text(encoding="utf-8") for file in pages)
 
 
-def test_a_table_is_written_with_what_was_made_and_keeps_the_rest():
+def test_a_table_is_written_with_the_new_cells_and_keeps_the_rest():
     other = PAGE.replace("| 2.5 |", "| 7 |").replace("| 9 |", "| 11 |")
     assert written(AGAIN, other) == PAGE.replace("| 9 |", "| 11 |")  # a time is not made
     assert written(AGAIN, PAGE.replace("| b | 0.1 | 1e-05 | 8 |\n", "")).count("| b | 0.1 | 1e-05 | 8 |") == 1
@@ -113,7 +113,7 @@ def test_a_table_is_written_with_what_was_made_and_keeps_the_rest():
     assert rows_of(written(AGAIN, PAGE.replace("| ms |", "| us |"))) == rows_of(MADE)  # other columns: a new table
 
 
-def test_the_readme_says_what_the_tables_of_the_pages_say():
+def test_figures_of_the_readme_agree_with_the_tables_of_the_pages():
     result = [*figures.readme(), *figures.instructions()]
     assert [line for again in result for line in differences(again, read(again.page))] == []
 
@@ -121,9 +121,9 @@ def test_the_readme_says_what_the_tables_of_the_pages_say():
 def test_each_figure_of_the_readme_is_held():
     """A digit at a time, all others as they are."""
     for again in figures.readme():
-        page, reported = (" ".join(text.split()) for text in (read(again.page), again.text))
-        assert page.count(reported) == 1
-        digits = [page.index(reported) + found.start() for found in re.finditer(r"\d", reported)]
+        page, figure = (" ".join(text.split()) for text in (read(again.page), again.text))
+        assert page.count(figure) == 1
+        digits = [page.index(figure) + found.start() for found in re.finditer(r"\d", figure)]
         assert digits
         for k in digits:
             altered = f"{page[:k]}{(int(page[k]) + 1) % 10}{page[k + 1 :]}"

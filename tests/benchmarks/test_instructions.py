@@ -1,4 +1,4 @@
-"""`python -m benchmarks.cost instructions`: the counts are those of the kernel, and a dearer step is told."""
+"""`python -m benchmarks.cost instructions`: the counts are those of the kernel; a more expensive step is reported."""
 
 import json
 

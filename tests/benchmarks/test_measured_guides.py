@@ -1,4 +1,4 @@
-"""Motions from accelerometers: of signals that are known, and as guides of the kerb test."""
+"""Motions from accelerometers: from known signals, and as guides of the kerb test."""
 
 import numpy as np
 import pytest
@@ -30,13 +30,13 @@ def test_signals_without_faults_return_the_motion() -> None:
 
 
 def test_offset_and_drift_are_taken_out_and_a_sign_is_seen() -> None:
-    given = signals()
-    faulty = guides.Signals(T, given.force + 0.3 - 0.03 * T[:, np.newaxis, np.newaxis])
+    original = signals()
+    faulty = guides.Signals(T, original.force + 0.3 - 0.03 * T[:, np.newaxis, np.newaxis])
     result = guides.motion(faulty, WAY)
     assert np.sqrt(np.mean((result.way - kerb_test.distance(T)) ** 2)) < 0.05
     plain = cumulative_trapezoid(cumulative_trapezoid(faulty.force[:, 0, 0], T, initial=0.0), T, initial=0.0)
     assert np.abs(plain - kerb_test.distance(T)).max() > 5.0  # what drift would do
-    turned = guides.motion(guides.Signals(T, -given.force), -WAY)
+    turned = guides.motion(guides.Signals(T, -original.force), -WAY)
     assert turned.way[-1] == pytest.approx(-WAY, rel=1e-9)
 
 

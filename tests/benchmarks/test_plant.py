@@ -1,4 +1,4 @@
-"""`python -m benchmarks.fmu plant`: a positive figure for every way, and environments that are the same in all."""
+"""`python -m benchmarks.fmu plant`: positive figures, and the same results from all kinds of environments."""
 
 from pathlib import Path
 

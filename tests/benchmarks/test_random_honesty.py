@@ -85,14 +85,14 @@ def test_an_unknown_family_is_refused(capsys):
     assert "no family 'lorries'" in capsys.readouterr().err
 
 
-def test_a_wrong_run_without_a_word_is_found(monkeypatch):
+def test_a_wrong_run_without_a_warning_is_found(monkeypatch):
     """The judge itself: with the checks of a run turned off the same case is silently wrong."""
     case, number = {"family": "tumbling", "seed": 1}, TUMBLES
-    reported = list(random_honesty.rows_of(**case, numbers=[number]))
+    rows = list(random_honesty.rows_of(**case, numbers=[number]))
     real = random_honesty.mbs.simulate
     monkeypatch.setattr(random_honesty.mbs, "simulate", lambda *a, **k: real(*a, **k, estimate_error=False))
     silent = list(random_honesty.rows_of(**case, numbers=[number]))
-    assert [(r["kind"], r["verdict"]) for r in (reported[0], silent[0])] == [
+    assert [(r["kind"], r["verdict"]) for r in (rows[0], silent[0])] == [
         ("body", "wrong, told"),
         ("body", "silently wrong"),
     ]

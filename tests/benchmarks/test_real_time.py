@@ -14,7 +14,7 @@ H = 2e-3
 
 
 @pytest.mark.slow
-def test_the_rows_say_what_steps_cost(prototype_fmu, tmp_path, capsys, monkeypatch):
+def test_the_rows_have_the_costs_of_steps(prototype_fmu, tmp_path, capsys, monkeypatch):
     file = tmp_path / "rows.json"
     chosen = ["--fmu", str(prototype_fmu), "--seconds", "2", "--fidelity", "0", "--step", "2", "10", "--limit", "2"]
     monkeypatch.setattr(real_time, "drive", _without_fidelity)

@@ -31,7 +31,7 @@ def files(folder: Path) -> list[Path]:
     return [file for file in folder.rglob("*.py") if "__pycache__" not in file.parts]
 
 
-def test_every_folder_is_a_room_and_says_what_it_holds() -> None:
+def test_every_folder_is_a_room_with_a_docstring() -> None:
     packages = {file.parent.name: file for file in FOLDER.glob("*/__init__.py")}
     assert set(packages) == set(ROOMS)
     assert all(ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) for file in packages.values())
@@ -83,7 +83,7 @@ def test_a_command_explains_its_arguments(name: str, capsys: pytest.CaptureFixtu
 
 
 @pytest.mark.parametrize("name", sorted(set(commands()) - {"figures"}))
-def test_what_measures_writes_rows_and_what_has_a_page_has_its_marks(name: str) -> None:
+def test_parts_that_measure_write_rows_and_parts_with_a_page_have_its_marks(name: str) -> None:
     """Tables of a part stand on its pages, and what is between marks there is made by a part or by `figures`."""
     for key, part in importlib.import_module(MODULES[name]).PARTS.items():
         assert part.about

@@ -1,4 +1,4 @@
-"""`python -m benchmarks.cost throughput`: all ways make the same steps."""
+"""`python -m benchmarks.cost throughput`: single runs, lanes and threads make the same steps."""
 
 import json
 

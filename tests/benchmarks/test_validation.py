@@ -1,4 +1,4 @@
-"""Fits of bicycles against a drive that another program has integrated, with numbers that are known."""
+"""Fits of bicycle models to a drive with known parameters, integrated by SciPy."""
 
 import gzip
 from dataclasses import replace
@@ -17,8 +17,11 @@ from hosts.compare.log_aliases import read_log_aliases
 from hosts.compare.log_file import read_log
 
 BODY = Body(1000.0, 1500.0, 1.3, 1.1)
-STIFFNESS, GRIP, OFFSET = (80e3, 120e3), 1.1, 0.002
-END, H = 275.0, 0.01
+STIFFNESS = (80e3, 120e3)  # N/rad, front and rear
+GRIP = 1.1
+OFFSET = 0.002  # rad, of the steering
+END = 275.0  # s
+H = 0.01  # s
 PLACES = {model.name: k for k, model in enumerate(MODELS)}
 
 
@@ -83,8 +86,8 @@ def test_a_centre_of_mass_beside_the_middle_turns_the_braked_car(drive: Drive) -
     own = soft | {"centre of mass to the left": right}
     numbers = np.array([[own.get(u.name, 0.0) for u in model.unknowns]])
     _, rate = simulate(model, BODY, braked, np.array([100]), 100, numbers)
-    wanted = BODY.mass * deceleration * -right / BODY.yaw_inertia
-    assert rate[0, 0, -1] == pytest.approx(wanted, rel=1e-3)
+    expected = BODY.mass * deceleration * -right / BODY.yaw_inertia
+    assert rate[0, 0, -1] == pytest.approx(expected, rel=1e-3)
 
 
 def test_a_packed_log_is_read_by_its_alias_file(tmp_path: Path) -> None:
@@ -116,9 +119,9 @@ def test_two_tracks_turn_where_brakes_and_drive_differ_from_side_to_side(drive: 
     numbers |= {"yaw inertia factor": 1.0, "brake side": 0.1, "exponent of stiffness": 0.5}
     braked = Drive(drive.time, zero, speeds, zero, zero)
 
-    def turned(model: Model, given: Drive, **changed: float) -> float:
+    def turned(model: Model, drive: Drive, **changed: float) -> float:
         p = np.array([[(numbers | changed)[u.name] for u in model.unknowns]])
-        return float(two_track.simulate(model, BODY, given, np.array([0]), 50, p)[1][0, 0, 50])
+        return float(two_track.simulate(model, BODY, drive, np.array([0]), 50, p)[1][0, 0, 50])
 
     moment = 0.1 * 4.0 * BODY.mass * 0.5 * two_track.TRACK
     for model in (by_load, opened):
@@ -133,8 +136,8 @@ def test_the_bank_of_the_road_is_found_by_place_and_moves_the_car(drive: Drive) 
     """Laps of 2200 m on a road that is banked by place; the sensor rolls by 3 % of the acceleration."""
     time = np.arange(0.0, 190.0, H)
     v = 31.0 + 3.0 * np.sin(0.13 * time)
-    way = np.concatenate([[0.0], np.cumsum(0.5 * H * (v[1:] + v[:-1]))])
-    phase = 2.0 * np.pi * way / 2200.0
+    distance = np.concatenate([[0.0], np.cumsum(0.5 * H * (v[1:] + v[:-1]))])
+    phase = 2.0 * np.pi * distance / 2200.0
     rate = v * 4e-3 * (np.sin(phase) + np.sin(3.0 * phase) + 0.7 * np.cos(7.0 * phase))
     true = 0.4 * np.sin(2.0 * phase) - 0.2 * np.cos(4.0 * phase)
     banked = Drive(time, 0.0 * v, v, 0.0 * v, rate, 1.03 * rate * v - true)

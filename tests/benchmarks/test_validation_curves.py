@@ -1,4 +1,4 @@
-"""Understeer and sideslip over lateral acceleration, of motions that are known."""
+"""Understeer angle and sideslip over lateral acceleration, for known motions."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,9 @@ from benchmarks.validation.curves import (
 )
 from benchmarks.validation.drive import Drive
 
-L, V, GRADIENT = 2.4, 25.0, 0.004  # m, m/s, rad s2/m
+L = 2.4  # m
+V = 25.0  # m/s
+GRADIENT = 0.004  # rad s2/m
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""Starts beside a measured state, kinds of seconds that are left out, bounds of a fit: by closed forms."""
+"""Perturbed starts, seconds left out of a fit, and bounds of a fit, against closed forms."""
 
 from pathlib import Path
 
@@ -46,8 +46,8 @@ def laps() -> Drive:
     """Laps of 2000 m with a corner to the left at 500 to 700 m and one to the right at 1200 to 1300 m."""
     time = np.arange(0.0, 230.0, STEP)
     vx = 30.0 + 5.0 * np.sin(0.17 * time)
-    way = STEP * np.concatenate([[0.0], np.cumsum(0.5 * (vx[1:] + vx[:-1]))])
-    at = way % 2000.0
+    distance = STEP * np.concatenate([[0.0], np.cumsum(0.5 * (vx[1:] + vx[:-1]))])
+    at = distance % 2000.0
     curvature = np.where((at > 500.0) & (at < 700.0), 0.01, np.where((at > 1200.0) & (at < 1300.0), -0.02, 0.0))
     return Drive(time, 0.0 * time, vx, 0.0 * time, curvature * vx)
 
@@ -76,16 +76,16 @@ def test_a_kind_is_judged_by_what_the_others_lead_to() -> None:
     x = np.column_stack([random.normal(size=2 * count), np.ones(2 * count)])
     measured = random.normal(size=2 * count) + np.tile(number, 2)
     p = np.array([0.3, -0.2])
-    reported = omitted_seconds.without_kinds(x, x @ p - measured, np.arange(count), {"corners": family})
+    row = omitted_seconds.without_kinds(x, x @ p - measured, np.arange(count), {"corners": family})
     sizes = []
     for k in range(3):
         others = np.tile(number, 2) != k
         q = np.linalg.lstsq(x[others], measured[others], None)[0]
         own = np.flatnonzero(number == k)
         sizes.append(SCALES[0] * np.sqrt(np.mean((x[own] @ q - measured[own]) ** 2)))
-    assert reported["corners, mean"] == pytest.approx(np.mean(sizes))
-    assert reported["corners, worst"] == pytest.approx(max(sizes))
-    assert reported["worst kind"] == "abc"[int(np.argmax(sizes))]
+    assert row["corners, mean"] == pytest.approx(np.mean(sizes))
+    assert row["corners, worst"] == pytest.approx(max(sizes))
+    assert row["worst kind"] == "abc"[int(np.argmax(sizes))]
 
 
 def test_the_bounds_of_a_fit_are_read_and_a_number_near_one_is_reported(tmp_path: Path) -> None:

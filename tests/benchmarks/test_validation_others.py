@@ -1,4 +1,4 @@
-"""Tests of others: tyres on the rig, times from rest, the table of the page."""
+"""Published tests: tyres on the rig, acceleration times from rest, the table of the page."""
 
 from pathlib import Path
 
@@ -15,27 +15,25 @@ from mbs.tyre_files.fits import tmeasy_of_magic
 @pytest.mark.parametrize(("angle", "slip"), [(8.0, 0.0), (-3.0, 0.0), (0.0, -5.0), (0.0, 5.0)])
 def test_the_rig_returns_the_published_force_with_its_sign(angle: float, slip: float) -> None:
     lateral, load = slip == 0.0, 6000.0
-    reported = tyre_rig.published(
+    force = tyre_rig.published(
         tyre_rig.LATERAL if lateral else tyre_rig.LONGITUDINAL, lateral, load, angle if lateral else slip
     )
     actual = tyre_rig.on_the_rig(tyre_rig.magic(), load, angle, slip)
-    assert actual[lateral] == pytest.approx(reported, rel=3e-4)
+    assert actual[lateral] == pytest.approx(force, rel=3e-4)
     assert np.sign(actual[lateral]) == np.sign(angle + slip)
-    assert abs(actual[not lateral]) < 0.01 * abs(reported)
-    figure = Published(
-        "test", "N", {"formula": reported}, tyre_rig.read_within(lateral, load, angle if lateral else slip)
-    )
+    assert abs(actual[not lateral]) < 0.01 * abs(force)
+    figure = Published("test", "N", {"formula": force}, tyre_rig.read_within(lateral, load, angle if lateral else slip))
     assert figure.row(actual[lateral])["verdict"] == "within"
     assert figure.row(-actual[lateral])["verdict"] != "within"
 
 
-def test_the_other_formula_is_as_far_off_as_its_fit_tells() -> None:
+def test_the_error_of_the_other_formula_is_that_of_its_fit() -> None:
     tyre, errors = tmeasy_of_magic(tyre_rig.magic())
     assert errors["moment"] == 0.0  # there is no trail to be fitted
     load, most = 6000.0, 5500.0
     for angle in tyre_rig.ANGLES:
-        reported = tyre_rig.published(tyre_rig.LATERAL, True, load, angle)
-        off = abs(tyre_rig.on_the_rig(tyre, load, angle)[1] - reported)
+        force = tyre_rig.published(tyre_rig.LATERAL, True, load, angle)
+        off = abs(tyre_rig.on_the_rig(tyre, load, angle)[1] - force)
         assert 0.0 < off < 1.1 * errors["lateral"] * most
 
 

@@ -1,4 +1,4 @@
-"""Figures of others against drives that are known."""
+"""Published figures against drives with known results."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ def test_a_constant_acceleration_and_its_end() -> None:
     assert (first["verdict"], last["verdict"]) == ("within", "within")
 
 
-def test_what_is_off_says_by_how_much() -> None:
+def test_deviations_are_reported_with_their_size() -> None:
     assert FROM_REST.row(0.9 * (4.5 - 0.05))["verdict"] == "-10 %"
     assert FROM_REST.row(4.46)["verdict"] == "within"
     assert TOP_SPEED.row(1.2 * 290.5)["verdict"] == "+20 %"

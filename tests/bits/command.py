@@ -40,22 +40,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if _asked(name, options.only):
                 print(f"{name}: {len(signals)} signals, {'bits' if exact else f'to {store.RELATIVE:g}'}")
         return 0
-    wanted = [n for n in GROUPS if options.only in n or any(options.only in e and group_of(e) == n for e in stored)]
-    if not wanted:
+    chosen = [n for n in GROUPS if options.only in n or any(options.only in e and group_of(e) == n for e in stored)]
+    if not chosen:
         parser.error(f"no group or stored entry has {options.only!r} in its name; --list prints those there are")
-    result, failed = make_all(wanted, max(1, options.jobs))
+    result, failed = make_all(chosen, max(1, options.jobs))
     for name, message in failed.items():
         print(f"\n{name} cannot be made:\n{message}", file=sys.stderr)
-    made = {*wanted, *(() if options.only else ("",))} - failed.keys()  # "": what no group makes any more
-    kept = {name: entry for name, entry in stored.items() if group_of(name) in made}
+    done = {*chosen, *(() if options.only else ("",))} - failed.keys()  # "": what no group makes any more
+    kept = {name: entry for name, entry in stored.items() if group_of(name) in done}
     rows = [row for row in store.compare(kept, result) if _asked(row.entry, options.only)]
     report(rows, result, taken, options.most)
     if options.update:
         new = {name: entry for name, entry in result.items() if _asked(name, options.only)}
-        remaining = {
+        unaffected = {
             name: entry for name, entry in stored.items() if name not in kept or not _asked(name, options.only)
         }
-        store.write(remaining | new, with_what())
+        store.write(unaffected | new, with_what())
         print(f"written: {store.BASELINE}")
         return 1 if failed else 0
     return 1 if rows or failed else 0
@@ -95,10 +95,10 @@ def make_all(names: Sequence[str], jobs: int) -> tuple[dict[str, store.Entry], d
                 running[pool.submit(_in_a_process, name, fmus, Path(folder))] = name
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 name = running.pop(future)
-                made, message = future.result()
+                group_entries, message = future.result()
                 bar.update()
                 bar.set_postfix_str(name)
-                entries |= made
+                entries |= group_entries
                 if message:
                     failed[name] = message
                 for other in [other for other, needs in waiting.items() if name in needs]:

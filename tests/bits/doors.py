@@ -1,4 +1,4 @@
-"""All that the baseline calls of the product, so that code that moves or is renamed is met here only."""
+"""All calls of the product that the baseline makes, so that renamed code is adapted here only."""
 
 import importlib
 import subprocess
@@ -62,8 +62,8 @@ def drive(fmu: Path, manoeuvre: str, folder: Path, *options: object) -> Path:
 
 def catalogue(fmu: Path, tests: str, folder: Path, settings: Sequence[str]) -> Path:
     """Do standard tests; the measures as JSON. The command ends with 1 where a car does not keep a limit."""
-    given = [text for setting in settings for text in ("--test-setting", setting)]
-    ali3("catalogue", fmu, "--tests", tests, "--jobs", 1, "--no-runs", "--out", folder, *given, good=(0, 1))
+    options = [text for setting in settings for text in ("--test-setting", setting)]
+    ali3("catalogue", fmu, "--tests", tests, "--jobs", 1, "--no-runs", "--out", folder, *options, good=(0, 1))
     return folder / "measures.json"
 
 
@@ -88,9 +88,9 @@ def kinematics(name: str, folder: Path, points: int) -> tuple[Path, list[Path]]:
 
 def road(source: Path, folder: Path) -> tuple[Path, Path]:
     """A road file and what draws it."""
-    made, part = folder / f"{source.stem}.road", folder / f"{source.stem}.json"
-    ali3("road", source, made, "--part", part)
-    return made, part
+    road_file, part = folder / f"{source.stem}.road", folder / f"{source.stem}.json"
+    ali3("road", source, road_file, "--part", part)
+    return road_file, part
 
 
 def world(name: str, folder: Path) -> tuple[Path, Path]:

@@ -48,11 +48,11 @@ def _kind_runs(
 
     def run(manoeuvre: str, start: Mapping[str, Any]) -> dict[str, Any]:
         table = inputs[manoeuvre]
-        given = {name: table[name][0] for name in INPUTS} | STARTS[manoeuvre] | dict(start)
+        start_values = {name: table[name][0] for name in INPUTS} | STARTS[manoeuvre] | dict(start)
         result = fmpy.simulate_fmu(
             str(folder),
             model_description=description,
-            start_values=given,
+            start_values=start_values,
             input=table,
             output=outputs,
             output_interval=STEP,

@@ -21,7 +21,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 BASELINE = Path(__file__).with_name("baseline.json")
-RELATIVE, ABSOLUTE = 1e-9, 1e-12
+RELATIVE = 1e-9
+ABSOLUTE = 1e-12
 """Of entries that are not compared by bits: LAPACK and optimisers round differently on other processors."""
 _FORMAT = struct.Struct("<6sddff")  # hash, projections, smallest, largest
 _NAN = struct.pack("<d", math.nan)

@@ -77,7 +77,7 @@ def test_names_that_come_and_go_are_reported():
     ]
 
 
-def test_the_file_gives_back_what_was_written(tmp_path):
+def test_the_file_returns_the_written_entries(tmp_path):
     entries = {
         "a": store.entry_of({"s": SIGNAL, "none": [], "odd": [np.nan, np.inf, 1e300]}),
         "b": store.entry_of({"s": SIGNAL, "none": [], "odd": [2.0]}, False),

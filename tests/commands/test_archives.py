@@ -1,4 +1,4 @@
-"""An archive that would be unpacked elsewhere, or into too much, is refused by all that open archives."""
+"""An archive that would unpack outside its folder, or to too many bytes, is refused by all readers of archives."""
 
 import stat
 import warnings
@@ -29,9 +29,9 @@ CONTENT = {"modelDescription.xml": DESCRIPTION.format("")}
 def archive(file: Path, *entries: tuple[str | zipfile.ZipInfo, str], method: int = zipfile.ZIP_DEFLATED) -> Path:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of doubled names
-        with zipfile.ZipFile(file, "w", method) as made:
+        with zipfile.ZipFile(file, "w", method) as target:
             for name, content in (*CONTENT.items(), *entries):
-                made.writestr(name, content)
+                target.writestr(name, content)
     return file
 
 
@@ -113,7 +113,7 @@ def test_sizes_are_held_to_bounds_before_anything_is_unpacked(tmp_path: Path, mo
 
 def test_a_damaged_archive_is_one_sentence(tmp_path: Path) -> None:
     whole = archive(tmp_path / "a.zip", ("zeros", "\0" * 1000)).read_bytes()
-    reported = set()
+    messages = set()
     for k in range(0, len(whole), 7):
         (tmp_path / "b.zip").write_bytes(whole[:k] + bytes([whole[k] ^ 0xFF]) + whole[k + 1 :])
         try:
@@ -121,9 +121,9 @@ def test_a_damaged_archive_is_one_sentence(tmp_path: Path) -> None:
                 for name in opened.names:
                     opened.read(name)
         except FileError as error:
-            reported.add(str(error))
-    assert len(reported) > 5
-    assert not [message for message in reported if "\n" in message]
+            messages.add(str(error))
+    assert len(messages) > 5
+    assert not [message for message in messages if "\n" in message]
 
 
 V = '<ScalarVariable name="v{0}" valueReference="{0}" causality="local"><Real/></ScalarVariable>'

@@ -1,4 +1,4 @@
-"""Bars of what takes a while, where there is no terminal."""
+"""Progress bars of long work without a terminal."""
 
 import re
 import time

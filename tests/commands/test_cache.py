@@ -1,4 +1,4 @@
-"""The cache of the user: where the system keeps caches, where the user says, or a folder that goes."""
+"""The cache of the user: where the system keeps caches, in a folder that the user sets, or in a temporary folder."""
 
 import os
 import shutil
@@ -66,7 +66,7 @@ def test_folders_in_use_stay_however_many_they_are(tmp_path):
     assert sorted(place.name for place in tmp_path.iterdir()) == ["0", "1"]
 
 
-def test_a_folder_that_another_program_removes_meanwhile_is_none(tmp_path, monkeypatch):
+def test_a_folder_that_another_program_removes_meanwhile_is_left_out(tmp_path, monkeypatch):
     for k in range(3):
         (tmp_path / str(k)).mkdir()
         os.utime(tmp_path / str(k), (k, k))

@@ -1,4 +1,4 @@
-"""What `.ci/run` takes from README.md and from the tests' output."""
+"""The values that `.ci/run` reads from README.md and from the output of the tests."""
 
 import subprocess
 import sys

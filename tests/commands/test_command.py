@@ -1,4 +1,4 @@
-"""The console command: one table, quick help, names as the user typed them, and no harm by files of the user."""
+"""The console command: one table, fast help, command names in messages as typed, no import of files of the user."""
 
 import argparse
 import importlib
@@ -199,7 +199,7 @@ def test_commands_that_documents_and_sentences_name_exist() -> None:
     assert not wrong, "\n".join(wrong)
 
 
-def test_a_command_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_unknown_command_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["biuld"]) == 2
     assert "no command 'biuld'; did you mean 'build'?" in capsys.readouterr().err
     assert main(["zzz"]) == 2

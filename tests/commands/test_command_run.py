@@ -1,4 +1,4 @@
-"""How a command ends: one sentence, one line, an exit code."""
+"""The end of a command: one sentence for an error, one line for Ctrl-C, an exit code."""
 
 import os
 import signal
@@ -51,7 +51,7 @@ def test_errors_are_one_line(
         ImportError("etree.so: failed to map segment from shared object"),
     ],
 )
-def test_memory_is_the_cause_where_there_is_none(
+def test_missing_memory_is_named_as_the_cause(
     error: Exception, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(processes, "_SPARE", 1 << 60)
@@ -79,7 +79,7 @@ def test_a_usual_sentence_is_reported_whole() -> None:
     assert shortened(sentence) == sentence
 
 
-def test_no_name_of_a_file_tells_a_terminal_what_to_do(capsys: pytest.CaptureFixture[str]) -> None:
+def test_names_of_files_send_no_control_characters_to_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
     assert run_command(lambda: raiser(UserError("m.toml has '\x1b[2J\x9b' in\nits second line."))) == 2
     assert capsys.readouterr().err == "error: m.toml has '\\x1b[2J\\x9b' in\nits second line.\n"
 
@@ -110,11 +110,11 @@ def test_ctrl_c_during_a_drive_is_one_line_and_leaves_nothing(swing_fmu: Path, t
         # a shell that started these tests in the background lets all their children ignore it
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
-    reported = ""
-    while "%" not in reported:  # the bar: the drive has begun
+    output = ""
+    while "%" not in output:  # the bar: the drive has begun
         letter = process.stderr.read(1)
-        assert letter, reported
-        reported += letter
+        assert letter, output
+        output += letter
     process.send_signal(signal.SIGINT)
     rest = process.communicate(timeout=60)[1]
     assert process.returncode == 130

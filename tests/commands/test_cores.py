@@ -1,4 +1,4 @@
-"""The cores that are counted are those that this process may use."""
+"""The number of cores is that of the cores which this process may use."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""A package that is missing is told with the extra that brings it."""
+"""A missing package is reported with the extra that installs it."""
 
 import ast
 import importlib
@@ -102,8 +102,8 @@ def test_a_module_that_a_library_wants_at_run_time(monkeypatch: pytest.MonkeyPat
     pytest.importorskip("trimesh.viewer")
     monkeypatch.setitem(sys.modules, "pyglet", None)
     error = caught(lambda: importlib.import_module("trimesh.viewer.windowed"))
-    reported = missing_module(error, "pictures")
-    assert reported == (
+    message = missing_module(error, "pictures")
+    assert message == (
         'The package trimesh needs pyglet, which is not installed; run: python -m pip install "ali3[pictures]" pyglet'
     )
 
@@ -115,6 +115,6 @@ def test_a_mistake_in_code_is_no_missing_package() -> None:
 
 
 @pytest.mark.proof
-def test_each_extra_alone_does_what_is_promised() -> None:
+def test_each_extra_alone_is_sufficient() -> None:
     done = subprocess.run([sys.executable, "-m", "tests.extras"], cwd=ROOT, check=False)
     assert done.returncode == 0

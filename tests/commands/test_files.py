@@ -1,4 +1,4 @@
-"""Files are written whole or not at all; two writers of one file do not meet; a full disk is reported."""
+"""Files are written completely or not at all, also by two writers at once; a full disk is reported."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""Frames between processes: values come back as they were, and what is not a frame of the type is an error."""
+"""Frames between processes: values come back unchanged, and what is not a frame of the type is an error."""
 
 import io
 import json
@@ -47,13 +47,15 @@ def through(value: Any, kind: Any) -> Any:
 
 def test_a_value_comes_back_as_it_was() -> None:
     table = np.array([[1.0, math.nan], [-0.0, math.inf]])
-    given = Whole(table, [Part("ä\n", (2.5, "x"))], {3: [0.1]}, {"a": 1.5, "b": "1.5", "c": True}, b"\0\xff", table[:0])
-    actual = through(given, Whole)
+    original = Whole(
+        table, [Part("ä\n", (2.5, "x"))], {3: [0.1]}, {"a": 1.5, "b": "1.5", "c": True}, b"\0\xff", table[:0]
+    )
+    actual = through(original, Whole)
     assert actual.values.tobytes() == table.tobytes()
     assert actual.values.shape == (2, 2)
     assert actual.signals is not None
     assert actual.signals.shape == (0, 2)
-    assert (actual.parts, actual.by_number, actual.raw) == (given.parts, given.by_number, given.raw)
+    assert (actual.parts, actual.by_number, actual.raw) == (original.parts, original.by_number, original.raw)
     assert [(type(x), x) for x in actual.start.values()] == [(float, 1.5), (str, "1.5"), (bool, True)]
     actual.values[0, 0] = 2.0  # it belongs to the reader
     assert through([np.float64(1.5), np.int32(2), None], None) == [1.5, 2, None]

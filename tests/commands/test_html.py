@@ -1,4 +1,4 @@
-"""Reports have one frame and one style sheet, and texts in them stay texts."""
+"""HTML reports: one frame and one style sheet for all, and escaped texts."""
 
 import re
 from pathlib import Path
@@ -46,7 +46,7 @@ def test_a_picture_is_in_the_page() -> None:
     assert (image.get("width"), image.get("height")) == ("3", "2")
 
 
-def test_a_drawing_says_what_it_shows(tmp_path: Path) -> None:
+def test_a_drawing_has_a_description(tmp_path: Path) -> None:
     for message, title in (("a < b\x07", "a < b\ufffd"), ("", "A drive & more")):
         figure = Figure()
         figure.suptitle("A drive & more")

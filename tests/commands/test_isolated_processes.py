@@ -1,4 +1,4 @@
-"""Work in processes of their own: what one does to itself is told, and the others go on."""
+"""Work in processes of its own: a crash of one is reported, and the others continue."""
 
 import os
 import signal
@@ -75,7 +75,7 @@ def test_a_process_that_does_not_begin_is_reported_as_such(
     assert worker.do("") == Lost("had not begun after 0.001 s", late=True)
 
 
-def test_a_process_keeps_what_it_has_between_tasks_and_prints_what_it_likes(worker: Isolated[str, Any]) -> None:
+def test_a_process_keeps_its_state_between_tasks_and_may_print(worker: Isolated[str, Any]) -> None:
     heard: list[int] = []
     first, process = worker.do("tell", heard.append)
     assert (first, heard) == (1, [0, 1, 2])
@@ -152,7 +152,7 @@ def talkative(task: float, tell: Tell) -> int:
     return 8
 
 
-def test_the_limit_is_a_time_without_a_word() -> None:
+def test_the_limit_is_a_time_without_a_message() -> None:
     worker: Isolated[float, int] = Isolated(talkative, int)
     try:
         heard: list[float] = []

@@ -1,4 +1,4 @@
-"""Names that may be meant by one that is not known, and the end of the sentence that names them."""
+"""Suggestions for an unknown name, and the sentence that lists them."""
 
 import pytest
 

@@ -57,10 +57,10 @@ def test_inconsistent_versions_are_reported(
     text = (tree / file).read_text()
     assert old in text
     (tree / file).write_text(text.replace(old, new))
-    assert any(sentence in reported for reported in check_release.problems(tree, "v9.8.7"))
+    assert any(sentence in problem for problem in check_release.problems(tree, "v9.8.7"))
 
 
-def test_the_command_ends_with_one_for_what_is_not_ready(
+def test_the_command_ends_with_one_if_a_release_is_not_ready(
     check_release: ModuleType, tree: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(check_release, "ROOT", tree)
@@ -72,7 +72,7 @@ def test_the_command_ends_with_one_for_what_is_not_ready(
     assert "error: The tag is v1.0.0" in capsys.readouterr().err
 
 
-def test_all_of_the_release_is_checked_by_what_the_files_hold_today(tmp_path: Path, check_release: ModuleType) -> None:
+def test_all_parts_of_the_release_are_checked_with_the_present_files(tmp_path: Path, check_release: ModuleType) -> None:
     """The places that are read are where they are read: a tag of another version is refused by three of them."""
     for name in FILES:
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -83,8 +83,8 @@ def test_all_of_the_release_is_checked_by_what_the_files_hold_today(tmp_path: Pa
     text = changes.read_text(encoding="utf-8")
     if f"[{version}]" not in text:
         changes.write_text(text.replace("## [Unreleased]", f"## [{version}] - 2000-01-02", 1), encoding="utf-8")
-        reported = check_release.problems(tmp_path, f"v{version}")
-        assert [s.rpartition(", ")[2].partition(" says")[0] for s in reported] == [
+        problems = check_release.problems(tmp_path, f"v{version}")
+        assert [s.rpartition(", ")[2].partition(" says")[0] for s in problems] == [
             "CITATION.cff",
             "fmu_src/description/description.py",
         ]

@@ -1,4 +1,4 @@
-"""What ends a program from outside is met as Ctrl-C is, and what is ignored stays ignored."""
+"""Signals that end a program are handled as Ctrl-C is; ignored signals stay ignored."""
 
 import os
 import signal
@@ -13,7 +13,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
-def test_a_command_that_is_ended_cleans_up_and_says_so(number: int, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_terminated_command_cleans_up_and_reports_it(number: int, capsys: pytest.CaptureFixture[str]) -> None:
     done = []
 
     def work() -> int:

@@ -1,4 +1,4 @@
-"""What readers return sums itself up, by one mechanism."""
+"""Summaries of the results of readers, all by one mechanism."""
 
 import json
 from pathlib import Path
@@ -81,7 +81,7 @@ def test_the_road_command_writes_its_table(tmp_path: Path, capsys: pytest.Captur
 
 
 @pytest.mark.parametrize("of_file", [False, True])
-def test_a_simulation_tells_a_start_beside_its_road(tmp_path: Path, of_file: bool) -> None:
+def test_a_simulation_reports_a_start_beside_its_road(tmp_path: Path, of_file: bool) -> None:
     write_road(LEVEL, tmp_path / "level.road")
     system = sledge(RoadFile(tmp_path / "level.road") if of_file else LEVEL)
     mbs.Simulation(system, pose=Pose(x=90.0))

@@ -58,7 +58,7 @@ def test_the_heading_may_be_a_comment(
     assert actual.values().tolist() == [[0.0, 1.0], [1.0, 2.0]]
 
 
-def test_a_comment_of_other_words_is_no_heading_and_numbers_are_none(tmp_path: Path) -> None:
+def test_other_comments_and_numbers_are_no_heading(tmp_path: Path) -> None:
     text = "# by Smith, Monza\n0,1\n1,2\n"
     assert table(tmp_path, text, headed=None, known=("x", "y")).names == []
     with pytest.raises(TableError, match="line 2: '0' is a number; above the first values there must be a heading"):

@@ -1,4 +1,4 @@
-"""Temporary folders: what a kill leaves is removed by the next program, and nothing of one that lives."""
+"""Temporary folders: the next program removes those of killed programs, and none of a running one."""
 
 import os
 import subprocess
@@ -27,10 +27,10 @@ def left(folder: Path) -> list[str]:
 
 def holding(file: Path) -> subprocess.Popen[str]:
     """A program that is at work on a file."""
-    held = subprocess.Popen([sys.executable, "-c", _HELD, str(file)], stdin=-1, stdout=-1, text=True)
-    assert held.stdout is not None
-    assert held.stdout.readline() == "held\n"
-    return held
+    process = subprocess.Popen([sys.executable, "-c", _HELD, str(file)], stdin=-1, stdout=-1, text=True)
+    assert process.stdout is not None
+    assert process.stdout.readline() == "held\n"
+    return process
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="locks of folders")
@@ -48,9 +48,9 @@ def test_files_left_by_a_kill_are_removed_with_the_next_file(tmp_path: Path, mon
         assert alive.communicate("")[0] == ""
         assert alive.returncode == 0
     finally:
-        for held in (dead, alive):
-            held.kill()
-            held.communicate()
+        for process in (dead, alive):
+            process.kill()
+            process.communicate()
     assert left(tmp_path) == [f"{PREFIX}link"]
     assert (tmp_path / "linked").is_dir()
     assert (tmp_path / "alive.txt").read_text() == "half"

@@ -1,4 +1,4 @@
-"""Numbers of the command line with a unit behind them, and options that are misspelt."""
+"""Numbers with units on the command line, and misspelt options."""
 
 import argparse
 import math
@@ -88,7 +88,7 @@ def test_a_misspelt_option_is_reported_with_the_near_one(
     assert message in capsys.readouterr().err
 
 
-def test_options_of_one_letter_and_their_values_stay_what_they_are() -> None:
+def test_options_of_one_letter_and_their_values_are_unchanged() -> None:
     parser = Parser(prog="p")
     for name in ("--manoeuvre", "--step"):
         add_option(parser, name)

@@ -1,4 +1,4 @@
-"""Small files that would fill the memory are refused before they do; what a file names lies below its folder."""
+"""Small files that unpack to huge ones are refused; files named by a file lie below its folder."""
 
 import gzip
 import io

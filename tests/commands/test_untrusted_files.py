@@ -1,4 +1,4 @@
-"""Whatever a stranger puts in the place of a file, its reader ends soon and says what is wrong in one sentence."""
+"""Any content in place of an expected file: the reader ends soon and reports the fault in one sentence."""
 
 import importlib
 import io
@@ -64,7 +64,9 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="pipes, devices and a
 
 LONGEST = 900  # characters of a sentence
 SOON = 30  # s, after which a reader counts as one that does not end
-DEEP, DIGITS, LARGE = 3000, "9" * 5000, "x" * 100_000
+DEEP = 3000
+DIGITS = "9" * 5000
+LARGE = "x" * 100_000
 TOML = {
     "deep lists": "[" * DEEP + "]" * DEEP,
     "lists 150 deep": "[" * 150 + "]" * 150,
@@ -236,10 +238,10 @@ def _places() -> dict[str, Callable[[Path, bytes], Any]]:
     """What may lie in a file's place, whatever its kind."""
 
     def a_socket(path: Path, _: bytes) -> None:
-        with socket.socket(socket.AF_UNIX) as held:
+        with socket.socket(socket.AF_UNIX) as bound:
             here = Path.cwd()
             os.chdir(path.parent)  # the name of a socket is short
-            held.bind(path.name)
+            bound.bind(path.name)
             os.chdir(here)
 
     noise = random.Random(1).randbytes(5000)
@@ -408,19 +410,19 @@ def _with_others(value: Any) -> Iterator[Any]:
     yield from OTHERS
     for key in value if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else ():
         for other in _with_others(value[key]):
-            made = value.copy()
-            made[key] = other
-            yield made
+            copy = value.copy()
+            copy[key] = other
+            yield copy
 
 
 @pytest.mark.parametrize("kind", WHOLE)
 def test_each_value_may_be_of_another_kind(kind: str, tmp_path: Path) -> None:
     read, file, faults = KINDS[kind][3], tmp_path / "d.toml", []
-    documents = [made for made in _with_others(tomllib.loads(WHOLE[kind])) if isinstance(made, dict)]
-    for made in documents:
-        file.write_text(tomli_w.dumps(made))
+    documents = [part for part in _with_others(tomllib.loads(WHOLE[kind])) if isinstance(part, dict)]
+    for document in documents:
+        file.write_text(tomli_w.dumps(document))
         fault = fault_of(read, file, may_be_read=True)
-        faults += [f"{fault}: {made}"] if fault else []
+        faults += [f"{fault}: {document}"] if fault else []
     assert len(documents) > 60
     assert not faults, f"{len(faults)} of {len(documents)}:\n" + "\n".join(faults[:10])
 

@@ -1,4 +1,4 @@
-"""What an installation holds: four packages, data and types, and a command."""
+"""The content of an installation: four packages, data, types, and a command."""
 
 import os
 import subprocess

@@ -65,7 +65,7 @@ def test_redundant_joints_and_a_second_equal_joint_change_nothing():
     assert system.report["redundant_equations"] == 2
 
 
-def test_report_says_it_in_words():
+def test_the_report_names_counts_in_words():
     text = str(compile(bricard.build()))
     for line in ("coordinates                 24", "rank at reference           23", "degrees of freedom           1"):
         assert line in text
@@ -94,7 +94,7 @@ def test_calls_grow_linearly():
     assert large - middle <= 2.1 * (middle - small)
 
 
-def test_every_coordinate_is_read_so_many_times_whatever_their_number(monkeypatch):
+def test_reads_of_a_coordinate_do_not_grow_with_their_number(monkeypatch):
     """Of a drawing that reads all coordinates for each body the number of times grows with the bodies."""
     reads = []
     drawn = Model.drawn

@@ -75,5 +75,5 @@ def test_an_equation_is_another_until_its_difference_is_round_off(apart, left):
 
 
 @pytest.mark.parametrize(("coefficient", "terms"), [(1e-8, 1), (1e-12, 0)])
-def test_a_row_is_one_until_it_is_round_off_of_what_was_added(coefficient, terms):
+def test_a_row_counts_until_it_is_round_off_of_its_terms(coefficient, terms):
     assert len(cleaned({(0, -1): coefficient}, largest=(0.0, 1.0, 0.0))) == terms

@@ -79,16 +79,16 @@ def instances(system: System) -> tuple[Instance, Instance]:
 def same_steps(one: Instance, other: Instance, h: float, steps: int) -> int:
     """Steps until both end alike; states have the same bytes after each."""
     for k in range(steps):
-        reported = []
+        messages = []
         for instance in (one, other):
             try:
                 instance.step(h)
-                reported.append("")
+                messages.append("")
             except KernelError as error:
-                reported.append(str(error))
-        assert reported[0] == reported[1]
+                messages.append(str(error))
+        assert messages[0] == messages[1]
         assert one.save() == other.save(), f"step {k}"
-        if reported[0]:
+        if messages[0]:
             return k
     return steps
 
@@ -158,10 +158,10 @@ def test_each_function_is_called_and_stands_alone(name: str) -> None:
     kind = ctypes.CFUNCTYPE(RESULTS.get(name), *([P] * COUNTS[name]))
     inside = kind(getattr(table, name))
 
-    def counted(*given: int) -> int | None:
+    def counted(*arguments: int) -> int | None:
         nonlocal calls
         calls += 1
-        result: int | None = inside(*given)
+        result: int | None = inside(*arguments)
         return result
 
     alone, entry = Table(table.version, table.structure, table.avx2, None), kind(counted)

@@ -24,7 +24,8 @@ LOOPS = {
     "two storeys": drawn.double_parallelogram,
 }
 FREEDOMS = {"carried parallelogram": 2, "two storeys": 2}
-END, STEP = 0.3, 0.005  # s
+END = 0.3  # s
+STEP = 0.005  # s
 
 
 def motion(system, method):

@@ -1,4 +1,4 @@
-"""A scene that is not tied to the ground starts wherever and with whatever heading and speed it is given."""
+"""A scene that is not tied to the ground starts at the given position, heading and speed."""
 
 import numpy as np
 import pytest

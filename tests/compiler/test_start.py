@@ -141,12 +141,12 @@ def test_the_kernel_finds_nothing_to_correct():
 
 
 # --- parts of a start velocity ---
-def pendulum_at(angle, **given):
+def pendulum_at(angle, **velocity):
     m = Model("pendulum", dimension=2)
     place = 0.5 * np.array([np.sin(angle), -np.cos(angle)])
     rod = m.body("rod", mass=2.0, com=place, inertia=0.17)
     m.revolute("hinge", m.ground, rod, point=(0.0, 0.0))
-    m.initial_velocity(rod, **given)
+    m.initial_velocity(rod, **velocity)
     m.sense_rotation("rate", rod, order=1)
     return Simulation(compile(m)).sensors["rate"]
 
@@ -191,7 +191,7 @@ def test_the_crank_of_a_four_bar_turns_at_its_initial_rate():
 
 def test_a_free_body_has_only_its_initial_velocity():
     """A wheel on its carrier moves the common centre of mass; what is not given stays as without joints."""
-    for given, linear, angular in (
+    for velocity, linear, angular in (
         ({"linear": (3.0, 1.0, 0.0)}, (3.0, 1.0, 0.0), (0.0, 0.0, 0.0)),
         ({"angular": (1.0, 2.0, -3.0)}, (0.0, 0.0, 0.0), (1.0, 2.0, -3.0)),
     ):
@@ -201,7 +201,7 @@ def test_a_free_body_has_only_its_initial_velocity():
             "wheel", carrier=body, centre=(1.5, 2.0, 3.0), axis=(0.0, 1.0, 0.0), mass=1.0, spin_inertia=0.05,
             diametral_inertia=0.03,
         )  # fmt: skip
-        m.initial_velocity(body, **given)
+        m.initial_velocity(body, **velocity)
         for c in "xyz":
             m.sense_position(f"v{c}", body, None, c, order=1)
             m.sense_rotation(f"w{c}", body, c, order=1)

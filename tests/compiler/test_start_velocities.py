@@ -1,4 +1,4 @@
-"""Initial velocities that contradict each other are told with what was given and what is."""
+"""Contradictory initial velocities are reported with the given and the actual values."""
 
 import numpy as np
 import pytest
@@ -16,9 +16,9 @@ def arm(first=None, second=None, dimension=2) -> mbs.Model:
     a, b = (m.body(n, mass=1.0, com=places[k], inertia=inertia) for n, k in (("a", 1), ("b", 3)))
     m.revolute("pin", m.ground, a, point=places[0], **({} if flat else {"axis": (0.0, 0.0, 1.0)}))
     m.weld("weld", a, b)
-    for body, given in ((a, first), (b, second)):
-        if given is not None:
-            m.initial_velocity(body, **given)
+    for body, velocity in ((a, first), (b, second)):
+        if velocity is not None:
+            m.initial_velocity(body, **velocity)
     return m
 
 
@@ -28,11 +28,11 @@ def spin(w, dimension=2):
 
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_both_numbers_of_a_contradiction_are_reported(dimension: int) -> None:
-    given, reached = ("1 rad/s", "3 rad/s") if dimension == 2 else ("0, 0, 1 rad/s", "0, 0, 3 rad/s"), []
+    initial, reached = ("1 rad/s", "3 rad/s") if dimension == 2 else ("0, 0, 1 rad/s", "0, 0, 3 rad/s"), []
     system = mbs.compile(arm(spin(1.0, dimension), spin(3.0, dimension), dimension))
     (notices,) = mbs.simulate(system, 0.01, 0.01, progress=False).notices
     assert notices in str(system)
-    for name, number in zip("ab", given, strict=True):
+    for name, number in zip("ab", initial, strict=True):
         assert f"the angular velocity of '{name}' is given as {number} and is " in notices
         reached.append(notices.split(f"given as {number} and is ")[1].split(" rad/s")[0])
     assert reached[0] == reached[1]  # the weld

@@ -76,7 +76,7 @@ def directory(data):
     }
 
 
-def test_an_unknown_array_is_refused_whatever_its_type(data):
+def test_an_unknown_array_of_any_type_is_refused(data):
     for kind in range(5):
         entry = b"unknown".ljust(40, b"\0") + kind.to_bytes(4, "little")
         with pytest.raises(SystemFileError, match="an unknown, repeated or mistyped array 'unknown'"):

@@ -110,7 +110,7 @@ def long_chain():
     ],
     ids=["point", "flexible", "distance", "floating", "large", "long"],
 )
-def test_what_has_no_tree_says_why_and_has_empty_arrays(build, reason):
+def test_a_model_without_a_tree_reports_why_and_has_empty_arrays(build, reason):
     system = compile(build())
     assert reason in system.report["no_tree"]
     assert all(len(values) == 0 for name, values in system.arrays.items() if name.startswith("tree_"))
@@ -181,7 +181,7 @@ def test_altered_numbers_never_crash(loop):
     assert accepted > 10
 
 
-def test_a_state_whose_memory_is_nonsense_is_read_anew(loop):
+def test_a_state_with_invalid_memory_is_evaluated_again(loop):
     """Orders of rows and joints in a state are checked before they are used."""
     instance = Instance(LoadedSystem(loop.to_bytes()))
     instance.set_settings(**METHODS["semi_recursive"])

@@ -25,9 +25,9 @@ def in_python() -> dict[str, float]:
             module = import_module(f"mbs.{room}.{name}")
             body = ast.parse((ROOT / "mbs" / room / f"{name}.py").read_text(encoding="utf-8")).body
             for line in (line for line in body if isinstance(line, ast.Assign)):
-                given = [n.value for n in ast.walk(line.value) if isinstance(n, ast.Constant)]
+                constants = [n.value for n in ast.walk(line.value) if isinstance(n, ast.Constant)]
                 targets = [n.id for t in line.targets for n in ast.walk(t) if isinstance(n, ast.Name)]
-                if not any(isinstance(n, int | float) for n in given):
+                if not any(isinstance(n, int | float) for n in constants):
                     continue
                 values = {t: getattr(module, t) for t in targets}
                 results |= {f"{name} {t}": v for t, v in values.items() if isinstance(v, int | float)}

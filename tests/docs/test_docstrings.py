@@ -52,8 +52,8 @@ def _functions() -> dict[str, Any]:
         if inspect.isfunction(thing):
             results.setdefault(thing, name)
         elif inspect.isclass(thing) and thing.__module__.startswith("mbs"):
-            for method, given in inspect.getmembers(thing):
-                function = getattr(given, "__func__", given)
+            for method, member in inspect.getmembers(thing):
+                function = getattr(member, "__func__", member)
                 public = inspect.isfunction(function) and not method.startswith("_")
                 if public and function.__module__.startswith("mbs"):
                     results.setdefault(function, f"{name}.{method}")

@@ -1,4 +1,4 @@
-"""What the documents show runs and prints what they say; what they name exists."""
+"""Examples in the documents run and print what the text says; names in them exist."""
 
 import ast
 import os
@@ -54,10 +54,10 @@ def defines(file, name):
     return re.search(pattern, text, re.MULTILINE) is not None
 
 
-def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_path):
+def test_stepping_page_runs_and_both_hosts_print_its_numbers(prototype_fmu, tmp_path):
     page = (ROOT / "docs" / "stepping.md").read_text(encoding="utf-8")
     thing, _, whole, fmu, _, model = snippets(page)
-    reported = re.search(r"^    (after .*)$", page, re.MULTILINE)[1]
+    line = re.search(r"^    (after .*)$", page, re.MULTILINE)[1]
     (tmp_path / "dist").mkdir()
     shutil.copy(prototype_fmu, tmp_path / "dist")
     x, y = map(float, re.search(r"x = ([\d.-]+) m, y = ([\d.-]+) m", run(whole, tmp_path)).groups())
@@ -71,7 +71,7 @@ def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_p
     )
     printed = run(f"for code in {ways!r}:\n    exec(code, {{}})", tmp_path).splitlines()
     by_fmu, by_model, by_name = printed[:2], printed[2:4], printed[4:]
-    assert by_fmu[0] == reported
+    assert by_fmu[0] == line
     assert by_fmu[0] == by_model[0]
     # on a busy machine the model has differed by 3e-14 in a few runs of all tests, never alone; why is not known
     assert ast.literal_eval(by_model[1]) == pytest.approx(ast.literal_eval(by_fmu[1]), rel=1e-11)
@@ -79,7 +79,7 @@ def test_stepping_page_runs_and_both_ways_give_what_it_says(prototype_fmu, tmp_p
 
 
 @pytest.mark.slow
-def test_stepping_page_gives_derivatives_and_says_where_fmpy_fails(prototype_fmu, tmp_path):
+def test_stepping_page_sets_derivatives_and_names_the_failure_of_fmpy(prototype_fmu, tmp_path):
     page = (ROOT / "docs" / "stepping.md").read_text(encoding="utf-8")
     code = next(s for s in snippets(page) if "setRealInputDerivatives" in s)
     (tmp_path / "dist").mkdir()
@@ -92,8 +92,8 @@ def test_stepping_page_gives_derivatives_and_says_where_fmpy_fails(prototype_fmu
         "import fmpy, numpy\ntable = numpy.zeros(3, [('time', float), ('steering', float)])\ntable['time'] = 0, 1, 2\n"
     )
     call = "fmpy.simulate_fmu('dist/PrototypeCar.fmu', stop_time=1.0, input=table, set_input_derivatives=True)"
-    reported = run(f"{table}try:\n    {call}\nexcept ValueError as error:\n    print(error)", tmp_path)
-    assert reported.strip().endswith("Can only assign sequence of same size")
+    output = run(f"{table}try:\n    {call}\nexcept ValueError as error:\n    print(error)", tmp_path)
+    assert output.strip().endswith("Can only assign sequence of same size")
 
 
 @pytest.mark.slow
@@ -105,8 +105,8 @@ def test_stepping_page_makes_several_environments(tmp_path):
 def test_readme_models_a_pendulum(tmp_path):
     code = next(s for s in snippets(README) if "import mbs" in s)
     printed = run(code, tmp_path).strip()
-    reported = re.search(r"It prints `(.*?)`", README)[1]
-    assert printed.split("energy")[0] == reported.split("energy")[0]
+    output = re.search(r"It prints `(.*?)`", README)[1]
+    assert printed.split("energy")[0] == output.split("energy")[0]
     assert float(re.search(r"kept to (\S+) J", printed)[1]) < 1e-3
 
 
@@ -135,10 +135,10 @@ def test_pages_list_the_manoeuvres_and_the_scene_of_ones_own():
 @pytest.mark.slow
 def test_tables_of_variables_are_those_of_the_cars():
     result = tables()
-    made = blocks(result)
+    actual = blocks(result)
     text = (ROOT / "docs" / "variables.md").read_text(encoding="utf-8")
-    assert re.findall(r"<!-- made with the site: (.+) -->", text) == list(made)
-    page = "\n".join(made.values())
+    assert re.findall(r"<!-- made with the site: (.+) -->", text) == list(actual)
+    page = "\n".join(actual.values())
     # nothing is missing and nothing is there that no car has
     names = {v.name for variables in result.values() for v in variables}
     shown = set(re.findall(r"^\| ((?:`[^`]+`[,. ]*)+)", page, re.MULTILINE))
@@ -220,7 +220,7 @@ def test_theory_names_functions_that_exist():
 
 
 @pytest.mark.parametrize("file", [ROOT / page for page in PAGES[1:]], ids=lambda p: p.name)
-def test_guides_name_what_the_kernel_has(file):
+def test_names_of_the_kernel_in_the_guides_exist(file):
     sources = (ROOT / "mbs" / "kernel").rglob("*.[ch]")
     message = set(re.findall(r"\w+", "\n".join(source.read_text(encoding="utf-8") for source in sources)))
     code = re.findall(r"`([^`]+)`", file.read_text(encoding="utf-8"))

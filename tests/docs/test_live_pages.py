@@ -67,7 +67,9 @@ def test_pages_that_cannot_be_made_are_left_out_with_one_line(
     assert app.config.live_pages == list(live_pages.PAGES)
 
 
-def test_a_site_without_them_says_so(live_pages: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_site_without_live_pages_says_so(
+    live_pages: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv(live_pages.MODE, "none")
     app = site(tmp_path)
     live_pages.build(app)

@@ -15,7 +15,7 @@ PAGES = {
 }
 
 
-def test_it_is_what_sphinx_makes_of_whole_contents(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_menu_is_that_of_sphinx_for_whole_contents(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     application = pytest.importorskip("sphinx.application")
     for name, text in PAGES.items():
         (tmp_path / f"{name}.rst").write_text(text, encoding="utf-8")

@@ -41,7 +41,7 @@ def test_the_table_is_read():
 
 
 @pytest.mark.parametrize(("kind", "dimension", "equations", "freedoms"), CASES)
-def test_a_joint_writes_what_the_page_says(kind, dimension, equations, freedoms):
+def test_a_joint_writes_the_equations_of_the_page(kind, dimension, equations, freedoms):
     m, joint = two_bodies_with(kind, dimension)
     linear = sum(e.is_linear for e in joint.equations)
     assert f"{linear} + {len(joint.equations) - linear}" == equations

@@ -61,7 +61,7 @@ def test_the_page_shows_the_commands_in_order():
     assert [line.split()[0] for line in COMMANDS] == ["car", "car", "car", "build", "run", "run"]
 
 
-def test_the_check_prints_what_the_page_says(folder):
+def test_the_check_prints_the_output_of_the_page(folder):
     printed = ali3(COMMANDS[2], folder)
     for line in blocks("text")[0].splitlines():
         assert line in printed

@@ -171,8 +171,8 @@ class Element:
         e = self.element
         n = len(e.signals)
         assert np.size(u) == n == np.size(ud)
-        given = np.zeros(self.n_inputs)
-        given[: np.size(inputs)] = inputs
+        input_values = np.zeros(self.n_inputs)
+        input_values[: np.size(inputs)] = inputs
         y_new, f, S, out = (_doubles(np.full(max(1, k), np.nan)) for k in (len(e.states), n, n * n, len(e.outputs)))
         real = self.road.real
         potential = library().harness_evaluate(
@@ -187,7 +187,7 @@ class Element:
             *(ctypes.c_double(v) for v in (h, wC, wK, reach)),
             _constants(tuple(e.real)),
             _ints(e.integer),
-            _doubles(given),
+            _doubles(input_values),
             self.road.type,
             len(real),
             _constants(tuple(real)),

@@ -40,8 +40,8 @@ class Given:
 class Coefficients:
     """Coefficients as attributes; those not given have their usual value."""
 
-    def __init__(self, given: Mapping[str, float], R0: float, Fz0: float) -> None:
-        self.__dict__.update({**MAGIC_COEFFICIENTS, **given})
+    def __init__(self, coefficients: Mapping[str, float], R0: float, Fz0: float) -> None:
+        self.__dict__.update({**MAGIC_COEFFICIENTS, **coefficients})
         self.R0, self.Fz0 = R0, Fz0
 
     def __getattr__(self, name: str) -> float:

@@ -95,8 +95,8 @@ def test_torque_falls_with_speed_and_the_tangent_is_its_derivative() -> None:
                 r = element(u, ud, None, h, 0.5 * h, 0.0, [throttle])
                 assert last is None or r.out["wheel_torque"] <= last + 1e-9
                 last = r.out["wheel_torque"]
-                wanted = tangent_by_differences(element, u, ud, None, h, 0.5 * h, 0.0, [throttle])
-                assert np.max(np.abs(r.S - wanted)) < 1e-6 + 1e-6 * np.max(np.abs(wanted))
+                expected = tangent_by_differences(element, u, ud, None, h, 0.5 * h, 0.0, [throttle])
+                assert np.max(np.abs(r.S - expected)) < 1e-6 + 1e-6 * np.max(np.abs(expected))
                 assert np.linalg.eigvalsh(r.S)[0] > -1e-12
 
 
@@ -312,7 +312,7 @@ def asked(gear: float, W: float, h: float, steps: int, y: np.ndarray) -> tuple[n
     return y, torques, r
 
 
-def test_a_gear_that_is_asked_for_is_engaged_in_the_time_of_a_shift_whatever_the_step() -> None:
+def test_a_requested_gear_is_engaged_after_the_shift_time_for_any_step() -> None:
     begin, W = np.array([1.0, 1.0, 1e3, 0.0, 1.0, 1.0]), 12.0
     third = drive_element(gear=3)(*drive_signals(W, W), inputs=[0.6]).out["wheel_torque"]
     middle = []
@@ -345,9 +345,9 @@ def test_a_clutch_hands_on_the_lesser_of_its_torque_and_of_the_drive_s() -> None
                     free = selected(direction, 0.0, throttle)(*signals, y, 0.0, 0.005, 0.0, inputs)
                     r = element(*signals, y, 0.0, 0.005, 0.0, [*inputs, pedal])
                     whole = 2.0 * free.out["wheel_torque"]
-                    held = min(abs(whole), (1.0 - pedal) * most)
-                    assert 2.0 * r.out["wheel_torque"] == pytest.approx(np.copysign(held, whole), rel=1e-12)
-                    if held < abs(whole):
+                    torque = min(abs(whole), (1.0 - pedal) * most)
+                    assert 2.0 * r.out["wheel_torque"] == pytest.approx(np.copysign(torque, whole), rel=1e-12)
+                    if torque < abs(whole):
                         slipped += 1
                         assert not r.S.any()
                         least, fastest = sorted((free.out["engine_speed"], DRIVE.limit_speed))
@@ -361,7 +361,7 @@ def test_a_clutch_hands_on_the_lesser_of_its_torque_and_of_the_drive_s() -> None
         DRIVE.record("D", left[0], right[0], f, g, 0, clutch=1)
 
 
-def test_powers_on_the_wheels_are_torque_times_what_they_turn_in_the_frame() -> None:
+def test_powers_on_the_wheels_are_torque_times_relative_speed() -> None:
     rng = np.random.default_rng(3)
     R, omega = frame(rng), rng.normal(size=3)
     r = drive_element()(*(signals := drive_signals(20.0, 35.0, omega, R)), inputs=[0.7])

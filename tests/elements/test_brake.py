@@ -9,7 +9,9 @@ from mbs.elements import Brake, InputForce
 from tests.elements.harness import Element, frame, signals, tangent_by_differences, vectors
 from tests.elements.stepper import Part, Stepper
 
-TORQUE, RADIUS, INERTIA = 650.0, 0.27, 0.55
+TORQUE = 650.0  # N m
+RADIUS = 0.27  # m
+INERTIA = 0.55  # kg m2
 STIFFNESS = TORQUE * RADIUS / 0.9e-3  # the tread gives 0.9 mm at full torque
 BRAKE = Brake(TORQUE, STIFFNESS, 2.0 * np.sqrt(STIFFNESS * INERTIA))  # damped critically
 
@@ -145,8 +147,8 @@ def test_tangent_is_exact_while_sticking_and_a_safe_secant_while_slipping() -> N
     u, ud = signals_of(0.02, 0.01 * rng.normal(size=3), R)
     r = element(u, ud, [1e-4, 0.0], h, 0.5 * h, 0.0, [1.0])
     assert r.out["sticking"] == 1.0
-    wanted = tangent_by_differences(element, u, ud, np.r_[1e-4, 0.0], h, 0.5 * h, 0.0, [1.0])
-    assert np.max(np.abs(r.S - wanted)) < 1e-6 * np.max(np.abs(wanted))
+    expected = tangent_by_differences(element, u, ud, np.r_[1e-4, 0.0], h, 0.5 * h, 0.0, [1.0])
+    assert np.max(np.abs(r.S - expected)) < 1e-6 * np.max(np.abs(expected))
     u, ud = signals_of(30.0, np.zeros(3), R)
     r = element(u, ud, [0.0, 0.0], h, 0.5 * h, 0.0, [1.0])
     assert r.out["sticking"] == 0.0
@@ -158,14 +160,14 @@ def test_tangent_is_exact_while_sticking_and_a_safe_secant_while_slipping() -> N
     far = element(u, ud, [0.0, 0.0], h, 0.5 * h, 0.0, [1.0], reach=1.01 * back)
     assert np.array_equal(far.S, r.S)
     near = element(u, ud, [0.0, 0.0], h, 0.5 * h, 0.0, [1.0], reach=0.99 * back)
-    wanted = tangent_by_differences(element, u, ud, np.zeros(2), h, 0.5 * h, 0.0, [1.0])
-    assert np.max(np.abs(near.S - wanted)) < 1e-6 * np.max(np.abs(r.S))
+    expected = tangent_by_differences(element, u, ud, np.zeros(2), h, 0.5 * h, 0.0, [1.0])
+    assert np.max(np.abs(near.S - expected)) < 1e-6 * np.max(np.abs(r.S))
 
 
 def two_pedals(share: float = 1.0, hand_torque: float = 0.0, hand: int | None = 1, side: float = 1.0) -> Element:
     f, g, spin = vectors(3, 3, 1)
-    given = replace(BRAKE, share=share, hand_torque=hand_torque, side=side)
-    return Element(given.record("brake", f, g, spin[0], 0, hand))
+    brake = replace(BRAKE, share=share, hand_torque=hand_torque, side=side)
+    return Element(brake.record("brake", f, g, spin[0], 0, hand))
 
 
 def test_the_torque_is_the_share_of_the_pedals_and_that_of_the_hand_brake() -> None:

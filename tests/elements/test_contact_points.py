@@ -59,21 +59,21 @@ def test_tangent_on_a_plane(sticks, restitution):
     for _ in range(10):
         u, ud = pose(rng, 0.28), 0.05 * rng.normal(size=12)
         r = e(u, ud, None, 0.01, 0.005, 2.5e-5)
-        wanted = tangent_by_differences(e, u, ud, None, 0.01, 0.005, 2.5e-5, ())
+        expected = tangent_by_differences(e, u, ud, None, 0.01, 0.005, 2.5e-5, ())
         assert r.out["touching"] > 0
         # friction's dependence on the axes of the body is left out
-        assert np.max(np.abs(r.S - wanted)[:3, :3]) < 2e-6 * max(1.0, np.abs(wanted).max())
+        assert np.max(np.abs(r.S - expected)[:3, :3]) < 2e-6 * max(1.0, np.abs(expected).max())
         assert np.linalg.eigvalsh(r.S).min() > -1e-9 * np.abs(r.S).max()
 
 
 def test_force_equals_the_law_and_is_held_by_friction():
     e = element(PlaneRoad(0.0, 0.0, 0.0, 0.8), points=[[0.0, 0.0, 0.0]])
-    for depth, wanted in ((0.002, 2e5 * 0.002**2 / 0.01), (0.012, 2e5 * (0.012 - 0.0025))):
+    for depth, normal_force in ((0.002, 2e5 * 0.002**2 / 0.01), (0.012, 2e5 * (0.012 - 0.0025))):
         u = np.r_[0.0, 0.0, -depth, np.eye(3).ravel()]
         r = e(u, np.zeros(12))
-        assert r.out["normal_force"] == pytest.approx(wanted, rel=1e-12)
+        assert r.out["normal_force"] == pytest.approx(normal_force, rel=1e-12)
         assert r.out["depth"] == pytest.approx(depth)
-        assert np.allclose(r.f[:3], [0.0, 0.0, wanted])
+        assert np.allclose(r.f[:3], [0.0, 0.0, normal_force])
         slide = e(u, np.r_[3.0, 4.0, np.zeros(10)], h=0.01)
         bound = 0.4 * slide.out["normal_force"]
         assert np.allclose(slide.f[:2], [-0.6 * bound, -0.8 * bound])
@@ -207,11 +207,13 @@ def test_progressive_stops_are_conservative_with_an_exact_tangent(length):
     assert np.allclose(r.f, -np.array(slope), rtol=1e-5, atol=0.05)
     x = max(0.6 - length, 0.0)
     metal = max(x - 0.03, 0.0)
-    wanted = 8e4 * x * (1.0 + (x / 0.02) ** 2) + 1e6 * (metal**2 / 0.008 if metal < 0.004 else max(metal - 0.002, 0.0))
+    expected = 8e4 * x * (1.0 + (x / 0.02) ** 2) + 1e6 * (
+        metal**2 / 0.008 if metal < 0.004 else max(metal - 0.002, 0.0)
+    )
     y = max(length - 0.9, 0.0)
     far = max(y - 0.05, 0.0)
     pull = 5e4 * y * (1.0 + (y / 0.03) ** 2) + 1e6 * (far**2 / 0.008 if far < 0.004 else max(far - 0.002, 0.0))
-    assert r.out["force"] == pytest.approx(1e4 * (length - 0.75) - wanted + pull, rel=1e-9)
+    assert r.out["force"] == pytest.approx(1e4 * (length - 0.75) - expected + pull, rel=1e-9)
     rng = np.random.default_rng(7)
     for speed in (0.0, 0.5):
         ud = speed * rng.normal(size=3)
@@ -276,9 +278,12 @@ def test_a_way_in_by_the_face_and_out_by_the_top_gains_nothing(heading):
     corners = np.array([(-0.1, 0.6), (0.25, 0.6), (0.25, 1.05), (-0.1, 1.05)])
     work, most, steps = 0.0, 0.0, 400
     for begin, end in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        way = np.r_[(end[0] - begin[0]) * n, end[1] - begin[1]] / steps
+        displacement = np.r_[(end[0] - begin[0]) * n, end[1] - begin[1]] / steps
         for k in range(steps):
-            r = e(np.r_[begin[0] * n, begin[1], np.eye(3).ravel()] + (k + 0.5) * np.r_[way, np.zeros(9)], np.zeros(12))
-            work, most = work + r.f[:3] @ way, max(most, r.potential)
+            r = e(
+                np.r_[begin[0] * n, begin[1], np.eye(3).ravel()] + (k + 0.5) * np.r_[displacement, np.zeros(9)],
+                np.zeros(12),
+            )
+            work, most = work + r.f[:3] @ displacement, max(most, r.potential)
     assert most > 1e3
     assert abs(work) < 0.03 * most

@@ -7,7 +7,9 @@ from mbs.elements import CoordinateFriction, InputForce, ScalarSpringDamper
 from tests.elements.harness import Element, signals, tangent_by_differences
 from tests.elements.stepper import Part, Stepper
 
-LARGEST, INERTIA, GIVE = 1.5, 0.03, 0.004
+LARGEST = 1.5
+INERTIA = 0.03
+GIVE = 0.004
 FRICTION = CoordinateFriction(LARGEST, LARGEST / GIVE, 2.0 * np.sqrt(LARGEST / GIVE * INERTIA))  # damped critically
 
 
@@ -36,10 +38,10 @@ def shaft(torque: float, rate: float = 0.0, ramp: float = 0.2, spring: float = 0
 def test_it_holds_below_its_largest_force_and_does_not_creep(h: float) -> None:
     s = shaft(0.9 * LARGEST)
     s.run(1.0, h)
-    held = s.q[0]
-    assert held == pytest.approx(0.9 * GIVE, rel=1e-4)
+    elastic = s.q[0]
+    assert elastic == pytest.approx(0.9 * GIVE, rel=1e-4)
     s.run(20.0 if h > 0.005 else 4.0, h)
-    assert s.q[0] == pytest.approx(held, rel=1e-6)
+    assert s.q[0] == pytest.approx(elastic, rel=1e-6)
     assert s.results[0].out["sticking"] == 1.0
     assert s.results[0].out["force"] == pytest.approx(-0.9 * LARGEST, rel=1e-6)
 
@@ -59,8 +61,8 @@ def test_it_takes_force_times_way_and_comes_to_rest() -> None:
     rate = 20.0
     s = shaft(0.0, rate)
     s.run(2.0, 0.0005)
-    way = 0.5 * INERTIA * rate**2 / LARGEST
-    assert s.q[0] == pytest.approx(way, abs=2.0 * GIVE)
+    distance = 0.5 * INERTIA * rate**2 / LARGEST
+    assert s.q[0] == pytest.approx(distance, abs=2.0 * GIVE)
     assert abs(s.qd[0]) < 1e-6
 
 
@@ -91,8 +93,8 @@ def test_the_tangent_is_exact_while_it_holds_and_a_secant_while_it_slides() -> N
     u, ud, y = np.zeros(1), np.array([0.02]), np.array([1e-4, 0.0])
     r = friction(u, ud, y, h, 0.5 * h, 0.0)
     assert r.out["sticking"] == 1.0
-    wanted = tangent_by_differences(friction, u, ud, y, h, 0.5 * h, 0.0, [0.0])
-    assert pytest.approx(wanted, rel=1e-6) == r.S
+    expected = tangent_by_differences(friction, u, ud, y, h, 0.5 * h, 0.0, [0.0])
+    assert pytest.approx(expected, rel=1e-6) == r.S
     r = friction(u, np.array([30.0]), y, h, 0.5 * h, 0.0)
     assert r.out["sticking"] == 0.0
     assert 0.5 * 0.5 * h * LARGEST / 30.0 < r.S[0, 0] < 0.5 * h * LARGEST / 29.0

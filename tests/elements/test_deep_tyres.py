@@ -1,4 +1,4 @@
-"""Wheels as deep in the road as they can be: loads grow with depth, no force turns over, the deflection says it."""
+"""Wheels deep in the road: loads grow with the depth, no force changes its sign, the deflection is reported."""
 
 from dataclasses import replace
 from functools import cache

@@ -110,9 +110,9 @@ def test_the_tangent_is_the_derivative_where_torque_falls(selector: float | None
     for W in np.concatenate([np.linspace(-125.0, 125.0, 71), near]) + 0.0131:
         u, ud = drive_signals(W, W + 0.2)
         r = element(u, ud, y, H, 0.5 * H, 0.0, inputs)
-        wanted = tangent_by_differences(element, u, ud, y, H, 0.5 * H, 0.0, inputs)
-        if wanted[0, 0] > 1e-6:
-            assert np.max(np.abs(r.S - wanted)) < 1e-6 + 1e-6 * np.max(np.abs(wanted))
+        expected = tangent_by_differences(element, u, ud, y, H, 0.5 * H, 0.0, inputs)
+        if expected[0, 0] > 1e-6:
+            assert np.max(np.abs(r.S - expected)) < 1e-6 + 1e-6 * np.max(np.abs(expected))
             fell += 1
         else:
             assert not r.S.any()
@@ -270,7 +270,7 @@ def test_a_launch_follows_the_closed_form_and_keeps_angular_momentum() -> None:
     assert kinetic[-1] == pytest.approx(drive.efficiency * electric[-1], rel=1e-4)
 
 
-def test_regeneration_gives_back_what_the_wheels_lose_and_the_car_comes_to_rest() -> None:
+def test_regeneration_returns_the_energy_of_the_wheels_and_the_car_comes_to_rest() -> None:
     m = Model("coasting")
     car(m, DRIVE)
     for spin in m.spins:

@@ -1,4 +1,4 @@
-"""What elements say of themselves (element.h, ElementRecord) is what they do."""
+"""Declarations of elements (element.h, ElementRecord) agree with their behaviour."""
 
 import importlib
 
@@ -39,7 +39,7 @@ def test_elements_that_take_energy_say_so(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", [*elements(), *(n for n in springs() if n != "tyre")])
-def test_a_conservative_element_takes_what_its_potential_loses(name: str) -> None:
+def test_the_work_of_a_conservative_element_is_the_change_of_its_potential(name: str) -> None:
     element = (elements() | {n: e for n, (e, _) in springs().items()})[name]
     rng, taken = np.random.default_rng(1), 0.0
     for _ in range(20):
@@ -66,7 +66,7 @@ def test_steps_of_a_conservative_element_keep_its_energy(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", [*elements(), "tyre"])
-def test_an_element_without_a_tangent_says_so(name: str) -> None:
+def test_an_element_without_a_tangent_declares_it(name: str) -> None:
     element = tyre_element() if name == "tyre" else elements()[name]
     rng, n, most = np.random.default_rng(3), len(element.element.signals), 0.0
     for _ in range(5):

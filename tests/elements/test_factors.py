@@ -1,4 +1,4 @@
-"""Factors on springs, dampers and bars: at one nothing changes by a bit, and they scale what they say."""
+"""Factors on springs, dampers and bars: no bit changes at one, and they scale the stated coefficients."""
 
 from dataclasses import replace
 
@@ -27,23 +27,23 @@ def both(element: Element, scaled: Element, discrete: bool) -> None:
 @pytest.mark.parametrize("stops", [None, EndStops(0.9, 8e3, 1.1, 5e3), STOPS])
 @pytest.mark.parametrize("discrete", [False, True])
 def test_with_twice_the_numbers_and_half_the_factors_bits_are_the_same(stops: EndStops | None, discrete: bool) -> None:
-    given = SpringDamper(1234.5, 67.8, 0.9, stops)
+    spring = SpringDamper(1234.5, 67.8, 0.9, stops)
     doubled = SpringDamper(2469.0, 0.5 * 67.8, 0.9, stops)
-    scaled = replace(given, stiffness_factor=2.0, damping_factor=0.5)
+    scaled = replace(spring, stiffness_factor=2.0, damping_factor=0.5)
     both(*(Element(e.record("s", vectors(3)[0])) for e in (doubled, scaled)), discrete)
 
 
 def test_a_bar_scales_its_torque() -> None:
-    given = ScalarSpringDamper(300.0, 7.0, 0.2, 5.0)
-    scaled = replace(given, stiffness_factor=2.0, damping_factor=0.5)
+    bar = ScalarSpringDamper(300.0, 7.0, 0.2, 5.0)
+    scaled = replace(bar, stiffness_factor=2.0, damping_factor=0.5)
     both(*(Element(e.record("s", signals(1)[0])) for e in (ScalarSpringDamper(600.0, 3.5, 0.2, 5.0), scaled)), False)
 
 
 def test_a_damper_that_is_switched_off_takes_no_energy() -> None:
-    for given in (SpringDamper(10.0, 5.0, 0.1), ScalarSpringDamper(10.0, 5.0)):
-        signal = vectors(3)[0] if isinstance(given, SpringDamper) else signals(1)[0]
-        assert not Element(given.record("s", signal)).conservative  # type: ignore[arg-type]
-        assert Element(replace(given, damping_factor=0.0).record("s", signal)).conservative  # type: ignore[arg-type]
+    for spring in (SpringDamper(10.0, 5.0, 0.1), ScalarSpringDamper(10.0, 5.0)):
+        signal = vectors(3)[0] if isinstance(spring, SpringDamper) else signals(1)[0]
+        assert not Element(spring.record("s", signal)).conservative  # type: ignore[arg-type]
+        assert Element(replace(spring, damping_factor=0.0).record("s", signal)).conservative  # type: ignore[arg-type]
 
 
 def test_a_parameter_writes_a_factor_beside_one_of_the_number() -> None:

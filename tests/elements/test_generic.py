@@ -88,9 +88,9 @@ def test_tangent_is_the_symmetric_part_of_the_derivative(name: str, weights: tup
         n = len(element.element.signals)
         u, ud = rng.normal(size=n), rng.normal(size=n)
         r = element(u, ud, None, 0.01, *weights, INPUTS)
-        wanted = tangent_by_differences(element, u, ud, None, 0.01, *weights, INPUTS)
+        expected = tangent_by_differences(element, u, ud, None, 0.01, *weights, INPUTS)
         scale = max(np.max(np.abs(r.f)), np.max(np.abs(r.S)), 1.0)
-        assert np.max(np.abs(r.S - wanted)) < DIFFERENCES * scale
+        assert np.max(np.abs(r.S - expected)) < DIFFERENCES * scale
         assert np.array_equal(r.S, r.S.T)
 
 

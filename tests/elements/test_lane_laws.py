@@ -1,4 +1,4 @@
-"""The law of an element in lanes has in each lane the bits that it has alone, whatever its neighbours are asked."""
+"""The law of an element in a lane has the bits of the element alone, independent of the other lanes."""
 
 import ctypes
 from dataclasses import replace
@@ -47,24 +47,24 @@ def near(rng: np.random.Generator, element: Element) -> tuple[np.ndarray, np.nda
 
 
 def together(
-    element: Element, u: np.ndarray, ud: np.ndarray, y: np.ndarray, w: tuple[float, ...], given: np.ndarray
+    element: Element, u: np.ndarray, ud: np.ndarray, y: np.ndarray, w: tuple[float, ...], inputs_of_lanes: np.ndarray
 ) -> list[np.ndarray]:
     """What the law gives: f, S, states, outputs and potential, a row for each lane."""
     e, road = element.element, element.road.real
     columns = [np.ascontiguousarray(part.T) for part in (u, ud, y)]
     numbers = np.repeat(np.array(e.real)[:, None], WIDTH, axis=1)
-    inputs = np.ascontiguousarray(given.T)
+    inputs = np.ascontiguousarray(inputs_of_lanes.T)
     plain = len(road) - 1
     of_road = np.zeros((6, WIDTH))
     of_road[:plain], of_road[5] = np.array(road[:plain])[:, None], road[plain]
     n = len(e.signals)
-    made = [np.empty((max(1, k), WIDTH)) for k in (n, n * n, len(e.states), len(e.outputs), 1)]
-    at = [part.ctypes.data_as(ctypes.c_void_p) for part in (*columns, np.array(w), numbers, inputs, of_road, *made)]
+    outputs = [np.empty((max(1, k), WIDTH)) for k in (n, n * n, len(e.states), len(e.outputs), 1)]
+    at = [part.ctypes.data_as(ctypes.c_void_p) for part in (*columns, np.array(w), numbers, inputs, of_road, *outputs)]
     integers = (ctypes.c_int32 * max(1, len(e.integer)))(*e.integer)
     library().lanes_evaluate(
         int(e.type), element.sizes, *at[:5], integers, at[5], int(element.road.type), at[6], *at[7:]
     )
-    return [part.T for part in made]
+    return [part.T for part in outputs]
 
 
 @pytest.mark.parametrize("name", ELEMENTS)
@@ -76,15 +76,15 @@ def test_a_lane_has_the_bits_of_the_element_alone(name: str) -> None:
         lanes = [near(rng, element) if draw % 3 else (awkward(rng, n), awkward(rng, n)) for _ in range(WIDTH)]
         u, ud = np.array([lane[0] for lane in lanes]), np.array([lane[1] for lane in lanes])
         y = 1e-2 * rng.choice([0.0, 1.0, 30.0], size=(WIDTH, slots)) * rng.normal(size=(WIDTH, slots))
-        given = rng.choice([0.0, 0.1, 1.0], size=(WIDTH, 4))
+        inputs_of_lanes = rng.choice([0.0, 0.1, 1.0], size=(WIDTH, 4))
         h = float(rng.choice([0.0, 1e-3, 1e-2]))
         reach = float(rng.choice([0.0, 0.1, 10.0]))
-        result = together(element, u, ud, y, (h, 0.5 * h, 0.25 * h * h, reach), given)
+        result = together(element, u, ud, y, (h, 0.5 * h, 0.25 * h * h, reach), inputs_of_lanes)
         for k in range(WIDTH):
-            alone = element(u[k], ud[k], y[k], h, 0.5 * h, 0.25 * h * h, given[k], reach=reach)
+            alone = element(u[k], ud[k], y[k], h, 0.5 * h, 0.25 * h * h, inputs_of_lanes[k], reach=reach)
             expected = [alone.f, alone.S.ravel(), alone.y, np.array([*alone.out.values()]), np.array([alone.potential])]
-            for got, wanted in zip(result, expected, strict=True):
-                assert got[k, : wanted.size].tobytes() == wanted.tobytes(), (draw, k, u[k], ud[k])
+            for got, alone_part in zip(result, expected, strict=True):
+                assert got[k, : alone_part.size].tobytes() == alone_part.tobytes(), (draw, k, u[k], ud[k])
         differing += not np.array_equal(*np.hstack([result[0], result[3]]))
     assert differing > 200
 

@@ -73,10 +73,10 @@ def test_wind_by_inputs_that_the_model_does_not_have_is_refused(missing: Wind) -
     body = m.body("body", mass=1.0, com=(0.0, 0.0, 0.0), inertia=(1.0, 1.0, 1.0))
     speed, heading = (m.input(name, min=-1.0, max=1.0).index for name in ("speed", "heading"))
     numbers = [missing.speed, missing.heading]
-    reported = re.escape(f"has the inputs {numbers}, but the model 'gust' has 2, counted from 0.")
-    with pytest.raises(ModelError, match=f"The wind of drag 'air' {reported}"):
+    message = re.escape(f"has the inputs {numbers}, but the model 'gust' has 2, counted from 0.")
+    with pytest.raises(ModelError, match=f"The wind of drag 'air' {message}"):
         m.drag("air", body, (0.0, 0.0, 0.0), drag_area=1.0, wind=missing)
-    with pytest.raises(ModelError, match=f"The wind of lift 'wing' {reported}"):
+    with pytest.raises(ModelError, match=f"The wind of lift 'wing' {message}"):
         m.lift("wing", body, (0.0, 0.0, 0.0), lift_area=1.0, wind=missing, **AXES)
     m.drag("air", body, (0.0, 0.0, 0.0), drag_area=1.0, wind=Wind(speed, heading))
     m.lift("wing", body, (0.0, 0.0, 0.0), lift_area=1.0, wind=Wind(speed, heading), **AXES)

@@ -52,15 +52,15 @@ def pressed(t: MagicTyre, load: float, omega: float) -> float:
     return load / k if k2 == 0.0 else (sqrt(k**2 + 4.0 * k2 * load) - k) / (2.0 * k2)
 
 
-def pose(t: MagicTyre, load: float, kappa: float, alpha: float, gamma: float, speed: float, way: float = 1.0):
-    """Signals and their rates of a wheel that leans to the right by gamma and rolls ahead, or back by way = -1."""
+def pose(t: MagicTyre, load: float, kappa: float, alpha: float, gamma: float, speed: float, direction: float = 1.0):
+    """Signals and their rates of a wheel that leans to the right by gamma and rolls ahead, backwards with -1."""
     omega = (1.0 + kappa) * speed / t.radius
     for _ in range(60):
         deflection = pressed(t, load * cos(gamma), omega)
         omega = (1.0 + kappa) * speed / rolling_radius(t, omega, deflection)
     height = (grown(t, omega)[0] - deflection) * cos(gamma)
     u = np.array([0.0, 0.0, height, 0.0, cos(gamma), sin(gamma), 0.0])
-    return u, np.array([way * speed, speed * tan(alpha), 0.0, 0.0, 0.0, 0.0, way * omega])
+    return u, np.array([direction * speed, speed * tan(alpha), 0.0, 0.0, 0.0, 0.0, direction * omega])
 
 
 def settled(element: Element, u: np.ndarray, ud: np.ndarray) -> Result:
@@ -75,8 +75,8 @@ def settled(element: Element, u: np.ndarray, ud: np.ndarray) -> Result:
 
 def book(t: MagicTyre, load: float, kappa: float, alpha: float, gamma: float, speed: float, mu: float) -> Forces:
     law = pac2002 if t.version in ("PAC2002", "MF52") else mf6
-    given = Given(load, kappa, alpha, gamma, speed, t.pressure, mu)
-    return law(Coefficients(t.coefficients, t.radius, t.nominal_load), given, t.combination)
+    state = Given(load, kappa, alpha, gamma, speed, t.pressure, mu)
+    return law(Coefficients(t.coefficients, t.radius, t.nominal_load), state, t.combination)
 
 
 def kernel(element: Element, u: np.ndarray, ud: np.ndarray) -> tuple[Forces, float]:
@@ -112,13 +112,13 @@ def test_forces_are_those_of_the_published_equations(file: Path) -> None:
         u, ud = pose(t, load, kappa, alpha, gamma, speed)
         got, carried = kernel(element_of(t, mu), u, ud)
         assert carried == pytest.approx(load, rel=1e-9)
-        wanted = book(t, load, kappa, alpha, gamma, speed, mu)
-        wanted = replace(wanted, My=max(wanted.My, 0.0) * np.tanh(ud[6]))  # a negative resistance would drive
+        expected = book(t, load, kappa, alpha, gamma, speed, mu)
+        expected = replace(expected, My=max(expected.My, 0.0) * np.tanh(ud[6]))  # a negative resistance would drive
         for name, arm in (("Fx", 1.0), ("Fy", 1.0), ("Mx", t.radius), ("My", t.radius), ("Mz", t.radius)):
-            error = abs(getattr(got, name) - getattr(wanted, name)) / (t.nominal_load * arm)
+            error = abs(getattr(got, name) - getattr(expected, name)) / (t.nominal_load * arm)
             worst = max(worst, error)
             if not error < EXACT:
-                rows.append((name, load, kappa, alpha, gamma, speed, mu, getattr(got, name), getattr(wanted, name)))
+                rows.append((name, load, kappa, alpha, gamma, speed, mu, getattr(got, name), getattr(expected, name)))
     assert not rows, (len(rows), rows[:5])
     assert worst > 0.0
 
@@ -188,13 +188,13 @@ def test_the_relaxation_length_is_that_of_the_file(file: Path) -> None:
         sigma = c.PTY1 * sin(2.0 * atan(load / (c.PTY2 * Fz0))) * c.R0 * c.LFZO * c.LSGAL
     else:
         sigma = c.R0 * load / Fz0
-    h, remaining = 1e-3 * sigma / speed, []
+    h, shares = 1e-3 * sigma / speed, []
     for _ in range(1000):
         r = element(u, ud, y, h)
         y = r.y
-        remaining.append((r.out["lateral_force"] - last) / (first - last))
-    assert remaining[-1] == pytest.approx(np.exp(-1.0), rel=2e-2 if t.combination == "ellipse" else 2e-3)
-    assert np.all(np.diff(remaining) < 0.0)
+        shares.append((r.out["lateral_force"] - last) / (first - last))
+    assert shares[-1] == pytest.approx(np.exp(-1.0), rel=2e-2 if t.combination == "ellipse" else 2e-3)
+    assert np.all(np.diff(shares) < 0.0)
 
 
 def pushes(rng: np.random.Generator, t: MagicTyre) -> tuple[np.ndarray, np.ndarray]:
@@ -246,11 +246,11 @@ def test_tangent_is_the_derivative_made_symmetric_and_safe(file: Path) -> None:
             y = settled(element, u, ud).y
             S = element(u, ud, y, h, 1.0, 0.0).S
             assert np.linalg.eigvalsh(S)[0] > -1e-9 * np.max(S)
-            wanted = tangent_by_differences(element, u, ud, y, h, 1.0, 0.0, (), step=1e-5)
-            assert S[1, 1] >= wanted[1, 1] * (1.0 - 1e-4)
+            expected = tangent_by_differences(element, u, ud, y, h, 1.0, 0.0, (), step=1e-5)
+            assert S[1, 1] >= expected[1, 1] * (1.0 - 1e-4)
             if abs(kappa) < 0.02 and abs(alpha) < 0.02:
                 exact += 1
-                pairs = [(S[i, j], wanted[i, j]) for i, j in ((1, 1), (6, 6))]
+                pairs = [(S[i, j], expected[i, j]) for i, j in ((1, 1), (6, 6))]
                 assert all(s == pytest.approx(w, rel=0.02) for s, w in pairs), pairs
     assert exact >= 2
 
@@ -260,8 +260,8 @@ def test_tangent_at_rest_is_that_of_the_carcass() -> None:
     element, h = element_of(t), 0.005
     u = np.r_[0.0, 0.0, t.radius - pressed(t, t.nominal_load, 0.0), 0.0, 1.0, 0.0, 0.0]
     r = element(u, np.zeros(7), None, h, 0.5 * h, 0.0)
-    wanted = tangent_by_differences(element, u, np.zeros(7), None, h, 0.5 * h, 0.0, (), step=1e-8)
-    assert np.max(np.abs(r.S - wanted)[:2, :2]) < 2e-3 * np.max(np.abs(wanted[:2, :2]))
+    expected = tangent_by_differences(element, u, np.zeros(7), None, h, 0.5 * h, 0.0, (), step=1e-8)
+    assert np.max(np.abs(r.S - expected)[:2, :2]) < 2e-3 * np.max(np.abs(expected[:2, :2]))
 
 
 @pytest.mark.parametrize("file", FILES, ids=ids)

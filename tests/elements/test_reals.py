@@ -98,7 +98,7 @@ def declaring() -> list[type[Element]]:
     return [*map(fields_in_c.class_of, ElementType)]
 
 
-def test_the_headers_in_c_are_what_the_classes_say():
+def test_the_headers_in_c_agree_with_the_classes():
     present = {file: file.read_text(encoding="utf-8") for file in fields_in_c.FOLDER.glob("*_fields.h")}
     assert dict(fields_in_c.headers()) == present, "run: python -m mbs.elements.fields_in_c"
     assert len(present) == len(ElementType)
@@ -122,9 +122,9 @@ def test_class_and_kernel_refuse_the_same_numbers(name: str):
                 refused = real.check(value, "it") != value
             except ModelError:
                 refused = True
-            reported = harness.Element(record, n_inputs=6).with_reals({k: value}).check()
+            message = harness.Element(record, n_inputs=6).with_reals({k: value}).check()
             ours = f"the {called} of {type(thing)._words} {fields_in_c.RANGES[real.check][1]}"
-            assert (reported == ours) is refused, f"{key} = {value:g}: {reported}"
+            assert (message == ours) is refused, f"{key} = {value:g}: {message}"
             if refused and isinstance(getattr(thing, key, None), float):
                 with pytest.raises(ModelError, match=rf"(?i){called} of .* is {value:g}\b"):
                     use(replace(thing, **{key: value}))
@@ -141,6 +141,6 @@ def test_the_kernel_refuses_inputs_and_roads_that_do_not_exist(name: str):
 
 def test_every_number_and_every_output_has_a_unit_and_a_sentence():
     for kind in declaring():
-        reported = fields_in_c.texts(kind)
-        assert all(reported[field] for field in declared(kind))
+        texts = fields_in_c.texts(kind)
+        assert all(texts[field] for field in declared(kind))
         assert all(output.unit and output.description for output in kind._outputs)

@@ -52,7 +52,7 @@ def cone(tilt: float, n: int) -> list[Rotation]:
 
 
 @pytest.mark.slow
-def test_an_axis_around_a_cone_gives_the_angle_that_no_position_tells() -> None:
+def test_an_axis_around_a_cone_gives_the_angle_that_no_position_shows() -> None:
     """Once about the vertical: e . w = psi' sin(tilt), so -2 pi sin(tilt), and the error of steps falls with h^2."""
     for tilt in (0.02, 0.5, -0.9):
         error = [

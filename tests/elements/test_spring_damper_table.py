@@ -20,8 +20,8 @@ ROUND_OFF = 1e-12
 
 
 def element(spring: object = SPRING, damper: object = 0.0, free_length: float = FREE, **more: object) -> Element:
-    given = SpringDamperTable(spring, damper, free_length, **more)  # type: ignore[arg-type]
-    return Element(given.record("strut", vectors(3)[0]))
+    strut = SpringDamperTable(spring, damper, free_length, **more)  # type: ignore[arg-type]
+    return Element(strut.record("strut", vectors(3)[0]))
 
 
 def along(length: float, rate: float = 0.0) -> tuple[Array, Array]:
@@ -71,8 +71,8 @@ def test_a_straight_table_is_the_number() -> None:
     stops = EndStops(0.3, 8e4, 0.5, 5e4, bump_progression=0.03, metal_stiffness=1e6, bump_travel=0.05, bump_loss=0.2)
     straight = SpringDamperTable([(-0.1, -1000.0), (0.1, 1000.0)], [(-1.0, -300.0), (0.0, 0.0), (1.0, 300.0)], FREE)
     plain = Element(SpringDamper(1e4, 300.0, FREE, stops).record("s", vectors(3)[0]))
-    for given in (straight, SpringDamperTable(1e4, 300.0, FREE)):
-        table = Element(replace(given, stops=stops).record("s", vectors(3)[0]))
+    for strut in (straight, SpringDamperTable(1e4, 300.0, FREE)):
+        table = Element(replace(strut, stops=stops).record("s", vectors(3)[0]))
         rng = np.random.default_rng(3)
         for length in (0.2, 0.29, 0.4, 0.55):
             u, ud = along(length, 0.3)
@@ -137,7 +137,7 @@ def test_energy_is_kept_by_the_energy_momentum_method() -> None:
     assert np.ptp(run["energy"]) < 1e-7 * np.max(np.abs(run["energy"]))
 
 
-def test_a_spring_by_table_says_whether_it_takes_energy() -> None:
+def test_a_spring_by_table_declares_whether_it_dissipates_energy() -> None:
     assert element(SPRING).conservative
     assert element(SPRING, DAMPER).conservative is False
     assert element(SPRING, DAMPER, damping_factor=0.0).conservative

@@ -7,7 +7,10 @@ from mbs.elements import InputForce, ScalarSpringDamper, TorsionBar
 from tests.elements.harness import Element, signals
 from tests.elements.stepper import Part, Stepper
 
-K, C, GAIN, LIMIT = 100.0, 0.8, 6.0, 40.0
+K = 100.0  # N m/rad
+C = 0.8  # N m s/rad
+GAIN = 6.0  # assistance over torque
+LIMIT = 40.0  # N m, of the assistance
 
 
 def bar(gain: float = 0.0, limit: float = 0.0) -> Element:
@@ -29,8 +32,8 @@ def test_the_assistance_grows_with_the_torque_up_to_its_limit() -> None:
         assert r.out["assistance"] == pytest.approx(expected, rel=1e-3)
         assert r.f == pytest.approx([-r.out["torque"], r.out["torque"] + r.out["assistance"]])
     r = assisted(np.array([0.1, 0.0]), np.zeros(2), [], 0.01)
-    wanted = GAIN * K * 0.1
-    assert r.out["assistance"] == pytest.approx(wanted / np.hypot(1.0, wanted / LIMIT))
+    unlimited = GAIN * K * 0.1
+    assert r.out["assistance"] == pytest.approx(unlimited / np.hypot(1.0, unlimited / LIMIT))
 
 
 @pytest.mark.parametrize(("gain", "limit"), [(0.0, 0.0), (GAIN, LIMIT)])
@@ -39,19 +42,19 @@ def test_the_tangent_is_that_of_the_force_but_for_what_the_wheel_does_through_th
 ) -> None:
     element, u, ud, h = bar(gain, limit), np.array([0.04, -0.02]), np.array([0.3, 0.1]), 0.01
     r = element(u, ud, [], h, 0.5 * h, 0.25 * h * h)
-    small, wanted = 1e-6, np.zeros((2, 2))
+    small, expected = 1e-6, np.zeros((2, 2))
     for k in range(2):
         e = small * np.eye(2)[k]
         for weight, of in (
             (0.25 * h * h, lambda s: element(u + s, ud, [], h).f),
             (0.5 * h, lambda s: element(u, ud + s, [], h).f),
         ):
-            wanted[:, k] -= weight * (of(e) - of(-e)) / (2.0 * small)
-    assert r.S[[0, 0, 1], [0, 1, 1]] == pytest.approx(wanted[[0, 0, 1], [0, 1, 1]], rel=1e-6)
+            expected[:, k] -= weight * (of(e) - of(-e)) / (2.0 * small)
+    assert r.S[[0, 0, 1], [0, 1, 1]] == pytest.approx(expected[[0, 0, 1], [0, 1, 1]], rel=1e-6)
     assert r.S[1, 0] == r.S[0, 1]
     assert np.all(np.linalg.eigvalsh(r.S) > -1e-12)
     if gain:
-        assert wanted[1, 0] < 2.0 * r.S[1, 0]  # what is left out is there
+        assert expected[1, 0] < 2.0 * r.S[1, 0]  # what is left out is there
 
 
 @pytest.mark.parametrize("h", [pytest.param(0.001, marks=pytest.mark.slow), 0.005, 0.02])
@@ -66,8 +69,8 @@ def test_steps_converge_with_a_strong_assistance(h: float) -> None:
     ]
     s = Stepper(np.array([0.03, 0.007]), np.zeros(2), parts, [0.0, 0.0], [0.0, 0.0])
     s.run(4.0, h)
-    wanted = 12.0 * hand
-    load = hand + wanted / np.hypot(1.0, wanted / 80.0)
+    unlimited = 12.0 * hand
+    load = hand + unlimited / np.hypot(1.0, unlimited / 80.0)
     assert s.q[1] == pytest.approx(load / spring, rel=1e-6)
     assert s.q[0] - s.q[1] == pytest.approx(hand / K, rel=1e-6)
     assert max(s.iterations) <= 1000.0 * h + 12

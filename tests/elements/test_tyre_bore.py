@@ -82,7 +82,7 @@ def test_on_the_spot_the_carcass_twists_then_the_patch_slides_at_its_friction(na
 
 
 @pytest.mark.parametrize("name", ["tmeasy", "magic formula"])
-def test_turning_takes_energy_and_what_is_stored_comes_back(name: str) -> None:
+def test_turning_dissipates_energy_and_stored_energy_is_returned(name: str) -> None:
     """Work on the patch is what the potential gains and what damper and sliding take, in every step."""
     element, h = elements()[name], 0.001
     y, angle, worst, taken = np.zeros(6), 0.0, 0.0, 0.0
@@ -123,11 +123,11 @@ def test_force_and_moment_share_friction(name: str) -> None:
         ud = np.zeros(7)
         ud[1] = 0.03
         y = element(turned(element, 0.0), ud, y, h).y
-    held = element(turned(element, 0.0), np.zeros(7), y, h).out["lateral_force"]
+    sticking = element(turned(element, 0.0), np.zeros(7), y, h).out["lateral_force"]
     run, _ = steered(element, 0.5, 1.0, h, y)
     forces = [hypot(r.out["longitudinal_force"], r.out["lateral_force"]) for r in run]
-    assert abs(held) > 150.0
-    assert forces[-1] < 0.1 * abs(held)
+    assert abs(sticking) > 150.0
+    assert forces[-1] < 0.1 * abs(sticking)
     assert all(later <= before * (1.0 + 1e-9) for before, later in pairwise(forces))
 
 
@@ -155,8 +155,8 @@ def test_a_rolling_wheel_on_a_circle_has_the_moment_of_its_slip(gamma: float) ->
     radius = (2.0 * sqrt(TYRE.radius * depth) + BORE.width) / 6.0
     q = r.out["vertical_force"] / TYRE.nominal_load
     turning = rate * cos(gamma) + omega * sin(gamma)
-    wanted = -q * _slope(q) * radius**2 * turning / speed
-    assert r.out["aligning_moment"] == pytest.approx(wanted, rel=1e-4)
+    expected = -q * _slope(q) * radius**2 * turning / speed
+    assert r.out["aligning_moment"] == pytest.approx(expected, rel=1e-4)
 
 
 def _slope(q: float) -> float:
@@ -185,16 +185,16 @@ def test_of_the_formula_it_is_gone_where_the_wheel_rolls() -> None:
 def test_the_tangent_about_the_normal_is_the_slope_of_the_moment_or_the_safe_share(name: str, before: float) -> None:
     element, h, rate = elements()[name], 0.005, 0.5
     run, angle = steered(element, rate, before, h)
-    y, way = run[-1].y, np.array([-cos(angle), -sin(angle)])
+    y, direction = run[-1].y, np.array([-cos(angle), -sin(angle)])
 
     def at(w: float):
         ud = np.zeros(7)
-        ud[3:5] = w * way
+        ud[3:5] = w * direction
         return element(turned(element, angle), ud, y, h, 0.5 * h, 0.0)
 
     step = 1e-4
     slope = (at(rate + step).out["aligning_moment"] - at(rate - step).out["aligning_moment"]) / (2.0 * step)
-    got = way @ at(rate).S[3:5, 3:5] @ way / (0.5 * h)
+    got = direction @ at(rate).S[3:5, 3:5] @ direction / (0.5 * h)
     sticks = 0.5 * h * BORE.stiffness + BORE.damping
     if before < 0.1:
         assert got == pytest.approx(sticks, rel=1e-3)
@@ -223,9 +223,9 @@ def test_camber_thrust_is_that_of_the_slip_it_stands_for(gamma: float) -> None:
         x1, x2 = TYRE.lateral.max_slip
         s = 0.1 * abs(sin(gamma))
         x = s / (x1 + (x2 - x1) * (q - 1.0))
-        wanted = slope * s / ((1.0 - x) ** 2 + slope * s / most)  # Hirschberg, Rill and Weinfurter, up to the maximum
-        assert r.out["lateral_force"] == pytest.approx(-np.sign(gamma) * wanted, rel=1e-5)
-        assert abs(r.out["aligning_moment"]) < 1e-6 * wanted
+        expected = slope * s / ((1.0 - x) ** 2 + slope * s / most)  # Hirschberg, Rill and Weinfurter, up to the maximum
+        assert r.out["lateral_force"] == pytest.approx(-np.sign(gamma) * expected, rel=1e-5)
+        assert abs(r.out["aligning_moment"]) < 1e-6 * expected
 
 
 @pytest.mark.parametrize("h", [0.01, 1.0])

@@ -12,7 +12,9 @@ from tests.elements.harness import Array, Element, signals, vectors
 from tests.elements.stepper import Part, Stepper
 from tests.elements.tyre_data import TYRE, tyre_element, upright
 
-MASS, INERTIA, G = 130.0, 0.55, 9.81
+MASS = 130.0  # kg
+INERTIA = 0.55  # kg m2
+G = 9.81  # m/s2
 R = TYRE.radius
 CREEP = 1e-4  # m in 100 s on a ten per cent slope
 

@@ -67,10 +67,10 @@ def test_steady_forces_and_moment_are_those_of_the_publication(
     for sx, sy in PAIRS[LOADS.index(load) % every :: every]:
         r = steady(load, sx, sy, element, speed).out
         Fx, Fy = tmeasy.forces(TYRE, load, friction, -sx * moving, -sy * moving)
-        wanted = np.array([Fx, Fy, tmeasy.aligning_moment(TYRE, load, friction, -sx * moving, -sy * moving)])
+        expected = np.array([Fx, Fy, tmeasy.aligning_moment(TYRE, load, friction, -sx * moving, -sy * moving)])
         got = np.array([r["longitudinal_force"], r["lateral_force"], r["aligning_moment"]])
         assert r["vertical_force"] == pytest.approx(load, rel=1e-12)
-        assert np.max(np.abs(got - wanted) / scale) < STEADY, (sx, sy, got, wanted)
+        assert np.max(np.abs(got - expected) / scale) < STEADY, (sx, sy, got, expected)
 
 
 def test_pure_longitudinal_force_has_no_offset_of_slip() -> None:
@@ -78,8 +78,8 @@ def test_pure_longitudinal_force_has_no_offset_of_slip() -> None:
     for speed in (1.0, 2.0, 10.0, 40.0):
         assert abs(steady(1500.0, 0.0, 0.0, speed=speed).out["longitudinal_force"]) < 1e-6
         x = steady(1500.0, 0.01, 0.0, speed=speed).out["longitudinal_force"]
-        wanted = tmeasy.forces(TYRE, 1500.0, TYRE.reference_friction, -0.01 * speed / (speed + 1e-5), 0.0)[0]
-        assert x == pytest.approx(wanted, rel=1e-7)
+        expected = tmeasy.forces(TYRE, 1500.0, TYRE.reference_friction, -0.01 * speed / (speed + 1e-5), 0.0)[0]
+        assert x == pytest.approx(expected, rel=1e-7)
 
 
 @pytest.mark.parametrize(("load", "lateral", "longitudinal"), [(1267.3, 20870.0, 23070.0), (1661.0, 25990.0, 30710.0)])
@@ -290,7 +290,8 @@ def test_aligning_moment_and_rolling_resistance_are_moments_on_the_wheel() -> No
 
 
 # Of the largest entry. Left out: load coupling, turning of frames, transport speed; near the limit the secant stays.
-COUPLING, LIMIT = {0.0: 0.002, 0.5: 0.05, 10.0: 0.06, 30.0: 0.16}, 0.3
+COUPLING = {0.0: 0.002, 0.5: 0.05, 10.0: 0.06, 30.0: 0.16}  # by speed in m/s
+LIMIT = 0.3  # near the limit of friction
 
 
 @pytest.mark.parametrize(("speed", "spread"), [(0.0, 0.02), (0.5, 1.0), (10.0, 1.0), (30.0, 0.3)])
@@ -305,11 +306,11 @@ def test_tangent_is_near_the_derivative_and_positive_semidefinite(speed: float, 
         ud = steady_part + spread * (ud - np.r_[speed, np.zeros(5), speed / R])
         y = np.r_[0.001 * rng.normal(size=2), 0.02 * rng.normal(size=2)]
         r = element(u, ud, y, h, 0.5 * h, 0.25 * h * h)
-        wanted = tangent_by_differences(element, u, ud, y, h, 0.5 * h, 0.25 * h * h, ())
+        expected = tangent_by_differences(element, u, ud, y, h, 0.5 * h, 0.25 * h * h, ())
         assert np.linalg.eigvalsh(r.S)[0] > -1e-12
         use = np.hypot(r.out["longitudinal_force"] / 1694.0, r.out["lateral_force"] / 1501.0)
         easy += use < 0.3
-        assert np.max(np.abs(r.S - wanted)) < (COUPLING[speed] if use < 0.3 else LIMIT) * np.max(np.abs(wanted))
+        assert np.max(np.abs(r.S - expected)) < (COUPLING[speed] if use < 0.3 else LIMIT) * np.max(np.abs(expected))
     assert easy >= 5
 
 
@@ -349,8 +350,8 @@ def test_tangent_is_exact_where_nothing_is_left_out() -> None:
     h = 0.005
     u, ud = upright(0.245), np.zeros(7)
     r = element(u, ud, None, h, 0.5 * h, 0.0)
-    wanted = tangent_by_differences(element, u, ud, None, h, 0.5 * h, 0.0, (), step=1e-5)
-    assert np.max(np.abs(r.S - wanted)) < 2e-3 * np.max(np.abs(wanted))
+    expected = tangent_by_differences(element, u, ud, None, h, 0.5 * h, 0.0, (), step=1e-5)
+    assert np.max(np.abs(r.S - expected)) < 2e-3 * np.max(np.abs(expected))
     spring = 0.5 * h * (tyre.carcass_damping[0] + 0.5 * h * tyre.carcass_stiffness[0])
     assert r.S[0, 0] == pytest.approx(spring, rel=1e-4)
     assert r.S[0, 6] == pytest.approx(-spring * 0.245, rel=1e-4)

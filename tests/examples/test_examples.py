@@ -1,4 +1,4 @@
-"""The examples: each runs without a warning, finds the number it promises, draws, and stands in the gallery."""
+"""The examples: each runs without a warning, prints the documented number, draws, and is in the gallery."""
 
 import re
 from pathlib import Path
@@ -39,15 +39,15 @@ def test_an_example_keeps_its_promise(
     example = module_of(FOLDER / f"{name}.py")
     monkeypatch.chdir(tmp_path)
     result = example.main()
-    low, high, reported = PROMISED[name]
+    low, high, line = PROMISED[name]
     assert low <= result <= high
-    assert reported in capsys.readouterr().out
+    assert line in capsys.readouterr().out
     drawn = image.imread(tmp_path / f"{name}.png")
     assert drawn.shape == image.imread(ROOT / "docs" / "images" / "examples" / f"{name}.png").shape
     assert drawn.std() > 0.02
 
 
-def test_every_example_is_short_and_says_how_it_is_called() -> None:
+def test_every_example_is_short_and_shows_its_command() -> None:
     files = sorted(FOLDER.glob("*.py"))
     assert [file.stem for file in files] == sorted(PROMISED)
     for file in files:

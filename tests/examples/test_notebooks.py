@@ -1,4 +1,4 @@
-"""The notebooks run from the first cell to the last, and their controllers do what they are for."""
+"""The notebooks run from the first cell to the last, and their results satisfy the stated claims."""
 
 import json
 import subprocess

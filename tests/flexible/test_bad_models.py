@@ -1,4 +1,4 @@
-"""Models that cannot be are refused with one sentence that names the place."""
+"""Invalid finite-element models are refused with one sentence that names the place."""
 
 from pathlib import Path
 

@@ -20,8 +20,8 @@ FREE_FREE = np.array([4.730040744863, 7.853204624096, 10.995607838002])  # roots
 CANTILEVER = np.array([1.875104068712, 4.694091132974, 7.854757438238])  # roots of cos x cosh x = -1
 
 
-def deflection(model: FiniteElementModel, load: dict[int, float], held: np.ndarray = CLAMPED) -> np.ndarray:
-    free = np.setdiff1d(np.arange(model.n_dof), held)
+def deflection(model: FiniteElementModel, load: dict[int, float], fixed: np.ndarray = CLAMPED) -> np.ndarray:
+    free = np.setdiff1d(np.arange(model.n_dof), fixed)
     F = np.zeros(model.n_dof)
     F[list(load)] = list(load.values())
     u = np.zeros(model.n_dof)
@@ -205,7 +205,7 @@ def test_lumping_costs_frequency_in_proportion_to_the_element_squared() -> None:
     np.testing.assert_allclose(order, 2.0, atol=0.05)
 
 
-def test_rigid_motions_and_constant_strains_cost_what_they_should() -> None:
+def test_energies_of_rigid_motions_and_constant_strains_are_exact() -> None:
     model = portal().finite_element_model()
     R = model.rigid_motions(model.positions.mean(axis=0))
     assert np.abs(model.K @ R).max() < 1e-9 * np.abs(model.K.data).max()

@@ -1,4 +1,4 @@
-"""Flexible bodies that are right in form and wrong in meaning are told or refused, with the mistake behind it."""
+"""Implausible flexible bodies are reported or refused, with the probable mistake."""
 
 import itertools
 import re
@@ -77,7 +77,7 @@ def test_units_of_a_whole_model_are_reported(body: str) -> None:
         assert message in sentence.split("would explain it")[0]
 
 
-def test_a_mass_that_is_known_tells_what_the_matrices_cannot() -> None:
+def test_a_given_mass_reveals_mistakes_that_matrices_do_not() -> None:
     model = straight(4).finite_element_model()
     for factor, message in (
         (1e3, "g in place of kg"),

@@ -20,7 +20,8 @@ from mbs.flexible.reduced_body import ReducedBody
 from tests.flexible.structures import portal, straight
 
 ROUND_OFF = 1e-9
-REFERENCE, INTERFACES = "N0", ("N2", "N4", "N7")
+REFERENCE = "N0"
+INTERFACES = ("N2", "N4", "N7")
 
 
 def free_frequencies(body: ReducedBody, model: FiniteElementModel) -> np.ndarray:
@@ -144,8 +145,8 @@ def test_a_named_output_takes_the_modes_it_needs() -> None:
         body = craig_bampton(model, REFERENCE, INTERFACES, choice.modes)
         moments = []
         for b in (body, exact):
-            held = b.modes[:, b.n_static :]  # interfaces held
-            moments.append(np.asarray(rows @ held) @ np.linalg.solve(b.K[9:, 9:], held.T @ load))
+            fixed_modes = b.modes[:, b.n_static :]  # interfaces held
+            moments.append(np.asarray(rows @ fixed_modes) @ np.linalg.solve(b.K[9:, 9:], fixed_modes.T @ load))
         assert np.abs(moments[0] - moments[1]).max() <= 1.01 * tolerance * _largest(model, rows)
     with pytest.raises(ModelError, match="leave an error of"):
         modes_for_output(model, REFERENCE, INTERFACES, rows, 1e-9, 5)
@@ -153,7 +154,7 @@ def test_a_named_output_takes_the_modes_it_needs() -> None:
         modes_for_output(model, REFERENCE, INTERFACES, rows, 2.0)
 
 
-def test_inertia_modes_leave_only_what_moves_fast_to_the_dynamic_modes() -> None:
+def test_inertia_modes_leave_only_fast_motions_to_the_dynamic_modes() -> None:
     frame = portal()
     model = frame.finite_element_model()
     rows = section_forces(frame, 2, 0.5)[[4], : model.n_dof]
@@ -176,8 +177,8 @@ def test_a_straight_beam_without_rotary_inertia_has_no_inertia_mode_about_its_ax
     body = craig_bampton(model, 0, [Interface(8, rotations=True)], 0, inertia_modes=True)
     assert body.n_modes - body.n_static == 5
     load = np.asarray(model.mass_matrix() @ model.rigid_motions(model.origin(0)))
-    held = np.r_[:6, 48:54]
-    free = np.setdiff1d(np.arange(model.n_dof), held)
+    fixed = np.r_[:6, 48:54]
+    free = np.setdiff1d(np.arange(model.n_dof), fixed)
     exact = spsolve(sp.csc_matrix(model.K[free][:, free]), load[free])
     shapes = body.modes[free, body.n_static :]
     result = shapes @ np.linalg.solve(body.K[body.n_static :, body.n_static :], shapes.T @ load[free])
@@ -188,11 +189,11 @@ def _largest(model: FiniteElementModel, rows: sp.sparray) -> float:
     exact = craig_bampton(model, REFERENCE, INTERFACES, 0, inertia_modes=True)
     load = np.asarray(model.mass_matrix() @ model.rigid_motions(model.origin(REFERENCE)))
     load[:, 3:] /= np.ptp(model.positions, axis=0).max()
-    held = exact.modes[:, 9:]
-    return float(np.abs(np.asarray(rows @ held) @ np.linalg.solve(exact.K[9:, 9:], held.T @ load)).max())
+    fixed_modes = exact.modes[:, 9:]
+    return float(np.abs(np.asarray(rows @ fixed_modes) @ np.linalg.solve(exact.K[9:, 9:], fixed_modes.T @ load)).max())
 
 
-def test_load_path_modes_keep_what_the_loads_excite_and_nothing_else(model: FiniteElementModel) -> None:
+def test_load_path_modes_keep_only_the_modes_that_the_loads_excite(model: FiniteElementModel) -> None:
     body = craig_bampton(model, REFERENCE, INTERFACES, 0, inertia_modes=True)
     rod = np.array([1.0, 2.0, -1.0]) / np.sqrt(6.0)
     loads = interface_loads(body, {"N2": np.eye(3), "N4": rod, "N7": np.array([[0.0, 0.0, 1.0]])})

@@ -205,14 +205,14 @@ def test_grid_points_behind_tabs_and_replicated_ones(tmp_path: Path) -> None:
         "GRID    10              1.0     1.0     1.0\n=       *2      =       =       *-1.+0  ==\n=2\n"
         "GRID,20,,=,7.,==\nENDDATA\nGRID,99,,1.,1.,1.\n"
     )
-    wanted = {1: (1.5, 2.0, -3.0), 2: (0.123456789, 1.0, 2.0), 3: (4.0, 5.0, 6.0)}
-    wanted |= {4 + k: (0.5 * k, 1.0, 2.0) for k in range(5)}
-    wanted |= {10 + 2 * k: (1.0, 1.0 - k, 1.0) for k in range(4)} | {20: (1.0, 7.0, 1.0)}
+    expected = {1: (1.5, 2.0, -3.0), 2: (0.123456789, 1.0, 2.0), 3: (4.0, 5.0, 6.0)}
+    expected |= {4 + k: (0.5 * k, 1.0, 2.0) for k in range(5)}
+    expected |= {10 + 2 * k: (1.0, 1.0 - k, 1.0) for k in range(4)} | {20: (1.0, 7.0, 1.0)}
     actual = grid_points(tmp_path / "deck.bdf")
-    assert list(actual) == sorted(wanted)
+    assert list(actual) == sorted(expected)
     for number, (place, own) in actual.items():
         assert own == 0
-        np.testing.assert_allclose(place, wanted[number], atol=1e-12)
+        np.testing.assert_allclose(place, expected[number], atol=1e-12)
 
 
 def test_nastran_places_are_those_of_the_basic_system(tmp_path: Path) -> None:
@@ -279,7 +279,7 @@ def test_a_damaged_calculix_file_is_refused(tmp_path: Path, suffix: str, kept: f
         read_calculix(tmp_path / "bar.inp")
 
 
-def test_a_missing_library_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_library_is_reported_with_its_package(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "meshio", None)
     with pytest.raises(ModelError, match=r'pip install "ali3\[fem\]"'):
         read_calculix("a.inp")

@@ -29,7 +29,8 @@ FIXED_HZ = [27.25, 27.52, 31.68, 33.91, 35.64, 40.61, 45.36, 47.64, 57.16, 60.96
 REDUCED_ERROR_PERCENT = {5: [1.0, 5.7, 2.9, 0.1, 0.3, 0.2], 10: [0.5, 0.6, 0.8, 0.1, 0.1, 0.1]}
 TORSION = 2370.0  # N m/deg
 STATIC_MOMENTS = {(1, 1): [3.66, -3.85], (2, 1): [7.05, -4.24], (1, 2): [3.94, -7.30]}  # N m at SG1/2 and SG3/4
-PEAK_STRESS, SAG = 26.43e6, [0.35e-3, 0.30e-3]
+PEAK_STRESS = 26.43e6  # Pa
+SAG = [0.35e-3, 0.30e-3]  # m, at the gauges
 FIGURES = 4e-4  # two digits after the point, and no rotary inertia of bending in them
 MOMENT_DIGITS = 5e-3
 
@@ -82,8 +83,8 @@ def test_lumped_masses_and_rotary_inertia_are_negligible_for_the_frame() -> None
 
 
 def test_torsional_stiffness_between_the_towers(model: FiniteElementModel) -> None:
-    held = np.concatenate([model.freedoms("TRL"), model.freedoms("TRR"), model.freedoms(REFERENCE)[1:2]])
-    free = np.setdiff1d(np.arange(model.n_dof), held)
+    fixed = np.concatenate([model.freedoms("TRL"), model.freedoms("TRR"), model.freedoms(REFERENCE)[1:2]])
+    free = np.setdiff1d(np.arange(model.n_dof), fixed)
     left, right = (model.freedoms(n)[2] for n in ("TFL", "TFR"))
     F = np.zeros(model.n_dof)
     F[left], F[right] = 1000.0, -1000.0

@@ -1,4 +1,4 @@
-"""Cross-sections and materials against closed forms, and the sentences for impossible ones."""
+"""Cross-sections and materials against closed forms, and messages for invalid ones."""
 
 import numpy as np
 import pytest

@@ -12,7 +12,9 @@ from mbs.kernel.binding import LoadedSystem
 from mbs.kernel.binding.instance import Instance
 from mbs.scenes import prototype_car
 
-H, STEPS, SPEED = 0.005, 60, 20.0  # s, -, m/s
+H = 0.005  # s
+STEPS = 60
+SPEED = 20.0  # m/s
 WITHOUT = 5.07  # iterations a step with the symmetric tangent alone; 3.00 with defect correction
 SECANT = 4.73  # the same of a full brake at 10 ms with the secant alone; 4.18 with its own slope at last
 

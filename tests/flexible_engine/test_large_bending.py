@@ -1,4 +1,4 @@
-"""A flexible body that bends more than its linear modes hold for is warned of, once, with the number of parts."""
+"""Bending beyond the range of linear modes is reported once, with the number of parts that a body needs."""
 
 import warnings
 
@@ -20,7 +20,7 @@ def test_two_bodies_are_not_warned_of() -> None:
         simulate(soft_pendulum(2), 2.0, 0.0025, progress=False)
 
 
-def test_a_run_by_hand_tells_once() -> None:
+def test_a_stepped_run_warns_once() -> None:
     simulation = Simulation(soft_pendulum(1))
     with pytest.warns(BendingWarning):
         simulation.run(1.8, 0.005, progress=False)

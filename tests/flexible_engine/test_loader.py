@@ -58,7 +58,7 @@ def test_a_body_without_modes_is_refused(system: System) -> None:
         LoadedSystem(altered(system, **empty))
 
 
-def test_state_goes_on_bit_for_bit(system: System) -> None:
+def test_a_saved_state_continues_bit_for_bit(system: System) -> None:
     loaded = LoadedSystem(system.to_bytes())
     one, two = Instance(loaded), Instance(loaded)
     one.initialise()

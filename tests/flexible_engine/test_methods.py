@@ -22,7 +22,8 @@ pytestmark = pytest.mark.filterwarnings("ignore::mbs.simulation.large_bending.Be
 TIGHT = {"tolerance_r": 1e-13, "tolerance_phi": 1e-13}
 END = 0.2
 NAMES = [f"tip.{k}" for k in "xyz"]
-RATE_STEP, RATE_ERROR = 1e-6, 1e-4
+RATE_STEP = 1e-6
+RATE_ERROR = 1e-4
 KEPT = 1e-10  # of the energy exchanged
 DEFLECTION = 0.02  # of the largest, against geometrically exact beams: what eight parts leave
 SPIN_UP = Path(__file__).parents[1] / "data" / "reference" / "spin_up_beam.csv"
@@ -91,7 +92,7 @@ def test_damped_bodies_cannot_step_backwards() -> None:
 
 
 @pytest.mark.parametrize("method", ["energy_momentum", "runge_kutta_8", "ali3p_generalised_alpha"])
-def test_a_restored_state_goes_on_alike_after_the_method_changed(method: str) -> None:
+def test_a_restored_state_continues_alike_after_a_change_of_method(method: str) -> None:
     loaded = binding.LoadedSystem(swinging(1.0).to_bytes())
     first, second = Instance(loaded), Instance(loaded)
     first.initialise()

@@ -1,4 +1,4 @@
-"""Flexible bodies in a model: interfaces, counts of coordinates, and one sentence for what cannot be."""
+"""Flexible bodies in a model: interfaces, counts of coordinates, and one sentence for invalid ones."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Words of tests that call an FMU."""
+"""Names and types that tests use to call an FMU."""
 
 from collections.abc import Callable
 from typing import Any

@@ -147,7 +147,7 @@ class Host:
         self.slave = self.instance(guid)
 
     def instance(self, guid: str | None = None, name: str = "test", *, logged: bool = False) -> Any:
-        given = {
+        arguments = {
             "guid": guid or self.description.guid,
             "unzipDirectory": str(self.folder),
             "modelIdentifier": self.description.coSimulation.modelIdentifier,
@@ -155,10 +155,10 @@ class Host:
         }
         if self.three:
             sizes = {v.valueReference: math.prod(v.shape or (1,)) for v in self.description.modelVariables}
-            slave = Slave3(sizes, **given)
+            slave = Slave3(sizes, **arguments)
             slave.instantiate(logMessage=lambda *a: self.messages.append(a[-1].decode()), loggingOn=logged)
         else:
-            slave = FMU2Slave(**given)
+            slave = FMU2Slave(**arguments)
             slave.instantiate(callbacks=self._callbacks, loggingOn=logged)
         return slave
 

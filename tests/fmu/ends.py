@@ -112,7 +112,7 @@ def threads_wait_to_free() -> None:
     sys.setswitchinterval(0.05)
     sys.last = Last(lambda: locked.usleep(200_000))  # type: ignore[attr-defined]
     locked.pthread_create.argtypes = [POINTER(c_ulong), c_void_p, c_void_p, c_void_p]
-    for instance in made:
+    for instance in instances:
         locked.pthread_create(byref(c_ulong()), None, address(instance.library.fmi2FreeInstance), instance.component)
 
 
@@ -127,12 +127,12 @@ def live_and_die(folder: Path) -> None:
 
 
 def free() -> None:
-    for instance in made:
+    for instance in instances:
         instance.free()
 
 
 def unload() -> None:
-    for instance in made:
+    for instance in instances:
         instance.unload()
 
 
@@ -162,8 +162,8 @@ ENDS: dict[str, Any] = {
 
 if __name__ == "__main__":
     END, FOLDERS = sys.argv[1], [Path(folder) for folder in sys.argv[2:]]
-    made: list[Instance] = []
+    instances: list[Instance] = []
     if END == "handler before":
         atexit.register(free)
-    made += [Instance(folder) for folder in FOLDERS]
+    instances += [Instance(folder) for folder in FOLDERS]
     ENDS[END]()

@@ -42,8 +42,8 @@ class Slave3(FMU3Slave):  # type: ignore[misc]
 
     def doStep(self, time: float, step: float) -> None:
         event, end, early, last = c_bool(), c_bool(), c_bool(), c_double()
-        given = (c_double(time), c_double(step), c_bool(True), byref(event), byref(end), byref(early), byref(last))
-        self.status = int(self.dll.fmi3DoStep(self.component, *given))
+        arguments = (c_double(time), c_double(step), c_bool(True), byref(event), byref(end), byref(early), byref(last))
+        self.status = int(self.dll.fmi3DoStep(self.component, *arguments))
         self.end, self.last = end.value, last.value
         assert not event.value
         assert not early.value

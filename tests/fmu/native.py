@@ -1,4 +1,4 @@
-"""Compiling C hosts for tests, and what binaries say about themselves."""
+"""Compiles C hosts for tests, and reads properties of binaries."""
 
 import shutil
 import struct
@@ -49,8 +49,8 @@ def compile_stress(fmu_folder: Path, program: Path, objects: Path) -> None:
     gcc = shutil.which("gcc") if sys.platform == "linux" else None
     if gcc is not None and sanitize.runtimes("gcc"):
         command = ["gcc", *sanitize.FLAGS, *sanitize.ADDRESSES, *sanitize.UNDEFINED]
-        made = sanitize.objects([*command, include], sources, objects)
-        subprocess.run([*command, "-o", program, *made, *libraries], check=True)
+        object_files = sanitize.objects([*command, include], sources, objects)
+        subprocess.run([*command, "-o", program, *object_files, *libraries], check=True)
         return
     flags = [*sanitize.FLAGS, *sanitize.UNDEFINED, "-fsanitize-trap=undefined"]
     command = [sys.executable, "-m", "ziglang", "cc", "-target", build.host_target(), *flags]

@@ -1,4 +1,4 @@
-"""An FMU in hosts that are no Python programs: that of the project in C, and libcosim."""
+"""An FMU in hosts that are not in Python: the C host of the project, and libcosim."""
 
 import subprocess
 from collections.abc import Mapping, Sequence
@@ -30,8 +30,8 @@ def by_c_host(
         min(requested),
         max(requested),
     ]
-    given = [part for name, value in start.items() for part in ("--set", f"{name}={value}")]
-    done = subprocess.run([*map(str, command), *given], capture_output=True, text=True, check=True)
+    options = [part for name, value in start.items() for part in ("--set", f"{name}={value}")]
+    done = subprocess.run([*map(str, command), *options], capture_output=True, text=True, check=True)
     rows = np.array([[float.fromhex(word) for word in line.split()] for line in done.stdout.splitlines()])
     return rows[:, [1 + reference - min(requested) for reference in requested]]
 

@@ -242,8 +242,8 @@ def driven_crank(speed: float = 30.0, longer: float = 0.01) -> mbs.Model:
     m.revolute("big end", crank, rod, point=(0.1, 0.0))
     m.revolute("small end", rod, piston, point=(end, 0.0))
     m.prismatic("bore", m.ground, piston, axis=(1.0, 0.0))
-    way = m.guide_time("way", PPoly([[speed], [0.3]], [0.0, 100.0]), unit="rad")
-    m.drive("drive", m.relative_angle("crank angle", m.ground, crank), way)
+    guide = m.guide_time("way", PPoly([[speed], [0.3]], [0.0, 100.0]), unit="rad")
+    m.drive("drive", m.relative_angle("crank angle", m.ground, crank), guide)
     m.sense_position("piston.x", piston, component="x")
     return m
 

@@ -1,4 +1,4 @@
-"""What a host may do wrong is answered with a status and one sentence, and leaves the instance as it was."""
+"""Wrong calls of a host are answered with a status and one sentence, and leave the instance unchanged."""
 
 import math
 from pathlib import Path
@@ -28,7 +28,7 @@ def test_a_call_with_one_bad_value_changes_nothing(crane: Path, host: HostMaker)
     assert driven.get("torque") == 2.0
 
 
-def test_out_of_range_is_clamped_and_said_once(crane: Path, host: HostMaker) -> None:
+def test_values_out_of_range_are_clamped_and_reported_once(crane: Path, host: HostMaker) -> None:
     driven, full = host(crane).start(), host(crane).start()
     full.set("torque", 30.0)
     driven.slave.setReal([driven.references["torque"]], [99.0])

@@ -19,34 +19,34 @@ SETTLED = {"initial.speed": 20.0, "initial.yaw_rate": 0.25, "step_size": H, "ini
 
 def car() -> tuple[Instance, c_int64]:
     """A car at 20 m/s that takes its work off a number."""
-    instance, remaining = Instance(LoadedSystem(mbs.compile(prototype_car.build()).to_bytes())), c_int64(10**9)
-    instance._library.ali3_count_work(instance._handle, byref(remaining))
+    instance, budget = Instance(LoadedSystem(mbs.compile(prototype_car.build()).to_bytes())), c_int64(10**9)
+    instance._library.ali3_count_work(instance._handle, byref(budget))
     instance.set_pose(0.0, 0.0, 0.0, 0.0, 20.0)
     instance.initialise(0.0)
-    return instance, remaining
+    return instance, budget
 
 
-def test_steps_and_iterations_are_taken_off_what_is_left() -> None:
-    instance, remaining = car()
-    before = remaining.value
+def test_steps_and_iterations_are_subtracted_from_the_budget() -> None:
+    instance, budget = car()
+    before = budget.value
     instance.run(H, 50)
     report = instance.report()
     parts = 50 + 2 * (report["halvings"] + report["divisions"])
-    assert before - remaining.value == parts + report["iterations"]
+    assert before - budget.value == parts + report["iterations"]
 
 
 @pytest.mark.parametrize("act", [lambda car: car.run(H, 1000), lambda car: car.settle(10.0, H)])
 def test_where_nothing_is_left_the_kernel_ends(act: Callable[[Instance], None]) -> None:
     """Within a step of the bound; with more it goes on to the bits of a car without one."""
-    instance, remaining = car()
+    instance, budget = car()
     free, _ = car()
-    remaining.value = 100
+    budget.value = 100
     with pytest.raises(KernelError) as ended:
         act(instance)
     assert ended.value.status == Status.TOO_DEAR
-    assert -20 < remaining.value <= 0
+    assert -20 < budget.value <= 0
     instance.reset()
-    remaining.value = 10**9
+    budget.value = 10**9
     instance.set_pose(0.0, 0.0, 0.0, 0.0, 20.0)
     instance.initialise(0.0)
     for one in (instance, free):
@@ -84,9 +84,9 @@ def test_derivatives_of_a_start_are_those_of_settled_ones(prototype_fmu: Path, h
     step = 1e-3
     up, down = (
         host(prototype_fmu)
-        .start({**SETTLED, "initial.yaw_rate": SETTLED["initial.yaw_rate"] + way})
+        .start({**SETTLED, "initial.yaw_rate": SETTLED["initial.yaw_rate"] + change})
         .get("chassis.roll")
-        for way in (step, -step)
+        for change in (step, -step)
     )
     assert actual == pytest.approx((up - down) / (2.0 * step), rel=1e-3)
     assert abs(actual) > 0.05  # without settling it is 0

@@ -1,4 +1,4 @@
-"""The command that builds an FMU: what it makes and how it refuses."""
+"""The command that builds FMUs: its files and its refusals."""
 
 from pathlib import Path
 
@@ -85,7 +85,7 @@ def test_one_kind_only(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture
         ("{file}:nothing", "returned a int"),
     ],
 )
-def test_scenes_that_are_none(file: Path, scene: str, message: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_scenes_are_refused(file: Path, scene: str, message: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert build_fmu.main(["--scene", scene.format(file=file), "--platforms", PLATFORM]) == 2
     assert message in capsys.readouterr().err
 

@@ -37,9 +37,9 @@ def system() -> mbs.System:
     ],
 )
 def test_a_wrong_argument_is_named(system: mbs.System, change: dict[str, Any], sentence: str, tmp_path: Path) -> None:
-    given = {"system": system, "name": "swing", "out": tmp_path / "out", "platforms": ["linux64"]} | change
+    arguments = {"system": system, "name": "swing", "out": tmp_path / "out", "platforms": ["linux64"]} | change
     with pytest.raises(ValueError) as caught:  # noqa: PT011  compared as text below
-        build_fmu(**given)
+        build_fmu(**arguments)
     assert sentence in str(caught.value)
     assert str(caught.value).count("\n") == 0
     assert not (tmp_path / "out").exists()

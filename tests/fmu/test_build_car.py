@@ -1,4 +1,4 @@
-"""A car file becomes an FMU: by its name or path, with the file in it, and every fault as sentences."""
+"""An FMU from a car file: by name or path, with the file inside, and one sentence for each fault."""
 
 import re
 import shutil
@@ -131,12 +131,12 @@ def test_what_is_odd_is_a_warning_without_the_place_in_the_source(
 
 
 def test_unknown_cars_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    for given, message in (
+    for car, message in (
         (tmp_path / "nowhere", "the cars of the package are"),
         ("protottype", "did you mean 'prototype'?"),
         (tmp_path, "the cars of the package are"),
     ):
-        assert build_fmu.main(command(given, tmp_path / "out")) == 2
+        assert build_fmu.main(command(car, tmp_path / "out")) == 2
         assert message in capsys.readouterr().err
     with pytest.raises(SystemExit):
         build_fmu.main(["--car", "prototype", "--scene", "pendulum"])
@@ -155,7 +155,9 @@ def test_a_car_that_cannot_be_compiled_is_named(car: Path, monkeypatch: pytest.M
 
 
 @pytest.mark.parametrize("word", ["inf", "nan", "-inf", "0.5"])
-def test_a_fidelity_that_is_none_is_a_sentence(word: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_fidelity_is_refused_in_one_sentence(
+    word: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert build_fmu.main([*command("prototype", tmp_path / "out"), f"--fidelity={word}"]) == 2
     assert f"The fidelity of the car is {word}; it must be one of: 0 rigid" in capsys.readouterr().err
 

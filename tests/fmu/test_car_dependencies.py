@@ -16,7 +16,8 @@ from tests import kinds
 from tests.fmu.calls import OK, WARNING, HostMaker
 from tests.in_process import build_fmu
 
-H, SEED = 0.002, 5
+H = 0.002  # s
+SEED = 5
 UNDERIVED = ("step_size", "fidelity", "initial.settling")
 
 

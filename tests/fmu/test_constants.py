@@ -39,7 +39,7 @@ def files(tmp_path_factory: pytest.TempPathFactory, need: Callable[[str], None])
     return {k: build_fmu(system, "told", folder, [fmpy.platform], kind=k) for k in kinds.ALL}
 
 
-def test_the_description_tells_them_and_leaves_the_rest(
+def test_the_description_declares_constants_and_keeps_other_references(
     files: dict[str, Path], build: Callable[..., Path], kind: str
 ) -> None:
     assert validate_fmu(str(files[kind])) == []

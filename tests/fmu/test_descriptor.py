@@ -80,7 +80,7 @@ def test_flags_and_experiment(crane: Path, kind: str) -> None:
     assert float(description.defaultExperiment.stepSize) == 0.01
 
 
-def test_variables_carry_what_the_scene_says(crane: Path) -> None:
+def test_variables_carry_units_and_descriptions_of_the_scene(crane: Path) -> None:
     variables = {v.name: v for v in fmpy.read_model_description(str(crane)).modelVariables}
     torque = variables["torque"]
     assert (torque.causality, torque.unit, torque.min, torque.max, float(torque.start)) == (
@@ -156,8 +156,8 @@ def test_a_display_unit_is_so_much_of_its_unit() -> None:
 
 
 def test_what_no_name_in_fmi_has_is_an_underscore_and_names_stay_distinct() -> None:
-    given = ("angle.1", "arm.2.x", "wheel_1.x1", "rear wheel.spin", "cart-pole.x[2]")
-    sensors = [{"name": name, "unit": "rad"} for name in given]
+    names = ("angle.1", "arm.2.x", "wheel_1.x1", "rear wheel.spin", "cart-pole.x[2]")
+    sensors = [{"name": name, "unit": "rad"} for name in names]
     table = variable_table(META | {"sensors": sensors}, pose=False, step_size=0.01)
     named = ["rear_wheel.spin", "cart_pole.x[2]"]
     assert [v.name for v in table if v.source == "sensor"] == ["angle_1", "arm_2.x", "wheel_1.x1", *named]

@@ -1,4 +1,4 @@
-"""The compilers begin before the model is compiled; what they make is shared and never part of an FMU."""
+"""Compilation begins before the model is compiled; the object files are shared and never part of an FMU."""
 
 from __future__ import annotations
 

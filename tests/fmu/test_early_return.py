@@ -58,11 +58,11 @@ def host3(tmp_path_factory: pytest.TempPathFactory) -> Host3:
             unpack(fmu, place)
         library = next((place / "binaries" / platform_tuple).iterdir())
         number = driven.references
-        given = [f"{number[name]}={value}" for name, value in start.items()]
+        assignments = [f"{number[name]}={value}" for name, value in start.items()]
         options = ["--early"] if early else []
         command = [program, *options, library, f"{place / 'resources'}/", driven.description.guid, steps, length]
         done = subprocess.run(
-            [*map(str, command), *[str(number[shown])] * 2, *given], capture_output=True, text=True, check=False
+            [*map(str, command), *[str(number[shown])] * 2, *assignments], capture_output=True, text=True, check=False
         )
         return (
             done.returncode,
@@ -96,9 +96,9 @@ def test_where_a_wheel_leaves_its_table(build: Callable[..., Path], host: HostMa
     place = driven.get(shown)
     assert stepped(driven, answer.last, length) == (DISCARD, False, answer.last)
     assert driven.get(shown) == place
-    code, rows, reported = host3(fmu, driven, 3, length, shown, start, True)
+    code, rows, output = host3(fmu, driven, 3, length, shown, start, True)
     assert (code, rows) == (6, [[answer.last, place]])
-    assert f"the step to {length:g} s returned early at {answer.last:g} s" in reported
+    assert f"the step to {length:g} s returned early at {answer.last:g} s" in output
     code, rows, _ = host3(fmu, driven, 3, length, shown, start, False)
     assert (code, rows) == (4, [])
 

@@ -1,4 +1,4 @@
-"""No end of a process aborts it: the Python kind, where its host or the FMU has the interpreter."""
+"""No end of a process aborts it, for all kinds of FMU; the Python kind where host or FMU has the interpreter."""
 
 import json
 import os

@@ -126,11 +126,11 @@ def test_fmi_3_has_the_fidelities_too(kerb_fmus: Path, own: dict[int, list[list[
 
 def logged(kerb: Path, fidelity: float | None, names: list[str], resets: int = 0) -> list[tuple[int, str, str]]:
     """Status, category and text of what an FMU logs while outputs are read at several times, as FMPy loads it."""
-    reported: list[tuple[int, str, str]] = []
+    messages: list[tuple[int, str, str]] = []
 
     class Heard(Fmu):
         def _log(self, status: int, category: str, message: str) -> None:
-            reported.append((status, category, message))
+            messages.append((status, category, message))
 
     with Heard(kerb) as fmu:
         for run in range(resets + 1):
@@ -146,10 +146,10 @@ def logged(kerb: Path, fidelity: float | None, names: list[str], resets: int = 0
             fmu.restore(state)
             fmu.free(state)
             get()
-    return reported
+    return messages
 
 
-def test_a_stress_needs_no_word(kerb: Path) -> None:
+def test_a_stress_causes_no_warning(kerb: Path) -> None:
     for fidelity in (0.0, 1.0, 3.0):
         assert logged(kerb, fidelity, list(OUTPUTS)) == []
 

@@ -55,11 +55,11 @@ class Odd:
         if not callable(method):
             return method
 
-        def call(*given: Any, **more: Any) -> Any:
+        def call(*arguments: Any, **more: Any) -> Any:
             set_flags(0)
             set_control(self.under)
             try:
-                return method(*given, **more)
+                return method(*arguments, **more)
             finally:
                 after, raised = control(), flags() & WRONG
                 set_control(DEFAULT)
@@ -73,29 +73,29 @@ class Odd:
 def odd_host(host: HostMaker, fmu: Path, under: int) -> Any:
     """A host of the fixture `host` all of whose calls are made under a control."""
     set_control(under)
-    made = host(fmu)
+    odd = host(fmu)
     after = control()
     set_control(DEFAULT)
     assert after == under
-    made.messages = Messages()
-    made.slave = Odd(made.slave, under)
-    return made
+    odd.messages = Messages()
+    odd.slave = Odd(odd.slave, under)
+    return odd
 
 
 def bits(host: HostMaker, fmu: Path, under: int, drive: dict[str, float], steps: int, **start: float) -> list[Any]:
     """Outputs of each step, a derivative and a saved state."""
-    made = odd_host(host, fmu, under)
-    made.start({name.replace("__", "."): value for name, value in start.items()})
+    odd = odd_host(host, fmu, under)
+    odd.start({name.replace("__", "."): value for name, value in start.items()})
     for name, value in drive.items():
-        assert made.set(name, value) == OK
-    result: list[Any] = made.run(steps, STEP)
-    known = made.references[next(iter(drive))]
-    unknown = [v.valueReference for v in made.description.modelVariables if v.causality == "output"][:3]
-    result.append(list(made.slave.getDirectionalDerivative(unknown, [known], *([1.0], 3) if made.three else [[1.0]])))
-    state = made.slave.getFMUState() if made.three else made.slave.getFMUstate()
-    result.append(bytes(made.slave.serializeFMUstate(state)))
-    assert made.slave.calls > steps
-    made.slave.terminate()
+        assert odd.set(name, value) == OK
+    result: list[Any] = odd.run(steps, STEP)
+    known = odd.references[next(iter(drive))]
+    unknown = [v.valueReference for v in odd.description.modelVariables if v.causality == "output"][:3]
+    result.append(list(odd.slave.getDirectionalDerivative(unknown, [known], *([1.0], 3) if odd.three else [[1.0]])))
+    state = odd.slave.getFMUState() if odd.three else odd.slave.getFMUstate()
+    result.append(bytes(odd.slave.serializeFMUstate(state)))
+    assert odd.slave.calls > steps
+    odd.slave.terminate()
     return result
 
 

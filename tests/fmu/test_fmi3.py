@@ -78,15 +78,15 @@ def test_wrong_calls_are_errors_with_a_sentence(crane3: Any) -> None:
         crane3.slave.enterConfigurationMode,
         lambda: crane3.slave.getDirectionalDerivative([0], [0], [1.0], 1),
     ):
-        reported = len(crane3.messages)
+        count = len(crane3.messages)
         with pytest.raises(FMICallException):
             call()
-        assert len(crane3.messages) == reported + 1
+        assert len(crane3.messages) == count + 1
     crane3.run(2, STEP)
 
 
 @pytest.mark.parametrize("scene", ["crane", "gearstick", "hopper"])
-def test_values_before_initialisation_are_start_values_or_what_was_set(
+def test_values_before_initialisation_are_start_values_or_set_values(
     build: Callable[..., Path], host: HostMaker, scene: str
 ) -> None:
     """Those of modelDescription.xml, of every type; outputs have none and are refused; again after a reset."""

@@ -17,7 +17,8 @@ from hosts.fmu.fmu import Fmu
 from mbs.elements.road import ANSWER
 from tests import kinds
 
-STEP, SPEED = 0.01, 15.0
+STEP = 0.01  # s
+SPEED = 15.0  # m/s
 WHEELS = ("FL", "FR", "RL", "RR")
 Given = dict[str, float]
 
@@ -38,26 +39,26 @@ def at_sledge(time: float, now: Mapping[str, float]) -> Given:
 def at_car(time: float, now: Mapping[str, float]) -> Given:
     """Everything that ports can replace but the tyres."""
     point = {"Fx": -50.0, "Fy": 500.0 * math.sin(3.0 * time), "Fz": 200.0, "Mx": 20.0, "My": -10.0, "Mz": 100.0 * time}
-    given = {f"point_reference.{name}": value for name, value in point.items()}
-    given |= {"wind.speed": 10.0, "wind.heading": 1.0 + time, "hand_brake": 0.0}
-    given["steering_rack_demand"] = 0.01 * math.sin(2.0 * time)
+    inputs = {f"point_reference.{name}": value for name, value in point.items()}
+    inputs |= {"wind.speed": 10.0, "wind.heading": 1.0 + time, "hand_brake": 0.0}
+    inputs["steering_rack_demand"] = 0.01 * math.sin(2.0 * time)
     for w in WHEELS:
         road = answer(now.get(f"wheel_{w}.contact_x", 0.0), now.get(f"wheel_{w}.contact_y", 0.0), 0.01, 3.0, 0.9)
-        given |= dict(zip((f"wheel_{w}.road_{name}" for name in ANSWER), road, strict=True))
-        given[f"wheel_{w}.brake_torque_demand"] = 150.0 if time > 0.3 else 0.0
-        given[f"wheel_{w}.drive_torque"] = 50.0 if w[0] == "F" else 0.0
-    return given
+        inputs |= dict(zip((f"wheel_{w}.road_{name}" for name in ANSWER), road, strict=True))
+        inputs[f"wheel_{w}.brake_torque_demand"] = 150.0 if time > 0.3 else 0.0
+        inputs[f"wheel_{w}.drive_torque"] = 50.0 if w[0] == "F" else 0.0
+    return inputs
 
 
 def at_hubs(time: float, now: Mapping[str, float]) -> Given:
     """A spring in place of each tyre."""
-    given = {"steering": 0.1 * math.sin(time), "throttle": 0.1}
+    inputs = {"steering": 0.1 * math.sin(time), "throttle": 0.1}
     for k, w in enumerate(WHEELS):
         height, rate = now.get(f"wheel_{w}.earth_z", 0.3), now.get(f"wheel_{w}.earth_vz", 0.0)
         load = max(0.0, 3800.0 + 2e5 * (0.3 - height) - 3e3 * rate)
         hub = {"Fx": 20.0 * k, "Fy": 400.0 * math.sin(2.0 * time), "Fz": load, "Mx": 3.0, "My": 1.0, "Mz": 2.0 * k}
-        given |= {f"wheel_{w}.hub_{name}": value for name, value in hub.items()}
-    return given
+        inputs |= {f"wheel_{w}.hub_{name}": value for name, value in hub.items()}
+    return inputs
 
 
 def wild(given: Callable[[float, Mapping[str, float]], Given]) -> Callable[[float, Mapping[str, float]], Given]:
@@ -114,7 +115,7 @@ def same(
     files: tuple[Path, Path], start: Given, given: Callable[[float, Mapping[str, float]], Given], steps: int
 ) -> tuple[list[str], NDArray[np.float64]]:
     """Outputs and rows of both, which must be equal to the last bit."""
-    (names, rows, slopes, reported), three = (drive(file, start, given, steps) for file in files)
+    (names, rows, slopes, messages), three = (drive(file, start, given, steps) for file in files)
     order = [three[0].index(n) for n in names]
     assert len(order) == len(three[0])
     assert rows.tobytes() == three[1][:, order].tobytes()
@@ -123,7 +124,7 @@ def same(
         finite = slopes[np.isfinite(slopes).all(axis=1)]
         assert 2 * len(finite) >= len(slopes)
         assert np.count_nonzero(finite[0]) > 0.5 * len(names)
-    assert reported == three[3]
+    assert messages == three[3]
     return names, rows
 
 

@@ -22,10 +22,12 @@ from tests.fmu.conftest import PLATFORM
 from tests.in_process import run
 from tests.unoptimised import unoptimised
 
-STEPS, STEP = 60, 0.01
+STEPS = 60
+STEP = 0.01  # s
 PULLS = {"crane": ("torque", 4.0), "reach": ("pull", 0.3), "answered": ("push", 40.0), "towed": ("left.push", 2.0)}
 """An angle and a spring, a driving function, contacts, no rows."""
-CODE, LOOPS = "take the code that was generated for it.", "take the loops of the kernel"
+CODE = "take the code that was generated for it."
+LOOPS = "take the loops of the kernel"
 
 
 def packed(fmu: Path) -> dict[str, bytes]:
@@ -58,8 +60,8 @@ def engine_rows(system: mbs.System, name: str, value: float) -> list[list[float]
 def test_an_fmu_runs_its_code_with_the_bits_of_the_engine(
     build: Callable[..., Path], host: HostMaker, scene: str
 ) -> None:
-    reported, rows = driven_rows(host(build(scene)), *PULLS[scene])
-    assert reported.endswith(CODE)
+    message, rows = driven_rows(host(build(scene)), *PULLS[scene])
+    assert message.endswith(CODE)
     system = mbs.compile(getattr(scenes, scene)())
     sensors = len(system.meta["sensors"])
     assert [row[:sensors] for row in rows] == engine_rows(system, *PULLS[scene])
@@ -68,8 +70,8 @@ def test_an_fmu_runs_its_code_with_the_bits_of_the_engine(
 
 @pytest.mark.parametrize("kind", [kind for kind in kinds.ALIKE if kind != "native"])
 def test_every_kind_has_it(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
-    reported, rows = driven_rows(host(build("crane", kind)), *PULLS["crane"])
-    assert reported.endswith(CODE)
+    message, rows = driven_rows(host(build("crane", kind)), *PULLS["crane"])
+    assert message.endswith(CODE)
     assert rows == driven_rows(host(build("crane")), *PULLS["crane"])[1]
 
 
@@ -77,8 +79,8 @@ def test_without_it_the_bits_are_the_same(build: Callable[..., Path], host: Host
     system = mbs.compile(scenes.crane())
     with unoptimised():
         plain = build_fmu(system, "crane", tmp_path, [PLATFORM], plain=True)
-    reported, rows = driven_rows(host(plain), *PULLS["crane"])
-    assert reported.endswith(f"{LOOPS}, as no code was generated for it.")
+    message, rows = driven_rows(host(plain), *PULLS["crane"])
+    assert message.endswith(f"{LOOPS}, as no code was generated for it.")
     assert rows == driven_rows(host(build("crane")), *PULLS["crane"])[1]
     assert not [name for name in packed(plain) if TABLE in name]
 
@@ -94,8 +96,8 @@ def test_another_system_in_the_file_takes_the_loops(
     other = system.with_arrays({"row_lin": coefficients})
     file = tmp_path / "Reach.fmu"
     write_zip(packed(build("reach")) | {"resources/system_0.ali3": other.kernel_bytes()}, file)
-    reported, rows = driven_rows(host(file), *PULLS["reach"])
-    assert f"{LOOPS}: the code was generated for another System, of structure " in reported
+    message, rows = driven_rows(host(file), *PULLS["reach"])
+    assert f"{LOOPS}: the code was generated for another System, of structure " in message
     assert rows == engine_rows(other, *PULLS["reach"])
     assert rows != engine_rows(system, *PULLS["reach"])
 
@@ -126,7 +128,7 @@ def test_systems_of_one_structure_share_it_and_others_do_not() -> None:
 
 
 @pytest.mark.parametrize("option", [["--kernel"], ["--fmu", "Crane.fmu"]])
-def test_plain_is_of_what_is_built(option: list[str]) -> None:
+def test_the_option_plain_needs_a_car_or_a_scene(option: list[str]) -> None:
     done = run(main, "--plain", *option)
     assert done.returncode == 2
     assert "--plain needs a car or a scene to build; " in done.stderr

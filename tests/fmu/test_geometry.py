@@ -169,7 +169,7 @@ def test_a_mechanism_gets_the_poses_that_its_drawing_needs_after_its_own_outputs
     compare(system, run, 1e-9)
 
 
-def test_without_poses_the_drawing_says_what_is_missing_and_what_to_do() -> None:
+def test_a_drawing_without_poses_reports_what_is_missing_and_the_remedy() -> None:
     system = mbs.compile(double_four_bar.build())
     scene = scene_of(system)
     assert lost_frames(system) == ["crank 0", "crank 1", "crank 2", "coupler 0", "coupler 1"]

@@ -16,7 +16,8 @@ WHEELS = ("FL", "FR", "RL", "RR")
 FORCES = [f"{name}_{w}.{what}" for w in WHEELS for name, what in (("wheel", "Fz"), ("spring", "force"))]
 FALL = {"initial.z": 0.18, "initial.speed": 8.4}  # onto the metal of the rebound stops
 WORDS = "computed again with 1/"
-EVERY, SPAN = 0.008, 0.8  # s; springs are off by 16 %
+EVERY = 0.008  # s, in which springs are off by 16 %
+SPAN = 0.8  # s
 
 
 def drive(
@@ -36,25 +37,25 @@ def drive(
     return np.array(rows), [m for m in driven.messages if WORDS in m]
 
 
-def test_what_it_tells_is_the_error_and_the_step_that_it_names_is_enough(prototype_fmu: Path, host: HostMaker) -> None:
+def test_the_reported_error_is_right_and_the_named_step_is_sufficient(prototype_fmu: Path, host: HostMaker) -> None:
     """By the same motion with steps of 0.05 ms.
 
     Errors of order p fall by 8^-p, so that 64/63 of what both motions differ by is 64/63 (1 - 8^-p) of the error: eight
     ninths with order one, that of a stop, all of it with order two, that of the method.
     """
     fine, nothing = drive(host(prototype_fmu), 5e-5)
-    coarse, reported = drive(host(prototype_fmu), EVERY)
+    coarse, warnings = drive(host(prototype_fmu), EVERY)
     size = np.abs(coarse).max()
     assert nothing == []
-    assert len(reported) == 1
-    newtons, percent = (float(x) for x in re.search(r"about (\d+) N, ([\d.]+) %", reported[0]).groups())
+    assert len(warnings) == 1
+    newtons, percent = (float(x) for x in re.search(r"about (\d+) N, ([\d.]+) %", warnings[0]).groups())
     assert 8.0 / 9.0 < newtons / np.abs(coarse - fine).max() < 1.02
     assert percent == pytest.approx(100.0 * newtons / size, abs=0.5)
     assert percent > 5.0
-    named = float(reported[0].split("step_size of ")[1].split(" s")[0])
+    named = float(warnings[0].split("step_size of ")[1].split(" s")[0])
     assert named <= 0.5 * EVERY
-    again, reported = drive(host(prototype_fmu), named)
-    assert reported == []
+    again, warnings = drive(host(prototype_fmu), named)
+    assert warnings == []
     assert np.abs(again - fine).max() < 0.05 * size
 
 
@@ -65,10 +66,10 @@ def test_a_long_step_is_reported_where_it_is_wrong_and_only_there(
     """Down a kerb in steps of 20 ms: half of one would make 6.8 and 7 % of the 4.5 and 4.0 % of the first two."""
     kerb = {"initial.speed": speed, "road.kerb_x": 3.0, "road.kerb_height": height}
     fine, _ = drive(host(prototype_fmu), 2e-4, kerb, 0.02, 1.4)
-    coarse, reported = drive(host(prototype_fmu), 0.02, kerb, 0.02, 1.4)
+    coarse, warnings = drive(host(prototype_fmu), 0.02, kerb, 0.02, 1.4)
     error = 100.0 * np.abs(coarse - fine).max() / np.abs(fine).max()
-    assert len(reported) == (error > 5.0)
-    assert [float(re.search(r"([\d.]+) %", m)[1]) for m in reported] == pytest.approx([error] * len(reported), rel=0.05)
+    assert len(warnings) == (error > 5.0)
+    assert [float(re.search(r"([\d.]+) %", m)[1]) for m in warnings] == pytest.approx([error] * len(warnings), rel=0.05)
 
 
 @pytest.mark.parametrize(
@@ -92,16 +93,16 @@ def test_a_start_with_a_pedal_down_is_reported_where_it_is_wrong_and_only_there(
     """
     start, slips = {"initial.speed": speed, **pedals}, [f"wheel_{w}.{f}" for w in WHEELS for f in ("Fx", "Fy")]
     fine, nothing = drive(host(prototype_fmu), 2e-4, start, 0.02, span, slips)
-    coarse, reported = drive(host(prototype_fmu), 0.02, start, 0.02, span, slips)
+    coarse, warnings = drive(host(prototype_fmu), 0.02, start, 0.02, span, slips)
     error = 100.0 * np.abs(coarse - fine)[:, len(FORCES) :].max() / np.abs(fine).max()
     assert nothing == []
-    assert len(reported) == (error > 5.0)
-    assert [float(re.search(r"([\d.]+) %", m)[1]) for m in reported] == pytest.approx([error] * len(reported), rel=0.1)
+    assert len(warnings) == (error > 5.0)
+    assert [float(re.search(r"([\d.]+) %", m)[1]) for m in warnings] == pytest.approx([error] * len(warnings), rel=0.1)
 
 
 def test_the_motion_is_that_of_the_engine_to_the_last_bit(prototype_fmu: Path, host: HostMaker) -> None:
-    found, reported = drive(host(prototype_fmu), EVERY)
-    assert reported
+    found, warnings = drive(host(prototype_fmu), EVERY)
+    assert warnings
     pose = mbs.Pose(z=FALL["initial.z"], speed=FALL["initial.speed"])
     system = mbs.compile(prototype_car.build())
     run = mbs.simulate(system, SPAN, EVERY, pose=pose, progress=False, estimate_error=False)
@@ -125,12 +126,12 @@ def test_a_step_that_is_divided_at_an_abrupt_force_has_the_derivative_of_its_par
             driven.set("steering", steering)
             driven.step(k * h, h)
             ends.append(driven.get("chassis.yaw"))
-        divided, reported = run.report.divisions > before, len(driven.messages)
+        divided, count = run.report.divisions > before, len(driven.messages)
         if driven.call("getDirectionalDerivative", unknown, known, [1.0]) == OK:
             (slope,) = driven.slave.getDirectionalDerivative(unknown, known, [1.0])
             assert slope == pytest.approx((ends[0] - ends[1]) / (2.0 * part), rel=1e-3, abs=1e-7)
             results[divided] += 1
-        assert divided or not any("divided" in m or "halved" in m for m in driven.messages[reported:])
+        assert divided or not any("divided" in m or "halved" in m for m in driven.messages[count:])
     assert min(results.values()) > 3
 
 
@@ -146,7 +147,7 @@ def test_a_run_that_ends_soon_is_judged_at_its_end(end: str, prototype_fmu: Path
 
 def test_a_parameter_that_changes_leaves_steps_waiting(prototype_fmu: Path, host: HostMaker) -> None:
     """Else all of them were made in that call, and what is told would say "about": the hand brake is not pulled."""
-    reported = []
+    runs = []
     for torques in ((450.0, 450.0), (450.0, 400.0)):
         driven = host(prototype_fmu).start(
             {"initial.z": 1.2, "initial.speed": 20.0, "steering": 0.4, "step_size": 2.5e-3}
@@ -156,20 +157,20 @@ def test_a_parameter_that_changes_leaves_steps_waiting(prototype_fmu: Path, host
             assert driven.set("brakes.hand_torque", torques[k % 2]) == 0
             driven.step(k * 2.5e-3, 2.5e-3)
             rows.append([driven.get(name) for name in FORCES])
-        reported.append((rows, [m for m in driven.messages if WORDS in m]))
-    assert reported[0] == reported[1]
-    assert "at least" in reported[0][1][0]
+        runs.append((rows, [m for m in driven.messages if WORDS in m]))
+    assert runs[0] == runs[1]
+    assert "at least" in runs[0][1][0]
 
 
 def test_a_run_that_starts_before_0_is_reported_the_same(prototype_fmu: Path, host: HostMaker) -> None:
-    reported = []
+    forces = []
     for start in (0.0, -10.0):
         driven = host(prototype_fmu).start(FALL | {"step_size": EVERY}, start)
         for k in range(round(SPAN / EVERY)):
             driven.step(start + k * EVERY, EVERY)
-        reported += [re.search(r"about (\d+) N", m)[1] for m in driven.messages if WORDS in m]
-    assert len(reported) == 2
-    assert reported[0] == reported[1]
+        forces += [re.search(r"about (\d+) N", m)[1] for m in driven.messages if WORDS in m]
+    assert len(forces) == 2
+    assert forces[0] == forces[1]
 
 
 def test_a_state_from_before_is_judged_again(prototype_fmu: Path, host: HostMaker) -> None:
@@ -189,17 +190,17 @@ def test_a_state_from_before_is_judged_again(prototype_fmu: Path, host: HostMake
 
 def test_a_start_that_was_saved_is_judged_as_a_start(prototype_fmu: Path, host: HostMaker) -> None:
     driven = host(prototype_fmu).start({"initial.speed": 1.408, "throttle": 0.565, "step_size": 0.02})
-    state, reported = driven.slave.getFMUstate(), []
+    state, warnings = driven.slave.getFMUstate(), []
     for _ in range(2):
         driven.slave.setFMUstate(state)
         driven.messages.clear()
         for k in range(50):
             driven.step(k * 0.02, 0.02)
-        reported.append([m for m in driven.messages if WORDS in m])
+        warnings.append([m for m in driven.messages if WORDS in m])
         driven.slave.reset()
         driven.start({"step_size": 0.02})
-    assert len(reported[0]) == 1
-    assert reported[0] == reported[1]
+    assert len(warnings[0]) == 1
+    assert warnings[0] == warnings[1]
 
 
 def test_a_box_that_hops_on_and_on_is_made_twice_for_two_seconds(build: Callable[..., Path], host: HostMaker) -> None:
@@ -226,14 +227,14 @@ def test_places_or_rates_are_compared_without_a_road_and_outputs_at_rest_judge_n
             rows.append([driven.get(name) for name in names])
         driven.slave.terminate()
         ends.append((np.array(rows), driven.messages))
-    (fine, nothing), (coarse, reported) = ends
+    (fine, nothing), (coarse, messages) = ends
     error = np.abs(coarse - fine).max() / np.ptp(fine, axis=0).max()
     assert nothing == []
-    told = [m for m in reported if WORDS in m]
-    assert len(told) == (error > 0.05)
-    assert all(re.search(r"1/2 of it, tip\.[xy] is off", m) for m in told)
-    assert all("energy balance" in m for m in reported if m not in told)
-    assert len(reported) <= 2 * len(told)
+    warnings = [m for m in messages if WORDS in m]
+    assert len(warnings) == (error > 0.05)
+    assert all(re.search(r"1/2 of it, tip\.[xy] is off", m) for m in warnings)
+    assert all("energy balance" in m for m in messages if m not in warnings)
+    assert len(messages) <= 2 * len(warnings)
 
 
 def test_a_step_that_is_halved_is_made_twice(build: Callable[..., Path], host: HostMaker) -> None:
@@ -256,17 +257,17 @@ def test_short_steps_of_a_motion_that_parts_late_are_reported(
     h: float, build: Callable[..., Path], host: HostMaker
 ) -> None:
     """The double pendulum is right for 2 s, and off by a quarter after 3 s."""
-    tips, reported = [], []
+    tips, warnings = [], []
     for step in (5e-5, h):
         driven = host(build("double_pendulum")).start({"step_size": step})
         for k in range(250):
             driven.step(k * 0.02, 0.02)
             tips.append([driven.get(name) for name in ("tip.x", "tip.y")])
-        reported.append([m for m in driven.messages if WORDS in m])
+        warnings.append([m for m in driven.messages if WORDS in m])
     off = np.abs(np.subtract(*np.split(np.array(tips), 2))).max(axis=1) / 0.4
     assert off[:100].max() < 0.01
     assert off[:150].max() > 0.2
-    assert len(reported[1]) == 1
+    assert len(warnings[1]) == 1
 
 
 def going(driven: Any, h: float, span: float) -> tuple[np.ndarray, list[str]]:
@@ -280,16 +281,16 @@ def going(driven: Any, h: float, span: float) -> tuple[np.ndarray, list[str]]:
     return np.array(rows), driven.messages
 
 
-def test_what_grows_on_is_foretold_when_nothing_is_made_twice_any_more(
+def test_a_growing_error_is_extrapolated_after_the_last_second_motion(
     build: Callable[..., Path], host: HostMaker
 ) -> None:
     """A rod that goes round is late by a share of its turns, so that its error grows with the time; 5 % at 25 s."""
     fine, _ = going(host(build("pendulum")), 5e-4, 30.0)
-    coarse, reported = going(host(build("pendulum")), 5e-3, 30.0)
+    coarse, messages = going(host(build("pendulum")), 5e-3, 30.0)
     error = np.abs(coarse - fine).max(axis=1) / np.ptp(fine, axis=0).max()
     wrong = 0.1 * (1 + int(np.argmax(error > 0.05)))
-    (ended,) = [m for m in reported if "no second motion is computed" in m]
-    (foretold,) = [m for m in reported if "may be off" in m]
+    (ended,) = [m for m in messages if "no second motion is computed" in m]
+    (foretold,) = [m for m in messages if "may be off" in m]
     assert "time of the second motion is spent" in ended
     assert 11.0 < float(ended.split(" s ")[0].split()[1]) < 12.0  # 2 s and a tenth beside the 8 of a start
     assert float(ended.split("to the power ")[1].split(" ")[0].rstrip(".,")) == pytest.approx(1.0, abs=0.2)
@@ -297,8 +298,8 @@ def test_what_grows_on_is_foretold_when_nothing_is_made_twice_any_more(
 
 
 def test_what_does_not_grow_is_not_foretold(build: Callable[..., Path], host: HostMaker) -> None:
-    _, reported = going(host(build("damped_pendulum")), 0.01, 40.0)
-    (ended,) = reported
+    _, messages = going(host(build("damped_pendulum")), 0.01, 40.0)
+    (ended,) = messages
     assert "no second motion is computed" in ended
     assert float(ended.split(" s ")[0].split()[1]) == pytest.approx(8.0, abs=0.11)
 
@@ -335,17 +336,17 @@ def test_a_stop_that_is_met_late_is_reported_where_it_is_wrong_and_only_there(
     h: float, scene: str, build: Callable[..., Path], host: HostMaker
 ) -> None:
     """Without a road too: what is made twice from the start on ends before the spring is met."""
-    forces, reported = [], []
+    forces, warnings = [], []
     for step in (2e-4, h):
         driven = host(build(scene)).start({"step_size": step})
         for k in range(1100):
             driven.step(k * 0.01, 0.01)
             forces.append(driven.get("spring.force"))
         driven.slave.terminate()
-        reported.append([m for m in driven.messages if WORDS in m])
+        warnings.append([m for m in driven.messages if WORDS in m])
     fine, coarse = np.split(np.array(forces), 2)
     error = np.abs(coarse - fine).max() / np.abs(fine).max()
-    assert reported[0] == []
-    assert len(reported[1]) == (error > 0.05)
+    assert warnings[0] == []
+    assert len(warnings[1]) == (error > 0.05)
     assert (error > 0.05) == (h > 0.005)
-    assert all("spring.force is off" in m for m in reported[1])
+    assert all("spring.force is off" in m for m in warnings[1])

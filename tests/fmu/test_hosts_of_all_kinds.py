@@ -1,4 +1,4 @@
-"""What one host does and another does not: where resources lie, how time is read, how far a step goes."""
+"""Differences between hosts: location of the resources, computation of time, length of a step."""
 
 import os
 import re

@@ -65,7 +65,7 @@ def test_two_builds_of_a_scene_in_one_process(build: Callable[..., Path], host: 
     assert heavy.description.guid != light.description.guid
 
 
-def test_reset_starts_anew(crane: Path, host: HostMaker) -> None:
+def test_reset_restores_the_start(crane: Path, host: HostMaker) -> None:
     driven = host(crane)
     expected = driven.start().run(10, 0.01)
     driven.set("torque", 11.0)

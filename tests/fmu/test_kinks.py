@@ -20,12 +20,12 @@ RAILS = {
 }
 
 
-def _sides(driven: Any, unknown: list[int], name: str, held: float, size: float, time: float, step: float) -> Any:
+def _sides(driven: Any, unknown: list[int], name: str, value: float, size: float, time: float, step: float) -> Any:
     """Differences of a step by an input, from above and from below; the state stays."""
     state, ends = driven.slave.getFMUstate(), []
     for side in (1.0, 0.0, -1.0):
         driven.slave.setFMUstate(state)
-        driven.set(name, held + side * PART * size)
+        driven.set(name, value + side * PART * size)
         assert driven.step(time, step) == OK
         ends.append(np.array(driven.slave.getReal(unknown)))
     driven.slave.setFMUstate(state)
@@ -53,9 +53,9 @@ def test_steps_that_pass_a_kink(name: str, inner: int, build: Callable[..., Path
     unknown = [driven.references[n] for n in ("mass.x", "mass.vx", "mass.ax")]
     before, refused = piece(driven), 0
     for k in range(400):
-        held = push(k * STEP)
-        above, below = _sides(driven, unknown, "push", held, SIZE, k * STEP, STEP)
-        driven.set("push", held)
+        value = push(k * STEP)
+        above, below = _sides(driven, unknown, "push", value, SIZE, k * STEP, STEP)
+        driven.set("push", value)
         assert driven.step(k * STEP, STEP) == OK
         actual, passes, before = _derivative(driven, unknown, "push"), piece(driven) != before, piece(driven)
         if passes:

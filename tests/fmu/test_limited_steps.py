@@ -1,4 +1,4 @@
-"""`solver.step_iterations` limits the work of a step: steps that end at it are counted, and what they left is told."""
+"""`solver.step_iterations` limits the work of a step: capped steps are counted and their residual is reported."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -12,7 +12,8 @@ from mbs.settings.settings import Settings
 from tests.fmu.calls import ERROR, FMI_2, OK, WARNING, HostMaker
 
 SCENES = Path(__file__).parent / "scenes.py"
-TORQUE, H = 4.0, 1e-3
+TORQUE = 4.0  # N m
+H = 1e-3  # s
 LIMIT = "solver.step_iterations"
 STEPS = 500
 
@@ -48,7 +49,7 @@ def test_no_limit_and_one_that_is_not_reached_give_the_same_bits(slider: Path, h
     assert free.get("solver.capped_steps") == free.get("solver.capped_residual") == 0.0
 
 
-def test_steps_are_counted_and_what_they_left_is_that_of_the_kernel(slider: Path, host: HostMaker) -> None:
+def test_capped_steps_are_counted_and_their_residual_is_that_of_the_kernel(slider: Path, host: HostMaker) -> None:
     driven = start(host(slider), 2)
     simulation = mbs.Simulation(load_scene(f"{SCENES}:crank_slider")[1], settings=Settings(step_iterations=2))
     simulation.instance.set_input(0, TORQUE)
@@ -57,9 +58,9 @@ def test_steps_are_counted_and_what_they_left_is_that_of_the_kernel(slider: Path
     for k in range(STEPS):
         status_of(driven, k)
         simulation.instance.step(H)
-        remaining, report = driven.get("solver.capped_residual"), simulation.instance.report()
-        largest = max(largest, remaining)
-        counts.append((driven.slave.getInteger([driven.references["solver.capped_steps"]])[0], remaining > 0.0))
+        residual, report = driven.get("solver.capped_residual"), simulation.instance.report()
+        largest = max(largest, residual)
+        counts.append((driven.slave.getInteger([driven.references["solver.capped_steps"]])[0], residual > 0.0))
         assert counts[-1][0] == report["capped"]
         assert largest == report["capped_residual"]
     assert 10 < counts[-1][0] < STEPS
@@ -74,15 +75,15 @@ def test_the_largest_of_the_inner_steps_is_reported(slider: Path, host: HostMake
     inner = 5
     compared = 0
     for k in range(STEPS // inner):
-        remaining = []
+        residuals = []
         for i in range(inner):
             status_of(single, inner * k + i)
-            remaining.append(single.get("solver.capped_residual"))
+            residuals.append(single.get("solver.capped_residual"))
         status_of(many, k, inner * H)
         sloped.slave.setRealInputDerivatives([sloped.references["torque"]], [1], [1e-300])
         status_of(sloped, k, inner * H)
-        assert many.get("solver.capped_residual") == sloped.get("solver.capped_residual") == max(remaining)
-        compared += max(remaining) > remaining[-1]
+        assert many.get("solver.capped_residual") == sloped.get("solver.capped_residual") == max(residuals)
+        compared += max(residuals) > residuals[-1]
     assert compared > 5
 
 
@@ -98,7 +99,7 @@ def test_it_is_reported_once_and_once_more_where_much_is_left(slider: Path, host
     assert set(statuses) == {OK, WARNING}
 
 
-def test_a_saved_state_goes_on_with_the_limit_its_count_and_what_was_said(slider: Path, host: HostMaker) -> None:
+def test_a_saved_state_keeps_the_limit_its_count_and_its_messages(slider: Path, host: HostMaker) -> None:
     driven = start(host(slider), 2)
     k = 0
     while driven.get("solver.capped_residual") == 0.0:
@@ -107,15 +108,15 @@ def test_a_saved_state_goes_on_with_the_limit_its_count_and_what_was_said(slider
     other = host(slider)
     assert other.restore(bytes(driven.slave.serializeFMUstate(driven.slave.getFMUstate()))) == OK
     assert everything(other) == everything(driven)
-    reported = len(driven.messages)
+    count = len(driven.messages)
     for i in range(k, k + STEPS):
         assert status_of(other, i) == status_of(driven, i)
     assert everything(other) == everything(driven)
-    assert other.messages == driven.messages[reported:]
+    assert other.messages == driven.messages[count:]
     assert driven.get("solver.capped_steps") > 10
 
 
-def test_a_refused_step_leaves_what_the_last_good_one_left(slider: Path, host: HostMaker) -> None:
+def test_a_refused_step_keeps_the_residual_of_the_last_good_one(slider: Path, host: HostMaker) -> None:
     driven = start(host(slider), 2)
     k = 0
     while driven.get("solver.capped_residual") == 0.0:

@@ -18,7 +18,8 @@ from tests import kinds
 from tests.fmu import scenes
 from tests.fmu.calls import ERROR, OK, HostMaker
 
-STEP, SPEED = 0.01, 12.0
+STEP = 0.01  # s
+SPEED = 12.0  # m/s
 SAG_ROUNDED = 1e-4  # m, the message has three digits
 # Time, steering, throttle, brake: a launch, a lane change, a stop.
 MANOEUVRE = [(0.0, 0.0, 0.5, 0.0), (0.5, 0.3, 0.2, 0.0), (1.0, -0.3, 0.2, 0.0), (1.5, 0.0, 0.0, 0.6)]

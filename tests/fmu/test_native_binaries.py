@@ -1,4 +1,4 @@
-"""The binaries: what they need, what they show, the same numbers without Python and on Windows, and from sources."""
+"""The binaries: dependencies, exported symbols, equal results without Python and on Windows, and from sources."""
 
 import importlib.util
 import os
@@ -25,7 +25,8 @@ from tests.fmu.other_hosts import by_libcosim
 from tests.sanitize import OBJECTS
 from tests.unoptimised import unoptimised
 
-STEPS, STEP = 40, 0.01
+STEPS = 40
+STEP = 0.01  # s
 FUNCTIONS = 34
 
 
@@ -90,7 +91,7 @@ def test_mac_has_both_processors(all_platforms: Path) -> None:
     assert cpus == [0x01000007, 0x0100000C]
 
 
-def test_universal_refuses_what_is_none() -> None:
+def test_universal_refuses_other_files() -> None:
     thin = struct.pack("<3I", 0xFEEDFACF, 7, 3) + bytes(100)
     with pytest.raises(ValueError, match="Mach-O"):
         universal([bytes(100)])
@@ -154,7 +155,7 @@ def test_windows_gets_the_same_bits(all_platforms: Path, host: HostMaker, tmp_pa
 
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("wine") is None or sys.platform == "win32", reason="runs the Windows library by wine")
-def test_a_state_goes_on_under_another_system(all_platforms: Path, tmp_path: Path) -> None:
+def test_a_state_continues_on_another_operating_system(all_platforms: Path, tmp_path: Path) -> None:
     folder, source = native.unpack(all_platforms, tmp_path / "fmu"), native.C_FOLDER / "relay.c"
     linux = [str(native.compile_host(tmp_path, source=source)), str(folder / "binaries/linux64/Crane.so")]
     windows = ["wine", str(native.compile_host(tmp_path, "x86_64-windows-gnu", source))]

@@ -16,7 +16,8 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, 
 from tests.fmu.calls import ERROR, OK, WARNING, HostMaker
 
 INSTANTIATED, INITIALISING, STEPPING, TERMINATED = "instantiated", "initialising", "stepping", "terminated"
-RUNS, LENGTH = 150, 30
+RUNS = 150
+LENGTH = 30
 STEPS = st.sampled_from([0.003, 0.01, 0.02, 0.0, -0.01, math.nan, math.inf])
 VALUES = st.floats(-40.0, 40.0) | st.sampled_from([math.nan, math.inf, -math.inf])
 
@@ -193,16 +194,16 @@ def test_log_categories(build: Callable[..., Path], host: HostMaker) -> None:
     driven.set("torque", 99.0)
     assert "99" in driven.messages[-1]
     assert logging(True, "logStatusError") == OK
-    reported = len(driven.messages)
+    count = len(driven.messages)
     driven.slave.doStep(0.0, 0.003)
-    assert len(driven.messages) == reported
+    assert len(driven.messages) == count
     assert driven.set("torque", math.nan) == ERROR
-    assert len(driven.messages) == reported + 1
+    assert len(driven.messages) == count + 1
     assert logging(True, "logNothing") == ERROR
     assert "logNothing" in driven.messages[-1]
     assert logging(False) == OK
     assert driven.set("torque", math.nan) == ERROR
-    assert len(driven.messages) == reported + 3
+    assert len(driven.messages) == count + 3
 
 
 def test_a_percent_sign_reaches_the_host_doubled(build: Callable[..., Path], host: HostMaker) -> None:

@@ -11,11 +11,14 @@ import pytest
 
 from tests.fmu.calls import ERROR, OK, HostMaker
 
-STEP, INNER = 0.1, 0.01
+STEP = 0.1  # s
+INNER = 0.01  # s, of the steps within
 
 # Differences of steps that end at a tolerance of 1e-10 m, over a part of the input's range.
-PART, DERIVATIVE_ERROR = 1e-3, 2e-5
-RATE_STEP, RATE_ERROR = 1e-4, 1e-3
+PART = 1e-3
+DERIVATIVE_ERROR = 2e-5
+RATE_STEP = 1e-4
+RATE_ERROR = 1e-3
 SEEN = {
     "torque": ("rod.x", "rod.angle", "rod.ay"),
     "pull": ("bob.x", "bob.vx", "pulled"),
@@ -229,7 +232,7 @@ def test_a_contact_that_is_made_has_no_derivative(prototype_fmu: Path, host: Hos
     assert seen.count((False, OK)) > 20
 
 
-def test_outputs_by_what_is_set_in_initialisation(build: Callable[..., Path], host: HostMaker) -> None:
+def test_derivatives_of_outputs_by_variables_set_in_initialisation(build: Callable[..., Path], host: HostMaker) -> None:
     ends = []
     for torque in (2.0 + 1e-3, 2.0 - 1e-3):
         driven = host(build("crane", "native")).start({"torque": torque})
@@ -247,7 +250,9 @@ def test_outputs_by_what_is_set_in_initialisation(build: Callable[..., Path], ho
     assert driven.call("getDirectionalDerivative", [known], [unknown], [1.0]) == ERROR
 
 
-def test_a_derivative_before_the_first_step_says_what_is_missing(build: Callable[..., Path], host: HostMaker) -> None:
+def test_a_derivative_before_the_first_step_is_refused_with_the_reason(
+    build: Callable[..., Path], host: HostMaker
+) -> None:
     driven = host(build("crane", "native")).start()
     output = driven.references["rod.x"]
     assert driven.call("getDirectionalDerivative", [output], [0], [1.0]) == ERROR

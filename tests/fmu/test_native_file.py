@@ -1,4 +1,4 @@
-"""What a native FMU carries: documents by the standard's schemas, reference results that repeat, documentation."""
+"""The files of a native FMU: valid documents, repeatable reference results, documentation."""
 
 import io
 import struct
@@ -112,8 +112,10 @@ def test_the_references_obey_their_schemas(build: Callable[..., Path], scene: st
         v.name: v.start for v in fmpy.read_model_description(str(fmu)).modelVariables if v.causality == "parameter"
     }
     values = ElementTree.fromstring(read(fmu, related["application/x-ssp-parameter-set"]))
-    given = {item.attrib["name"]: item[0].attrib["value"] for item in values.iter() if item.tag.endswith("}Parameter")}
-    assert {name: float(value) for name, value in given.items()} == {n: float(s) for n, s in settable.items()}
+    parameters = {
+        item.attrib["name"]: item[0].attrib["value"] for item in values.iter() if item.tag.endswith("}Parameter")
+    }
+    assert {name: float(value) for name, value in parameters.items()} == {n: float(s) for n, s in settable.items()}
 
 
 def columns_of(fmu: Path, file: str) -> Any:
@@ -136,19 +138,19 @@ def test_the_reference_results_repeat(build: Callable[..., Path], kind: str) -> 
         files = {item.tag: item.attrib["source"] for item in experiment[1:]}
         assert set(files.values()) <= listed
         table, interval = columns_of(fmu, files["References"]), float(settings["stepSize"])
-        given = columns_of(fmu, files["Stimuli"]) if "Stimuli" in files else None
+        stimuli = columns_of(fmu, files["Stimuli"]) if "Stimuli" in files else None
         run = fmpy.simulate_fmu(
             str(fmu),
             stop_time=float(settings["stopTime"]),
             output_interval=interval,
             output=["rod.ay"],
-            input=given,
+            input=stimuli,
             set_input_derivatives=False,
         )
         every = round((table["time"][1] - table["time"][0]) / interval)
         assert len(table) > 50
         assert np.allclose(table["rod.ay"], run["rod.ay"][::every], rtol=1e-9, atol=1e-9 * np.ptp(table["rod.ay"]))
-        assert given is not None or np.array_equal(table["rod.ay"], run["rod.ay"][::every])
+        assert stimuli is not None or np.array_equal(table["rod.ay"], run["rod.ay"][::every])
         swings.append(np.ptp(table["rod.ay"]))
     assert swings[0] > 1.0
     assert swings[1] != swings[0]
@@ -201,7 +203,7 @@ def test_types_of_one_name_and_two_meanings_get_two_names() -> None:
     assert {t.get("displayUnit") for t in types.values()} == {None, "km/h"}
 
 
-def test_a_scene_whose_default_experiment_does_not_run_is_refused_with_what_sets_it() -> None:
+def test_a_scene_whose_default_experiment_fails_is_refused_with_a_remedy() -> None:
     with pytest.raises(
         mbs.SimulationError, match=r"10 s in steps of 0\.01 s as `m\.stop_time` and `m\.step` .* step from"
     ):

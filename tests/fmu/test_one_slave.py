@@ -18,7 +18,8 @@ LAST_SUCCESSFUL_TIME = 2
 OF_THE_BUILD = 40  # bytes of a state that hold its checksum and the identity of the build
 VALUES = (0.0, -0.0, 0.02, 0.3, 4.0, -7.0, 60.0, math.nan, math.inf, 1.5)
 STEPS = (H, 3 * H, 0.1 * H, 0.2, 0.013, 0.0, -H, math.nan, 1e9)
-SEED, CALLS = 7, 400
+SEED = 7
+CALLS = 400
 
 
 @pytest.fixture
@@ -28,16 +29,16 @@ def pair(build: Callable[..., Path], host: HostMaker) -> list[Any]:
 
 def both(pair: list[Any], function: str, *arguments: Any) -> Any:
     """The same call of both; what they gave and said must be the same."""
-    given = []
+    answers = []
     for driven in pair:
         before = len(driven.messages)
         try:
             value = getattr(driven.slave, function)(*arguments)
-            given.append((OK, repr(value), driven.messages[before:]))
+            answers.append((OK, repr(value), driven.messages[before:]))
         except FMICallException as error:
-            given.append((int(error.status), "", driven.messages[before:]))
-    assert given[0] == given[1], (function, arguments)
-    return given[0]
+            answers.append((int(error.status), "", driven.messages[before:]))
+    assert answers[0] == answers[1], (function, arguments)
+    return answers[0]
 
 
 def states(pair: list[Any]) -> list[bytes]:
@@ -86,8 +87,8 @@ def test_random_calls_are_answered_alike(pair: list[Any]) -> None:
     assert references == pair[1].references
     statuses = []
     for k in range(CALLS):
-        status, reported, _ = both(pair, "getRealStatus", LAST_SUCCESSFUL_TIME)
-        function, arguments = random_call(rng, references, float(reported) if status == OK else 0.0)
+        status, time, _ = both(pair, "getRealStatus", LAST_SUCCESSFUL_TIME)
+        function, arguments = random_call(rng, references, float(time) if status == OK else 0.0)
         statuses.append(both(pair, function, *arguments)[0])
         if k == 20:  # a run, whatever came before
             for function in ("reset", "setupExperiment", "enterInitializationMode", "exitInitializationMode"):
@@ -99,7 +100,7 @@ def test_random_calls_are_answered_alike(pair: list[Any]) -> None:
 
 
 @pytest.mark.parametrize("method", ["do_step", "get_real", "set_real", "terminate"])
-def test_an_exception_of_python_ends_the_instance_and_says_so(
+def test_an_exception_of_python_ends_the_instance_and_is_reported(
     build: Callable[..., Path], host: HostMaker, method: str
 ) -> None:
     driven, other = host(build("crane", "python")).start(), host(build("crane", "python")).start()

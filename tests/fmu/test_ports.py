@@ -1,4 +1,4 @@
-"""Ports: a value that is not finite holds the last one with one warning, one that nobody sets is told."""
+"""Ports: a value that is not finite keeps the last one with one warning; a port that is no longer set is reported."""
 
 import math
 from pathlib import Path
@@ -26,8 +26,8 @@ def towed(build, kind) -> Path:
 def test_what_is_not_finite_holds_the_last_value_with_one_warning(host, towed, bad) -> None:
     h = host(towed).start({"left.push": 3.0, "right.push": 0.0})
     assert h.set("left.push", bad) == OK
-    reported = f"The port 'left.push' was set to {bad:g} and holds its last value 3 N. This is reported once."
-    assert h.messages == [reported]
+    warning = f"The port 'left.push' was set to {bad:g} and holds its last value 3 N. This is reported once."
+    assert h.messages == [warning]
     assert h.step(0.0, 0.01) == OK
     assert h.set("left.push", bad) == OK
     assert len(h.messages) == 1
@@ -54,17 +54,17 @@ def test_a_port_that_nobody_sets_is_reported_after_the_first_step(host, towed) -
 def test_a_port_that_was_set_again_and_again_and_is_no_more_is_reported_once(host, towed, every, then) -> None:
     """After half a second more than it was ever without a number; one that was set once holds what it was meant to."""
     h = host(towed).start({"left.push": 0.0, "right.push": 2.0})
-    reported = []
+    counts = []
     for k in range(180):
         if k % every == 0 and (k < 60 or k > 160):
             h.set("left.push", math.nan if k == 30 else 3.0)
         elif then is not None:
             h.set("left.push", then)
         assert h.step(0.01 * k, 0.01) == OK
-        reported.append(sum("again and again" in text for text in h.messages))
+        counts.append(sum("again and again" in text for text in h.messages))
     last = 60 - every
-    assert reported.index(1) == pytest.approx(last + 51 + 2 * every, abs=1)
-    assert reported[-1] == 1
+    assert counts.index(1) == pytest.approx(last + 51 + 2 * every, abs=1)
+    assert counts[-1] == 1
     (messages,) = (text for text in h.messages if "again and again" in text)
     assert messages == (
         f"The port 'left.push' was given a number again and again until {0.01 * last:g} s and none since; it "
@@ -79,16 +79,16 @@ def test_ports_that_fall_silent_together_are_one_sentence_of_a_state_too(host, t
         for port in PORTS:
             h.set(port, float(k % 10))
         h.step(0.01 * k, 0.01)
-    state, reported = h.slave.getFMUState(), []
+    state, messages = h.slave.getFMUState(), []
     for _ in range(2):
         h.slave.setFMUState(state)
         h.messages.clear()
         for k in range(20, 80):
             h.step(0.01 * k, 0.01)
-        reported.append(list(h.messages))
+        messages.append(list(h.messages))
     h.slave.freeFMUState(state)
-    assert reported[0] == reported[1]
-    (said,) = reported[0]
+    assert messages[0] == messages[1]
+    (said,) = messages[0]
     assert said.startswith("2 ports were given numbers again and again and get none any more, 'left.push' since 0.19")
     assert said.endswith("as 'left.push' holds 9 N. This is reported once.")
 

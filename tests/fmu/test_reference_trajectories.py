@@ -264,7 +264,7 @@ def test_in_the_air_behind_a_kerb_the_centre_of_mass_falls(car: Road) -> None:
 @pytest.mark.slow
 @of_kinds(*kinds.BUILT)
 @pytest.mark.parametrize("seed", [1, 4, 5])
-def test_a_wild_drive_is_that_of_the_kernel_with_small_steps(car: Road, seed: int) -> None:
+def test_a_random_drive_is_that_of_the_kernel_with_small_steps(car: Road, seed: int) -> None:
     start = {n: x for n, x in wild_start(seed).items() if n not in ("initial.x", "initial.y")}
     with Fmu(car("drop")) as fmu:
         inputs = fmu.names("input")

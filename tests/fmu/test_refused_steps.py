@@ -1,4 +1,4 @@
-"""A refused step stops a host in place of looping it, and says what helps."""
+"""A refused step stops a host instead of looping it, with a remedy in the message."""
 
 import subprocess
 import sys
@@ -11,7 +11,10 @@ import pytest
 from tests.fmu.calls import DISCARD, ERROR, OK, HostMaker
 
 # The mechanism is pulled beyond its reach within LONG, not within H.
-BEGIN, H, LONG, PULL = 0.05, 0.01, 0.2, 5.0
+BEGIN = 0.05  # s
+H = 0.01  # s
+LONG = 0.2  # s
+PULL = 5.0
 SECONDS = 60.0
 
 
@@ -71,12 +74,12 @@ def test_what_has_left_its_table_is_named_with_its_range(
     assert -0.29 < travel < -0.25
     message = driven.messages[-1]
     assert "a coordinate has left the range of its table. 'wheel travel RL' is -0.2" in message
-    reported = float(message.partition("'wheel travel RL' is ")[2].partition(";")[0])
-    assert reported == pytest.approx(travel, abs=2e-3)
+    value = float(message.partition("'wheel travel RL' is ")[2].partition(";")[0])
+    assert value == pytest.approx(travel, abs=2e-3)
     assert "its table goes from -0.2 to 0.2" in message
 
 
-def test_fmpy_ends_soon_and_says_why(reach: Path) -> None:
+def test_fmpy_ends_soon_with_the_reason(reach: Path) -> None:
     code = (
         "import fmpy, numpy as np\n"
         f"rows = [(0.0, 0.0), ({BEGIN}, 0.0), ({BEGIN}, {PULL}), (2.0, {PULL})]\n"

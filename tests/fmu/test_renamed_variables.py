@@ -86,14 +86,14 @@ def test_description_and_results_have_the_other_names_and_units(renamed_crane) -
     with zipfile.ZipFile(renamed_crane) as archive:
         name = next(n for n in archive.namelist() if n.endswith("_in_turn_out.csv"))
         head, *rows = archive.read(name).decode().splitlines()
-        given = archive.read(name.replace("_out", "_in")).decode().splitlines()
+        input_lines = archive.read(name.replace("_out", "_in")).decode().splitlines()
         scene = archive.read("resources/geometry.json").decode()
     columns = dict(
         zip((c.strip('"') for c in head.split(",")), np.array([r.split(",") for r in rows], float).T, strict=True)
     )
     # cos(angle) / 2 m is where the centre of the rod lies
     assert columns["X"] == pytest.approx(500.0 * np.cos(columns["Rod[1].Angle"] / DEGREES), rel=1e-9)
-    assert given[0] == '"time","Motor.Trq"'
+    assert input_lines[0] == '"time","Motor.Trq"'
     assert '"rod.angle"' not in scene
 
 
@@ -153,7 +153,7 @@ def test_what_an_answer_is_watched_by_keeps_its_unit(tmp_path: Path) -> None:
         ('torque = { name = "T", factor = "gain" }\n[needs]\ngain = "a gain, 1"', "it needs 'gain' (a gain, 1)"),
     ],
 )
-def test_what_has_no_other_name_says_why(tmp_path: Path, text: str, why: str) -> None:
+def test_variables_without_another_name_are_reported_with_the_reason(tmp_path: Path, text: str, why: str) -> None:
     (tmp_path / "names.toml").write_text('"rod.x" = "X"\n' + text, encoding="utf-8")
     system = load_scene(f"{SCENES}:crane")[1]
     actual = renamed(variable_table(system.meta, pose=False, step_size=0.01), read_content(tmp_path / "names.toml"))

@@ -13,7 +13,9 @@ import pytest
 from tests.fmu.calls import DISCARD, OK, HostMaker
 
 # Steps before the refused one; as many inner steps of it; a pull that is in reach at first and then is not.
-BEFORE, H, PULL = 30, 0.01, 5.0
+BEFORE = 30
+H = 0.01  # s
+PULL = 5.0
 STEP_SIZES = {"one inner step": 0.1, "several inner steps": 0.01}
 LONG = 0.096  # inner steps of another size than those before
 HEADER = 96  # bytes of a state that say who it is of and in which phase; the refusal changes the phase

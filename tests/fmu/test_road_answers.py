@@ -37,7 +37,7 @@ def test_the_point_ahead_is_that_of_the_communication_point_asked_for(host, sled
     assert h.get("road_ahead_x") - h.get("x") == pytest.approx(lead * 0.05 * h.get("vx"))
 
 
-def test_a_normal_that_is_none_holds_the_last_one_with_one_warning(host, sledge) -> None:
+def test_an_invalid_normal_keeps_the_last_one_with_one_warning(host, sledge) -> None:
     tilted = {"road_normal_x": -0.05, "road_normal_z": math.sqrt(1.0 - 0.05**2)}
     h, good = (host(sledge).start(LEVEL | tilted) for _ in range(2))
     for time, bad in enumerate([(0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.3, 0.3, 0.3), (math.nan, 0.0, 0.7)]):
@@ -58,10 +58,10 @@ def test_derivatives_that_lead_a_normal_astray_name_the_port(host, sledge) -> No
     """Asked again it wishes the end; without the derivative the step passes."""
     h = host(sledge).start(LEVEL)
     before = h.get("x")
-    for reported in ("was refused, the state", "was refused again, the state"):
+    for message in ("was refused, the state", "was refused again, the state"):
         assert slope(h, "road_normal_z", 1, -50.0) == OK
         assert h.step(0.0, 0.01) == DISCARD
-        assert reported in h.messages[-1]
+        assert message in h.messages[-1]
         assert "'road_normal_x' and its neighbours became (0, 0, 0." in h.messages[-1]
         assert "Give it at shorter intervals, or with derivatives that turn it less" in h.messages[-1]
         assert "Worst" not in h.messages[-1]
@@ -70,13 +70,13 @@ def test_derivatives_that_lead_a_normal_astray_name_the_port(host, sledge) -> No
     assert h.step(0.0, 0.01) == OK
 
 
-def test_a_start_with_a_normal_that_is_none_is_level(host, sledge) -> None:
+def test_a_start_with_an_invalid_normal_is_level(host, sledge) -> None:
     h = host(sledge).start(LEVEL | {"road_normal_z": 0.0})
     assert h.step(0.0, 0.01) == OK
     assert [text for text in h.messages if "(0, 0, 1), is held" in text]
 
 
-def test_an_answer_far_from_what_it_is_for_is_reported_once(host, sledge) -> None:
+def test_an_answer_far_from_its_wheel_is_reported_once(host, sledge) -> None:
     h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
     for k in range(80):
         assert h.step(0.01 * k, 0.01) == OK
@@ -90,12 +90,12 @@ def test_an_answer_far_from_what_it_is_for_is_reported_once(host, sledge) -> Non
 def test_an_answer_far_away_is_reported_where_no_output_is_read(host, sledge, step) -> None:
     """It is passed at 0.5 s."""
     h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
-    reported = []
+    counts = []
     for k in range(round(0.75 / step)):
         assert h.step(step * k, step) == OK
-        reported.append(sum("last answer on the road" in text for text in h.messages))
-    assert reported[round(0.5 / step) - 2] == 0
-    assert reported[round(0.75 / step) - 1] == 1
+        counts.append(sum("last answer on the road" in text for text in h.messages))
+    assert counts[round(0.5 / step) - 2] == 0
+    assert counts[round(0.75 / step) - 1] == 1
 
 
 @pytest.mark.parametrize(("jump", "where"), [(150.0, "above"), (0.03, "above"), (-0.03, "below")])
@@ -113,7 +113,7 @@ def test_an_answer_that_leaves_the_plane_of_the_last_one_is_reported_once(host, 
     assert f" {0.8 * abs(jump):.3g} m {where} the plane" in messages[0]
 
 
-def test_an_edge_whose_plane_turns_about_what_touches_it_is_no_jump(host, sledge) -> None:
+def test_an_edge_whose_plane_turns_about_the_contact_is_no_jump(host, sledge) -> None:
     """Its point is 0.12 m higher than the last one; the remedy that the warning of a jump names."""
     h = host(sledge).start(LEVEL)
     away = h.get("z")
@@ -144,9 +144,9 @@ def told_on_a_circle(host, sledge, lead: float, radius: float) -> list[str]:
 
 @pytest.mark.parametrize(("radius", "last"), [(400.0, 0.11), (550.0, 0.0)])
 def test_a_road_that_bends_too_much_between_answers_is_reported_once(host, sledge, radius, last) -> None:
-    reported = told_on_a_circle(host, sledge, 0.0, radius)
-    assert len(reported) == (last > 0.1)
-    for text in reported:
+    warnings = told_on_a_circle(host, sledge, 0.0, radius)
+    assert len(warnings) == (last > 0.1)
+    for text in warnings:
         assert "holds for 0.0 steps ahead of its wheel" in text
         assert "ports.road_lead is 0 now" in text
         actual = [float(number) for number in re.findall(r"off by (\S+) mm", text)]
@@ -175,7 +175,7 @@ def test_an_answer_ahead_is_reached_along_the_step_and_one_at_the_wheel_holds(ho
 
 
 @FMI_2
-def test_an_answer_that_nobody_sets_any_more_holds_at_once(host, sledge) -> None:
+def test_an_answer_that_is_no_longer_set_is_held_at_once(host, sledge) -> None:
     """A derivative has led the last one ahead: the one that holds lies behind, which is no way to go along."""
     heights = []
     for height in (0.0, 1e-9):
@@ -229,11 +229,11 @@ def test_what_is_not_finite_is_reported_of_ports_without_a_range(host, sledge, b
     for _ in range(2):
         h.set("road_height", bad)
     assert h.get("road_height") == 2.0
-    reported = f"The port 'road_height' was set to {bad:g} and holds its last value 2 m. This is reported once."
-    assert h.messages == [reported]
+    warning = f"The port 'road_height' was set to {bad:g} and holds its last value 2 m. This is reported once."
+    assert h.messages == [warning]
 
 
-def test_a_state_with_everything_said_is_set_again(host, sledge, kind) -> None:
+def test_a_state_keeps_which_warnings_were_sent(host, sledge, kind) -> None:
     """Flags of what was said are more than zero and one."""
     h = host(sledge).start({"initial.speed": 20.0} | LEVEL)
     h.set("push", 1e6)
@@ -278,8 +278,8 @@ def test_derivatives_by_answers_are_those_of_differences(host, sledge) -> None:
     for k in range(50):
         h.step(0.01 * k, 0.01)
     references = {v.name: v.valueReference for v in h.description.modelVariables}
-    wanted = [references[n] for n in ("z", "x", "vx", "road_ahead_x")]
-    actual = h.slave.getDirectionalDerivative(wanted, [references["road_height"]], [1.0])
+    unknowns = [references[n] for n in ("z", "x", "vx", "road_ahead_x")]
+    actual = h.slave.getDirectionalDerivative(unknowns, [references["road_height"]], [1.0])
     assert 0.0 < actual[0] < 1.0
     assert actual[3] == pytest.approx(actual[1] + 0.01 * actual[2], abs=1e-12)
 

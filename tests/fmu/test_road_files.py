@@ -165,7 +165,7 @@ def test_a_uri_and_letters_of_any_language(car: Path, host: Any, roads: Path) ->
         assert driven.get("chassis.z") > 2.0
 
 
-def test_a_refused_file_changes_nothing_and_says_why(car: Path, host: Any, roads: Path) -> None:
+def test_a_refused_file_changes_nothing_and_is_reported(car: Path, host: Any, roads: Path) -> None:
     driven = host(car)
     assert text(driven, str(roads / "high.road")) == OK
     data = (roads / "rough.road").read_bytes()

@@ -17,7 +17,7 @@ H = 0.01
 
 @pytest.mark.slow
 def test_rows_at_an_interval_are_those_of_every_step(kerb_fmus: Path, tmp_path: Path) -> None:
-    tables, reported = {}, {}
+    tables, outputs = {}, {}
     for name, more in (("all", ()), ("few", ("--interval", "0.05"))):
         requested = (
             "--fidelity",
@@ -34,12 +34,12 @@ def test_rows_at_an_interval_are_those_of_every_step(kerb_fmus: Path, tmp_path: 
         done = run(main, kerb_fmus / "native.fmu", *requested, *more)
         assert done.returncode == 0, done.stderr
         (file,) = (tmp_path / name).glob("*.csv")
-        tables[name], reported[name] = file.read_text(encoding="utf-8").splitlines(), done.stdout
+        tables[name], outputs[name] = file.read_text(encoding="utf-8").splitlines(), done.stdout
     assert tables["few"] == [tables["all"][0], *tables["all"][1::5]]
     assert len(tables["few"]) == 32
-    assert "read every 10 ms; --interval reads fewer" in reported["all"]
-    assert "read every 50 ms\n" in reported["few"]
-    assert "failed steps               0 of 150" in reported["few"]
+    assert "read every 10 ms; --interval reads fewer" in outputs["all"]
+    assert "read every 50 ms\n" in outputs["few"]
+    assert "failed steps               0 of 150" in outputs["few"]
 
 
 def test_an_interval_that_is_no_multiple_of_the_step_is_refused(kerb_fmus: Path, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""A run whose numbers are not what was asked says so, once; one that is right does not."""
+"""Runs with wrong results warn once; accurate runs do not."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def test_the_warning_is_part_of_the_state(slider: Path, host: HostMaker) -> None
     assert other.messages == []
 
 
-def test_a_start_tells_of_contradicting_velocities_and_of_what_cannot_move(
+def test_a_start_reports_contradicting_velocities_and_locked_parts(
     build: Callable[..., Path], host: HostMaker, kind: str
 ) -> None:
     """With both numbers, as a run in Python does."""

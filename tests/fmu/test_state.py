@@ -72,7 +72,7 @@ def test_state_of_another_fmu_is_refused(crane: Path, reach: Path, host: HostMak
     assert driven.outputs() == before
 
 
-def test_a_state_of_another_version_is_refused_with_what_to_do(crane: Path, host: HostMaker) -> None:
+def test_a_state_of_another_version_is_refused_with_a_remedy(crane: Path, host: HostMaker) -> None:
     driven = host(crane).start()
     data = bytearray(driven.slave.serializeFMUstate(driven.slave.getFMUstate()))
     data[8] -= 1

@@ -1,4 +1,4 @@
-"""Statuses of the kernel in an FMU: the words and the remedy of each stand in what it says."""
+"""Statuses of the kernel in an FMU: message and remedy of each are in the log."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -134,11 +134,11 @@ def test_a_shorter_step_passes(
 @FMI_2
 def test_without_memory(build: Callable[..., Path], host: HostMaker, kind: str) -> None:
     driven = host(build("crane", kind))
-    inner, remaining = fmpy.fmi2.defaultCallbacks, [10**6]
+    inner, budget = fmpy.fmi2.defaultCallbacks, [10**6]
 
     def allocate(count: int, size: int) -> int | None:
-        remaining[0] -= 1
-        return inner.allocateMemory(count, size) if remaining[0] > 0 else None
+        budget[0] -= 1
+        return inner.allocateMemory(count, size) if budget[0] > 0 else None
 
     callbacks = fmi2CallbackFunctions()
     callbacks.logger = driven._callbacks.logger
@@ -146,19 +146,19 @@ def test_without_memory(build: Callable[..., Path], host: HostMaker, kind: str) 
     callbacks.freeMemory = inner.freeMemory
     driven._callbacks = callbacks
     driven.instance()
-    needed, texts = 10**6 - remaining[0], []
+    needed, texts = 10**6 - budget[0], []
     for most in range(1, needed):
-        remaining[0] = most
+        budget[0] = most
         with pytest.raises(Exception, match="nstantiate"):
             driven.instance()
         texts.append(driven.messages[-1])
-    reported = [
+    messages = [
         text
         for text in texts
         if load_library().ali3_status_text(Status.NO_MEMORY).decode() in text and "was refused" in text
     ]
-    assert reported
-    for text in reported:
+    assert messages
+    for text in messages:
         said(Status.NO_MEMORY, text)
 
 

@@ -154,7 +154,7 @@ def test_outputs_do_not_depend_on_the_order_of_get_and_set(crane: Path, host: Ho
 
 
 @pytest.mark.parametrize("bad", [0.0, -0.01, math.nan, math.inf])
-def test_steps_that_are_none_are_refused(crane: Path, host: HostMaker, bad: float) -> None:
+def test_invalid_steps_are_refused(crane: Path, host: HostMaker, bad: float) -> None:
     driven = host(crane).start()
     assert driven.step(0.0, bad) == ERROR
     assert driven.step(0.0, 0.01) == OK

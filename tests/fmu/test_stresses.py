@@ -30,7 +30,7 @@ class Bare:
 
     def __init__(self, file: Path) -> None:
         description = fmpy.read_model_description(str(file))
-        given = {
+        arguments = {
             "guid": description.guid,
             "unzipDirectory": fmpy.extract(str(file)),
             "modelIdentifier": description.coSimulation.modelIdentifier,
@@ -40,7 +40,7 @@ class Bare:
         real = [v for v in description.modelVariables if v.causality == "output" and v.type in ("Real", "Float64")]
         self.other = [(v.valueReference, v.shape or (1,)) for v in real if v.name.partition(".")[0] not in LEFT_OUT]
         self.third = description.fmiVersion == "3.0"
-        self.slave: Any = FMU3Slave(**given) if self.third else FMU2Slave(**given)
+        self.slave: Any = FMU3Slave(**arguments) if self.third else FMU2Slave(**arguments)
         self.slave.instantiate()
         if self.third:
             self.slave.setInt32([self.references["fidelity"]], [0])
@@ -252,13 +252,13 @@ def test_a_system_that_nothing_follows_has_no_stresses(tmp_path: Path) -> None:
     system.save(tmp_path / "car.ali3")
     grown = prototype_car.build()
     grown.input("of the user")
-    for made in (System.load(tmp_path / "car.ali3"), compile(grown), system.with_arrays({})):
-        run = simulate(made, 0.02, H, progress=False)
+    for loaded in (System.load(tmp_path / "car.ali3"), compile(grown), system.with_arrays({})):
+        run = simulate(loaded, 0.02, H, progress=False)
         assert "stress.SG1" not in run
         with pytest.raises(KeyError, match=r"'stress.SG1' is not computed by this System: .* fidelity=1"):
             run["stress.SG1"]
         with pytest.raises(KeyError, match=r"'stress.SG1' is not computed"):
-            Simulation(made).sensors["stress.SG1"]
+            Simulation(loaded).sensors["stress.SG1"]
     run = simulate(system, 0.02, tolerance=1e-2, progress=False)
     with pytest.raises(KeyError, match=r"'stress.SG1' is not computed .* to a tolerance .* steps of a length h"):
         run["stress.SG1"]

@@ -1,4 +1,4 @@
-"""What users write: texts that XML cannot hold are refused, scenes import the files beside them."""
+"""Texts of users: those that XML cannot hold are refused; scenes import the files beside them."""
 
 import sys
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What a person reads of an FMU's variables: typical sizes, names of types, texts of arrays, terminals."""
+"""Texts and nominal values of the model description: typical sizes, type names, texts of arrays, terminals."""
 
 import re
 from collections.abc import Sequence

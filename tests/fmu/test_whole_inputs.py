@@ -95,7 +95,7 @@ def test_a_state_brings_the_lever_back(stick: Path, host: HostMaker) -> None:
 
 @pytest.mark.parametrize("kind", kinds.ALL)
 def test_fmpy_and_the_engine_agree_bit_for_bit(build: Callable[..., Path], kind: str) -> None:
-    wanted = reference()
+    expected = reference()
     times = np.arange(101) * H
     lever = np.select([times < 0.3 - 1e-9, times < 0.6 - 1e-9], [1, -1], 0)
     signals = np.array(
@@ -110,7 +110,7 @@ def test_fmpy_and_the_engine_agree_bit_for_bit(build: Callable[..., Path], kind:
         output=["rod.x", "lever_used"],
         start_values={"step_size": H, "torque": 2.0},
     )
-    assert np.array_equal(result["rod.x"], wanted["rod.x"])
+    assert np.array_equal(result["rod.x"], expected["rod.x"])
     assert result["lever_used"].dtype.kind == "i"
     assert result["lever_used"][-1] == 0
 

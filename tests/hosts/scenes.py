@@ -84,10 +84,10 @@ def bar() -> mbs.Model:
     ends = [Interface(2, rotations=True)]
     reduced = craig_bampton(frame.finite_element_model(), reference=0, interfaces=ends, dynamic_modes=0)
     m = mbs.Model("bar", gravity=(0.0, 0.0, 0.0))
-    held = m.flexible_body("bar", reduced)
-    m.weld("root", m.ground, held.interface(0))
+    flexible = m.flexible_body("bar", reduced)
+    m.weld("root", m.ground, flexible.interface(0))
     pull = m.input("pull", min=-1e6, max=1e6, unit="N")
-    m.force("pull", held, (1.0, 0.0, 0.0), inputs=(pull, None, None))
+    m.force("pull", flexible, (1.0, 0.0, 0.0), inputs=(pull, None, None))
     fibre = reduced.recovery(fibre_stresses(frame, 1, 0.0))[0]
-    m.sense_coordinate("bar.stress", held.combination(fibre), unit="Pa")
+    m.sense_coordinate("bar.stress", flexible.combination(fibre), unit="Pa")
     return m

@@ -40,17 +40,17 @@ def car(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_car_is_built_once_for_each_content(car: Path, tmp_path: Path) -> None:
-    reported: list[str] = []
-    first = built_fmu.fmu_of_car(str(car), reported.append)
+    messages: list[str] = []
+    first = built_fmu.fmu_of_car(str(car), messages.append)
     assert first.read_text() == (car / "car.toml").read_text()
-    assert built_fmu.fmu_of_car(str(car), reported.append) == first
-    assert len(reported) == 1
+    assert built_fmu.fmu_of_car(str(car), messages.append) == first
+    assert len(messages) == 1
     shutil.copytree(car, tmp_path / "elsewhere")
-    assert built_fmu.fmu_of_car(str(tmp_path / "elsewhere"), reported.append) == first
+    assert built_fmu.fmu_of_car(str(tmp_path / "elsewhere"), messages.append) == first
     for file in (car / "car.toml", car / "tubes.csv", tmp_path / "frame.op4"):
         file.write_text(file.read_text() + "\n")
-        assert built_fmu.fmu_of_car(str(car), reported.append) != first
-    assert len(reported) == 4
+        assert built_fmu.fmu_of_car(str(car), messages.append) != first
+    assert len(messages) == 4
     assert [f.name for f in first.parent.parent.iterdir() if f.name.startswith(PREFIX)] == []
 
 
@@ -60,7 +60,7 @@ def test_another_program_builds_again(car: Path, monkeypatch: pytest.MonkeyPatch
     assert built_fmu.fmu_of_car(str(car), print) != first
 
 
-def test_a_command_with_many_cars_loses_none(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_command_with_many_cars_keeps_all_of_them(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(built_fmu, "_KEPT", 1)
     result = [built_fmu.fmu_of_car(str(car), print, ports) for ports in ("1", "2", "3")]
     assert all(fmu.is_file() for fmu in result)
@@ -86,9 +86,9 @@ def test_a_command_takes_an_fmu_or_a_car(
     assert "The car car is built for this machine" in capsys.readouterr().out
     assert fmu_file(Path("car", "car.toml")) == fmu_file(Path("car")) == result
     assert capsys.readouterr().out == ""
-    for given in ("x.fmu", "dist/x", "cut", "run-1"):  # what is there, or looks like a file
+    for fmu in ("x.fmu", "dist/x", "cut", "run-1"):  # what is there, or looks like a file
         (tmp_path / "cut").write_text("")
-        assert fmu_file(Path(given)) == Path(given)
+        assert fmu_file(Path(fmu)) == Path(fmu)
     built = []
     monkeypatch.setattr("hosts.fmu.fmu_file.fmu_of_car", lambda name, tell: built.append(name) or result)
     assert fmu_file(Path("hatchback")) == fmu_file(None) == result
@@ -98,14 +98,14 @@ def test_a_command_takes_an_fmu_or_a_car(
     assert fmu_file(None) == Path("dist", "PrototypeCar.fmu")
 
 
-def test_the_words_of_a_build_that_fails(car: Path) -> None:
+def test_the_message_of_a_failed_build(car: Path) -> None:
     (car / "car.toml").write_text("wrong")
     with pytest.raises(HostError, match=r"The FMU of the car .* cannot be built: The car is wrong\."):
         built_fmu.fmu_of_car(str(car), print)
 
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a signal of a clock")
-def test_a_build_that_is_stopped_ends_its_process_and_says_so(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_stopped_build_ends_its_process_and_is_reported(car: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A signal for the command alone: the process of the build is not waited for."""
     pid = car.parent / "pid"
     slow = f"import os, pathlib, time; pathlib.Path({str(pid)!r}).write_text(str(os.getpid())); time.sleep(600)"
@@ -117,15 +117,15 @@ def test_a_build_that_is_stopped_ends_its_process_and_says_so(car: Path, monkeyp
             return
         raise Stopped(signal.SIGTERM)
 
-    before, reported = signal.signal(signal.SIGALRM, stop), list[str]()
+    before, messages = signal.signal(signal.SIGALRM, stop), list[str]()
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.05)
         with pytest.raises(Stopped):
-            built_fmu.fmu_of_car(str(car), reported.append)
+            built_fmu.fmu_of_car(str(car), messages.append)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
-    assert "was stopped and nothing was run" in reported[-1]
+    assert "was stopped and nothing was run" in messages[-1]
     with pytest.raises(ProcessLookupError):
         os.kill(int(pid.read_text()), 0)
     assert not list((car.parent / "cache").rglob("*.fmu"))

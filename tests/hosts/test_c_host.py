@@ -1,4 +1,4 @@
-"""The host in C: what it sets by name, and what it refuses."""
+"""The host in C: setting variables by name, and refusals."""
 
 import subprocess
 from collections.abc import Callable
@@ -81,7 +81,7 @@ def test_invalid_values_are_refused(host: list[str], arguments: tuple[object, ..
     assert done.stdout == ""
 
 
-def test_names_are_found_whatever_stands_around_them(host: list[str], tmp_path: Path) -> None:
+def test_names_are_found_with_any_neighbouring_text(host: list[str], tmp_path: Path) -> None:
     """Comments, other quotation marks, entities, an attribute that holds the text of another."""
     folder = tmp_path / "fmu"
     (folder / "binaries" / "here").mkdir(parents=True)

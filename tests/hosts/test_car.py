@@ -1,4 +1,4 @@
-"""The prototype car's FMU driven through the manoeuvres of the host, as a user does it."""
+"""The FMU of the prototype car in the manoeuvres of the host, by the command."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -41,25 +41,25 @@ def drive(car: tuple[mbs.System, Path], manoeuvre: str, folder: Path, step: floa
     return read_csv(folder / f"prototype_car_{Path(manoeuvre).stem}.csv"), done.stdout
 
 
-def test_the_car_is_what_its_constants_tell(car: tuple[mbs.System, Path]) -> None:
+def test_the_constants_agree_with_the_motion_of_the_car(car: tuple[mbs.System, Path]) -> None:
     variables = {v.name: v for v in fmpy.read_model_description(str(car[1])).modelVariables}
-    reported = {n.removeprefix("vehicle."): float(v.start) for n, v in variables.items() if n.startswith("vehicle.")}
+    constants = {n.removeprefix("vehicle."): float(v.start) for n, v in variables.items() if n.startswith("vehicle.")}
     names = ["wheel_FL.steer", "wheel_FR.steer", "steering_wheel_angle"]
     start = {"steering": 1.0, "brake": 1.0}
     driven = fmpy.simulate_fmu(str(car[1]), stop_time=2.0, start_values=start, output=names)
     left, right, turned = (float(driven[n][-1]) for n in names)
     assert left > right > 0.0
-    assert reported["front_wheel_angle_max"] == pytest.approx(0.5 * (left + right), rel=2e-3)
-    assert reported["steering_wheel_angle_max"] == pytest.approx(turned, rel=1e-9)
-    assert reported["steering_ratio"] == reported["steering_wheel_angle_max"] / reported["front_wheel_angle_max"]
+    assert constants["front_wheel_angle_max"] == pytest.approx(0.5 * (left + right), rel=2e-3)
+    assert constants["steering_wheel_angle_max"] == pytest.approx(turned, rel=1e-9)
+    assert constants["steering_ratio"] == constants["steering_wheel_angle_max"] / constants["front_wheel_angle_max"]
     # Ackermann: the cotangents of the angles differ by track over wheelbase, of this car by a little less
-    ideal = reported["track_front"] / reported["wheelbase"]
+    ideal = constants["track_front"] / constants["wheelbase"]
     assert 0.5 * ideal < 1.0 / np.tan(right) - 1.0 / np.tan(left) < 1.5 * ideal
 
 
 @pytest.mark.slow
 def test_launch_and_brake(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
-    r, reported = drive(car, "launch_and_brake", tmp_path)
+    r, output = drive(car, "launch_and_brake", tmp_path)
     t, speed = r["time"], r["speed"]
     assert 20.0 < speed.max() < 35.0
     assert np.all(np.diff(speed[(t > 1.5) & (t < 9.0)]) > 0.0)
@@ -70,21 +70,21 @@ def test_launch_and_brake(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
     stored = sum(r[f"energy.{n}"][-1] - r[f"energy.{n}"][0] for n in ("kinetic", "gravity", "elastic"))
     assert works[0] > 2e5  # J
     assert stored - sum(works) - r["solver.energy_error"][-1] == pytest.approx(0.0, abs=1e-6 * works[0])
-    told = {row.split("  ")[0]: row.split()[-2:] for row in reported.splitlines() if " kJ" in row}
-    assert float(told["- work of drive"][0]) == pytest.approx(1e-3 * works[0], abs=1e-4)
-    assert float(told["change of the energy"][0]) == pytest.approx(1e-3 * stored, abs=1e-4)
-    assert abs(float(told["- structure, rest"][0])) < 1e-6 * works[0]
+    energies = {row.split("  ")[0]: row.split()[-2:] for row in output.splitlines() if " kJ" in row}
+    assert float(energies["- work of drive"][0]) == pytest.approx(1e-3 * works[0], abs=1e-4)
+    assert float(energies["change of the energy"][0]) == pytest.approx(1e-3 * stored, abs=1e-4)
+    assert abs(float(energies["- structure, rest"][0])) < 1e-6 * works[0]
 
 
 @pytest.mark.slow
 def test_kerb_drop(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
-    r, reported = drive(car, "kerb_drop", tmp_path, 0.002)
+    r, output = drive(car, "kerb_drop", tmp_path, 0.002)
     for wheel in ("FL", "FR"):
         load = r[f"wheel_{wheel}.Fz"]
         assert load.max() == pytest.approx(KERB_FRONT_PEAK, rel=KERB_PEAK_SHARE)
         assert 2.0 * np.count_nonzero(load < 1.0) == pytest.approx(KERB_FRONT_AIR, rel=KERB_AIR_SHARE)
     assert r["chassis.z"][0] - r["chassis.z"][-1] == pytest.approx(0.08, abs=2e-3)
-    assert "failed steps               0 of 2000" in reported
+    assert "failed steps               0 of 2000" in output
 
 
 @pytest.mark.slow
@@ -130,8 +130,8 @@ def test_steady_cornering(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
 
 
 def test_double_lane_change_is_passed(car: tuple[mbs.System, Path], tmp_path: Path) -> None:
-    r, reported = drive(car, "double_lane_change", tmp_path)
-    assert "ISO 3888-1                 passed" in reported
+    r, output = drive(car, "double_lane_change", tmp_path)
+    assert "ISO 3888-1                 passed" in output
     assert r["speed"].min() > 18.5
     assert np.abs(r["chassis.ay"]).max() > 4.0
 
@@ -140,8 +140,8 @@ def test_fmu_is_the_engine_bit_for_bit(car: tuple[mbs.System, Path], tmp_path: P
     """The slalom with one inner step per communication step, against the engine stepped by hand."""
     system, _ = car
     h = float(system.meta["experiment"]["step_s"])
-    given = load_manoeuvre("slalom")
-    manoeuvre = replace(given, held=frozenset(given.inputs))
+    slalom = load_manoeuvre("slalom")
+    manoeuvre = replace(slalom, held=frozenset(slalom.inputs))
     write_manoeuvre(manoeuvre, tmp_path / "held.toml")
     r, _ = drive(car, str(tmp_path / "held.toml"), tmp_path, h)
     simulation = mbs.Simulation(system, inputs=manoeuvre.at(0.0), pose=Pose(speed=15.0))

@@ -1,4 +1,4 @@
-"""`ali3 check`: good FMUs pass, spoilt ones are named, other files are errors."""
+"""`ali3 check`: valid FMUs pass, faulty ones are named, other files are errors."""
 
 import subprocess
 import sys
@@ -100,7 +100,7 @@ def test_an_fmu_that_crashes_is_bad(fmus: dict[str, Path], tmp_path: Path) -> No
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", kinds.VERSIONS)
-def test_it_checks_with_what_is_set(
+def test_it_checks_with_set_values(
     scene_fmu: Callable[..., Path], tmp_path: Path, capfd: pytest.CaptureFixture[str], kind: str
 ) -> None:
     fmu = scene_fmu(f"{Path(__file__).with_name('scenes.py')}:tuned", kind)

@@ -24,12 +24,12 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    folder, made = tmp_path_factory.mktemp("odd"), dict[str, Path]()
+    folder, fmus = tmp_path_factory.mktemp("odd"), dict[str, Path]()
 
     def of_name(name: str) -> Path:
-        if name not in made:
-            made[name] = odd_fmu(name, folder)
-        return made[name]
+        if name not in fmus:
+            fmus[name] = odd_fmu(name, folder)
+        return fmus[name]
 
     return of_name
 

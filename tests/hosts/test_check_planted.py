@@ -168,11 +168,11 @@ def test_the_verdict_as_sarif(tmp_path: Path) -> None:
     assert run(main, fmu, "--steps", 5, "--sarif", file).returncode == 1
     log = json.loads(file.read_text(encoding="utf-8"))
     assert log["version"] == "2.1.0"
-    (made,) = log["runs"]
-    rules = [rule["id"] for rule in made["tool"]["driver"]["rules"]]
+    (sarif_run,) = log["runs"]
+    rules = [rule["id"] for rule in sarif_run["tool"]["driver"]["rules"]]
     assert rules == [check.name for check in CHECKS]
-    by_rule = {result["ruleId"]: result for result in made["results"]}
-    assert [rules[result["ruleIndex"]] for result in made["results"]] == rules
+    by_rule = {result["ruleId"]: result for result in sarif_run["results"]}
+    assert [rules[result["ruleIndex"]] for result in sarif_run["results"]] == rules
     assert (by_rule["end"]["kind"], by_rule["end"]["level"]) == ("fail", "error")
     assert "answers with status 3" in by_rule["end"]["message"]["text"]
     assert (by_rule["runs"]["kind"], by_rule["derivatives"]["kind"]) == ("pass", "open")

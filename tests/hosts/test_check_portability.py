@@ -43,15 +43,15 @@ def changed(fmu: Path, copy: Path, changes: list[Change], face: str = "") -> Pat
         files[name] = files[name].replace(old.encode(), new.encode())
     if face:
         (library,) = (name for name in files if name.startswith("binaries/"))
-        made, own = copy.with_name(Path(library).name), {}
+        binary, own = copy.with_name(Path(library).name), {}
         for name in ("sources/table.c", *(name for name, _, _ in changes)):
             own[Path(name).name] = copy.with_name(Path(name).name)
             own[Path(name).name].write_bytes(files[name])
         shell = {file.name: file for file in shell_files(face)} | own
         assert len(shell) == len(shell_files(face)) + 1, "a table, and only files that there are"
         sources, include = [*build.sources(lanes=False), *shell.values()], (KERNEL_INCLUDE, HERE, DETOUR)
-        build.compile_c(sources, build.host_target(), made, include=include, defines=("ALI3_INSIDE",), what="a copy")
-        files[library] = made.read_bytes()
+        build.compile_c(sources, build.host_target(), binary, include=include, defines=("ALI3_INSIDE",), what="a copy")
+        files[library] = binary.read_bytes()
     with zipfile.ZipFile(copy, "w") as target:
         for name, data in files.items():
             target.writestr(name, data)
@@ -59,7 +59,7 @@ def changed(fmu: Path, copy: Path, changes: list[Change], face: str = "") -> Pat
 
 
 @pytest.mark.slow
-def test_ours_have_none_of_it(fmus: dict[str, Path]) -> None:
+def test_our_fmus_have_none_of_the_faults(fmus: dict[str, Path]) -> None:
     for fmu in fmus.values():
         found = findings(fmu)
         assert len(found) == len(CHECKS)

@@ -1,4 +1,4 @@
-"""`ali3 check FMU --reference FILE`: what agrees, what does not, and tables that are no reference."""
+"""`ali3 check FMU --reference FILE`: agreement, deviations, and tables that are no reference."""
 
 import csv
 import math
@@ -78,15 +78,15 @@ def test_a_signal_beyond_its_bound_is_named(
 
 def test_what_drives_it_in_place_of_the_table_does_so_at_the_step_of_the_table(fmu: Path, tmp_path: Path) -> None:
     """Rows are every 0.1 s, the step of their run was neither that nor the FMU's."""
-    given = tmp_path / "given.csv"
-    given.write_text('"time","pull"\n0,0\n0.4,30\n1,0\n')
-    assert run(run_main, fmu, "-m", given, "--step", 0.02, "--interval", 0.1, "--out", tmp_path).returncode == 0
-    done = run(main, fmu, "-m", given, "--reference", tmp_path / "tuned_given.csv", "--bound", "*=1e-6")
+    table = tmp_path / "given.csv"
+    table.write_text('"time","pull"\n0,0\n0.4,30\n1,0\n')
+    assert run(run_main, fmu, "-m", table, "--step", 0.02, "--interval", 0.1, "--out", tmp_path).returncode == 0
+    done = run(main, fmu, "-m", table, "--reference", tmp_path / "tuned_given.csv", "--bound", "*=1e-6")
     assert done.returncode == 0, done.stdout + done.stderr
     assert "in steps of 0.02 s" in done.stdout
 
 
-def test_a_stopped_check_of_a_folder_goes_on_with_the_tables_that_are_left(
+def test_a_stopped_check_of_a_folder_resumes_with_the_other_tables(
     fmu: Path, result: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = tmp_path / "tables"
@@ -99,8 +99,8 @@ def test_a_stopped_check_of_a_folder_goes_on_with_the_tables_that_are_left(
 
     def stopped(fmu: object, drives: Sequence[object], jobs: int) -> Generator[object]:
         driven.append(len(drives))
-        for made in runs_with_bar(fmu, drives, jobs):  # type: ignore[arg-type]
-            yield made
+        for result in runs_with_bar(fmu, drives, jobs):  # type: ignore[arg-type]
+            yield result
             if len(driven) == 1:
                 raise KeyboardInterrupt
 
@@ -124,8 +124,8 @@ def test_of_one_table_nothing_is_kept(fmu: Path, result: Path, given: tuple[str,
 
 
 def test_tables_are_reported_in_their_order_whichever_is_done_first() -> None:
-    reported = in_order(iter([(2, "c"), (0, "a"), (1, "b"), (3, "d")]))
-    assert [next(reported), *reported] == ["a", "b", "c", "d"]
+    tables = in_order(iter([(2, "c"), (0, "a"), (1, "b"), (3, "d")]))
+    assert [next(tables), *tables] == ["a", "b", "c", "d"]
 
 
 @pytest.mark.parametrize("at", [0.4, 0.404])

@@ -1,4 +1,4 @@
-"""A circle is held by a car without slip whose steering is late and whose steering ratio is not as told."""
+"""The circle follower with a car without slip, delayed steering and a wrong steering ratio."""
 
 import math
 

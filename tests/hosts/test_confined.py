@@ -1,4 +1,4 @@
-"""Option ``--confined``: an FMU reaches nothing of the host, gives the same bits, and is told of as ever."""
+"""Option ``--confined``: an FMU reaches nothing of the host, gives the same bits, and is reported as without it."""
 
 import socket
 import tempfile
@@ -63,8 +63,8 @@ def host(tmp_path: Path) -> Iterator[Host]:
 
 
 def by_run(host: Host, out: Path, *options: str) -> set[float]:
-    code, reported, rows = driven(host.fmu, out, host.port, *options)
-    assert code == 0, reported
+    code, output, rows = driven(host.fmu, out, host.port, *options)
+    assert code == 0, output
     return set(rows[1:, 2])
 
 
@@ -153,10 +153,10 @@ def test_the_catalogue_measures_the_same(prototype_fmu: Path, tmp_path: Path) ->
     assert len(results[0]) > 1
 
 
-def test_an_fmu_that_crashes_is_reported_as_ever(tmp_path: Path) -> None:
-    code, reported, table = driven(odd_fmu("faults", tmp_path), tmp_path / "out", CRASH, "--confined")
+def test_a_crash_is_reported_as_without_confinement(tmp_path: Path) -> None:
+    code, output, table = driven(odd_fmu("faults", tmp_path), tmp_path / "out", CRASH, "--confined")
     assert code == 1
-    assert "The process of the FMU crashed (SIGSEGV) in fmi2DoStep at 0.04 s; 5 rows were kept." in reported
+    assert "The process of the FMU crashed (SIGSEGV) in fmi2DoStep at 0.04 s; 5 rows were kept." in output
     assert len(table) == 5
 
 
@@ -166,7 +166,7 @@ def test_without_bubblewrap_nothing_is_run(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setenv("PATH", str(tmp_path))
     for main in (drive, simulator, catalogue):
         done = run(main, fmu, "--confined", "--out" if main != simulator else "--record", tmp_path / "out")
-        reported = "error: --confined is not possible here, and nothing was run: install bubblewrap (bwrap).\n"
-        assert (done.returncode, done.stderr) == (2, reported)
+        message = "error: --confined is not possible here, and nothing was run: install bubblewrap (bwrap).\n"
+        assert (done.returncode, done.stderr) == (2, message)
     _bubblewrap.cache_clear()
     assert not (tmp_path / "out").exists()

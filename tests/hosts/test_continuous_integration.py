@@ -1,4 +1,4 @@
-"""The job of docs/commands.md on a small repository, as it is written; JUnit files by a second reader."""
+"""The CI job of docs/commands.md on a small repository; JUnit files by a second reader."""
 
 import csv
 import re
@@ -29,8 +29,8 @@ PULL = '"time","pull"\n0,0\n0.4,{0}\n0.4,-20\n1,0\n'
 def repository(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """An FMU and two references."""
     folder = tmp_path_factory.mktemp("repository")
-    made = build_fmu(mbs.compile(tuned()), "tuned", folder, [fmpy.platform])
-    made.rename(folder / "model.fmu")
+    built = build_fmu(mbs.compile(tuned()), "tuned", folder, [fmpy.platform])
+    built.rename(folder / "model.fmu")
     for name, pull in (("swing", 30), ("rest", 0)):
         (folder / f"{name}.csv").write_text(PULL.format(pull))
         done = run(run_main, folder / "model.fmu", "-m", folder / f"{name}.csv", "--out", folder / "references")
@@ -83,7 +83,7 @@ def test_the_job_as_it_is_written(repository: Path, tmp_path: Path, good: bool) 
     assert [key for key, kind in references.items() if kind != "good"] == ([] if good else [("model_swing", "bob.x")])
 
 
-def test_a_failure_says_how_far_off_it_is(repository: Path, tmp_path: Path) -> None:
+def test_a_failure_reports_the_deviation(repository: Path, tmp_path: Path) -> None:
     folder = Path(shutil.copytree(repository, tmp_path / "r"))
     spoil(folder, "model_swing.csv", "bob.x", 0.05)
     done = run(main, folder / "model.fmu", "--reference", folder / "references", "--junit", tmp_path / "a.xml")

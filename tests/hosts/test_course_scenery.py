@@ -60,7 +60,7 @@ def test_on_a_terrain_they_stand_where_its_points_have_the_ground() -> None:
     assert z.max() > 0.09
 
 
-def test_each_patch_of_a_terrain_tells_the_heights_within_it_alone() -> None:
+def test_each_patch_of_a_terrain_gives_the_heights_within_it_only() -> None:
     """The second one rises by 1 m in 10 m, from the first one's edge on."""
     level, rise = np.zeros((11, 11), "f4"), np.repeat(np.arange(11, dtype="f4")[:, None], 11, axis=1)
     patches = [
@@ -72,7 +72,7 @@ def test_each_patch_of_a_terrain_tells_the_heights_within_it_alone() -> None:
     assert z == pytest.approx(0.1 * x, abs=1e-6)
 
 
-def test_beyond_a_terrain_they_are_left_out_with_a_word() -> None:
+def test_cones_beyond_a_terrain_are_left_out_with_a_note() -> None:
     """It ends at 120 m, before the end of the third lane."""
     result = with_course(
         {"roads": [hand_world.terrain(-80.0)], "missing": [{"name": "a", "why": "b"}]}, course_of("iso_3888_1", WIDTH)

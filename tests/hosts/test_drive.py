@@ -141,7 +141,7 @@ def test_messages_of_the_fmu_are_shown(fmus: dict[str, Path], tmp_path: Path) ->
     assert "the range of the FMU's input is -20 to 20 N·m" in done.stderr
 
 
-def test_no_fmu_tells_how_to_build_it(turn: Path, tmp_path: Path) -> None:
+def test_a_missing_fmu_is_reported_with_the_command_that_builds_it(turn: Path, tmp_path: Path) -> None:
     done = drive(tmp_path / "dist" / "PrototypeCar.fmu", "-m", turn)
     assert done.returncode == 2
     assert "There is no file" in done.stderr

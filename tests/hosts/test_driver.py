@@ -75,7 +75,7 @@ def test_the_integral_waits_while_a_pedal_is_at_its_stop() -> None:
         assert now["throttle"] == now["brake"] == 0.0
 
 
-def test_the_integral_takes_away_what_the_error_leaves() -> None:
+def test_the_integral_removes_the_steady_error() -> None:
     """Half a metre a second too slow for two seconds, given twice: the pedal grows by gain times error times time."""
     driver = make_driver(SETTINGS, CAR)
     s = driver.settings
@@ -103,12 +103,12 @@ def test_settings_of_the_manoeuvre_override_those_of_the_car() -> None:
 
 @pytest.mark.parametrize("missing", list(CAR))
 def test_constants_that_the_fmu_does_not_report_are_requested(missing: str) -> None:
-    reported = {name: value for name, value in CAR.items() if name != missing}
+    constants = {name: value for name, value in CAR.items() if name != missing}
     with pytest.raises(HostError, match=rf"this FMU does not provide .*'{missing}'.*\[driver\]") as refusal:
-        make_driver(SETTINGS, reported)
+        make_driver(SETTINGS, constants)
     (setting,) = (name for name, constant in CONSTANTS.items() if constant == missing)
     assert f"--driver {setting}=NUMBER" in str(refusal.value)
-    assert make_driver(SETTINGS | {setting: "1.25"}, reported)
+    assert make_driver(SETTINGS | {setting: "1.25"}, constants)
 
 
 @pytest.mark.parametrize(

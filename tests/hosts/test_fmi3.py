@@ -44,26 +44,26 @@ def test_a_percent_sign_in_a_message_is_shown_as_the_fmu_means_it(
     kind: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
 ) -> None:
     """A message of FMI 2.0 is a format of printf, one of FMI 3.0 is the text."""
-    reported: list[str] = []
+    messages: list[str] = []
     description = read_model_description(fmus["crane", kind])
     folder = Path(fmpy.extract(fmus["crane", kind], tmp_path))
     with pytest.raises(Exception, match="instantiate"):
-        Instance(description, folder, "crane", lambda *message: reported.append(message[2]), token="{100% of #r1#}")
-    assert "{100% of #r1#}" in reported[-1]
+        Instance(description, folder, "crane", lambda *message: messages.append(message[2]), token="{100% of #r1#}")
+    assert "{100% of #r1#}" in messages[-1]
 
 
 @pytest.mark.parametrize("kind", kinds.IN_C)
-def test_all_is_unpacked_but_what_no_running_fmu_reads(
+def test_sources_and_documentation_are_not_unpacked(
     kind: str, fmus: dict[tuple[str, str], Path], tmp_path: Path
 ) -> None:
     unpack(fmus["crane", kind], tmp_path)
     actual = {file.relative_to(tmp_path).as_posix() for file in tmp_path.rglob("*") if file.is_file()}
     with zipfile.ZipFile(fmus["crane", kind]) as fmu:
-        remaining = set(fmu.namelist()) - actual
-        assert len(actual) + len(remaining) == len(fmu.namelist())
-    assert {name.partition("/")[0] for name in remaining} == {"sources", "documentation"}
+        packed_only = set(fmu.namelist()) - actual
+        assert len(actual) + len(packed_only) == len(fmu.namelist())
+    assert {name.partition("/")[0] for name in packed_only} == {"sources", "documentation"}
     assert {name.partition("/")[0] for name in actual} >= {"modelDescription.xml", "binaries", "resources"}
-    assert len(remaining) > len(actual)
+    assert len(packed_only) > len(actual)
 
 
 @pytest.mark.slow
@@ -119,9 +119,9 @@ def test_what_goes_straight_is_held_and_late_and_this_is_reported(
         (written,) = (Path(line.split()[1].rstrip(",")) for line in done.stdout.splitlines() if "written:" in line)
         results[kind, table] = read_csv(written)["rod.x"]
     lag = float(np.abs(results["plain", "table"] - results["native", "table"]).max())
-    remaining = float(np.abs(results["plain", "table"] - results["native", "later"]).max())
+    difference = float(np.abs(results["plain", "table"] - results["native", "later"]).max())
     assert lag > 1e-4
-    assert remaining < 0.1 * lag
+    assert difference < 0.1 * lag
     assert float(np.abs(results["fmi3", "table"] - results["native", "table"]).max()) < 0.1 * lag
 
 

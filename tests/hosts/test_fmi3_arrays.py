@@ -26,7 +26,8 @@ from tests.in_process import run
 
 HERE = Path(__file__).parent
 A, B = np.array([[0.0, 1.0], [-4.0, -0.4]]), np.array([[0.0, 0.0, 0.0], [1.0, 0.5, 0.25]])
-H, EXACT = 0.01, 1e-9
+H = 0.01  # s
+EXACT = 1e-9
 
 
 @pytest.fixture(scope="module")
@@ -52,11 +53,11 @@ def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ],
         check=True,
     )
-    made = folder / "StateSpace.fmu"
-    with zipfile.ZipFile(made, "w") as archive:
+    file = folder / "StateSpace.fmu"
+    with zipfile.ZipFile(file, "w") as archive:
         archive.write(HERE / "state_space" / "modelDescription.xml", "modelDescription.xml")
         archive.write(library, f"binaries/{fmpy.platform_tuple}/{library.name}")
-    return made
+    return file
 
 
 def motion(u: NDArray[np.float64], a: NDArray[np.float64] = A, b: NDArray[np.float64] = B) -> NDArray[np.float64]:
@@ -65,8 +66,8 @@ def motion(u: NDArray[np.float64], a: NDArray[np.float64] = A, b: NDArray[np.flo
     whole[:2, :2], whole[:2, 2:] = a, b
     step = expm(whole * H)
     x = [np.zeros(2)]
-    for held in u:
-        x.append(step[:2, :2] @ x[-1] + step[:2, 2:] @ held)
+    for inputs in u:
+        x.append(step[:2, :2] @ x[-1] + step[:2, 2:] @ inputs)
     return np.array(x)
 
 
@@ -131,15 +132,15 @@ def test_an_array_as_a_whole_is_refused_with_its_elements(fmu: Path) -> None:
 
 def described_as(fmu: Path, folder: Path, change: dict[str, str]) -> Path:
     """The same FMU with other words in its description."""
-    made = folder / "Changed.fmu"
-    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(made, "w") as new:
+    copy = folder / "Changed.fmu"
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(copy, "w") as new:
         for name in old.namelist():
             content = old.read(name)
             for message, others in change.items() if name == "modelDescription.xml" else ():
                 assert message.encode() in content
                 content = content.replace(message.encode(), others.encode())
             new.writestr(name, content)
-    return made
+    return copy
 
 
 def test_texts_of_an_array_are_not_split_and_not_set(fmu: Path, tmp_path: Path) -> None:
@@ -186,7 +187,7 @@ def test_an_fmu_without_outputs_runs(fmu: Path, tmp_path: Path) -> None:
         assert pd.read_csv(file)["time"].iloc[-1] == 0.25
 
 
-def test_a_table_at_an_interval_repeats_its_run_or_says_that_it_does_not(fmu: Path, tmp_path: Path) -> None:
+def test_a_table_at_an_interval_repeats_its_run_or_reports_that_it_cannot(fmu: Path, tmp_path: Path) -> None:
     """Here inputs are held over each step."""
     tables = {"moves": "0,0\n0.25,2\n", "stays": "0,1\n0.1,1\n0.1,2\n0.25,2\n"}
     results = {}
@@ -213,16 +214,16 @@ def test_checks_drive_elements_of_inputs(fmu: Path, tmp_path: Path) -> None:
     hidden = '<Output valueReference="7" dependencies=""/>'
     silent = described_as(fmu, tmp_path, {'<Output valueReference="7"/>': hidden})
     (tmp_path / "told").mkdir()
-    reported = described_as(fmu, tmp_path / "told", {'<Output valueReference="7"/>': hidden.replace('""', '"1"')})
+    complete = described_as(fmu, tmp_path / "told", {'<Output valueReference="7"/>': hidden.replace('""', '"1"')})
     lines = {}
-    for path in (fmu, silent, reported):
+    for path in (fmu, silent, complete):
         done = run(check, path, "--steps", 5, "--set", "A[2,1]=-9", "--set", "u[2]=4")
         assert "set  A[2,1]                  -4 -> -9 (--set)" in done.stdout
         lines[path] = {line[6:28].strip(): line[:4].strip() + " " + line[30:] for line in done.stdout.splitlines()}
     assert lines[fmu]["runs"] == "ok 5 steps of 0.01 s, 2 outputs move"
     assert "NaN for an input" in lines[fmu]["refusals"]
     assert lines[fmu]["refused steps"].startswith("note a refused step at 0 s can be asked for without end")
-    for path in (fmu, reported):
+    for path in (fmu, complete):
         assert lines[path]["dependencies"].startswith("note 1 outputs, such as y, are said to depend on inputs")
     assert lines[silent]["dependencies"] == "ok outputs change at a communication point as they are said to"
     assert lines[silent]["derivatives"].startswith("note they are those over the last step")

@@ -1,4 +1,4 @@
-"""`ali3 run` of FMUs that end, print, start and reach what they should not: it is told, and nothing stays."""
+"""`ali3 run` of FMUs that crash, print without end, start processes or take memory: reported, and nothing stays."""
 
 import json
 import os
@@ -53,9 +53,9 @@ def driven(fmu: Path, out: Path, fault: int, *options: object) -> tuple[int, str
 def test_the_cause_of_an_early_end_is_reported_with_the_rows_until_then(
     faults: Path, tmp_path: Path, temporary: Path, fault: int, message: str, rows: int
 ) -> None:
-    code, reported, table = driven(faults, tmp_path / "out", fault)
+    code, output, table = driven(faults, tmp_path / "out", fault)
     assert code == 1
-    assert reported.count(message) == 1
+    assert output.count(message) == 1
     assert len(table) == rows
     good = np.where(np.isnan(table[:, 2]), table[:, 0], table[:, 2])
     assert np.allclose(good, table[:, 0], atol=1e-12)  # the output is the time
@@ -76,18 +76,18 @@ def test_another_folder_and_files_of_an_fmu_change_nothing_here(
     faults: Path, tmp_path: Path, temporary: Path, monkeypatch: pytest.MonkeyPatch, fault: int
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    code, reported, table = driven(Path(os.path.relpath(faults)), Path("out"), fault)
+    code, output, table = driven(Path(os.path.relpath(faults)), Path("out"), fault)
     assert code == 0
-    assert "written: out/faults.csv" in reported
+    assert "written: out/faults.csv" in output
     assert len(table) == 101
     assert sorted(p.name for p in tmp_path.iterdir()) == ["out", "temporary"]
     assert not list(temporary.iterdir())
 
 
 def test_one_that_prints_without_end_is_ended(faults: Path, tmp_path: Path) -> None:
-    code, reported, table = driven(faults, tmp_path / "out", PRINT)
+    code, output, table = driven(faults, tmp_path / "out", PRINT)
     assert code == 1
-    assert "was ended in fmi2DoStep at 0.04 s because it printed more than 200 MB; 5 rows were kept." in reported
+    assert "was ended in fmi2DoStep at 0.04 s because it printed more than 200 MB; 5 rows were kept." in output
     assert len(table) == 5
 
 

@@ -1,4 +1,4 @@
-"""What a manoeuvre has on the ground: the circle, the line where braking begins, and cones of a course laid out."""
+"""Ground marks of a manoeuvre: the circle, the line where braking begins, and cones of a course."""
 
 import math
 from dataclasses import astuple, replace
@@ -39,12 +39,12 @@ def driven(**columns: np.ndarray) -> Result:
 
 def on_circle(radius: float, speed: float, sideslip: float) -> Result:
     """Steady driving on a circle about (3, -4), with the steering as it is from 1 s on."""
-    way = TIME * speed / radius
+    angle = TIME * speed / radius
     return driven(
         steering=np.where(TIME < 1.0, 0.0, 0.1),
-        chassis_x=3.0 + radius * np.sin(way),
-        chassis_y=-4.0 - radius * np.cos(way),
-        chassis_yaw=way - sideslip,
+        chassis_x=3.0 + radius * np.sin(angle),
+        chassis_y=-4.0 - radius * np.cos(angle),
+        chassis_yaw=angle - sideslip,
         speed=speed,
         chassis_wz=speed / radius,
         sideslip=sideslip,
@@ -74,11 +74,11 @@ def test_runs_that_are_looked_at_have_their_marks(prototype_fmu: Path) -> None:
 
 def test_a_straight_run_brings_the_line_where_it_begins_to_stop() -> None:
     speed = np.where(TIME < 10.0, 20.0, np.maximum(0.0, 20.0 - 8.0 * (TIME - 10.0)))
-    way = np.cumsum(speed) * 0.01
+    distance = np.cumsum(speed) * 0.01
     brake = np.where(TIME < 0.5, 0.3, np.where(TIME > 10.0, 0.8, 0.0))  # it holds the car at the start, too
-    (actual,) = marks_of_inputs(driven(brake=brake, speed=speed, chassis_x=way))
+    (actual,) = marks_of_inputs(driven(brake=brake, speed=speed, chassis_x=distance))
     begins = np.flatnonzero(TIME <= 10.0)[-1]
-    assert np.array(actual["points"])[:, 0] == pytest.approx(way[begins], abs=0.21)
+    assert np.array(actual["points"])[:, 0] == pytest.approx(distance[begins], abs=0.21)
     assert np.ptp(np.array(actual["points"])[:, 1]) == pytest.approx(4.0)
 
 
@@ -96,7 +96,7 @@ def test_other_inputs_bring_nothing(columns) -> None:
     assert marks_of_inputs(driven(**columns)) == []
 
 
-def test_pilots_tell_what_they_drive_by() -> None:
+def test_pilots_declare_their_ground_marks() -> None:
     circle = CircleFollower(30.0, 10.0, 2.5, 0.5)
     pilot = Braking(FixedSteering(circle, 1.0, 0.5), lambda time, observation: time > 2.0, 0.5, 0.1)
     assert pilot.marks == []
@@ -167,7 +167,7 @@ def test_marks_lie_on_a_grid_of_heights_or_are_named(end: float) -> None:
         [3],
     ],
 )
-def test_a_record_whose_marks_are_none_is_refused(marks) -> None:
+def test_a_record_with_invalid_marks_is_refused(marks) -> None:
     with pytest.raises(HostError, match="does not say by 'marks' lanes, lines and circles"):
         _with_marks({"roads": []}, {"marks": marks}, Path("run.json"))
 

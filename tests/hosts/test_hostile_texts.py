@@ -1,4 +1,4 @@
-"""A foreign FMU whose every text is markup: each page shows it as it is, and nothing of it runs."""
+"""A foreign FMU with markup in every text: pages show it literally, and nothing of it runs."""
 
 import json
 import re
@@ -56,9 +56,9 @@ def drawing() -> dict[str, Any]:
 @pytest.fixture(scope="module")
 def foreign(tmp_path_factory: pytest.TempPathFactory) -> Path:
     name, system = load_scene(f"{Path(__file__).parent / 'scenes.py'}:tuned")
-    made = build_fmu(system, name, tmp_path_factory.mktemp("made"), [fmpy.platform, "wasm32"])
+    built = build_fmu(system, name, tmp_path_factory.mktemp("made"), [fmpy.platform, "wasm32"])
     file = tmp_path_factory.mktemp("foreign") / "Foreign.fmu"
-    with zipfile.ZipFile(made) as old, zipfile.ZipFile(file, "w") as new:
+    with zipfile.ZipFile(built) as old, zipfile.ZipFile(file, "w") as new:
         for name in old.namelist():
             content = old.read(name)
             if name == "modelDescription.xml":
@@ -77,14 +77,14 @@ def foreign(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def chromium() -> Iterator[Any]:
-    with headless_chromium() as made:
-        yield made
+    with headless_chromium() as browser:
+        yield browser
 
 
 def opened(chromium: Any, file: Path) -> Any:
-    made = chromium.new_page(viewport={"width": 900, "height": 600})
-    made.goto(file.as_uri())
-    return made
+    page = chromium.new_page(viewport={"width": 900, "height": 600})
+    page.goto(file.as_uri())
+    return page
 
 
 def check(shown: Any, *texts: str) -> None:
@@ -127,13 +127,13 @@ def test_view_with_arrows(foreign: Path, tmp_path: Path, chromium: Any) -> None:
 
 def with_text(key: str, text: str) -> dict[str, Any]:
     """The drawing with another text in a place."""
-    made = drawing()
-    place: Any = made
-    *way, last = (int(part) if part.isdigit() else part for part in re.findall(r"\w+", key))
-    for part in way:
+    scene = drawing()
+    place: Any = scene
+    *parents, last = (int(part) if part.isdigit() else part for part in re.findall(r"\w+", key))
+    for part in parents:
         place = place[part]
     place[last] = text
-    return made
+    return scene
 
 
 KEYS = (

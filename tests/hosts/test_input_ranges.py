@@ -1,4 +1,4 @@
-"""Columns in another unit than the FMU's input are told, with the row and the unit that would explain them."""
+"""Columns in another unit than the FMU's input are reported with the row and the probable unit."""
 
 import math
 
@@ -34,14 +34,14 @@ def variable(unit: str, low: float, high: float) -> Variable:
 def test_another_unit_is_reported_with_its_row(
     unit: str, low: float, high: float, values: np.ndarray, message: str
 ) -> None:
-    reported = beyond_range(variable(unit, low, high), values)
+    sentence = beyond_range(variable(unit, low, high), values)
     worst = int(np.argmax(np.maximum(low - values, values - high)))
-    assert message in reported
-    assert f"in row {worst + 1} " in reported
-    assert f"{values[worst]:.6g}" in reported
+    assert message in sentence
+    assert f"in row {worst + 1} " in sentence
+    assert f"{values[worst]:.6g}" in sentence
 
 
-def test_rounding_is_none() -> None:
+def test_rounding_is_not_outside_of_the_range() -> None:
     one = variable("1", -1.0, 1.0)
     assert beyond_range(one, np.array([-1.0 - 1e-6, 1.0 + 1e-6])) == ""
     assert beyond_range(one, np.array([0.0, 1.0 + 1e-5])) != ""

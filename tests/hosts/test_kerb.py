@@ -77,9 +77,9 @@ def test_without_an_fmu_that_of_the_scene_is_built_and_kept(
     monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
     monkeypatch.setattr(built_fmu, "build_fmu", build)
     monkeypatch.chdir(tmp_path)
-    for reported in ("The scene kerb_test is built for this machine", ""):
+    for sentence in ("The scene kerb_test is built for this machine", ""):
         assert main(["--kerb", "--fidelity", "1", "--out", str(tmp_path)]) == 0
-        assert ("is built" in reported) is ("is built" in capsys.readouterr().out)
+        assert ("is built" in sentence) is ("is built" in capsys.readouterr().out)
     assert requested == [("--scene", "kerb_test")]
     assert main(["--kerb", "prototype"]) == 2
     assert "--kerb runs the scene kerb_test; --manoeuvre kerb_drop drives the car prototype" in capsys.readouterr().err

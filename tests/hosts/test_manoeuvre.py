@@ -73,7 +73,7 @@ def test_a_step_is_not_missed_for_rounding(tmp_path: Path) -> None:
     assert manoeuvre.at(np.nextafter(0.3, 0.0))["u"] == 1.0
 
 
-def test_a_table_that_begins_late_holds_its_first_row_and_says_so(tmp_path: Path) -> None:
+def test_a_table_that_begins_late_holds_its_first_row_and_is_reported(tmp_path: Path) -> None:
     late = load_manoeuvre(written(tmp_path, '"time","u","v"\n0.5,3,-1\n1,0,0\n'))
     assert late.at(0.0) == {"u": 3.0, "v": -1.0}
     assert late.late_begin() == ("begin of the table", "at 0.5 s; before, its first row holds u at 3, v at -1")
@@ -173,7 +173,7 @@ def test_a_table_whose_record_does_not_fit_is_refused(tmp_path: Path) -> None:
     assert list(load_manoeuvre(written(tmp_path, GOOD)).inputs) == ["steering", "throttle"]
 
 
-def test_lists_of_a_manoeuvre_that_are_none_are_refused(tmp_path: Path) -> None:
+def test_invalid_lists_of_a_manoeuvre_are_refused(tmp_path: Path) -> None:
     for text in ('held = [["u"]]\n[inputs]\ntime = [0, 1]\nu = [0, 1]\n', "[inputs]\nu = [0, 1]\ntime = 5\n"):
         (tmp_path / "m.toml").write_text(text)
         with pytest.raises(HostError, match=r"m\.toml"):
@@ -319,7 +319,7 @@ def test_columns_beyond_their_range_and_late_tables_are_refused(tmp_path: Path) 
             check_columns(fmu, drive([0.0, 1.0, 0.0], 100.0))
 
 
-def test_a_drive_by_what_squares_to_no_number_is_refused(tmp_path: Path) -> None:
+def test_values_whose_squares_overflow_are_refused(tmp_path: Path) -> None:
     model = mbs.Model("bob", dimension=2)
     bob = model.point_mass("bob", mass=2.0, position=(0.0, 0.0))
     model.force("pull", bob, inputs=(model.input("pull", unit="N"), None))

@@ -1,4 +1,4 @@
-"""What `ali3 view --live` makes of an FMU, and the sentences for what it cannot use."""
+"""Pages of `ali3 view --live` from an FMU, and messages for FMUs that they cannot run."""
 
 import base64
 import gzip
@@ -39,9 +39,9 @@ def changed(fmu: Path, folder: Path, change: Any, scene: Any = DRAWING) -> Path:
         names |= {name: old.read(name) for name in old.namelist() if name != SCENE}
         names["binaries/wasm32/Tuned.wasm"] = bytes(range(256))
         for name, content in names.items():
-            made = change(name, content)
-            if made is not None:
-                new.writestr(name, made)
+            changed_content = change(name, content)
+            if changed_content is not None:
+                new.writestr(name, changed_content)
     return file
 
 
@@ -58,7 +58,7 @@ def refusal(fmu: Path, capsys: pytest.CaptureFixture[str], *more: str) -> str:
     return errors
 
 
-def test_the_page_holds_what_the_fmu_has_and_no_more(tuned: Path, tmp_path: Path) -> None:
+def test_the_page_holds_the_content_of_the_fmu_only(tuned: Path, tmp_path: Path) -> None:
     fmu = changed(tuned, tmp_path, same)
     arguments = [
         "--title",
@@ -96,17 +96,17 @@ def test_the_page_holds_what_the_fmu_has_and_no_more(tuned: Path, tmp_path: Path
     assert "max" not in variables["bob.x"]
 
 
-def test_an_fmu_without_the_binary_gets_it_from_its_own_sources_or_says_how(
+def test_a_missing_binary_is_compiled_from_the_sources_or_the_command_is_named(
     tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = tmp_path / "my FMUs"
     folder.mkdir()
     bare = changed(tuned, folder, lambda name, content: None if name.endswith(".wasm") else content)
     monkeypatch.setattr(commands, "module_command", lambda *a: ["false"])
-    reported = refusal(bare, capsys)
-    assert f"--out '{folder}'" in reported
-    assert "has no binary in WebAssembly, and none could be added" in reported
-    assert "--scene tuned --kind native --platforms this,wasm32" in reported
+    message = refusal(bare, capsys)
+    assert f"--out '{folder}'" in message
+    assert "has no binary in WebAssembly, and none could be added" in message
+    assert "--scene tuned --kind native --platforms this,wasm32" in message
 
 
 @pytest.mark.parametrize(
@@ -126,7 +126,7 @@ def test_fmus_of_others(
     assert message in refusal(changed(tuned, tmp_path, change), capsys)
 
 
-def test_a_road_that_is_none(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_road_is_refused(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     roads = {"roads": [{"kind": "file", "variable": "road.file", "path": "resources/roads/own.road"}]}
     fmu = changed(tuned, tmp_path, same, DRAWING | roads)
     assert "The road none.road cannot be used: its file is not there." in refusal(fmu, capsys, "--road", "none.road")
@@ -137,8 +137,8 @@ def test_a_road_that_is_none(tuned: Path, tmp_path: Path, capsys: pytest.Capture
 
 def test_a_road_is_drawn_as_slick_as_it_was_set(tuned: Path, tmp_path: Path) -> None:
     """That of the FMU, and one from a file, of which the factor alone is set."""
-    given = {name: f"road.{name}" for name in ("friction", "friction_factor", "file")}
-    own = {"kind": "flat", "friction": 1.2, "friction_factor": 1.0, "variables": given}
+    variables = {name: f"road.{name}" for name in ("friction", "friction_factor", "file")}
+    own = {"kind": "flat", "friction": 1.2, "friction_factor": 1.0, "variables": variables}
     fmu = changed(tuned, tmp_path, same, DRAWING | {"up": [0, 0, 1], "planar": False, "roads": [own]})
     assert road(["--world=plane", f"--out={tmp_path}"]) == 0
     for file in ("", str(tmp_path / "plane.road")):
@@ -148,7 +148,7 @@ def test_a_road_is_drawn_as_slick_as_it_was_set(tuned: Path, tmp_path: Path) -> 
         assert (drawn["friction"], drawn["friction_factor"]) == (1.27 if file else 0.8, 0.25)
 
 
-def test_a_result_whose_world_was_deleted_says_how_to_make_it_again(tuned: Path, tmp_path: Path) -> None:
+def test_a_result_with_a_deleted_world_names_the_command_that_makes_it(tuned: Path, tmp_path: Path) -> None:
     """On the terminal, and to the page; a world that is made again there is drawn."""
     fmu = changed(tuned, tmp_path, same, DRAWING | {"roads": [{"kind": "file", "variable": "road.file"}]})
     gone, result = tmp_path / "my worlds" / "skidpad.road", tmp_path / "drive.csv"
@@ -164,7 +164,7 @@ def test_a_result_whose_world_was_deleted_says_how_to_make_it_again(tuned: Path,
     assert remedy in next(item["why"] for item in recording.scene["missing"] if item["name"] == f"The road {gone}")
 
 
-def test_a_result_whose_scenery_alone_is_gone_says_so(tuned: Path, tmp_path: Path) -> None:
+def test_a_result_with_deleted_scenery_reports_it(tuned: Path, tmp_path: Path) -> None:
     """Its ground is drawn from the road file; what stood on it was known to the record that has gone."""
     fmu = changed(tuned, tmp_path, same, DRAWING | {"roads": [{"kind": "file", "variable": "road.file"}]})
     world, result = tmp_path / "line.toml", tmp_path / "drive.csv"
@@ -243,7 +243,7 @@ def test_runs_on_different_worlds_say_whose_ground_is_drawn(tuned: Path, tmp_pat
     assert notes_of(recordings) == ["two: It ran on another ground than one, whose ground is drawn."]
 
 
-def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_files_are_refused(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = tmp_path / "Text.fmu"
     text.write_text("no archive")
     assert "is not an FMU (not a zip archive)" in refusal(text, capsys)
@@ -256,9 +256,9 @@ def test_files_that_are_none(tuned: Path, tmp_path: Path, capsys: pytest.Capture
 
 
 def test_an_fmu_of_fmi_3(scene_fmu: Callable[..., Path], capsys: pytest.CaptureFixture[str]) -> None:
-    reported = refusal(scene_fmu(f"{SCENES}:tuned", "fmi3"), capsys)
-    assert "is an FMU of FMI 3.0; a page runs the kind native (FMI 2.0)" in reported
-    assert "--scene tuned --kind native --platforms this,wasm32" in reported
+    message = refusal(scene_fmu(f"{SCENES}:tuned", "fmi3"), capsys)
+    assert "is an FMU of FMI 3.0; a page runs the kind native (FMI 2.0)" in message
+    assert "--scene tuned --kind native --platforms this,wasm32" in message
 
 
 def test_wrong_wishes(tuned: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -92,8 +92,8 @@ def test_values_come_back_to_the_last_bit(tuned: Path, file: Path, tmp_path: Pat
         "spring.free_length": 1.1e-1,
         "step_size": 1e-3,
     }
-    given = [text for n, x in odd.items() for text in ("--set", f"{n}={x!r}")]
-    assert check([str(tuned), *given, "--save-parameters", str(file)]) == 0
+    options = [text for n, x in odd.items() for text in ("--set", f"{n}={x!r}")]
+    assert check([str(tuned), *options, "--save-parameters", str(file)]) == 0
     assert not is_as_built(file)
     with Fmu(tuned) as fmu:
         settings = Settings(fmu.table)
@@ -222,7 +222,7 @@ def test_display_units_of_the_fmu_are_known(file: Path) -> None:
         taken(Variables(ModelDescription(modelVariables=result, unitDefinitions=units)), file, ssv("odd=3[mm]"))
 
 
-def test_files_that_are_none_are_named(variables: Variables, tmp_path: Path) -> None:
+def test_invalid_files_are_refused_by_name(variables: Variables, tmp_path: Path) -> None:
     for path, message in ((tmp_path / "no.ssv", "there is no such file"), (tmp_path, "is a folder")):
         with pytest.raises(UserError, match=message):
             Settings(variables).add_set(path)
@@ -264,7 +264,7 @@ def test_altered_files_are_refused_or_read(
 def kinds() -> Variables:
     """An FMU of all kinds."""
     gear = SimpleType(name="Gear", type="Enumeration", items=[Item("low", "1"), Item("high", "2")])
-    made = [
+    variables = [
         ScalarVariable(name="count", type="Integer", causality="parameter", variability="fixed", start="3", min="0"),
         ScalarVariable(name="on", type="Boolean", causality="parameter", variability="tunable", start="false"),
         ScalarVariable(name="road", type="String", causality="parameter", variability="fixed", start="flat"),
@@ -273,7 +273,7 @@ def kinds() -> Variables:
         ),
         ScalarVariable(name="depth", type="Real", causality="parameter", variability="fixed", start="1", max="4"),
     ]
-    return Variables(ModelDescription(modelVariables=made))
+    return Variables(ModelDescription(modelVariables=variables))
 
 
 def test_every_kind_goes_out_and_comes_back(file: Path) -> None:
@@ -339,7 +339,7 @@ def test_a_set_that_a_person_has_edited_is_kept(variables: Variables, file: Path
     assert file.read_text() == built.replace(old, new)
 
 
-def test_a_picture_names_what_the_user_has_changed() -> None:
+def test_a_picture_names_the_changed_values() -> None:
     settings = Settings(kinds())
     settings.add_numbers({"depth": 2.0}, "start of rest")
     assert settings.title("car") == "car"
@@ -357,8 +357,8 @@ def test_a_set_of_all_parameters_of_a_car_is_the_engine_with_them(file: Path, tm
         low, high = max(p["min"], p["value"] - 1.0), min(p["max"], 1.03 * p["value"] + 0.1)
         changed[p["name"]] = high if high > p["value"] else low
     assert len(changed) > 30
-    given = [text for n, x in changed.items() for text in ("--set", f"{n}={x!r}")]
-    assert check([str(fmu), *given, "--save-parameters", str(file)]) == 0
+    options = [text for n, x in changed.items() for text in ("--set", f"{n}={x!r}")]
+    assert check([str(fmu), *options, "--save-parameters", str(file)]) == 0
     simulation = mbs.Simulation(system, parameters=changed)
     for _ in range(50):
         simulation.step(0.002)

@@ -105,7 +105,7 @@ def test_differences_of_a_set(tuned: Path, file: Path, capsys: pytest.CaptureFix
 
 
 @pytest.mark.parametrize("more", [["-m", "pull.csv"], [], ["--show-parameters"]])
-def test_every_host_says_the_same_of_a_wrong_set(
+def test_every_host_refuses_an_invalid_set_with_the_same_message(
     tuned: Path,
     file: Path,
     tmp_path: Path,

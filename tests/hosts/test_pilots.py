@@ -24,9 +24,9 @@ def test_speed_is_held_without_a_lasting_error() -> None:
 
 
 def test_a_rising_speed_is_followed_closer_with_the_acceleration_fed_forward() -> None:
-    wanted = 10.0 + 0.5 * np.arange(2000) * 0.01
+    reference = 10.0 + 0.5 * np.arange(2000) * 0.01
     with_it, without = (
-        np.abs(hold(SpeedHolder(lambda t: 10.0 + 0.5 * t, acceleration_gain=g), 10.0, 20.0) - wanted).max()
+        np.abs(hold(SpeedHolder(lambda t: 10.0 + 0.5 * t, acceleration_gain=g), 10.0, 20.0) - reference).max()
         for g in (0.25, 0.0)
     )
     assert with_it < 0.5 * without

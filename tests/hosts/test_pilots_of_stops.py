@@ -1,4 +1,4 @@
-"""Pilots that brake, fix the steering and follow lines, with cars of a few lines."""
+"""Pilots that brake, fix the steering and follow lines, with simple models of cars."""
 
 import math
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ class Wave:
 
 
 @pytest.mark.parametrize("step", [0.001, 0.005, 0.02])
-def test_pedal_rises_alike_whatever_the_step(step: float) -> None:
+def test_the_pedal_rises_alike_for_any_step(step: float) -> None:
     pilot = Braking(Wave(), lambda time, observation: time >= 1.0 - 1e-9, 0.8, 0.1, {"selector": (1.0, 0.0)})
     acts = [pilot.act(k * step, {}) for k in range(round(1.5 / step))]
     time = step * np.arange(len(acts))

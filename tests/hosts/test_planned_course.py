@@ -1,4 +1,4 @@
-"""The line of least curvature: inside the lanes, bent less than any simple one, and as bent as it has to be."""
+"""The line of least curvature: inside the lanes, and its curvature against simpler lines and a lower bound."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,8 @@ from hosts.driving.courses import TRACKS, course_of
 from hosts.driving.planned_course import planned
 from hosts.measures.clearance import clearance
 
-LENGTH, WIDTH = 4.2, 1.8
+LENGTH = 4.2  # m
+WIDTH = 1.8  # m
 
 
 def points(course: Course, x: np.ndarray) -> np.ndarray:

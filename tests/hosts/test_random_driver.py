@@ -1,4 +1,4 @@
-"""The wild driver: the same by its seed, within the ranges of the controls, and at what it aims at."""
+"""The random driver: repeatable by its seed, within the ranges of the controls, and its targets."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Rows of a run: which changes of inputs a table tells by its rows, which are jumps, and which are lost."""
+"""Rows of a run: changes of inputs that the rows represent, jumps, and lost changes."""
 
 from hosts.driving.recorded_rows import RecordedRows
 
@@ -24,21 +24,21 @@ def rows(every: int) -> RecordedRows:
     return RecordedRows(Outputs(), [1.0, 2.0, 3.0], [HELD, STRAIGHT], [STRAIGHT], [10.0], every, 6)  # type: ignore[arg-type]
 
 
-def step(made: RecordedRows, held: float, begin: float, end: float) -> None:
-    made.begin([held, begin])
-    made.move([end], [end - begin])
-    made.end()
+def step(recorded: RecordedRows, held: float, begin: float, end: float) -> None:
+    recorded.begin([held, begin])
+    recorded.move([end], [end - begin])
+    recorded.end()
 
 
 def test_a_jump_is_a_straight_input_that_begins_elsewhere_and_any_at_the_start() -> None:
-    made = rows(1)
-    step(made, 1.5, 2.0, 2.4)  # the held input jumps at the start
-    step(made, 1.7, 2.4, 2.6)  # later a new row tells it
-    step(made, 1.7, 3.0, 3.2)  # the straight one begins elsewhere than it ended
-    step(made, 1.7, 3.2 * (1.0 + 1e-12), 3.3)  # round-off is none
-    assert made.jumps == {0: [1.0, 2.0, 3.0], 2: [1.7, 2.6, 3.0]}
-    assert not made.lost
-    steps, values = made.close(False)
+    recorded = rows(1)
+    step(recorded, 1.5, 2.0, 2.4)  # the held input jumps at the start
+    step(recorded, 1.7, 2.4, 2.6)  # later a new row tells it
+    step(recorded, 1.7, 3.0, 3.2)  # the straight one begins elsewhere than it ended
+    step(recorded, 1.7, 3.2 * (1.0 + 1e-12), 3.3)  # round-off is none
+    assert recorded.jumps == {0: [1.0, 2.0, 3.0], 2: [1.7, 2.6, 3.0]}
+    assert not recorded.lost
+    steps, values = recorded.close(False)
     assert steps == [0, 1, 2, 3, 4]
     assert values[:4].tolist() == [
         [1.5, 2.0, 3.0, 1.0],
@@ -50,32 +50,32 @@ def test_a_jump_is_a_straight_input_that_begins_elsewhere_and_any_at_the_start()
 
 
 def test_no_jump_where_all_go_on_from_the_start() -> None:
-    made = rows(1)
-    step(made, 1.0, 2.0, 2.5)
-    step(made, 1.0, 2.5, 3.0)
-    assert made.jumps == {}
+    recorded = rows(1)
+    step(recorded, 1.0, 2.0, 2.5)
+    step(recorded, 1.0, 2.5, 3.0)
+    assert recorded.jumps == {}
 
 
 def test_between_rows_a_change_otherwise_than_straight_is_lost() -> None:
-    made = rows(2)
-    step(made, 1.0, 2.0, 2.2)
-    step(made, 1.0, 2.2, 2.4)  # as straight as before
-    assert not made.lost
-    step(made, 1.0, 2.4, 2.6)
-    step(made, 1.0, 2.6, 2.7)  # bends between the rows
-    assert made.lost == {STRAIGHT}
-    step(made, 1.0, 2.7, 2.8)
-    step(made, 1.2, 2.8, 2.9)  # the held one changes between the rows
-    assert made.lost == {HELD, STRAIGHT}
-    assert list(made.jumps) == [0, 1, 2]  # rows apart do not tell what was before them
-    steps, _ = made.close(True)
+    recorded = rows(2)
+    step(recorded, 1.0, 2.0, 2.2)
+    step(recorded, 1.0, 2.2, 2.4)  # as straight as before
+    assert not recorded.lost
+    step(recorded, 1.0, 2.4, 2.6)
+    step(recorded, 1.0, 2.6, 2.7)  # bends between the rows
+    assert recorded.lost == {STRAIGHT}
+    step(recorded, 1.0, 2.7, 2.8)
+    step(recorded, 1.2, 2.8, 2.9)  # the held one changes between the rows
+    assert recorded.lost == {HELD, STRAIGHT}
+    assert list(recorded.jumps) == [0, 1, 2]  # rows apart do not tell what was before them
+    steps, _ = recorded.close(True)
     assert steps == [0, 2, 4, 6]
 
 
 def test_behind_a_refused_step_there_is_no_row() -> None:
-    made = rows(2)
-    step(made, 1.0, 2.0, 2.2)
-    made.begin([1.4, 2.2])
-    made.move([2.4], [0.2])
-    made.refused = True
-    assert made.close(True)[0] == made.close(False)[0] == [0]
+    recorded = rows(2)
+    step(recorded, 1.0, 2.0, 2.2)
+    recorded.begin([1.4, 2.2])
+    recorded.move([2.4], [0.2])
+    recorded.refused = True
+    assert recorded.close(True)[0] == recorded.close(False)[0] == [0]

@@ -1,4 +1,4 @@
-"""Rows of a run that are further apart than its steps: its end, what they do not tell, and no outputs."""
+"""Rows of a run at an interval longer than the step: its end, unresolved changes, and FMUs without outputs."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -102,7 +102,7 @@ def test_what_rows_do_not_tell_of_inputs(slopes: bool, time: tuple[float], u: tu
     assert driven(time, u, 1, slopes).lost == []
 
 
-def test_a_summary_of_rows_says_so() -> None:
+def test_a_summary_of_rows_at_an_interval_says_so() -> None:
     few, each = (driven((0.0, 0.17), (1.0, 3.0), every) for every in (5, 1))
     assert ("rows every 0.05 s", "largest values and means are of these rows") in summary(few, H)
     assert not any(what.startswith("rows every") for what, _ in summary(each, H))
@@ -176,14 +176,14 @@ def test_every_change_of_an_input_that_the_table_holds_is_a_jump(held: frozenset
 
 
 @pytest.mark.parametrize(("stop", "end"), [(1.0, 0.8), (0.6, 0.4), (0.8, None), (0.4, None)])
-def test_a_run_that_ends_at_another_time_says_so(stop: float, end: float | None) -> None:
+def test_a_run_that_ends_at_another_time_is_reported(stop: float, end: float | None) -> None:
     requested = Manoeuvre("m", np.array([0.0]), {"u": np.array([1.0])}, stop)
     result = run(Integrator(True), requested, 0.4)  # type: ignore[arg-type]
-    reported = dict(summary(result, 0.4)).get("end of the run")
-    assert (reported is None) == (end is None)
-    if reported is not None:
-        assert reported.startswith(f"at {end} s, a whole number of steps of 0.4 s, in place of {stop:g} s; --step ")
-        shorter = float(reported.split("--step ")[1].split(" ")[0])
+    row = dict(summary(result, 0.4)).get("end of the run")
+    assert (row is None) == (end is None)
+    if row is not None:
+        assert row.startswith(f"at {end} s, a whole number of steps of 0.4 s, in place of {stop:g} s; --step ")
+        shorter = float(row.split("--step ")[1].split(" ")[0])
         assert run(Integrator(True), requested, shorter).time[-1] == pytest.approx(stop, abs=1e-8)  # type: ignore[arg-type]
 
 

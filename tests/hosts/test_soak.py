@@ -1,4 +1,4 @@
-"""The soak test drives, sees what is wrong, and saves what repeats it."""
+"""The soak test drives, detects faults, and saves manoeuvres that repeat them."""
 
 import argparse
 import json
@@ -112,11 +112,11 @@ def test_a_failing_stretch_is_saved_and_repeated(
 ) -> None:
     """The limit of the energy is set so low that the drive fails; the drive of its manoeuvre ends in the same bits."""
     monkeypatch.setattr(drive_module, "_MOST_SAVED", 1)
-    made = drive(task(car, tmp_path, seconds=9.0, grounds=(ground,), largest_balance=1e-6))
-    assert made.failures
-    failure = made.failures[0]
+    outcome = drive(task(car, tmp_path, seconds=9.0, grounds=(ground,), largest_balance=1e-6))
+    assert outcome.failures
+    failure = outcome.failures[0]
     assert failure.kind == "energy"
-    assert not any(other.manoeuvre for other in made.failures[1:])
+    assert not any(other.manoeuvre for other in outcome.failures[1:])
     folder = Path(failure.manoeuvre).parent
     recorded = read_recording(folder)
     assert recorded.meta["seed"] == 1
@@ -127,11 +127,11 @@ def test_a_failing_stretch_is_saved_and_repeated(
     for source in (failure.manoeuvre, str(folder)):
         with Fmu(car) as fmu:
             again = run(fmu, load_manoeuvre(source), STEP)
-            given = np.isin(again.names, fmu.names("input"))
-        assert given.any()
-        assert np.array_equal(again.values[1:, ~given], rows.values[1:, ~given])
+            is_input = np.isin(again.names, fmu.names("input"))
+        assert is_input.any()
+        assert np.array_equal(again.values[1:, ~is_input], rows.values[1:, ~is_input])
         # a row of a recording has the inputs of the step that ends there, one of a run those of the step that begins
-        assert np.array_equal(again.values[1:-1, given], rows.values[2:, given])
+        assert np.array_equal(again.values[1:-1, is_input], rows.values[2:, is_input])
         assert again["solver.energy_balance"][-1] > 1e-6
 
 
@@ -146,12 +146,12 @@ def test_a_refused_step_is_saved_with_its_inputs(car: Path, tmp_path: Path, monk
         real(self, time, step)
 
     monkeypatch.setattr(Fmu, "step", refuse)
-    made = drive(task(car, tmp_path, seconds=3.0))
+    outcome = drive(task(car, tmp_path, seconds=3.0))
     monkeypatch.undo()
-    (failure,) = made.failures
+    (failure,) = outcome.failures
     assert (failure.kind, failure.text, failure.run) == ("refused", "no", 0)
-    assert made.runs == 2
-    assert made.simulated == pytest.approx(3.0, abs=0.01)
+    assert outcome.runs == 2
+    assert outcome.simulated == pytest.approx(3.0, abs=0.01)
     manoeuvre = load_manoeuvre(failure.manoeuvre)
     events = read_recording(Path(failure.manoeuvre).parent).events
     assert list(manoeuvre.at(manoeuvre.stop_time - STEP).values()) == pytest.approx(events[-1]["inputs"], abs=1e-12)
@@ -187,7 +187,7 @@ def row(**values: float) -> list[float]:
     return list(known_names.values())
 
 
-def test_the_watch_sees_what_is_wrong() -> None:
+def test_the_checks_detect_each_fault() -> None:
     def kind(steps: int = 1, **values: float) -> str:
         watch = Watch(OUTPUTS, 0.01)
         try:
@@ -224,14 +224,14 @@ def test_the_watch_counts() -> None:
 
 def test_growing_memory_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     memory = Memory()
-    held = []
+    pages = []
     for _ in range(40):
         memory.sample()
     assert abs(memory.growth()[2]) < 1.0
     memory = Memory()
     for _ in range(40):
-        held.append(mmap(-1, 800_000))  # pages of its own: the heap may hold freed ones
-        held[-1].write(bytes(800_000))
+        pages.append(mmap(-1, 800_000))  # pages of its own: the heap may hold freed ones
+        pages[-1].write(bytes(800_000))
         memory.sample()
     assert memory.growth()[2] == pytest.approx(0.8 * 28.0, rel=0.3)
     assert is_good(Outcome(1, 0))
@@ -255,7 +255,7 @@ def is_worker(process: psutil.Process) -> bool:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends a signal")
 @pytest.mark.slow
-def test_a_soak_test_that_is_ended_tells_what_is_done(car: Path, tmp_path: Path) -> None:
+def test_a_terminated_soak_test_reports_the_finished_drives(car: Path, tmp_path: Path) -> None:
     out = tmp_path / "numbers.json"
     message = ["--soak", "--stop-time", "300", "--drives", "2", "--jobs", "2", "--json", str(out)]
     command = [sys.executable, "-m", "ali3", "check", str(car), *message, "--out", str(tmp_path)]
@@ -293,20 +293,20 @@ def test_a_failed_drive_is_repeated_with_all_that_it_was_given(
 ) -> None:
     """Step, worlds and values too, in words that a shell reads as they were."""
     start: dict[str, Any] = {"initial.speed": 12.5, "tyre.fast": True, "initial.note": "two words"}
-    given = task(tmp_path / "my car.fmu", tmp_path, seed=7, fidelity=2, step=1.0 / 300.0, start=start)
+    failed_task = task(tmp_path / "my car.fmu", tmp_path, seed=7, fidelity=2, step=1.0 / 300.0, start=start)
     failure = Failure("step", "odd", 0, 1.0, "", str(tmp_path / "last seconds.toml"))
     print_outcomes(
-        [given], [Outcome(7, 2, failures=[failure])], "ali3 check --soak", ["proving_ground", "my world.toml"]
+        [failed_task], [Outcome(7, 2, failures=[failure])], "ali3 check --soak", ["proving_ground", "my world.toml"]
     )
     output = capfd.readouterr().out
     last, whole = (re.search(rf"{what} again: (.*)", output)[1] for what in ("seconds", "drive"))  # type: ignore[index]
-    assert shlex.split(last)[-5:] == [given.fmu, "-m", failure.manoeuvre, "--step", repr(given.step)]
+    assert shlex.split(last)[-5:] == [failed_task.fmu, "-m", failure.manoeuvre, "--step", repr(failed_task.step)]
     requested: list[argparse.Namespace] = []
     monkeypatch.setattr("hosts.soak.soak.soak", lambda options, prog: requested.append(options))
     main(shlex.split(whole)[2:])
     options = requested[0]
-    assert (options.fmu, options.seed, options.fidelity) == (Path(given.fmu), 7, [2.0])
-    assert (options.step, options.stop_time, options.drives) == (given.step, given.seconds, 1)
+    assert (options.fmu, options.seed, options.fidelity) == (Path(failed_task.fmu), 7, [2.0])
+    assert (options.step, options.stop_time, options.drives) == (failed_task.step, failed_task.seconds, 1)
     assert options.world == ["proving_ground", "my world.toml"]
     assert options.set == [("initial.speed", "12.5"), ("tyre.fast", "true"), ("initial.note", "two words")]
 

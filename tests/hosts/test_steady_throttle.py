@@ -1,4 +1,4 @@
-"""A manoeuvre that finds its throttle holds the speed of its start straight on, and says what became of it."""
+"""A manoeuvre with `find_throttle` holds its initial speed straight on, and reports deviations."""
 
 import re
 from collections.abc import Callable, Sequence
@@ -24,7 +24,10 @@ from hosts.study.jobs import Job
 from hosts.study.plan import job_digest
 
 H = 0.01
-PUSH, DRAG, ROLLING, TURN = 4.0, 1e-3, 0.1, 40.0
+PUSH = 4.0
+DRAG = 1e-3
+ROLLING = 0.1
+TURN = 40.0
 
 
 class Slider:
@@ -142,15 +145,15 @@ def test_an_input_that_cannot_be_held_is_refused_with_those_that_can() -> None:
         run(bare, asked(20.0), H)  # type: ignore[arg-type]
 
 
-def test_a_file_says_so(tmp_path: Path) -> None:
+def test_find_throttle_is_read_from_and_written_to_a_file(tmp_path: Path) -> None:
     result = read_manoeuvre("step_steer")
     assert result.find_throttle
     assert "throttle" not in result.inputs
     write_manoeuvre(result, tmp_path / "again.toml")
     assert read_manoeuvre(str(tmp_path / "again.toml")).find_throttle
-    given = read_manoeuvre("step_steer_given_throttle")
-    assert not given.find_throttle
-    assert all(np.array_equal(given.inputs[n], values) for n, values in result.inputs.items())
+    manoeuvre = read_manoeuvre("step_steer_given_throttle")
+    assert not manoeuvre.find_throttle
+    assert all(np.array_equal(manoeuvre.inputs[n], values) for n, values in result.inputs.items())
     jobs = [Job("m", m, step=H) for m in (result, replace(result, find_throttle=False))]
     assert len({job_digest(job) for job in jobs}) == 2
     for text, message in {
@@ -163,7 +166,7 @@ def test_a_file_says_so(tmp_path: Path) -> None:
             read_manoeuvre(str(tmp_path / "m.toml"))
 
 
-def test_the_simulator_refuses_what_it_cannot_find() -> None:
+def test_the_simulator_refuses_a_manoeuvre_that_finds_its_throttle() -> None:
     car: Any = SimpleNamespace(inputs=["steering", "throttle", "brake"])
     with pytest.raises(HostError, match=r"'step_steer' finds its throttle in a run before"):
         OfManoeuvre(read_manoeuvre("step_steer"), car)
@@ -180,9 +183,9 @@ def test_step_steer_keeps_its_speed_and_its_table_repeats_it(
         assert main([str(prototype_fmu), *more, "--step", "0.01", "--out", str(out)]) == 0
         return read_csv(next(out.glob("*.csv"))), capsys.readouterr().out
 
-    run, reported = drive("-m", "step_steer", "--set", f"initial.speed={speed}", "--set", "throttle=0.9")
-    assert f"which holds {speed:.4g} m/s straight on" in reported
-    assert "0.9 of --set has no effect" in reported
+    run, output = drive("-m", "step_steer", "--set", f"initial.speed={speed}", "--set", "throttle=0.9")
+    assert f"which holds {speed:.4g} m/s straight on" in output
+    assert "0.9 of --set has no effect" in output
     before = run["time"] <= 1.0
     assert run["speed"][before] == pytest.approx(speed, rel=0.002)
     assert np.abs(run["speed"] / speed - 1.0).max() < 0.03

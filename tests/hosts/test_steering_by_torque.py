@@ -12,7 +12,8 @@ from hosts.fmu.fmu import Fmu
 from mbs import Pose, Simulation, System, compile
 from tests.vehicle.column_car import column_car
 
-STEP, END = 0.01, 8.0
+STEP = 0.01  # s
+END = 8.0  # s
 START = {"initial.speed": 15.0, "steering.by_torque": 1}
 OUTPUTS = ["chassis.y", "steering_wheel_angle", "steering_wheel_speed", "steering_wheel_torque", "chassis.yaw"]
 
@@ -29,8 +30,8 @@ def fmu(system: System, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def hands(time: float, angle: float, rate: float) -> float:
     """Arms as a spring and a damper that pull the wheel along a sine."""
-    wanted = 0.6 * math.sin(2.0 * math.pi * time / 2.5) * min(1.0, time)
-    return 12.0 * (wanted - angle) - 0.6 * rate
+    demand = 0.6 * math.sin(2.0 * math.pi * time / 2.5) * min(1.0, time)
+    return 12.0 * (demand - angle) - 0.6 * rate
 
 
 @pytest.fixture(scope="module")

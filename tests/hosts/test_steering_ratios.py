@@ -17,10 +17,10 @@ def test_a_ratio_that_is_set_is_reported_beside_the_constants_of_the_file(protot
     drawn = table["steering.rack_per_turn"].start
     assert isinstance(drawn, float)
     settings.add_numbers({"steering.rack_per_turn": 0.5 * drawn}, "--set")
-    reported = dict(settings.rows())
+    rows = dict(settings.rows())
     for name in ("vehicle.steering_wheel_angle_max", "vehicle.steering_ratio"):
         constant = table[name].start
         assert isinstance(constant, float)
-        assert reported[name].startswith(f"constant {constant:.6g} of the FMU")
-        assert float(reported[name].split()[-1]) == pytest.approx(2.0 * constant, rel=1e-5)
+        assert rows[name].startswith(f"constant {constant:.6g} of the FMU")
+        assert float(rows[name].split()[-1]) == pytest.approx(2.0 * constant, rel=1e-5)
         assert "ratio of the car file" in table[name].description

@@ -1,4 +1,4 @@
-"""A double lane change is passed where all lanes were driven at the speed that was asked for, and only there."""
+"""A double lane change is passed only if all lanes were driven at the requested speed."""
 
 import math
 import re
@@ -40,7 +40,7 @@ def test_nothing_is_passed_that_was_not_driven(course: str) -> None:
     assert re.fullmatch(
         r"passed, 0\.\d\d m to spare; entered at 72\.0 km/h, 72\.0 km/h asked for", verdict(course, whole)
     )
-    for rows, reported in {
+    for rows, pattern in {
         "too short to come there": (whole[:20], "lane 1 was not reached: it begins at 15 m, .* comes to 11 m; --stop"),
         "too short for the second": (whole[:50], "lane 2 was not reached"),
         "a step too short": (whole[whole <= end], "lane 3 was not left"),
@@ -55,7 +55,7 @@ def test_nothing_is_passed_that_was_not_driven(course: str) -> None:
     }.values():  # fmt: skip
         said = verdict(course, rows)
         assert said.startswith("not passed: ")
-        assert re.search(reported, said), said
+        assert re.search(pattern, said), said
         assert "inf" not in said
     assert verdict(course, whole[whole <= end + 0.5]).startswith("passed")
     assert "the car stands at" in verdict(course, np.zeros(50), speed=0.0)
@@ -67,11 +67,11 @@ def test_nothing_is_passed_that_was_not_driven(course: str) -> None:
 
 @pytest.mark.parametrize(("speed", "passed"), [(20.0, True), (19.2, True), (20.8, True), (19.1, False), (21.0, False)])
 def test_it_is_passed_at_the_speed_that_was_asked_for(speed: float, passed: bool) -> None:
-    reported = verdict("iso_3888_1", np.arange(0.0, 160.0, 0.5), speed=speed)
-    assert f"entered at {3.6 * speed:.1f} km/h, 72.0 km/h asked for" in reported
-    assert reported.startswith("passed" if passed else "not passed")
+    row = verdict("iso_3888_1", np.arange(0.0, 160.0, 0.5), speed=speed)
+    assert f"entered at {3.6 * speed:.1f} km/h, 72.0 km/h asked for" in row
+    assert row.startswith("passed" if passed else "not passed")
     if not passed:
-        requested = float(reported.split("--driver speed=")[1].split(" ")[0])
+        requested = float(row.split("--driver speed=")[1].split(" ")[0])
         assert verdict("iso_3888_1", np.arange(0.0, 160.0, 0.5), speed=speed, asked=requested).startswith("passed")
 
 
@@ -109,19 +109,17 @@ def said_of(fmu: Path, out: Path, capsys: pytest.CaptureFixture[str], *more: str
 def test_the_output_of_the_command(prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Remedies are those that help: each is tried."""
     for speed in (15.0, 20.0):
-        reported = said_of(prototype_fmu, tmp_path, capsys, "--driver", f"speed={speed:g}")
-        assert reported.startswith("passed, ")
-        entry = float(reported.split("entered at ")[1].split(" ")[0])
+        row = said_of(prototype_fmu, tmp_path, capsys, "--driver", f"speed={speed:g}")
+        assert row.startswith("passed, ")
+        entry = float(row.split("entered at ")[1].split(" ")[0])
         assert abs(entry - 3.6 * speed) < 3.0
-        assert reported.endswith(f"{3.6 * speed:.1f} km/h asked for")
+        assert row.endswith(f"{3.6 * speed:.1f} km/h asked for")
     for more in (("--stop-time", "0.5"), ("--set", "initial.x=-60"), ("--set", "initial.speed=8")):
         requested = dict([more])
         for _ in range(2):  # who starts slowly needs more time, and is then told that it was too slow
-            reported = said_of(
-                prototype_fmu, tmp_path, capsys, *(part for option in requested.items() for part in option)
-            )
-            assert reported.startswith("not passed: "), reported
-            option, value = re.search(r"(--\S+) (\S+)", reported).groups()  # type: ignore[union-attr]
+            row = said_of(prototype_fmu, tmp_path, capsys, *(part for option in requested.items() for part in option))
+            assert row.startswith("not passed: "), row
+            option, value = re.search(r"(--\S+) (\S+)", row).groups()  # type: ignore[union-attr]
             requested[option] = value
             last = said_of(prototype_fmu, tmp_path, capsys, *(part for option in requested.items() for part in option))
             if last.startswith("passed"):

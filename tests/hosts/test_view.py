@@ -40,15 +40,15 @@ SCENE = {
 }
 
 
-def with_resources(fmu: Path, made: Path, geometry: str | None) -> Path:
+def with_resources(fmu: Path, copy: Path, geometry: str | None) -> Path:
     """A copy of an FMU with another scene in it, or none."""
-    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(made, "w") as new:
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(copy, "w") as new:
         for name in old.namelist():
             if name != "resources/geometry.json":
                 new.writestr(name, old.read(name))
         if geometry is not None:
             new.writestr("resources/geometry.json", geometry)
-    return made
+    return copy
 
 
 @pytest.fixture(scope="module")
@@ -246,14 +246,14 @@ def test_an_fmu_of_another_program_has_its_diagrams(pendulum: Path, built: Path,
         ),
     ],
 )
-def test_a_geometry_that_is_none(pendulum: Path, built: Path, said: Said, geometry: str, sentence: str) -> None:
+def test_an_invalid_geometry_is_refused(pendulum: Path, built: Path, said: Said, geometry: str, sentence: str) -> None:
     with_resources(built, pendulum, geometry)
     status, text = said("dist/MotorPendulum.fmu", "--stop-time", "0.1", "--no-open")
     assert status == 2
     assert sentence in text
 
 
-def test_a_result_without_poses_says_so(result: Path, said: Said) -> None:
+def test_a_result_without_poses_is_reported(result: Path, said: Said) -> None:
     lines = result.read_text().splitlines()
     result.write_text("\n".join([lines[0].replace("rod.angle", "angle"), *lines[1:]]) + "\n")
     status, text = said(result, "--no-open")
@@ -351,12 +351,12 @@ def test_options_that_cannot_be_met(result: Path, said: Said) -> None:
 
 
 def test_names_of_before_are_named(result: Path, said: Said, capsys: pytest.CaptureFixture[str]) -> None:
-    for given, message in (
+    for options, message in (
         (["--out", "page.html"], "page.html is the name of a file; --out names the output folder"),
         (["--out", "x.GLB"], "x.GLB is the name of a file; --out names the output folder"),
     ):
         with pytest.raises(SystemExit) as end:
-            said(result, *given)
+            said(result, *options)
         assert end.value.code == 2
         assert message in capsys.readouterr().err
 

@@ -1,4 +1,4 @@
-"""A parameter set that lists everything as the FMU has it, as a build writes one, changes nothing at any door."""
+"""A parameter set of all parameters with the values of the FMU, as a build writes it, changes nothing in a command."""
 
 import json
 from collections.abc import Mapping
@@ -31,7 +31,7 @@ def whole_set(variables: Variables, file: Path, values: Mapping[str, Value] | No
     return file
 
 
-def test_it_leaves_what_a_manoeuvre_or_a_world_has_set(variables: Variables, tmp_path: Path) -> None:
+def test_it_keeps_the_values_of_a_manoeuvre_or_a_world(variables: Variables, tmp_path: Path) -> None:
     whole = whole_set(variables, tmp_path / "whole.ssv", {"front.tyre.grip": 0.9})
     settings = Settings(variables)
     settings.add_numbers({"road.friction": 0.5, "initial.x": 7.0}, "the world")

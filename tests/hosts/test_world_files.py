@@ -1,4 +1,4 @@
-"""Worlds that hosts have made for them by the command."""
+"""Worlds that hosts build by the command."""
 
 import json
 from pathlib import Path
@@ -13,7 +13,7 @@ STEEP = '[[courses]]\nname = "hill"\npoints = "hill.csv"\nsmoothing = 1.0\nwidth
 
 
 @pytest.mark.slow
-def test_a_description_has_a_name_of_its_own_and_what_the_command_warns_of_is_reported(
+def test_a_description_has_its_own_name_and_warnings_of_the_command_are_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ALI3_CACHE", str(tmp_path / "cache"))
@@ -22,16 +22,16 @@ def test_a_description_has_a_name_of_its_own_and_what_the_command_warns_of_is_re
     (tmp_path / "hill.csv").write_text("# x, y, z\n" + rows, encoding="utf-8")
     for name in ("mini", "maxi", "mini"):
         file.write_text(WORLD.format(name=name) + STEEP, encoding="utf-8")
-        reported: list[str] = []
-        world = make_world(str(file), reported.append)
+        lines: list[str] = []
+        world = make_world(str(file), lines.append)
         assert world.name == name
         assert world.road is not None
         assert json.loads(world.road.with_suffix(".json").read_text(encoding="utf-8"))["name"] == name
-        assert [line.partition(" at ")[0] for line in reported if "warning" in line] == [
+        assert [line.partition(" at ")[0] for line in lines if "warning" in line] == [
             "warning: The course 'hill' climbs by 60 %"
         ]
     file.write_text('kind = "world"\nname = "mini"\nbounds = [0.0, 0.0, 0.0, 0.0]\n', encoding="utf-8")
-    reported = []
+    lines = []
     with pytest.raises(HostError, match="bounds are"):
-        make_world(str(file), reported.append)
-    assert not reported
+        make_world(str(file), lines.append)
+    assert not lines

@@ -81,8 +81,8 @@ def readers(tree: ast.AST) -> Iterator[str]:
         elif short and not any(isinstance(a, ast.Constant) and str(a.value)[:1] in "wxa" for a in call.args[1:2]):
             yield max(short, key=len)
         elif last == "open":
-            given = [*call.args[name == "open" :], *(k.value for k in call.keywords if k.arg == "mode")][:1]
-            mode = given[0].value if given and isinstance(given[0], ast.Constant) else None
+            mode_arguments = [*call.args[name == "open" :], *(k.value for k in call.keywords if k.arg == "mode")][:1]
+            mode = mode_arguments[0].value if mode_arguments and isinstance(mode_arguments[0], ast.Constant) else None
             bare = not call.args and (not call.keywords or {k.arg for k in call.keywords} & {"mode", "encoding"})
             reads = not isinstance(mode, str) or ("r" in mode and "+" not in mode)
             if reads and (name == "open" or bare or isinstance(mode, str)):

@@ -1,4 +1,4 @@
-"""Who may know whom: rooms of the kernel and C files of the others here, Python packages in `import_directions.ini`."""
+"""Allowed imports: rooms of the kernel and C files of the others here, Python packages in `import_directions.ini`."""
 
 import posixpath
 import re

@@ -75,12 +75,12 @@ def test_no_name_is_hidden_by_a_submodule(name: str) -> None:
     assert submodules.isdisjoint(getattr(package, "_LAZY", ()))
 
 
-def test_importing_loads_none_of_them() -> None:
+def test_importing_mbs_loads_no_package() -> None:
     code = "import sys, mbs; print(*(n for n in sys.modules if n in ('mbs.vehicle', 'mbs.scenes')))"
     assert ran(code).stdout.split() == []
 
 
-def test_a_study_does_not_load_what_only_some_studies_ask_for() -> None:
+def test_a_study_does_not_load_optional_packages() -> None:
     names = {f"hosts.study.{name}" for name in ("campaign", "command", "outcome_table", "trial_runs")}
     names |= {f"hosts.experiment.{name}" for name in ("cluster", "cluster_runs")}
     loaded = ran(f"import sys, {', '.join(names)}; print(*sys.modules)").stdout.split()

@@ -1,4 +1,4 @@
-"""The map in CONTRIBUTING.md names every room, and none that is not there."""
+"""The map in CONTRIBUTING.md names every room, and no other."""
 
 import re
 

@@ -108,10 +108,10 @@ def road(heights: float = 1.0, spacing: float = 0.5, origin: tuple[float, float]
     """A hilly road in other units or elsewhere."""
     x = np.linspace(0.0, 200.0, 401)
     z = heights * (2.0 * np.sin(0.03 * x)[:, None] + 0.05 * np.cos(np.linspace(0.0, 3.0, 21)))
-    made = GridRoad(origin, (spacing, spacing), z, **more)
+    grid = GridRoad(origin, (spacing, spacing), z, **more)
     return lambda _: [
         sentence
-        for plausibility in (road_plausibility("r.csv", made), start_plausibility("r.csv", place_of(made), (0.0, 0.0)))
+        for plausibility in (road_plausibility("r.csv", grid), start_plausibility("r.csv", place_of(grid), (0.0, 0.0)))
         for sentence in plausibility.warnings()
     ]
 
@@ -170,8 +170,8 @@ PLANTED: dict[str, tuple[Told, str]] = {
 @pytest.mark.slow
 def test_each_is_reported_with_its_cause(tmp_path: Path) -> None:
     wrong = {}
-    for kind, (reported, message) in PLANTED.items():
-        lines = reported(tmp_path)
+    for kind, (check, message) in PLANTED.items():
+        lines = check(tmp_path)
         if not any(message in line for line in lines):
             wrong[kind] = lines
     assert wrong == {}

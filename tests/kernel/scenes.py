@@ -1,4 +1,4 @@
-"""Systems made by hand that the kernel tests share."""
+"""Systems written by hand, shared by the kernel tests."""
 
 import numpy as np
 

@@ -325,13 +325,13 @@ def test_a_spring_acts_on_its_own_signals_in_any_order(signals: list[int], colum
 
 def test_velocities_given_are_projected_in_the_mass_metric() -> None:
     b = chain(4, [8])
-    given = np.random.default_rng(SEED + 3).normal(size=8)
-    b.qd0 = given
+    velocities = np.random.default_rng(SEED + 3).normal(size=8)
+    b.qd0 = velocities
     instance = initialised(b)
     q, qd = (np.array(v) for v in instance.get_state()[:2])
     J = dense_jacobian(b, np.array(instance.evaluate(q, qd)["jacobian"]))
     inverse = np.diag(1.0 / np.diag(b.mass))
-    expected = given - inverse @ J.T @ np.linalg.solve(J @ inverse @ J.T, J @ given)
+    expected = velocities - inverse @ J.T @ np.linalg.solve(J @ inverse @ J.T, J @ velocities)
     np.testing.assert_allclose(qd, expected, atol=1e-11)
 
 

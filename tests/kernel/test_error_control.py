@@ -1,4 +1,4 @@
-"""Controlled runs of the kernel: what a call leaves behind, where steps end, and that parts of a run are the run."""
+"""Error-controlled runs of the kernel: state after a call, ends of steps, and a run in parts."""
 
 import math
 
@@ -119,7 +119,7 @@ def constant_force() -> SystemBuilder:
     return SystemBuilder(np.array([[1.0]]), [0.0], gravity=[-9.81])
 
 
-def test_the_last_two_steps_share_what_is_left() -> None:
+def test_the_last_two_steps_share_the_remaining_time() -> None:
     fields = control(h=0.3, longest=0.3)
     run(start(constant_force()), fields, np.array([1.0]), t_end=1.0)
     assert fields.accepted == 4
@@ -187,7 +187,7 @@ def test_the_report_counts_accepted_halves_only() -> None:
     assert instance.report()["steps"] == 2 * fields.accepted
 
 
-def test_the_record_is_what_steps_to_its_times_would_show() -> None:
+def test_the_record_is_that_of_steps_to_its_times() -> None:
     """With element states a step of the method goes to each time; the same to a state that starts there."""
     times = np.array([0.013, 0.017, 0.3, 0.4])
     sensors, positions = run(start(everything()), control(1e-5, 0.5), times, t_end=0.5)

@@ -19,11 +19,11 @@ pytestmark = pytest.mark.skipif(
 )
 
 
-def under(register: int, call: Callable[..., Any], *given: Any) -> Any:
+def under(register: int, call: Callable[..., Any], *arguments: Any) -> Any:
     """What a call gives under a control, which must still be there when it returns."""
     set_control(register)
     try:
-        return call(*given)
+        return call(*arguments)
     finally:
         after = control()
         set_control(DEFAULT)

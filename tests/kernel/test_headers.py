@@ -1,4 +1,4 @@
-"""What stands in C headers and in Python: one source, and a library of other sources is refused."""
+"""Constants in C headers and in Python: one source; a library of other sources is refused."""
 
 import ctypes
 import itertools
@@ -18,7 +18,7 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import METHODS, Settings
 
 
-def test_the_python_side_is_what_the_headers_say():
+def test_constants_in_python_are_those_of_the_headers():
     present = {f.name: f.read_text(encoding="utf-8") for f in read_headers.HEADER.glob("*.py") if f.stem != "__init__"}
     assert read_headers.header() == present, "run: python mbs/kernel/read_headers.py"
     assert read_headers.entries() == read_headers.ENTRIES.read_text(encoding="utf-8")
@@ -29,7 +29,7 @@ def test_the_table_of_sensors_has_a_row_for_each_type():
     assert [(int(number), name) for number, name in rows] == [(t.value, t.name) for t in SensorType]
 
 
-def test_the_tables_of_arrays_have_a_row_for_each_in_known_words():
+def test_the_tables_of_arrays_have_a_row_for_each_array():
     tables = [read_headers.array_table(part) for part in ("", *read_headers.PARTS)]
     names = [name for table in tables for name in re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE)]
     assert sorted(names) == sorted(ARRAYS)
@@ -81,7 +81,7 @@ def test_the_kernel_has_the_same_structures(name):
     assert load_library().ali3_structure_size(name.encode()) == ctypes.sizeof(STRUCTURES[name])
 
 
-def test_a_kernel_that_is_not_there_says_how_it_is_made(tmp_path):
+def test_a_missing_kernel_is_reported_with_its_build_command(tmp_path):
     with pytest.raises(OSError, match=r"There is no kernel .*gone\.so\. Compile it: python -m ali3 build --kernel"):
         load_library(tmp_path / "gone.so")
 

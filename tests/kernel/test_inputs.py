@@ -16,7 +16,8 @@ from .system_builder import Element, SystemBuilder
 
 MASS = 2.0
 FORCE = 4.0  # N, the largest
-ROUND_OFF, CLOSE = 1e-14, 1e-9
+ROUND_OFF = 1e-14
+CLOSE = 1e-9
 METHODS = ("ali3p", "ali3p_generalised_alpha", "energy_momentum", "runge_kutta_8", "radau_5")
 
 

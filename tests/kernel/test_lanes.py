@@ -244,7 +244,7 @@ def _stopped() -> Model:
     return m
 
 
-def test_groups_refuse_what_they_cannot_step() -> None:
+def test_groups_refuse_instances_that_they_cannot_step() -> None:
     system = compile(double_four_bar.build())
     loaded, other = prepared(system)[0], prepared(compile(double_four_bar.build(windows=2)))[0]
     one, two = Simulation(system), Simulation(system, settings=Settings(tolerance_r=1e-9))

@@ -336,11 +336,11 @@ def test_a_wheel_on_a_table_that_is_not_named_is_refused() -> None:
     """Its signals are dependents, for which the mass matrix has no rows to look into."""
     arrays = dict(compile(prototype_car.build(fidelity=10)).arrays) | {"meta": b""}
     assert min(arrays["axis_table"]) >= 0
-    reported = "a wheel whose axis has no table is on a lookup-table body"
+    message = "a wheel whose axis has no table is on a lookup-table body"
     for k in range(len(arrays["axis_table"])):
         table = np.array(arrays["axis_table"])
         table[k] = -1
-        assert reported in refused(pack(arrays | {"axis_table": table}))
+        assert message in refused(pack(arrays | {"axis_table": table}))
 
 
 @pytest.mark.slow

@@ -21,8 +21,8 @@ def test_element_states_step_from_those_that_are_given() -> None:
     own, force = instance.element_step(q, qd, None, 1e-3)
     forces = {}
     for stuck in (0.0, 2e-3, -4e-3):
-        given = [stuck, *own[1:]]
-        after, actual = instance.element_step(q, qd, given, 1e-3)
+        states = [stuck, *own[1:]]
+        after, actual = instance.element_step(q, qd, states, 1e-3)
         forces[stuck] = max(actual, key=abs)
         if stuck == 0.0:
             assert (list(after), list(actual)) == (list(own), list(force))

@@ -14,7 +14,8 @@ from mbs.scenes import double_four_bar
 from .scenes import pendulum
 
 H = 0.005
-STEERING, SPEED = 0.1, 15.0
+STEERING = 0.1
+SPEED = 15.0  # m/s
 STORED = ("energy.kinetic", "energy.gravity", "energy.elastic", "energy.total")
 OF_BODY = (
     *("chassis.vx", "chassis.vy", "chassis.wz", "chassis.ay", "chassis.roll", "chassis.pitch", "chassis.z"),

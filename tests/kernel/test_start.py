@@ -33,13 +33,13 @@ def test_the_position_problem_finds_the_nearest_point() -> None:
 def test_the_nearest_point_is_that_of_the_mass() -> None:
     """1 kg along x and 3 kg along y from (-1.3, 0.9) to the circle: M (q - q0) + mu q = 0."""
     b = pendulum()
-    b.mass, given = np.diag([1.0, 3.0]), np.array([-1.3, 0.9])
+    b.mass, start = np.diag([1.0, 3.0]), np.array([-1.3, 0.9])
     instance = instance_of(b)
-    instance.set_q(list(given), [0.0, 0.0])
+    instance.set_q(list(start), [0.0, 0.0])
     instance.initialise(0.0)
-    mu = brentq(lambda x: np.hypot(*(given * [1.0, 3.0] / (np.array([1.0, 3.0]) + x))) - 1.0, 0.0, 10.0)
-    expected = given * [1.0, 3.0] / (np.array([1.0, 3.0]) + mu)
-    assert abs(np.cross([*expected, 0.0], [*given, 0.0])[2]) > 0.05  # not on the line to the centre
+    mu = brentq(lambda x: np.hypot(*(start * [1.0, 3.0] / (np.array([1.0, 3.0]) + x))) - 1.0, 0.0, 10.0)
+    expected = start * [1.0, 3.0] / (np.array([1.0, 3.0]) + mu)
+    assert abs(np.cross([*expected, 0.0], [*start, 0.0])[2]) > 0.05  # not on the line to the centre
     np.testing.assert_allclose(instance.get_state()[0], expected, atol=1e-6)
 
 
@@ -51,7 +51,7 @@ def test_a_coordinate_without_mass_gives_way_like_one_of_the_mean_mass() -> None
     np.testing.assert_allclose(instance.get_state()[0], [0.5, -0.5], atol=1e-9)
 
 
-def test_a_row_is_open_by_metres_whatever_the_mass() -> None:
+def test_the_residual_of_a_row_is_in_metres_for_any_mass() -> None:
     """x = 0 and x = 1 at once, for 1 kg and for 9: in the end each is open by half a metre."""
     for mass in (1.0, 9.0):
         instance = instance_of(SystemBuilder(np.diag([mass]), [0.2], rows=[Row(0.0, {0: 1.0}), Row(-1.0, {0: 1.0})]))

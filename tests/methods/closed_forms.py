@@ -16,8 +16,15 @@ from scipy.interpolate import PPoly
 
 from mbs import Model
 
-MASS, INERTIA, CENTRE, LENGTH, GRAVITY = 2.0, 0.17, 0.5, 1.0, 9.81
-ARM_MASS, ARM_INERTIA, ARM_CENTRE, ARM = 1.5, 0.2, 0.4, 0.8
+MASS = 2.0  # kg
+INERTIA = 0.17  # kg m2
+CENTRE = 0.5  # m
+LENGTH = 1.0  # m
+GRAVITY = 9.81  # m/s2
+ARM_MASS = 1.5  # kg
+ARM_INERTIA = 0.2  # kg m2
+ARM_CENTRE = 0.4  # m
+ARM = 0.8  # m
 SPIN = 6.0  # rad/s, at the start, where the rod hangs
 QUANTITIES = {
     "position": ("tip.x", "tip.y"),

@@ -9,11 +9,20 @@ from mbs.settings.settings import METHODS
 ROLLING = [method for method in METHODS if method not in (*TREE_ONLY, *POSITIONS_ONLY)]  # the others refuse them
 
 GRAVITY = 9.81
-MASS, RADIUS = 2.0, 0.5  # of the disc, kg, m
-DIAMETRAL, AXIAL = 0.15, 0.25  # kg m2: a disc of some thickness
-AXLE_MASS, AXLE_INERTIA = 0.1, 0.02  # kg, kg m2: of what carries it as a spin
-SLEIGH_MASS, SLEIGH_INERTIA, ARM, TURN = 2.0, 0.5, 0.3, 1.0  # kg, kg m2, m, rad/s
-ROLY_MASS, ROLY_INERTIA, ROLY_RADIUS, ROLY_DEPTH = 3.0, 0.2, 0.4, 0.1  # kg, kg m2, m, m
+MASS = 2.0  # kg, of the disc
+RADIUS = 0.5  # m
+DIAMETRAL = 0.15  # kg m2: a disc of some thickness
+AXIAL = 0.25  # kg m2
+AXLE_MASS = 0.1  # kg, of what carries it as a spin
+AXLE_INERTIA = 0.02  # kg m2
+SLEIGH_MASS = 2.0  # kg
+SLEIGH_INERTIA = 0.5  # kg m2
+ARM = 0.3  # m
+TURN = 1.0  # rad/s
+ROLY_MASS = 3.0  # kg
+ROLY_INERTIA = 0.2  # kg m2
+ROLY_RADIUS = 0.4  # m
+ROLY_DEPTH = 0.1  # m
 
 
 def sleigh(turn: float = TURN, switch: bool | None = None, drift: float = 0.0) -> Model:

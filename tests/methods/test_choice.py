@@ -1,4 +1,4 @@
-"""Methods by name, and where one is refused."""
+"""Choice of methods by name, and refusals."""
 
 import numpy as np
 import pytest
@@ -71,22 +71,22 @@ def test_generalised_alpha_damps_a_stiff_oscillation_and_the_trapezoidal_rule_do
     m.torsional_spring_damper("spring", mass.point(None).components[0], stiffness=1e8, free_angle=1.0)
     m.sense_energy("energy", "total")
     system, h = compile(m), 0.01  # 100 rad of phase a step
-    remaining = {}
+    energy_ratios = {}
     for rho in (0.0, 0.5, 0.9):
         run = simulate(
             system, 0.5, h, settings=Settings(method="ali3p_generalised_alpha", rho_infinity=rho), estimate_error=False
         )
-        remaining[rho] = run["energy"][-1] / run["energy"][0]
+        energy_ratios[rho] = run["energy"][-1] / run["energy"][0]
     kept = simulate(system, 0.5, h, estimate_error=False)["energy"]
-    assert remaining[0.0] < 1e-6
-    assert remaining[0.0] < remaining[0.5] < remaining[0.9] < 0.1
+    assert energy_ratios[0.0] < 1e-6
+    assert energy_ratios[0.0] < energy_ratios[0.5] < energy_ratios[0.9] < 0.1
     assert kept[-1] > 0.5 * kept[0]
     assert np.all(np.isfinite(kept))
 
 
 @pytest.mark.parametrize("flexible", [False, True])
 @pytest.mark.parametrize("rho", [0.2, 0.5, 1.0])
-def test_generalised_alpha_steps_as_its_recursion_says(rho, flexible):
+def test_generalised_alpha_steps_follow_its_recursion(rho, flexible):
     """A mass on a spring, k = 40 N/m, against the recursion of Chung and Hulbert, whose acceleration has a memory; a
     flexible body at rest beside it has no other past of steps.
     """

@@ -96,7 +96,7 @@ def test_lanes_and_a_saved_state_have_the_bits_of_a_single_run() -> None:
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "energy_momentum_4"])
-def test_what_is_abrupt_does_not_depend_on_what_is_recorded(method: str) -> None:
+def test_abrupt_forces_do_not_depend_on_the_recorded_sensors(method: str) -> None:
     """Steps that nothing reads had no forces, so that stops were seen at samples only."""
     system, seen = between_stops(0.1), []
     for every in (1, 7, 700):

@@ -1,4 +1,4 @@
-"""What `mbs/kernel/src/method.h` asks of every method, and what the states that it leaves must have for a reader."""
+"""Requirements of `mbs/kernel/src/method.h` on every method, and on the states after its steps."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,8 @@ from mbs.settings.methods import METHOD_TABLE
 from mbs.settings.settings import METHODS
 from tests.methods.models import two_rods
 
-H, GOOD_STEPS = 0.005, 7
+H = 0.005  # s
+GOOD_STEPS = 7
 
 
 def driven_chain() -> bytes:
@@ -55,12 +56,12 @@ def test_a_controlled_run_ends_with_multipliers_of_its_state(method: str) -> Non
     fields = ControlFields(tolerance=1e-6, length=1.0, span=0.2, rate=3.0, longest=0.05)
     times, sensors, positions = np.array([0.2]), np.zeros((1, sizes.ns)), np.zeros((1, sizes.nq))
     instance.control_run(fields, np.ones(sizes.nq), 0.2, 10**6, times, sensors, positions, 0)
-    reported = state_of(instance)
+    state = state_of(instance)
     instance.refresh()
     again = state_of(instance)
     assert np.abs(again[3]).max() > 1.0
-    np.testing.assert_allclose(reported[3], again[3], rtol=2e-2, atol=1e-2)
-    assert reported[0].tobytes() == positions[0].tobytes()
+    np.testing.assert_allclose(state[3], again[3], rtol=2e-2, atol=1e-2)
+    assert state[0].tobytes() == positions[0].tobytes()
 
 
 @pytest.mark.parametrize("method", [m for m in METHODS if not METHOD_TABLE[m].tree_only])  # they have another metric

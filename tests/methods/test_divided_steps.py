@@ -12,7 +12,9 @@ from benchmarks.car import accuracy, manoeuvres, trajectories
 from mbs.vehicle import load as load_car
 from mbs.vehicle.levels import errors
 
-CAR, NAME, STEP = "commonroad_escort", "kerb_lock_brake", 0.005
+CAR = "commonroad_escort"
+NAME = "kerb_lock_brake"
+STEP = 0.005  # s
 NEVER = mbs.Settings(max_halvings=0)
 
 

@@ -22,7 +22,7 @@ UNCHECKED = {"progress": False, "estimate_error": False}
 
 
 @pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "runge_kutta_8"])
-def test_work_is_what_the_motor_gave(method):
+def test_work_is_that_of_the_motor(method):
     run = simulate(printed_model(), 0.5, H, {"torque": 4.0}, method=method, **UNCHECKED)
     assert run.report.work == pytest.approx(4.0 * run["crank.angle"][-1], rel=0.01)
     assert run.report.energy == pytest.approx(run.report.work, rel=0.02)  # it started from rest, with its mass level
@@ -89,12 +89,12 @@ def test_an_open_balance_decides_by_methods_whose_constraint_forces_tell_and_whe
     assert simulation.report.balance == Balance.KEPT
     with pytest.warns(AccuracyWarning, match="J of work"):
         simulation.step(0.2, 10)
-    reported = {}
+    balances = {}
     for method in METHODS:
         simulation.change_settings(Settings(method=method))
-        reported[method] = simulation.report.balance
+        balances[method] = simulation.report.balance
     decide = {"ali3p", "ali3p_generalised_alpha"}
-    assert reported == {method: Balance.WRONG if method in decide else Balance.OPEN for method in METHODS}
+    assert balances == {method: Balance.WRONG if method in decide else Balance.OPEN for method in METHODS}
     driven = simulate(compile(driven_crank()), 2.0, 1.0 / 90.0, **UNCHECKED)
     assert driven.report.energy_balance > 2.0 * WRONG_ERROR
     assert driven.report.balance == Balance.OPEN

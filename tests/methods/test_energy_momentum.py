@@ -1,4 +1,4 @@
-"""What the energy-momentum step keeps: energy, momenta, rows, and the energy balance of dampers and drives."""
+"""Conservation by the energy-momentum step: energy, momenta, rows, and the energy balance of dampers and drives."""
 
 import numpy as np
 import pytest
@@ -91,14 +91,14 @@ def test_a_free_system_of_springs_keeps_both_momenta_and_its_energy(h):
         momenta["turn"] += m * (x * vy - y * vx)
     for values in momenta.values():
         np.testing.assert_allclose(values, values[0], atol=ROUND_OFF)
-    reported = sum(m * run[f"{n}.vx"] for n, m in TRIANGLE_MASSES.items())
-    assert np.abs(reported - reported[0]).max() < 1e4 * h**4  # it is scaled to the energy
+    momentum = sum(m * run[f"{n}.vx"] for n, m in TRIANGLE_MASSES.items())
+    assert np.abs(momentum - momentum[0]).max() < 1e4 * h**4  # it is scaled to the energy
 
 
 @pytest.mark.parametrize("h", [0.02, 0.004])
 @pytest.mark.parametrize("damping", [0.0, 3.0, 80.0])
 @pytest.mark.parametrize("stops", [False, True])
-def test_a_damped_spring_loses_exactly_what_the_damper_takes(h, damping, stops):
+def test_the_energy_lost_is_exactly_the_work_of_the_damper(h, damping, stops):
     run = simulate(compile(swing(damping, stops)), 3.0, h, settings=EM, estimate_error=False)
     length = run["length"]
     taken = np.concatenate([[0.0], np.cumsum(damping * np.diff(length) ** 2 / h)])

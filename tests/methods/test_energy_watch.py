@@ -80,7 +80,7 @@ def test_nothing_is_projected_so_nothing_is_watched():
     assert t.report.energy_error == 0.0
 
 
-def test_an_infinite_motion_is_reported_in_words():
+def test_an_infinite_motion_is_reported_with_a_message():
     def jolt(t):
         return 0.0 if t < 0.1 else 1e300
 
@@ -173,7 +173,7 @@ def test_the_work_of_a_guide_is_the_change_of_the_energy_where_inputs_jump():
     that steps end with, which know nothing of the next jump, leave an error of the first order, and a force that is
     straight between them 1e-3 of the work.
     """
-    system, remaining = watched_rotor(), []
+    system, residuals = watched_rotor(), []
     for parts in (4, 8):
         simulation = Simulation(system)
         start = simulation.sensors
@@ -182,11 +182,11 @@ def test_the_work_of_a_guide_is_the_change_of_the_energy_where_inputs_jump():
             simulation.step(8e-3 / parts, parts)
         end = simulation.sensors
         change = end["energy"] - start["energy"]
-        remaining.append(change - end["guides"])
-        assert remaining[-1] == pytest.approx(simulation.instance.report()["energy_error"], abs=1e-5 * change)
+        residuals.append(change - end["guides"])
+        assert residuals[-1] == pytest.approx(simulation.instance.report()["energy_error"], abs=1e-5 * change)
     assert change > 0.3
-    assert abs(remaining[0]) < 1e-3 * change
-    assert abs(remaining[0]) > 3.5 * abs(remaining[1])
+    assert abs(residuals[0]) < 1e-3 * change
+    assert abs(residuals[0]) > 3.5 * abs(residuals[1])
 
 
 SQUARE = ((0.0, 0.1, 0.1, 0.3, 0.3, 0.5, 0.5, 0.8), (0.0, 0.0, 0.5, 0.5, -0.5, -0.5, 0.5, 0.5))
@@ -205,14 +205,14 @@ def test_the_work_of_a_guide_under_a_square_wave_is_the_energy_of_its_wheel(meth
 
 @pytest.mark.parametrize("method", ["ali3p", "ali3p_generalised_alpha", "energy_momentum"])
 def test_each_method_sums_up_the_work_of_a_guide(method):
-    remaining = []
+    residuals = []
     for h in (4e-3, 2e-3):
         requested = {"target": lambda t: 0.5 * np.sin(9.0 * t)}
         run = simulate(watched_rotor(), 0.8, h, requested, method=method, progress=False, estimate_error=False)
-        remaining.append(np.ptp(run["energy"] - run["guides"]))
+        residuals.append(np.ptp(run["energy"] - run["guides"]))
         assert np.ptp(run["guides"]) > 1.0
-    assert remaining[0] < 0.03 * np.ptp(run["guides"])
-    assert remaining[0] > 3.0 * remaining[1]
+    assert residuals[0] < 0.03 * np.ptp(run["guides"])
+    assert residuals[0] > 3.0 * residuals[1]
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum"])
@@ -244,12 +244,12 @@ def pendulum(amplitude, step, mass=1.0):
 
 
 @pytest.mark.parametrize(("step", "within"), [(0.0167, 0.01), (0.0335, 0.02)])
-def test_a_pendulum_loses_what_the_theory_says(step, within):
+def test_the_energy_loss_of_a_pendulum_is_that_of_the_theory(step, within):
     run, mean = pendulum(0.5, step)
     assert run.report.energy_growth / 4000 == pytest.approx(-3.0 / 8.0 * 1.1 * mean * step**4, rel=within)
 
 
-def test_a_body_without_joints_loses_what_the_theory_says():
+def test_the_energy_loss_of_a_free_body_is_that_of_the_theory():
     """-1/32 of the rate of the multipliers squared, of a body of three axes: U'' G = U Lam, Lam = (W^2 + W') G."""
     inertia, spin, step = np.array([0.05, 0.08, 0.1]), 5.0 * np.array([0.6, 0.64, 0.48]), 0.01
     m = Model("body", gravity=(0.0, 0.0, 0.0))
@@ -301,7 +301,7 @@ def test_what_may_gain_or_lose_energy_is_not_watched(system):
     assert run.notices == ()
 
 
-def test_the_trend_goes_on_in_a_restored_state():
+def test_the_trend_continues_in_a_restored_state():
     whole, parts = (Simulation(sprung()) for _ in range(2))
     whole.run(20.0, 0.2, progress=False)
     parts.run(10.0, 0.2, progress=False)

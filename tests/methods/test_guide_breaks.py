@@ -10,7 +10,8 @@ from scipy.interpolate import CubicSpline, PPoly
 import mbs
 
 Array = NDArray[np.float64]
-W, SPAN = 12.0, 1.2  # rad/s, s
+W = 12.0  # rad/s
+SPAN = 1.2  # s
 STEPS = (0.01, 0.005, 0.0025, 0.00125)  # s
 JUMPS = {
     "rate, within a step": PPoly([[0.0, 0.8, -0.5], [0.0, 0.0, 0.32032]], [0.0, 0.3003, 0.7007, 2.0]),

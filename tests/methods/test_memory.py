@@ -1,4 +1,4 @@
-"""What methods carry from step to step: complete in a saved state, kept by a step that fails, never trusted."""
+"""Memory of methods between steps: complete in a saved state, unchanged by a failed step, checked when loaded."""
 
 import struct
 import zlib
@@ -16,8 +16,12 @@ from tests.methods.rolling_models import sleigh
 from tests.methods.trees import branching
 
 H = 0.005  # s
-HEADER, COUNT_AT, CHECKED_FROM, CRC_AT = 40, 32, 28, 24  # bytes of a state
-OWNER_AND_TIMES, PAST = 6, 4  # numbers of a memory, past steps
+HEADER = 40  # bytes of a state
+COUNT_AT = 32  # byte of a state
+CHECKED_FROM = 28  # byte of a state
+CRC_AT = 24  # byte of a state
+OWNER_AND_TIMES = 6  # numbers of a memory
+PAST = 4  # steps
 IMPOSSIBLE = {"max_iterations": 1, "tolerance_r": 1e-300, "tolerance_phi": 1e-300}
 GOOD = {"max_iterations": 30, "tolerance_r": 1e-10, "tolerance_phi": 1e-11}
 SEED = 11

@@ -30,15 +30,15 @@ def _after(system: System, h: float, speed: float | None = None) -> tuple[float,
 def test_at_rest_round_off_is_not_projected(h: float) -> None:
     """Rates of rows are 1e-13 m/s there, which the round-off of positions makes of them; relative to the velocity, as
     small, they took 3.9 and 4.0 sweeps a step."""
-    sweeps, remaining = _after(compile(kerb_test.build(0)), h)
+    sweeps, residual = _after(compile(kerb_test.build(0)), h)
     assert sweeps < 50  # 27, 28
-    assert remaining < 1e-14 / h
+    assert residual < 1e-14 / h
 
 
 def test_rates_of_a_moving_car_are_projected() -> None:
     """Without a projection rows open by 1e-4 m/s a step."""
-    _, remaining = _after(compile(prototype_car.build(fidelity=0)), 0.005, 20.0)
-    assert remaining < 1e-10
+    _, residual = _after(compile(prototype_car.build(fidelity=0)), 0.005, 20.0)
+    assert residual < 1e-10
 
 
 @pytest.mark.parametrize("h", [1e-6, 1e-5])

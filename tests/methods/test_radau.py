@@ -63,7 +63,7 @@ def test_a_damped_oscillator_has_the_motion_and_the_energy_of_the_closed_form():
         assert np.polyfit(np.log(steps), np.log(component), 1)[0] > 4.5
 
 
-def test_what_a_damper_takes_is_what_is_lost():
+def test_the_work_of_a_damper_is_the_energy_lost():
     """On the angle theta of a hinge: E0 - E1 is the integral of c theta'^2 along the motion of an ODE solver."""
     damping, system = 0.3, compile(hinge(0.3))
     inertia, arm, weight, stiffness = 0.1 + 2.0 * 0.4**2, 0.4, 2.0 * 9.81, 1.5

@@ -210,5 +210,5 @@ def test_the_trapezoidal_rule_takes_the_values_at_the_ends_of_a_step():
     assert all(by_hand.sensors[n] == run[n][-1] for n in ("tip.x", "tip.vx", "force.y"))
 
 
-def test_the_table_says_orders_in_numbers():
+def test_the_table_gives_orders_as_numbers():
     assert re.search(r"\| `energy_momentum_4` \| 4 \| 4 \| 4 \| 4 \| 4 \|", PAGE.read_text(encoding="utf-8"))

@@ -1,4 +1,4 @@
-"""The explicit method of order eight: what it reaches, and what it does not take."""
+"""The explicit method of order eight: its accuracy, and models that it refuses."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Steps whose Newton iterations are limited: bounded work, a state that stays good, and what was left is said."""
+"""Steps with limited Newton iterations: bounded work, a valid state, and a reported residual."""
 
 from dataclasses import replace
 
@@ -37,11 +37,11 @@ def started(loaded, **settings):
 
 def stepped(instance, steps, h=H):
     """Iterations of each step."""
-    made = [instance.report()["iterations"]]
+    iterations = [instance.report()["iterations"]]
     for _ in range(steps):
         instance.run(h, 1)
-        made.append(instance.report()["iterations"])
-    return np.diff(made)
+        iterations.append(instance.report()["iterations"])
+    return np.diff(iterations)
 
 
 def test_a_limit_that_is_not_reached_changes_nothing(rough):
@@ -66,7 +66,7 @@ def test_all_parts_of_a_step_share_its_limit(rough):
 
 
 @pytest.mark.parametrize("limit", [2, 3, 5])
-def test_no_step_makes_more_iterations_and_none_fails(rough, limit):
+def test_no_step_exceeds_the_limit_of_iterations_or_fails(rough, limit):
     instance = started(rough, step_iterations=limit)
     result = stepped(instance, 600)
     report = instance.report()
@@ -114,10 +114,10 @@ def test_what_is_left_bounds_how_far_the_positions_are_off(rough):
         limited.run(H, 1)
         exact.run(H, 1)
         off = np.abs(np.array(limited.get_state()[0]) - np.array(exact.get_state()[0])).max()
-        remaining = limited.report()["capped_residual"]
-        if remaining > max(before, 1e-6):
+        residual = limited.report()["capped_residual"]
+        if residual > max(before, 1e-6):
             apart += 1
-            assert off < 1.5 * remaining
+            assert off < 1.5 * residual
     assert apart > 10
 
 
@@ -133,7 +133,7 @@ def test_the_state_stays_good(rough):
     assert apart < 0.05
 
 
-def test_a_saved_state_goes_on_bit_for_bit(rough):
+def test_a_saved_state_continues_bit_for_bit(rough):
     first = started(rough, step_iterations=3)
     stepped(first, 100)
     second = Instance(rough)
@@ -167,7 +167,7 @@ def test_other_methods_have_no_such_limit(rough, method):
         Instance(rough).set_settings(**fields)
 
 
-def test_a_run_says_it(rough):
+def test_a_run_reports_capped_steps(rough):
     system = mbs.compile(double_four_bar.build())
     run = mbs.simulate(system, 2.0, 0.02, settings=Settings(step_iterations=1), estimate_error=False)
     text = f"{run.report.capped} of 100 steps ended at the limit of their iterations, or stayed whole for it; they left"

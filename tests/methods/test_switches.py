@@ -10,7 +10,9 @@ from mbs.settings.settings import METHODS
 
 H = 0.005
 TIP = (1.0, 1.0)
-CATCH, RELEASE, END = 0.5, 1.5, 2.5  # s
+CATCH = 0.5  # s
+RELEASE = 1.5  # s
+END = 2.5  # s
 
 
 def pendulum(on: bool = False) -> Model:
@@ -44,17 +46,17 @@ def test_a_point_is_held_where_it_is_and_let_go(system, method):
     assert jump == pytest.approx(after["energy"] - before["energy"], abs=1e-12) == simulation.report.energy_jump
     assert jump < -1.0  # an impact takes energy
     assert np.hypot(after["tip.vx"], after["tip.vy"]) < 1e-10 < np.hypot(before["tip.vx"], before["tip.vy"])
-    held = simulation.run(RELEASE, H)
+    pinned = simulation.run(RELEASE, H)
     for c in "xy":
-        assert np.abs(held[f"tip.{c}"] - free[f"tip.{c}"][-1]).max() < 1e-9
-    assert np.abs(held["pin.fy"]).max() > 1.0
+        assert np.abs(pinned[f"tip.{c}"] - free[f"tip.{c}"][-1]).max() < 1e-9
+    assert np.abs(pinned["pin.fy"]).max() > 1.0
     assert abs(simulation.set_switch("tip", False)) < 1e-9  # letting go costs nothing
     again = simulation.run(END, H)
     assert np.ptp(again["tip.x"]) > 0.5
     assert again["pin.fy"][-1] == 0.0
 
 
-def test_a_pin_that_closes_before_the_start_holds_what_the_drawing_says(system):
+def test_a_pin_closed_before_the_start_holds_the_drawn_point(system):
     """Not the point where the bodies stand when it closes: that is the start's to find."""
     simulation = Simulation(system)
     simulation.instance.reset()

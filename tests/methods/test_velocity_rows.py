@@ -96,7 +96,7 @@ def test_a_skate_needs_few_iterations(skate):
 
 
 @pytest.mark.parametrize("method", ROLLING)
-def test_an_edge_that_is_set_down_stops_what_goes_across_it(method):
+def test_an_edge_that_is_set_down_stops_the_velocity_across_it(method):
     drift = 0.4
     simulation = Simulation(compile(sleigh(0.0, switch=False, drift=drift)), settings=Settings(method=method))
     free = simulation.run(1.0, 0.01)
@@ -106,9 +106,9 @@ def test_an_edge_that_is_set_down_stops_what_goes_across_it(method):
     struck = 1.0 / (1.0 / SLEIGH_MASS + ARM**2 / SLEIGH_INERTIA)
     assert jump == pytest.approx(-0.5 * struck * drift**2, rel=1e-9)
     assert abs(simulation.sensors["edge.vy"]) < EXACT
-    held = simulation.run(2.0, 0.01)
-    assert np.abs(held["edge.vy"]).max() < (1e-3 if method == "ali3p_no_projection" else EXACT)
-    assert held["edge.vx"][-1] > held["edge.vx"][0] + 0.01
+    on_edge = simulation.run(2.0, 0.01)
+    assert np.abs(on_edge["edge.vy"]).max() < (1e-3 if method == "ali3p_no_projection" else EXACT)
+    assert on_edge["edge.vx"][-1] > on_edge["edge.vx"][0] + 0.01
     assert simulation.set_switch("edge", False) == pytest.approx(0.0, abs=1e-9)
 
 

@@ -10,7 +10,9 @@ from tests.methods.models import assert_saved_state_continues, driven, swing, tr
 
 QUIET = {"progress": False, "estimate_error": False}
 NO_WORD = {"progress": False}
-MASS, SPEED, DAMPING = 2.0, 3.0, 1.5
+MASS = 2.0  # kg
+SPEED = 3.0  # m/s
+DAMPING = 1.5  # N s/m
 # Order at which the balance of the swing closes as steps shrink; that of energy-momentum always does.
 ORDERS = {"ali3p_generalised_alpha": 2, "runge_kutta_8": 8, "semi_recursive": 8, "semi_recursive_4": 4, "radau_5": 5}
 
@@ -42,7 +44,7 @@ def opened(run):
 @pytest.mark.parametrize(
     "method", [m for m in METHODS if m not in ("energy_momentum_4", "semi_recursive", "semi_recursive_4")]
 )
-def test_a_damper_takes_what_a_block_loses(method):
+def test_the_work_of_a_damper_is_the_energy_that_a_block_loses(method):
     t = 2.0
     run = simulate(block(), t, 0.002, method=method, **QUIET)
     taken = 0.5 * MASS * SPEED**2 * (1.0 - np.exp(-2.0 * DAMPING / MASS * t))
@@ -71,7 +73,7 @@ def test_a_motor_of_constant_torque_gives_torque_times_angle(method):
     assert run["energy"] - run["energy"][0] == pytest.approx(run["work"], rel=4e-3, abs=4e-3)
 
 
-def test_another_method_goes_on_with_the_force_that_there_was():
+def test_another_method_continues_with_the_last_force():
     """The torque is 8 N m from the start of the first step of the trapezoidal rule."""
     simulation = Simulation(motor_model(), settings=Settings(method="radau_5"))
     simulation.set_input("torque", 4.0)
@@ -101,11 +103,11 @@ def test_the_balance_of_a_damped_swing_closes_by_the_order_of_the_method(method)
     if method == "energy_momentum":
         assert coarse < 1e-8 * lost
     elif method == "ali3p":
-        reported = [r.report.energy_error for r in runs]
+        errors = [r.report.energy_error for r in runs]
         assert coarse / fine == pytest.approx(4.0, rel=0.2)
-        remaining = [abs(opened(r) - error) for r, error in zip(runs, reported, strict=True)]
-        assert remaining[0] / remaining[1] > 6.0  # what the error of the energy does not name is of third order
-        assert remaining[1] < 0.04 * fine
+        residuals = [abs(opened(r) - error) for r, error in zip(runs, errors, strict=True)]
+        assert residuals[0] / residuals[1] > 6.0  # what the error of the energy does not name is of third order
+        assert residuals[1] < 0.04 * fine
     else:
         assert coarse / fine > 0.6 * 2.0 ** ORDERS.get(method, 2)
 
@@ -121,7 +123,7 @@ def test_with_the_error_of_the_energy_the_balance_of_ali3p_closes_also_at_stops(
     )  # without the work it does not
 
 
-def test_springs_give_back_what_they_take():
+def test_springs_return_their_energy():
     m = triangle()
     m.sense_energy("work", "work", ["ac", "bc"])
     m.sense_energy("lost", "nonconservative", ["ac", "bc"])
@@ -147,7 +149,7 @@ def test_steps_of_the_error_control_and_its_records_count_the_work_once(method):
 
 
 @pytest.mark.parametrize("method", ["energy_momentum", "semi_recursive", "runge_kutta_8", "ali3p"])
-def test_steps_nobody_looks_at_count(method):
+def test_steps_without_output_count(method):
     system = compile(oscillator())
     each, last = (simulate(system, 0.8, 0.01, method=method, every=n, **QUIET) for n in (1, 80))
     assert last["work"][-1] == each["work"][-1]
@@ -155,7 +157,7 @@ def test_steps_nobody_looks_at_count(method):
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "runge_kutta_8", "radau_5", "semi_recursive"])
-def test_a_saved_state_goes_on_bit_for_bit(method):
+def test_a_saved_state_continues_bit_for_bit(method):
     assert_saved_state_continues(compile(oscillator()), Settings(method=method))
 
 
@@ -193,9 +195,9 @@ def test_the_work_of_a_guide_is_that_of_its_rows(method, left):
     m = driven()
     m.sense_energy("guides", "with guides")
     run = simulate(compile(m), 1.0, 0.01, method=method, **QUIET)
-    given = run["energy"] - run["energy"][0]
-    assert given.max() > 10.0
-    assert np.abs(run["guides"] - given).max() < left * given.max()
+    energy_change = run["energy"] - run["energy"][0]
+    assert energy_change.max() > 10.0
+    assert np.abs(run["guides"] - energy_change).max() < left * energy_change.max()
 
 
 @pytest.mark.slow
@@ -238,7 +240,7 @@ def test_records_close_to_the_start_of_a_step_have_its_work(method):
 
 
 @pytest.mark.parametrize("method", ["ali3p", "runge_kutta_8"])
-def test_work_goes_on_where_inputs_jump(method):
+def test_work_is_continuous_where_inputs_jump(method):
     torque = ([0.0, 0.5, 0.5, 1.0], [4.0, 4.0, -4.0, -4.0])
     run = simulate(motor_model(), 1.0, None, {"torque": torque}, tolerance=1e-6, method=method, **NO_WORD)
     assert run["work"].max() == pytest.approx(4.0, rel=1e-3)  # 4 N m over 1 rad

@@ -1,4 +1,4 @@
-"""The relative angle is unwrapped and regular at every angle; drives and armature act on it."""
+"""The relative angle is unwrapped and regular at every angle; drives and armatures act on it."""
 
 import numpy as np
 import pytest

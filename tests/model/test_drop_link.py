@@ -6,7 +6,11 @@ import pytest
 import mbs
 from mbs import Model, ModelError, compile
 
-B, LEVER, ROD, K, INERTIA = 0.5, 0.25, 0.3, 120.0, 8.0  # half track m, m, m, N m/rad, kg m2
+B = 0.5  # m, half the track
+LEVER = 0.25  # m
+ROD = 0.3  # m
+K = 120.0  # N m/rad
+INERTIA = 8.0  # kg m2
 Y = (0.0, 1.0, 0.0)
 
 

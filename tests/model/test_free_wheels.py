@@ -106,7 +106,7 @@ class Pair:
 
 
 @pytest.mark.parametrize(("ratio", "inertia"), [(-3.0, (1.0, 9.0)), (-3.0, (1.0, 1.0)), (10.0, (1.0, 30.0))])
-def test_the_rule_of_the_paper_gains_what_theory_says(ratio, inertia):
+def test_the_energy_gain_of_the_method_of_the_paper_is_that_of_the_theory(ratio, inertia):
     """Growth a step of the equations of the paper, with dense matrices, and none by the kernel's."""
     for turn in (0.05, 0.1, 0.2):
         h, rate = 0.01, np.array([turn, turn / ratio]) / 0.01

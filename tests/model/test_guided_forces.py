@@ -6,7 +6,8 @@ import pytest
 from mbs import Model, ModelError, Settings, Simulation, compile
 from mbs.elements import TorsionBar
 
-GAINS, LIMITS = (0.06, 0.007), (-0.06, 0.05)
+GAINS = (0.06, 0.007)
+LIMITS = (-0.06, 0.05)
 
 
 def rack(limits=LIMITS, gains=GAINS, start=0.0):
@@ -61,7 +62,7 @@ def test_it_starts_where_the_inputs_hold_it():
     assert simulation.run(0.1, 0.01)["s"][0] == pytest.approx(0.03)
 
 
-def test_a_limit_the_wrong_way_round_is_refused_and_a_guide_of_one_input_has_none():
+def test_exchanged_limits_are_refused_and_a_guide_of_one_input_has_no_limits():
     with pytest.raises(ModelError, match="'rack' has the limits 1 and -1; the first must not be above the second"):
         rack(limits=(1.0, -1.0))
     m, _, _ = rack()
@@ -161,15 +162,15 @@ def wheel_and_hands():
 
 
 @pytest.mark.parametrize("method", ["ali3p", "energy_momentum", "ali3p_generalised_alpha"])
-def test_a_drive_holds_while_its_switch_is_on_and_lets_go(method):
+def test_a_drive_acts_while_its_switch_is_on_and_releases(method):
     simulation = Simulation(wheel_and_hands(), settings=Settings(method=method))
-    given = {"angle": lambda t: 0.7 * np.sin(3.0 * t), "torque": lambda t: 1.5}
-    t = simulation.run(1.0, 0.001, inputs=given)
+    inputs = {"angle": lambda t: 0.7 * np.sin(3.0 * t), "torque": lambda t: 1.5}
+    t = simulation.run(1.0, 0.001, inputs=inputs)
     np.testing.assert_allclose(t["wheel 0"], t["demand"], atol=1e-9)
     needed = 0.03 * t["wheel 2"] + 0.1 * t["wheel 1"] + 5.0 * t["wheel 0"]
     np.testing.assert_allclose(t["T"][5:], needed[5:], atol=2e-3)
     simulation.set_switch("hold", False)
-    t = simulation.run(2.0, 0.001, inputs=given)
+    t = simulation.run(2.0, 0.001, inputs=inputs)
     np.testing.assert_allclose(t["T"][5:], 1.5, atol=1e-6)
     needed = 0.03 * t["wheel 2"] + 0.1 * t["wheel 1"] + 5.0 * t["wheel 0"]
     np.testing.assert_allclose(needed[5:], 1.5, atol=2e-3)
@@ -179,12 +180,12 @@ def test_a_drive_holds_while_its_switch_is_on_and_lets_go(method):
 def test_a_drive_that_is_turned_on_keeps_its_distance_to_the_guide():
     simulation = Simulation(wheel_and_hands())
     simulation.set_switch("hold", False)
-    given = {"angle": lambda t: 0.7 * np.sin(3.0 * t), "torque": lambda t: 1.5}
-    t = simulation.run(0.5, 0.001, inputs=given)
+    inputs = {"angle": lambda t: 0.7 * np.sin(3.0 * t), "torque": lambda t: 1.5}
+    t = simulation.run(0.5, 0.001, inputs=inputs)
     apart = t["wheel 0"][-1] - t["demand"][-1]
     assert abs(apart) > 0.05
     simulation.set_switch("hold", True)
-    t = simulation.run(1.0, 0.001, inputs=given)
+    t = simulation.run(1.0, 0.001, inputs=inputs)
     np.testing.assert_allclose(t["wheel 0"] - t["demand"], apart, atol=1e-9)
 
 

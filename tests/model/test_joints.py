@@ -75,22 +75,22 @@ def watch(m, kind, one, two, dimension):
     p = np.array(POINT[:dimension])
     gap = one.point(p) - two.point(p)
     u = np.array(AXIS[:dimension]) / np.linalg.norm(AXIS[:dimension])
-    held = {}
+    gaps = {}
     if kind in ("revolute", "spherical", "universal", "weld"):
         m.sense_vector("gap", gap)
-        held["gap"] = 0.0
+        gaps["gap"] = 0.0
     if dimension == 3 and kind in ("revolute", "cylindrical", "prismatic", "weld"):
         m.sense_vector("axis gap", one.vector(u) - two.vector(u))
-        held["axis gap"] = 0.0
+        gaps["axis gap"] = 0.0
     if kind in ("prismatic", "weld"):
         x = np.eye(dimension)[0]
         m.sense_vector("turn", one.vector(x) - two.vector(x))
-        held["turn"] = 0.0
+        gaps["turn"] = 0.0
     if kind == "distance":
         end = np.array((1.0, 0.4, 0.5)[:dimension])
         m.sense_vector("length", one.point(p) - two.point(end))
-        held["length"] = float(np.linalg.norm(p - end))
-    return held
+        gaps["length"] = float(np.linalg.norm(p - end))
+    return gaps
 
 
 @pytest.mark.parametrize("kind", ["point_on_line", "cylindrical", "prismatic"])

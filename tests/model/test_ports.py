@@ -8,7 +8,9 @@ from mbs.flexible import InertiaRelief
 from mbs.kernel.binding import KernelError, LoadedSystem
 from mbs.kernel.header.enumerations import SensorType
 
-LEFT, RIGHT, MASS = (-1.0, 0.0, 0.0), (2.0, 0.0, 0.0), 6.0
+LEFT = (-1.0, 0.0, 0.0)  # m
+RIGHT = (2.0, 0.0, 0.0)  # m
+MASS = 6.0  # kg
 GRAVITY = 9.81
 
 

@@ -1,4 +1,4 @@
-"""Sensors read what they say; joint forces come from the multipliers."""
+"""Values of sensors; joint forces from the multipliers."""
 
 import numpy as np
 import pytest
@@ -264,7 +264,7 @@ def test_forces_of_lines_of_the_ground():
 
 
 class TestConstants:
-    def test_the_system_tells_them(self):
+    def test_the_system_lists_constants(self):
         m = Model("box", dimension=2)
         m.point_mass("ball", mass=1.0, position=(0.0, 0.0))
         m.constant("box.width", 2, "m", "width of the box")
@@ -283,7 +283,7 @@ class TestConstants:
             ("other", "wide", "constant 'other'"),
         ],
     )
-    def test_what_is_none_is_refused_by_name(self, name, value, sentence):
+    def test_invalid_constants_are_refused_by_name(self, name, value, sentence):
         m = Model("box", dimension=2)
         m.constant("taken", 1.0)
         with pytest.raises(ModelError, match=sentence):

@@ -1,4 +1,4 @@
-"""Shapes of bodies: what is taken, what is refused with which sentence, and that refusals change nothing."""
+"""Shapes of bodies: accepted ones, refused ones with their messages, and an unchanged model after a refusal."""
 
 import base64
 
@@ -42,8 +42,8 @@ GOOD = {
 @pytest.mark.parametrize("kind", sorted(KINDS))
 def test_every_kind_stands_in_the_scene(kind, tmp_path):
     m, arm = model()
-    given = GOOD[kind] if kind != "mesh" else {"file": stl(tmp_path / "part.stl"), "scale": 0.001}
-    m.shape(arm, kind, name="part", color="#AABBCC", material="steel", opacity=0.5, **given)
+    options = GOOD[kind] if kind != "mesh" else {"file": stl(tmp_path / "part.stl"), "scale": 0.001}
+    m.shape(arm, kind, name="part", color="#AABBCC", material="steel", opacity=0.5, **options)
     scene = mbs.compile(m).scene
     check_scene(scene)
     shapes = [s for s in scene["shapes"] if s.get("body") == "arm"]
@@ -166,13 +166,13 @@ def test_wrong_values_of_every_kind_are_refused(kind):
     more = {"box": {"at": (0, 0, 0), "axes": np.eye(3)}, "sphere": {"at": (0, 0, 0)}, "tube": {"radius": 0.1}}
     more |= {"plate": {"thickness": 0.1}, "spring": {"radius": 0.1, "wire": 0.01}, "damper": {"radius": 0.1}}
     more |= {"wheel": {"at": (0, 0, 0), "axis": (0, 1, 0), "rim": 0.1}, "steering_wheel": {"at": (0, 0, 0)}}
-    given = GOOD[kind] | more.get(kind, {})
-    m.shape(arm, kind, **given)
+    options = GOOD[kind] | more.get(kind, {})
+    m.shape(arm, kind, **options)
     m.shapes.clear()
-    for name in given:
+    for name in options:
         needed = name in KINDS[kind].needs
         optional = lambda label, value, needed=needed: value is None and not needed  # noqa: E731
-        problems = problems_of(lambda value, name=name: m.shape(arm, kind, **(given | {name: value})), name, optional)
+        problems = problems_of(lambda value, name=name: m.shape(arm, kind, **(options | {name: value})), name, optional)
         assert problems == []
     assert m.shapes == []
 
@@ -205,7 +205,7 @@ def test_refused_turnings_leave_nothing():
     m.body("fan", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))  # the name is free again
 
 
-def test_a_mesh_that_is_none(tmp_path):
+def test_an_invalid_mesh_is_refused(tmp_path):
     m, arm = model()
     (tmp_path / "part.stl").write_text("no mesh")
     for file in ("part.stl", "missing.stl"):
@@ -214,7 +214,7 @@ def test_a_mesh_that_is_none(tmp_path):
     assert m.shapes == []
 
 
-def test_shapes_do_not_change_what_the_kernel_sees():
+def test_shapes_do_not_change_the_arrays_of_the_kernel():
     m, arm = model()
     m.revolute("hinge", m.ground, arm, point=(0, 0, 0), axis=(0, 1, 0))
     before = mbs.compile(m).kernel_bytes()

@@ -45,8 +45,8 @@ def crank(*, directions=((0.6, 0.8), (-4.0, 3.0)), angle_slopes=True):
     angle = m.guide_input("angle", input=m.input("angle", min=-9, max=9, unit="rad"), frequency=1.0, unit="rad")
     u = np.linspace(-4.0, 4.0, 401)
     ways = [
-        m.guide_table(name, angle, np.column_stack([u, way]), slopes=slope if angle_slopes else None, unit="m")
-        for name, way, slope in (
+        m.guide_table(name, angle, np.column_stack([u, values]), slopes=slope if angle_slopes else None, unit="m")
+        for name, values, slope in (
             ("along", 0.2 * (np.cos(u) - 1.0), -0.2 * np.sin(u)),
             ("across", 0.2 * np.sin(u), 0.2 * np.cos(u)),
         )
@@ -98,12 +98,12 @@ def test_a_filtered_guide_is_that_of_a_critically_damped_filter():
         m.sense_guide(f"order {order}", guide, order=order)
     simulation, w, h = Simulation(compile(m)), 2.0 * np.pi * 5.0, 0.03
     state = np.zeros(2)
-    for held in (0.15, -0.1, -0.1):
+    for demand in (0.15, -0.1, -0.1):
 
-        def rates(t, x, held=held):
+        def rates(t, x, held=demand):
             return [x[1], w**2 * (2.0 * held - x[0]) - 2.0 * w * x[1]]
 
-        simulation.set_input("u", held)
+        simulation.set_input("u", demand)
         simulation.step(h)
         state = solve_ivp(rates, (0.0, h), state, "DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
         actual = [simulation.sensors[f"order {order}"] for order in range(3)]

@@ -5,7 +5,9 @@ import pytest
 
 from mbs import Model, ModelError, Simulation, compile, simulate
 
-MASS, I_SPIN, I_DIAMETRAL = 2.0, 0.05, 0.03
+MASS = 2.0  # kg
+I_SPIN = 0.05  # kg m2
+I_DIAMETRAL = 0.03  # kg m2
 CENTRE = np.array([0.4, 0.0, 0.1])
 AXIS = np.array([1.0, 0.3, 0.0]) / np.hypot(1.0, 0.3)
 SPEED = 60.0  # rad/s

@@ -76,7 +76,7 @@ def test_steps_converge_with_the_order_of_their_method() -> None:
     assert [np.log2(a / b) for a, b in pairwise(errors)] == pytest.approx([2.0, 2.0], abs=0.2)
 
 
-def test_the_work_of_a_damper_is_what_the_energy_loses() -> None:
+def test_the_work_of_a_damper_is_the_loss_of_energy() -> None:
     """Ways on tabled bodies are right to second order, so that the difference falls with the square of the step."""
     system, errors = two_by_table(damping=8.0), []
     for h in (0.01, 0.005, 0.0025):
@@ -172,7 +172,7 @@ def test_a_spring_on_a_number_pulls_along_its_slope() -> None:
     assert np.ptp(run["total"]) < 1e-8
 
 
-def test_beyond_its_table_a_number_goes_on_along_its_tangent() -> None:
+def test_beyond_its_table_a_number_is_extrapolated_along_the_tangent() -> None:
     m = number_model(np.linspace(-0.2, 0.2, 5))
     run = simulate(compile(m), 0.295, 0.001)
     s = run["s"]
@@ -198,7 +198,7 @@ def wrong(**changed: Any) -> None:
     m = Model("wrong")
     base = m.body("base", mass=1.0, com=(0, 0, 0), inertia=(1, 1, 1))
     points = np.linspace(-1.0, 1.0, 9)
-    given: dict[str, Any] = {
+    arguments: dict[str, Any] = {
         "base": base,
         "parameters": m.travel("s"),
         "axes": [points],
@@ -210,7 +210,7 @@ def wrong(**changed: Any) -> None:
     }
     before = len(m.coordinates)
     try:
-        m.tabled_body("part", **given | changed)
+        m.tabled_body("part", **arguments | changed)
     finally:
         assert not m.tabled
         assert len(m.coordinates) == before
@@ -254,8 +254,8 @@ def test_a_step_from_far_beyond_a_table_is_refused() -> None:
         simulation.step(0.001)
     assert error.value.status == Status.BEYOND_TABLE
     assert 0.25 < simulation.state.q[3] < 0.252
-    reported = "a coordinate has left the range of its table. 's' is 0.25"
-    assert reported in str(error.value)
+    message = "a coordinate has left the range of its table. 's' is 0.25"
+    assert message in str(error.value)
     assert "its table goes from -0.2 to 0.2" in str(error.value)
 
 

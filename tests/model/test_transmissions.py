@@ -8,7 +8,8 @@ from mbs import Model, ModelError, compile, simulate
 from mbs.settings.settings import Settings
 
 STEPPERS = ("ali3p", "ali3p_generalised_alpha", "energy_momentum", "energy_momentum_4", "runge_kutta_8", "radau_5")
-T, H = 1.0, 0.002
+T = 1.0  # s
+H = 0.002  # s
 
 
 def close(method):
@@ -166,7 +167,7 @@ def test_rack_and_pinion_swing_with_the_mass_of_both():
 
 
 @pytest.mark.parametrize("method", STEPPERS)
-def test_a_driven_rack_is_pushed_by_what_it_needs(method):
+def test_the_force_on_a_driven_rack_is_that_of_its_load(method):
     m, angle = pinion_and_rack()
     m.torque_on("motor", angle, input=m.input("torque"))
     r = run(m, method, {"torque": 0.036})
@@ -371,10 +372,8 @@ def test_a_ring_of_gears_that_cannot_turn_is_reported(free):
 
     locked = run(ring((-1.0, -1.0, -1.0)), "ali3p", {"torque": 1.0}, t_end=0.1)
     assert abs(locked["angle"][-1]) < 1e-12
-    reported = (
-        "The gears 'gear 0', 'gear 1', 'gear 2' form a ring that is locked: 'angle 2' would have to turn -1 times"
-    )
-    assert [text for text in locked.notices if text.startswith(reported)]
+    message = "The gears 'gear 0', 'gear 1', 'gear 2' form a ring that is locked: 'angle 2' would have to turn -1 times"
+    assert [text for text in locked.notices if text.startswith(message)]
     with pytest.raises(ModelError, match="form a ring that is locked" if free else "is locked"):
         compile(ring((-1.0, -1.0, -1.0), 2.0))
     turning = run(ring((-2.0, -3.0, 1.0 / 6.0)), "ali3p", {"torque": 1.0}, t_end=0.1)
@@ -405,7 +404,7 @@ def test_a_ring_of_racks_that_cannot_move_is_reported(ratio, beside, reported):
     ] * reported
 
 
-def test_parts_at_a_dead_centre_are_not_told_to_be_locked():
+def test_parts_at_a_dead_centre_are_not_reported_as_locked():
     m = at_rest("crank")
     crank, rod, slider, wheel = (
         m.body(name, mass=1.0, com=(x, 0.0), inertia=0.1)
@@ -419,7 +418,7 @@ def test_parts_at_a_dead_centre_are_not_told_to_be_locked():
     assert not run(m, "ali3p", {}, t_end=0.1).notices
 
 
-def test_an_angle_of_a_body_that_two_pins_hold_is_refused_in_words():
+def test_an_angle_of_a_body_on_two_pins_is_refused_with_a_message():
     m = at_rest("held")
     body = m.body("body", mass=1.0, com=(0.5, 0.0), inertia=0.1)
     for k in range(2):

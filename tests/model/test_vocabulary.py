@@ -66,8 +66,8 @@ def test_type_checkers_know_the_arguments_and_the_result(tmp_path: Path) -> None
     api = pytest.importorskip("mypy.api")
     script = tmp_path / "typed.py"
     script.write_text(TYPES, encoding="utf-8")
-    reported, _, _ = api.run([str(script), "--config-file", str(ROOT / "pyproject.toml")])
-    matches = re.findall(r"typed\.py:(\d+): error: .*\[([\w-]+)\]", reported)
+    output, _, _ = api.run([str(script), "--config-file", str(ROOT / "pyproject.toml")])
+    matches = re.findall(r"typed\.py:(\d+): error: .*\[([\w-]+)\]", output)
     lines = TYPES.splitlines()
     assert {lines[int(n) - 1].split("# ")[-1]: code for n, code in matches} == {
         "missing": "call-arg",

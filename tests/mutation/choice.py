@@ -1,4 +1,4 @@
-"""Which tests are likely to notice a mutant, the likeliest first: by names, imports and folders."""
+"""Choice of the tests that are likely to detect a mutant, the likeliest first: by names, imports and folders."""
 
 import re
 from dataclasses import dataclass

@@ -188,7 +188,7 @@ def mutant_of(path: Path, change: operators.Change, root: Path) -> Sampled | Non
         after[0].strip(),
     )
     try:
-        made = mutant.apply(root)
+        mutated = mutant.apply(root)
     except ValueError:
         return None
-    return mutant if made == (path, result.decode()) else None
+    return mutant if mutated == (path, result.decode()) else None

@@ -91,8 +91,8 @@ def compiles(root: Path, changed: Path) -> None:
     elif changed.suffix == ".c":
         include = [f"-I{place}" for place in (changed.parent, root / "mbs" / "kernel" / "include")]
         flags = [flag for flag in build.FLAGS if flag not in ("-shared", "-s")]
-        made = ["-c", str(changed), "-o", str(root.with_suffix(".o"))]
-        command = [build.compiler(), "cc", *flags, *include, *made]
+        output_options = ["-c", str(changed), "-o", str(root.with_suffix(".o"))]
+        command = [build.compiler(), "cc", *flags, *include, *output_options]
         result = subprocess.run(command, capture_output=True, text=True, check=False)
         if result.returncode and "file not found" not in result.stderr:
             raise RuntimeError(result.stderr)
@@ -171,18 +171,18 @@ class Scratch:
         process.kill()
         process.join()
         shutil.rmtree(self.root.with_suffix(".tmp"), ignore_errors=True)
-        reported = message.read_text(errors="replace").strip().splitlines() or [""]
+        lines = message.read_text(errors="replace").strip().splitlines() or [""]
         noted = [json.loads(line) for line in notes.read_text().splitlines()] if notes.is_file() else []
         _, test, since = noted[-1] if noted else ("", "", 0.0)
         if over:
             return Verdict(SURVIVED, f"no end within {seconds:.0f} s of CPU", test, seconds, seconds - since)
         if process.exitcode == NOT_BUILT:
-            return Verdict(BROKEN, "\n".join(reported))
+            return Verdict(BROKEN, "\n".join(lines))
         if process.exitcode == 0:
             count = sum(note[0] == "at" for note in noted)
-            why = f"{count} tests pass" if count else reported[-1]
+            why = f"{count} tests pass" if count else lines[-1]
             return Verdict(SURVIVED if count or not batches else BROKEN, why, "", seconds)
-        why = next((line for line in reported if line.startswith(("FAILED ", "ERROR "))), reported[-1])
+        why = next((line for line in lines if line.startswith(("FAILED ", "ERROR "))), lines[-1])
         return Verdict(KILLED if test else BROKEN, why, test, seconds)
 
     def attempt(self, mutant: Applied, batches: Sequence[Batch], limit: float = LIMIT, build: bool = True) -> Verdict:

@@ -30,8 +30,8 @@ SHIFTED = """class Shape:
 def texts(source: str, suffix: str) -> list[tuple[str, str]]:
     """Operators and changed texts, without spaces."""
     data = source.encode()
-    made = [(c.operator, (data[: c.start] + c.new.encode() + data[c.end :]).decode()) for c in changes(data, suffix)]
-    return [(operator, squeeze(text)) for operator, text in made]
+    mutants = [(c.operator, (data[: c.start] + c.new.encode() + data[c.end :]).decode()) for c in changes(data, suffix)]
+    return [(operator, squeeze(text)) for operator, text in mutants]
 
 
 @pytest.mark.parametrize(

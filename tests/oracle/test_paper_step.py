@@ -61,11 +61,11 @@ def stepped(simulation, h):
     return simulation.report.last_iterations, simulation.report.factorizations - before
 
 
-def oracle_step(system, before, settings, h, made):
+def oracle_step(system, before, settings, h, iterations):
     start = PaperState(before.q, before.qd, before.qdd, before.lam)
     alpha = 1.0 / (settings.eps_rel * h * h)
     return paper_step(
-        DenseMechanism(system), start, h, alpha, *made, settings.update, settings.geometric, settings.project
+        DenseMechanism(system), start, h, alpha, *iterations, settings.update, settings.geometric, settings.project
     )
 
 
@@ -96,7 +96,7 @@ def test_every_step_is_that_of_the_paper(scene, update, h):
 
 @pytest.mark.parametrize("change", [{"geometric": False}, {"update": "paper"}, {"project": False}])
 @pytest.mark.parametrize("scene", list(SCENES))
-def test_the_comparison_tells_variants_apart(scene, change):
+def test_the_comparison_distinguishes_variants(scene, change):
     system, settings, h = compile(SCENES[scene]()), SETTINGS["linearised"], 0.03
     simulation = Simulation(system, settings=settings)
     simulation.step(h, n=20)

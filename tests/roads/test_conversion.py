@@ -76,7 +76,7 @@ def test_a_bad_table_is_refused(tmp_path, text, sentence):
     assert "a.csv" in str(refused.value)
 
 
-def test_a_comment_of_coordinates_is_read_when_it_is_none(tmp_path):
+def test_a_comment_that_looks_like_coordinates_is_a_comment(tmp_path):
     """The remedy that the refusal of such a comment gives."""
     (tmp_path / "a.csv").write_text("x/y,0,1\n0,1,2\n1,3,4\n")
     assert read_road(tmp_path / "a.csv").heights.tolist() == [[1.0, 2.0], [3.0, 4.0]]
@@ -143,7 +143,7 @@ def test_pictures_are_seen_from_above(tmp_path, bits):
         read_road(tmp_path / "a.png", spacing=(1.0, 1.0))
 
 
-def test_pictures_that_are_none_are_refused(tmp_path):
+def test_invalid_pictures_are_refused(tmp_path):
     image = pytest.importorskip("PIL.Image")
     image.new("RGB", (4, 4)).save(tmp_path / "rgb.png")
     (tmp_path / "text.png").write_text("no picture")
@@ -174,13 +174,13 @@ def test_what_a_grid_cannot_have_is_refused(tmp_path, name):
     ):
         with pytest.raises(RoadFileError, match=sentence):
             read_road(tmp_path / name, spacing=spacing)
-    for given, sentence in (
+    for options, sentence in (
         ({"height_range": (0.0, 0.25)}, "range 0 to 0.25 of heights .* its heights come from no picture"),
         ({"friction_range": (0.2, 1.0)}, "range 0.2 to 1 of frictions .* its frictions come from no picture"),
         ({"friction_range": (0.2, 1.0), "frictions": 0.5}, "its frictions come from no picture"),
     ):
         with pytest.raises(RoadFileError, match=sentence) as refused:
-            read_road(tmp_path / name, **given)
+            read_road(tmp_path / name, **options)
         assert name in str(refused.value)
 
 
@@ -224,7 +224,7 @@ def test_a_bad_description_is_refused(tmp_path, text, sentence):
 
 
 @pytest.mark.parametrize("name", [path.stem for path in FOLDER.glob("*.toml")])
-def test_the_roads_of_the_package_are_what_their_descriptions_say(tmp_path, name):
+def test_the_roads_of_the_package_agree_with_their_descriptions(tmp_path, name):
     write_road(read_road(FOLDER / f"{name}.toml"), tmp_path / "a.road")
     assert (tmp_path / "a.road").read_bytes() == (FOLDER / f"{name}.road").read_bytes()
 
@@ -246,8 +246,8 @@ def test_a_rough_road_has_the_spectrum_of_its_class():
 def test_the_command(tmp_path, capsys):
     (tmp_path / "a.csv").write_text(LABELLED)
     road, picture = tmp_path / "a.road", tmp_path / "a.png"
-    given = ["road", str(tmp_path / "a.csv"), str(road), "--frictions", "0.6", "--picture", str(picture)]
-    assert main(given) == 0
+    arguments = ["road", str(tmp_path / "a.csv"), str(road), "--frictions", "0.6", "--picture", str(picture)]
+    assert main(arguments) == 0
     output = capsys.readouterr().out
     assert "grid of 2 x 3 points\nx: 5 to 7 m, every 2 m\ny: -1 to 1 m, every 1 m\n" in output
     assert {"from", "lowest", "highest", "1.2", "0.5", "least", "0.6"} <= set(output.replace(",", " ").split())
@@ -267,7 +267,7 @@ def test_the_command(tmp_path, capsys):
         (["bad.road"], "not a road file"),
     ],
 )
-def test_the_command_says_what_is_wrong(tmp_path, capsys, monkeypatch, arguments, sentence):
+def test_the_command_reports_faults(tmp_path, capsys, monkeypatch, arguments, sentence):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "a.csv").write_text(LABELLED)
     (tmp_path / "plane.toml").write_text('kind = "plane"')
@@ -282,8 +282,10 @@ def test_the_command_says_what_is_wrong(tmp_path, capsys, monkeypatch, arguments
 def test_a_refused_road_leaves_the_old_file(tmp_path):
     (tmp_path / "a.csv").write_text("1,2\n3,400000\n")
     (tmp_path / "a.road").write_text("older")
-    given = [str(tmp_path / "a.csv"), str(tmp_path / "a.road"), "--spacing", "1", "1"]
-    done = subprocess.run([sys.executable, "-m", "ali3", "road", *given], capture_output=True, text=True, check=False)
+    arguments = [str(tmp_path / "a.csv"), str(tmp_path / "a.road"), "--spacing", "1", "1"]
+    done = subprocess.run(
+        [sys.executable, "-m", "ali3", "road", *arguments], capture_output=True, text=True, check=False
+    )
     assert done.returncode == 2
     assert "it must lie between -100000 and 100000 m" in done.stderr
     assert (tmp_path / "a.road").read_text() == "older"
@@ -302,7 +304,7 @@ def test_what_is_drawn_is_the_road():
 
 @pytest.mark.parametrize("kind", ["toml", "road"])
 @pytest.mark.parametrize("option", ["frictions", "origin", "spacing", "height_range", "friction_range"])
-def test_options_of_a_grid_are_refused_where_the_file_says_all(tmp_path, kind, option):
+def test_options_of_a_grid_are_refused_for_complete_files(tmp_path, kind, option):
     (tmp_path / "a.toml").write_text('kind = "plane"\nfriction = 0.8\n')
     write_road(GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((4, 4)), 0.8), tmp_path / "a.road")
     assert read_road(tmp_path / f"a.{kind}") is not None

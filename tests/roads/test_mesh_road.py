@@ -97,7 +97,7 @@ def test_an_upright_face_is_no_overhang_and_is_reported(tmp_path: Path) -> None:
     assert set(np.round(np.unique(road.heights), 6)) == {0.0, 0.12}
 
 
-def test_beside_the_mesh_its_border_goes_on(tmp_path: Path) -> None:
+def test_beside_the_mesh_the_heights_of_its_border_continue(tmp_path: Path) -> None:
     """A ring of 20 m, banked: outside and in the middle, which a warning tells of, the nearest height."""
     points, triangles = sheet(2.0 * np.pi, 5.0, lambda x, y: 0.0, 0.05)
     radius = 20.0 + points[:, 1]
@@ -126,8 +126,8 @@ def test_pieces_that_lie_apart_are_reported(tmp_path: Path) -> None:
 
 
 def box() -> tuple[Array, Array]:
-    made = trimesh.creation.box((10.0, 4.0, 0.5))
-    return np.asarray(made.vertices), np.asarray(made.faces)
+    mesh = trimesh.creation.box((10.0, 4.0, 0.5))
+    return np.asarray(mesh.vertices), np.asarray(mesh.faces)
 
 
 def holed() -> tuple[Array, Array]:
@@ -200,21 +200,21 @@ def test_the_place_of_the_largest_difference_moves_with_the_grid(tmp_path: Path)
 
 
 @pytest.mark.parametrize(("scale", "up", "order"), [(0.001, "z", (0, 1, 2)), (1.0, "y", (0, 2, 1))])
-def test_a_description_says_unit_and_axis(tmp_path: Path, scale: float, up: str, order: tuple[int, ...]) -> None:
+def test_a_description_gives_unit_and_axis(tmp_path: Path, scale: float, up: str, order: tuple[int, ...]) -> None:
     points, triangles = changed(1.0 / scale, order)
     if up == "y":
         points[:, 2] *= -1.0
     saved(tmp_path / "a.ply", points, triangles)
-    reported = (
+    description = (
         f'kind = "grid"\nheights = "a.ply"\nscale = {scale}\nup = "{up}"\nspacing = [0.5, 0.5]\norigin = [10, 20]\n'
     )
-    (tmp_path / "a.toml").write_text(reported)
+    (tmp_path / "a.toml").write_text(description)
     road = read_road(tmp_path / "a.toml")
     x, y = np.meshgrid(0.5 * np.arange(81), -4.0 + 0.5 * np.arange(17), indexing="ij")
     assert np.allclose(road.heights, hills(x, y), atol=2e-6)
     assert tuple(road.origin) == (10.0, 20.0)
     (tmp_path / "z.csv").write_text("0,0\n0,0\n")
-    (tmp_path / "a.toml").write_text(reported.replace("a.ply", "z.csv"))
+    (tmp_path / "a.toml").write_text(description.replace("a.ply", "z.csv"))
     with pytest.raises(RoadFileError, match=r"z\.csv is not a mesh, which scale is of"):
         read_road(tmp_path / "a.toml")
 

@@ -54,10 +54,10 @@ def test_heights_are_those_of_a_second_reader(name: str, tmp_path: Path) -> None
     pycrg = pytest.importorskip("pycrg")
     logging.getLogger("pycrg").setLevel(logging.CRITICAL)
     content = (DATA / f"{name}.crg").read_bytes()
-    reported = content.replace(INCREMENTS, INCREMENTS + b"LONG_SECTION_V_RIGHT = -1.5\n")
+    completed = content.replace(INCREMENTS, INCREMENTS + b"LONG_SECTION_V_RIGHT = -1.5\n")
     road = read_road(DATA / f"{name}.crg", spacing=(0.1, 0.1))
     rng = np.random.default_rng(1)
-    with pycrg.RoadSurface.open(written(tmp_path, reported)) as second:
+    with pycrg.RoadSurface.open(written(tmp_path, completed)) as second:
         u, v = rng.uniform(0.0, second.u_range()[1], 4000), rng.uniform(-1.5, 1.5, 4000)
         x, y = second.uv_to_xy_many(u, v)
         off = np.abs(grid_heights(road, road.heights, np.stack([x, y], -1)) - second.uv_to_z_many(u, v))
@@ -76,20 +76,20 @@ def test_no_place_is_farther_off_than_is_reported(spacing: float) -> None:
     assert 0.9 * road.largest < off.max() < road.largest * (1.0 + 1e-3) + 1e-6
 
 
-def test_a_long_road_is_known_near_itself_and_goes_on_beside(tmp_path: Path) -> None:
+def test_a_long_road_is_evaluated_near_itself_and_continues_beside(tmp_path: Path) -> None:
     crg = pytest.importorskip("pyopencrg")
     turn = 0.8 * np.sin(np.linspace(0.0, 3.0, 300))
-    made = crg.CrgRoad(
+    crg_road = crg.CrgRoad(
         np.random.default_rng(2).normal(0.0, 0.01, (301, 5)), 1.0, np.linspace(-2.0, 2.0, 5), heading=turn
     )
-    made.mods = {}
-    made.save(tmp_path / "a.crg", "KDBI")
+    crg_road.mods = {}
+    crg_road.save(tmp_path / "a.crg", "KDBI")
     road = read_road(tmp_path / "a.crg", spacing=(0.5, 0.5))
     requested = []
     x, y = (o + d * np.arange(n) for o, d, n in zip(road.origin, road.spacing, np.shape(road.heights), strict=True))
     for places in zip(x[::7], y[:: max(len(y) // len(x[::7]), 1)], strict=False):
-        u, v = made.xy_to_uv(*(np.array([p]) for p in places))
-        requested.append((abs(v[0]), made.uv_to_z(np.clip(u, 0.0, 300.0), np.clip(v, -2.0, 2.0))[0], places))
+        u, v = crg_road.xy_to_uv(*(np.array([p]) for p in places))
+        requested.append((abs(v[0]), crg_road.uv_to_z(np.clip(u, 0.0, 300.0), np.clip(v, -2.0, 2.0))[0], places))
     heights = grid_heights(road, road.heights, np.array([p for *_, p in requested]))
     near = np.array([v for v, *_ in requested]) < 8.0
     exact = np.array([z for _, z, _ in requested])
@@ -110,12 +110,12 @@ def test_a_finer_grid_is_nearer() -> None:
 def test_a_file_of_our_own_comes_back(tmp_path: Path) -> None:
     """A plane that climbs and leans on a straight line at 30 degrees, written by another program: no difference."""
     crg = pytest.importorskip("pyopencrg")
-    made = crg.CrgRoad(
+    crg_road = crg.CrgRoad(
         np.zeros((41, 5)), 0.5, np.linspace(-2.0, 2.0, 5), heading=np.pi / 6.0, slope=0.05, banking=-0.02
     )
     for form in ("KRBI", "KDBI", "LRFI", "LDFI"):
-        made.mods = {}  # stays where it is
-        made.save(tmp_path / "a.crg", form)
+        crg_road.mods = {}  # stays where it is
+        crg_road.save(tmp_path / "a.crg", form)
         road = read_road(tmp_path / "a.crg")
         x, y = 10.0 * np.cos(np.pi / 6.0) - 0.5, 10.0 * np.sin(np.pi / 6.0) + 0.5 * np.sqrt(3.0)  # u = 10, v = 1
         assert grid_heights(road, road.heights, np.array([[x, y]]))[0] == pytest.approx(0.5 - 0.02, abs=1e-5), form

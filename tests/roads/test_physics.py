@@ -11,9 +11,16 @@ from mbs.roads import RoadFile, read_road, write_road
 from mbs.scenes import prototype_car
 
 G = 9.81
-SPRUNG, UNSPRUNG = 300.0, 40.0  # kg
-SPRING, DAMPER, TYRE, TYRE_DAMPER = 20000.0, 1500.0, 150000.0, 300.0  # N/m, N s/m
-RADIUS, SPEED, WAVELENGTH, AMPLITUDE = 0.3, 12.0, 4.0, 0.003
+SPRUNG = 300.0  # kg
+UNSPRUNG = 40.0  # kg
+SPRING = 20000.0  # N/m
+DAMPER = 1500.0  # N s/m
+TYRE = 150000.0  # N/m
+TYRE_DAMPER = 300.0  # N s/m
+RADIUS = 0.3  # m
+SPEED = 12.0  # m/s
+WAVELENGTH = 4.0  # m
+AMPLITUDE = 0.003  # m
 
 
 def quarter_car(road):

@@ -1,4 +1,4 @@
-"""Road files: the same road as in memory, whatever is kept of it, and one sentence for what is none."""
+"""Road files: the same road as in memory, for any part that is stored, and one sentence for an invalid file."""
 
 import os
 import struct
@@ -53,8 +53,8 @@ def same(a, b):
 
 
 def run(system, path, t_end=1.0, speed=12.0, **parameters):
-    given = parameters | ({"road.file": path} if path is not None else {})
-    return mbs.simulate(system, t_end, H, pose=mbs.Pose(speed=speed), parameters=given, progress=False)
+    changed = parameters | ({"road.file": path} if path is not None else {})
+    return mbs.simulate(system, t_end, H, pose=mbs.Pose(speed=speed), parameters=changed, progress=False)
 
 
 @pytest.mark.parametrize(
@@ -102,10 +102,10 @@ def test_a_plane_as_a_grid_is_the_plane(tmp_path, car):
 
 @pytest.mark.parametrize("frictions", [True, False])
 def test_a_file_is_the_grid_in_memory_to_the_last_bit(tmp_path, frictions):
-    given = rough(frictions=frictions)
-    write_road(given, tmp_path / "a.road")
-    file = mbs.compile(prototype_car.build(RoadFile(tmp_path / "a.road", given)))
-    inside = mbs.Simulation(mbs.compile(prototype_car.build(given)), pose=mbs.Pose(speed=12.0))
+    grid = rough(frictions=frictions)
+    write_road(grid, tmp_path / "a.road")
+    file = mbs.compile(prototype_car.build(RoadFile(tmp_path / "a.road", grid)))
+    inside = mbs.Simulation(mbs.compile(prototype_car.build(grid)), pose=mbs.Pose(speed=12.0))
     outside = mbs.Simulation(file, pose=mbs.Pose(speed=12.0))
     for _ in range(300):
         inside.step(H)
@@ -276,14 +276,14 @@ def test_the_friction_factor_holds_for_files_too(tmp_path, car):
     ends = []
     for friction, factor in ((0.6, 0.5), (0.3, 1.0), (0.6, 1.0)):
         write_road(PlaneRoad(friction=friction), tmp_path / f"{friction}.road")
-        given = {"road.file": tmp_path / f"{friction}.road", "road.friction_factor": factor}
-        result = mbs.simulate(car, 1.0, H, {"brake": 1.0}, pose=mbs.Pose(speed=20.0), parameters=given)
+        parameters = {"road.file": tmp_path / f"{friction}.road", "road.friction_factor": factor}
+        result = mbs.simulate(car, 1.0, H, {"brake": 1.0}, pose=mbs.Pose(speed=20.0), parameters=parameters)
         ends.append(result["chassis.vx"][-1])
     assert ends[0] == pytest.approx(ends[1], abs=1e-9)
     assert ends[1] - ends[2] > 2.0
 
 
-def test_what_the_built_in_road_has_is_without_effect_on_a_file_and_says_so(tmp_path, car):
+def test_parameters_of_the_built_in_road_have_no_effect_on_a_file_and_are_reported(tmp_path, car):
     write_road(PlaneRoad(), tmp_path / "a.road")
     with pytest.warns(UserWarning, match="'road.kerb_x' has no effect: it is of the road that the file replaces"):
         mbs.Simulation(car, parameters={"road.file": tmp_path / "a.road", "road.kerb_x": 3.0})
@@ -461,7 +461,7 @@ def test_altered_bytes_end_in_a_sentence(tmp_path, car):
     assert ended <= {Status.TOO_FAR, Status.NOT_CONVERGED, Status.START_REFUSED, Status.NOT_FINITE, Status.UNRESOLVED}
 
 
-def test_writing_refuses_what_no_road_has(tmp_path):
+def test_writing_refuses_invalid_roads(tmp_path):
     heights = np.zeros((40, 40))
     heights[3, 4] = np.nan
     with pytest.raises(ValueError, match="heights of a grid road"):

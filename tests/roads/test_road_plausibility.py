@@ -1,4 +1,4 @@
-"""Roads and worlds that are right in form and wrong in meaning are told, with the mistake that explains it."""
+"""Implausible roads and worlds are reported with the probable mistake."""
 
 import warnings
 from dataclasses import replace

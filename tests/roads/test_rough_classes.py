@@ -20,7 +20,8 @@ BOUNDS["F"] = (8192e-6, 32768e-6)
 """m3: lower and upper limit of Gd(0.1 1/m), ISO 8608:2016, table C.2, written down from there."""
 CENTRES = 2.0 ** np.arange(-4, 2)
 """1/m: octave bands, ISO 8608:2016, 5.1.2, of which the road holds enough waves."""
-SPACING, LENGTH = 0.125, 250.0
+SPACING = 0.125  # m
+LENGTH = 250.0  # m
 
 
 def density(tracks: Array) -> tuple[Array, Array, Array]:

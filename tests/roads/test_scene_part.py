@@ -52,7 +52,7 @@ def test_level_and_inclined_planes() -> None:
         GridRoad((0.0, 0.0), (1.0, 1.0), np.zeros((3, 3)), 0.1),
     ],
 )
-def test_a_road_says_its_friction_and_factor_where_they_are_the_same_everywhere(
+def test_a_uniform_road_reports_its_friction_and_factor(
     road: PlaneRoad | KerbRoad | GridRoad,
 ) -> None:
     assert valid(scene_part(road))["friction"] == 0.1
@@ -99,7 +99,7 @@ def test_a_grid_keeps_its_points() -> None:
     assert np.allclose(frictions.reshape(7, 9), road.frictions)
 
 
-def test_a_large_grid_is_thinned_and_says_so() -> None:
+def test_a_large_grid_is_thinned_and_reported() -> None:
     road = grid(1001, 90)
     part = valid(scene_part(road))
     assert part["shape"] == [334, 90]
@@ -109,7 +109,7 @@ def test_a_large_grid_is_thinned_and_says_so() -> None:
     assert np.allclose(heights, np.asarray(road.heights)[::3], atol=1e-6)
 
 
-def test_the_command_writes_what_the_function_gives(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_writes_the_result_of_the_function(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     road, file, out = grid(20, 30), tmp_path / "a.road", tmp_path / "a.json"
     write_road(road, file)
     assert main([str(file), "--part", str(out)]) == 0

@@ -1,4 +1,4 @@
-"""A face of a grid that is a wall for a wheel is told where the road is made, and where a car is built on it."""
+"""A face of a grid that is a wall for a wheel is reported when the road is made and when a car is built on it."""
 
 import re
 import warnings
@@ -98,12 +98,12 @@ def test_a_car_that_drives_into_a_wall_is_refused_with_the_position() -> None:
     assert slow["chassis.x"][-1] < 10.0
     with pytest.raises(mbs.SimulationError) as refused:
         mbs.simulate(car, 1.0, 0.002, pose=mbs.Pose(speed=30.0), estimate_error=False, progress=False)
-    reported = re.search(
+    match = re.search(
         r"'tyre F[LR]': at x = (\S+) m, y = (\S+) m the centre of a wheel of 0.311 m radius", str(refused.value)
     )
-    assert reported is not None
-    assert 10.0 < float(reported[1]) < 10.3
-    assert abs(abs(float(reported[2])) - 0.7375) < 0.02
+    assert match is not None
+    assert 10.0 < float(match[1]) < 10.3
+    assert abs(abs(float(match[2])) - 0.7375) < 0.02
     assert "whose points are 0.2 by 5 m apart" in str(refused.value)
     assert refused.value.status == Status.WHEEL_IN_ROAD
 

@@ -1,4 +1,4 @@
-"""A wheel that is driven into a wall of a grid is told, by a run and by an FMU; a step that wheels climb is not."""
+"""A wheel that is driven into a wall of a grid is reported by a run and by an FMU; a step that wheels climb is not."""
 
 import warnings
 
@@ -39,8 +39,8 @@ def driven(car, tmp_path, height, run, speed, h=0.002):
 
 
 def test_a_wall_is_reported_with_time_place_and_size(car, tmp_path):
-    run, reported = driven(car, tmp_path, *LOW, 15.0)
-    (line,) = reported
+    run, warnings = driven(car, tmp_path, *LOW, 15.0)
+    (line,) = warnings
     assert max(run[f"wheel_{w}.Fz"].max() for w in ("FL", "FR")) > 8e4
     assert run.report.rim_x == pytest.approx(EDGE, abs=0.4)
     assert line.startswith(f"At {run.report.rim_time:.4g} s a wheel at x = {run.report.rim_x:.4g} m")
@@ -49,13 +49,13 @@ def test_a_wall_is_reported_with_time_place_and_size(car, tmp_path):
 
 
 def test_a_wall_that_the_body_meets_first_stops_it(car, tmp_path):
-    run, reported = driven(car, tmp_path, 1.0, 0.3, 15.0)
-    assert reported == []
+    run, warnings = driven(car, tmp_path, 1.0, 0.3, 15.0)
+    assert warnings == []
     assert EDGE - 2.0 < run["chassis.x"].max() < EDGE
     assert run["chassis.ground_force"].max() > 8e4
 
 
-def test_a_simulation_that_is_stepped_tells_it_once(car, tmp_path):
+def test_a_stepped_simulation_reports_it_once(car, tmp_path):
     file = tmp_path / "wall.road"
     with pytest.warns(RoadWarning, match="a face of"):
         write_road(grid(*LOW), file)
@@ -68,8 +68,8 @@ def test_a_simulation_that_is_stepped_tells_it_once(car, tmp_path):
 
 
 def test_a_step_that_wheels_climb_is_not(car, tmp_path):
-    run, reported = driven(car, tmp_path, 0.08, 0.1, 10.0)
-    assert reported == []
+    run, warnings = driven(car, tmp_path, 0.08, 0.1, 10.0)
+    assert warnings == []
     assert run.report.rim_pressed == 0.0
     assert run["chassis.z"].max() > run["chassis.z"][0] + 0.02
 
@@ -79,9 +79,10 @@ def test_a_variant_of_many_that_meets_a_wall_is_reported_with_its_number(car, tm
     file = tmp_path / "wall.road"
     with pytest.warns(RoadWarning, match="a face of"):
         write_road(grid(*LOW), file)
-    given = [{"road.file": file, "drive.ratio": 9.0}, {"road.file": file, "drive.ratio": 11.0}]
+    parameter_sets = [{"road.file": file, "drive.ratio": 9.0}, {"road.file": file, "drive.ratio": 11.0}]
     variants = [
-        mbs.Variant(parameters, pose=mbs.Pose(speed=v)) for parameters, v in zip(given, (15.0, 2.0), strict=True)
+        mbs.Variant(parameters, pose=mbs.Pose(speed=v))
+        for parameters, v in zip(parameter_sets, (15.0, 2.0), strict=True)
     ]
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")

@@ -1,4 +1,4 @@
-"""Cars that are dropped by chance, mostly rolled: no wheel goes deep into the road without a word, none folds back."""
+"""Cars dropped at random orientations: no wheel goes deep into the road without a warning, none folds back."""
 
 import math
 import warnings
@@ -44,7 +44,7 @@ def depths(r: mbs.Trajectory, wheel: str, radius: float) -> np.ndarray:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "seed"), [("prototype", 1), ("hatchback", 2), ("saloon", 3)])
-def test_no_wheel_is_deep_in_the_road_without_a_word(name: str, seed: int) -> None:
+def test_no_wheel_is_deep_in_the_road_without_a_warning(name: str, seed: int) -> None:
     car = load(name)
     system = mbs.compile(car.model(PlaneRoad(friction=0.9)))
     rng, deep, below = np.random.default_rng(seed), 0, 0
@@ -57,7 +57,7 @@ def test_no_wheel_is_deep_in_the_road_without_a_word(name: str, seed: int) -> No
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             r = simulation.run(0.8, 0.001, progress=False, estimate_error=False)
-        reported = [str(w.message) for w in caught if w.category is RoadWarning]
+        messages = [str(w.message) for w in caught if w.category is RoadWarning]
         pressed = {}
         for w, tyre in tyres.items():
             holds = TO_HUB * tyre.radius
@@ -68,12 +68,12 @@ def test_no_wheel_is_deep_in_the_road_without_a_word(name: str, seed: int) -> No
             below += np.any(r[f"wheel_{w}.z"] < -0.005)
         worst = max(pressed, key=lambda w: pressed[w])
         assert simulation.report.rim_pressed == pytest.approx(max(pressed[worst], 0.0), abs=1e-9)
-        assert len(reported) == (pressed[worst] > 0.0)
-        if reported:
+        assert len(messages) == (pressed[worst] > 0.0)
+        if messages:
             deep += 1
-            assert f"It is the wheel of 'tyre {worst}'." in reported[0]
+            assert f"It is the wheel of 'tyre {worst}'." in messages[0]
             depth = r[f"wheel_{worst}.deflection"][:-1].max()
-            assert f"was {depth:.2g} m deep in the road" in reported[0]
-            assert reported[0].startswith(f"At {simulation.report.rim_time:.4g} s a wheel at x = ")
+            assert f"was {depth:.2g} m deep in the road" in messages[0]
+            assert messages[0].startswith(f"At {simulation.report.rim_time:.4g} s a wheel at x = ")
     assert deep > 5
     assert below > 0

@@ -36,10 +36,10 @@ def test_the_frame_has_the_mass_of_the_rigid_chassis(fidelity):
     centre = s.S0 / s.mass
     second = s.J0 - s.mass * np.outer(centre, centre)
     inertia = np.trace(second) * np.eye(3) - second
-    given = np.array(CAR.chassis.tensor)
+    rigid_inertia = np.array(CAR.chassis.tensor)
     assert s.mass == pytest.approx(CAR.chassis.mass, rel=1e-4)
     np.testing.assert_allclose(centre + CAR.chassis.reference, CAR.chassis.com, rtol=0, atol=2e-4)
-    np.testing.assert_allclose(inertia, given, rtol=0, atol=2e-3 * given.max())
+    np.testing.assert_allclose(inertia, rigid_inertia, rtol=0, atol=2e-3 * rigid_inertia.max())
 
 
 @pytest.mark.parametrize("fidelity", [1, *FLEXIBLE])

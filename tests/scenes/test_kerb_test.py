@@ -56,8 +56,8 @@ def test_a_guided_car_is_in_neutral():
     system = compile(kerb_test.build(0))
     (parameter,) = (p for p in system.meta["parameters"] if p["name"] == "drive.creep_torque")
     assert parameter["value"] == 0.0 < creep
-    for given, expected in (({}, 0.0), ({"drive.creep_torque": 0.0}, 0.0), ({"drive.creep_torque": creep}, creep)):
-        t = Simulation(system, parameters=given).run(5 * H, H, progress=False, estimate_error=False)
+    for parameters, expected in (({}, 0.0), ({"drive.creep_torque": 0.0}, 0.0), ({"drive.creep_torque": creep}, creep)):
+        t = Simulation(system, parameters=parameters).run(5 * H, H, progress=False, estimate_error=False)
         assert np.abs(t["drive_torque"]).max() == pytest.approx(expected, abs=1e-9)
 
 
@@ -102,7 +102,7 @@ def test_moments_return_once_the_tyres_let_go(fidelity):
     simulation = Simulation(compile(kerb_test.build(fidelity)))
     rest = simulation.sensors
     t = simulation.run(13.0, H, progress=False)
-    held = simulation.sensors
+    stopped = simulation.sensors
     simulation.set_parameter("road.friction", 0.0)
     simulation.run(kerb_test.DURATION, H, progress=False)
     free = simulation.sensors
@@ -110,5 +110,5 @@ def test_moments_return_once_the_tyres_let_go(fidelity):
         name = f"bending_moment.{gauge}"
         peak = np.abs(t[name] - rest[name]).max()
         assert abs(free[name] - rest[name]) < 0.01 * peak
-        share = abs(held[name] - rest[name]) / peak
+        share = abs(stopped[name] - rest[name]) / peak
         assert share < 0.01 if gauge in ("SG3", "SG4") else 0.02 < share < 0.1

@@ -14,8 +14,10 @@ CAR = prototype_car.car()
 FRICTION, AIR = CAR.road.friction, CAR.aerodynamics
 TYRES = {"front": CAR.front.tyre.tyre(), "rear": CAR.rear.tyre.tyre()}
 
-MASS, WHEELBASE = 597.0, 2.3
-LOAD, DEFLECTION = {"front": 1267.3, "rear": 1661.0}, {"front": 0.02112, "rear": 0.02768}
+MASS = 597.0  # kg
+WHEELBASE = 2.3  # m
+LOAD = {"front": 1267.3, "rear": 1661.0}  # N
+DEFLECTION = {"front": 0.02112, "rear": 0.02768}  # m
 TO_FRONT = 1.3046  # m, from the centre of mass
 
 

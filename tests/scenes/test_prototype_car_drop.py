@@ -18,7 +18,10 @@ EXPECTED = {  # N, s, m, m, m/s2, m/s2, 1
     "R": {"peak": 2430.0, "air": 0.047, "rebound": 0.064, "bump": 0.032, "up": 3.2, "down": -10.0, "mass": 0.84},
 }
 AIR_TIME = 0.012  # s
-PEAK, REBOUND, BUMP, ACCELERATION = 0.05, 0.12, 0.4, 0.35  # relative
+PEAK = 0.05  # relative
+REBOUND = 0.12  # relative
+BUMP = 0.4  # relative
+ACCELERATION = 0.35  # relative
 
 
 @pytest.fixture(scope="module")

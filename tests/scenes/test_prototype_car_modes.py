@@ -14,7 +14,9 @@ from tests.scenes.car import NEUTRAL, car, car_on_ice
 # the figures take the parts of the suspension as points and leave the damping of the tyres out
 RIDE = ((1.16, 0.27), (1.49, 0.33))  # Hz, damping ratio
 HOP = ((7.7, 0.35), (8.1, 0.18))  # rear, front
-FREQUENCY, RIDE_DAMPING, HOP_DAMPING = 0.015, 0.015, 0.02
+FREQUENCY = 0.015
+RIDE_DAMPING = 0.015
+HOP_DAMPING = 0.02
 SYMMETRIC = 1e-3  # roll in a mode without roll; in the others it is above 0.1
 
 

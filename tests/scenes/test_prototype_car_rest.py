@@ -34,7 +34,7 @@ def test_a_hundred_seconds_at_rest(case):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("h", [0.01, 0.005])
-def test_the_energy_momentum_step_lets_the_braked_car_stand(h):
+def test_the_braked_car_stands_with_the_energy_momentum_step(h):
     """Its carried velocity rings; brushes and brakes that took that for a motion let the car creep by metres."""
     settings = Settings(method="energy_momentum")
     t = simulate(car(), 60.0, h, {"brake": 1.0}, settings, every=10, progress=False, estimate_error=False)
@@ -50,8 +50,8 @@ def test_parked_on_a_slope_up_down_and_across(way, grade):
     system = compile(prototype_car.build(PlaneRoad(**{way: grade})))
     t = drive(system, 25.0, H, {"brake": 1.0}, every=10, pose=Pose(z=0.25))
     pull = {"grade_x": "Fx", "grade_y": "Fy"}[way]
-    held = sum(t[f"wheel_{w}.{pull}"][-1] for w in ("FL", "FR", "RL", "RR"))
-    assert abs(held) == pytest.approx(597.0 * 9.81 * GRADE / np.hypot(1.0, GRADE), rel=0.02)
+    force = sum(t[f"wheel_{w}.{pull}"][-1] for w in ("FL", "FR", "RL", "RR"))
+    assert abs(force) == pytest.approx(597.0 * 9.81 * GRADE / np.hypot(1.0, GRADE), rel=0.02)
     assert moved(t, 15.0, 25.0) < 10.0 * CREEP
     assert t["energy.kinetic"][-1] < 1e-9
 

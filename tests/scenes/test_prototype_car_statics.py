@@ -10,7 +10,8 @@ from tests.scenes.car import NEUTRAL, car, car_on_ice, drive
 
 CAR = prototype_car.car()
 
-MASS, WEIGHT = 597.0, 597.0 * 9.81
+MASS = 597.0  # kg
+WEIGHT = 597.0 * 9.81  # N
 STATIC = {  # front, rear: wheel load N, spring length m, spring deflection m, tyre deflection m
     "F": (1267.3, 0.6217, 0.1283, 0.02112),
     "R": (1661.0, 0.7786, 0.1374, 0.02768),

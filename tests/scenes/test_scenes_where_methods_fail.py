@@ -153,7 +153,7 @@ def test_classical_methods_follow_the_pendulum_which_is_never_singular(method):
 
 
 @pytest.mark.slow
-def test_classical_methods_fail_where_theory_says_and_name_the_rank():
+def test_classical_methods_fail_as_the_theory_predicts_and_name_the_rank():
     four_bar, names = compile(double_four_bar.build()), ("B0.position.x", "B0.position.y")
     fixed = run(four_bar, 1.0, 0.001, "velocity transformation", names)
     assert fixed.status == "refused"

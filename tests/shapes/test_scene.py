@@ -23,8 +23,8 @@ from mbs.system.drawing import Drawing, matrices
 SCENES = [found.name for found in pkgutil.iter_modules(mbs.scenes.__path__)]
 
 
-def shapes_of(scene, **wanted):
-    return [s for s in scene["shapes"] if all(s.get(k) == v for k, v in wanted.items())]
+def shapes_of(scene, **keys):
+    return [s for s in scene["shapes"] if all(s.get(k) == v for k, v in keys.items())]
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -174,7 +174,7 @@ def test_the_place_whose_position_is_sensed_is_the_end_of_a_rod(component):
     np.testing.assert_allclose(tube["points"][1][1], [0.5, 0.5, 0.0], atol=1e-12)
 
 
-def test_wheels_have_the_radius_of_what_they_roll_on():
+def test_wheels_are_drawn_with_their_rolling_radius():
     wheels = shapes_of(mbs.compile(bicycle.build()).scene, kind="wheel")
     assert [(w["frame"], w["radius"]) for w in wheels] == [("rear wheel", 0.3), ("front wheel", 0.35)]
     car = prototype_car.build()

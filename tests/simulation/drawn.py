@@ -1,4 +1,4 @@
-"""Random mechanisms by number, behind a random number that is not used."""
+"""Random mechanisms by number, after one unused random number."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Mechanisms with closed loops, for what is said of their assembly modes."""
+"""Mechanisms with closed loops, for notices on their assembly modes."""
 
 from math import atan2, cos, sin
 

@@ -1,4 +1,4 @@
-"""Cars that do different things at once: what each starts with."""
+"""Cars with different initial states and inputs."""
 
 from functools import cache
 

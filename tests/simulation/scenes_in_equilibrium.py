@@ -6,7 +6,8 @@ from mbs import Model
 from mbs.elements.input_force import InputForce
 from mbs.scenes import prototype_car
 
-MASS, STIFFNESS = 2.0, 1000.0  # kg, N/m
+MASS = 2.0  # kg
+STIFFNESS = 1000.0  # N/m
 FRONT = ("spring FL", "spring FR")
 
 

@@ -1,4 +1,4 @@
-"""What a run finds out about its own error: warnings with numbers, repeats of suspects only, and nothing at rest."""
+"""The error estimate of a run: warnings with numbers, refined runs of suspects only, and none at rest."""
 
 import re
 import warnings
@@ -86,7 +86,7 @@ class TestThePrintedModel:
         assert run.accuracy.message == ""
         assert run.accuracy.energy_balance > WRONG_ERROR  # what is free is there all the same
 
-    def test_the_step_that_a_warning_names_is_as_right_as_it_says(self):
+    def test_the_step_named_by_a_warning_has_the_stated_error(self):
         system, case = system_of("pendulum"), CASES["pendulum"]
         with pytest.warns(AccuracyWarning, match="were tried: they are off by about") as caught:
             simulate(system, case.end, 0.05, **QUIET)
@@ -205,7 +205,7 @@ class TestRepeats:
             assert run.accuracy.message == ""
             assert simulate(compile(m), 5.0, 0.05, method=method, **QUIET).accuracy.check_cost == 0.0
 
-    def test_the_braked_car_stands_without_a_word(self):
+    def test_the_braked_car_stands_without_a_warning(self):
         run = simulate(compile(prototype_car.build()), 5.0, 0.05, {"brake": 1.0}, estimate_error=True, **QUIET)
         assert run.accuracy.message == ""
 
@@ -239,7 +239,7 @@ class TestRepeats:
         assert any(0.3 < s < 0.34 for s in shares)
 
 
-def test_the_tumbling_body_turns_over_at_wrong_times_and_says_so():
+def test_the_error_of_the_tumbling_body_is_reported():
     for h in (0.01, 0.005, 0.0025):
         with pytest.warns(AccuracyWarning, match="off by"):
             SCENES["tumbling_body"].run("ali3p", h)
@@ -336,7 +336,7 @@ def test_a_motion_in_thirds_is_judged_by_the_range_of_all_of_them(force, h):
     assert max(np.ptp(part[name]) for part in parts for name in names) < 0.8 * largest
 
 
-def test_a_refused_run_carries_what_was_known():
+def test_a_refused_run_carries_its_trajectory_and_report():
     with pytest.raises(SimulationError) as caught:
         simulate(system_of("cart_pole"), 0.6, 1e-3, **QUIET)
     accuracy = caught.value.trajectory.accuracy
@@ -346,7 +346,7 @@ def test_a_refused_run_carries_what_was_known():
 
 
 @pytest.mark.parametrize("value", ["yes", 0.0, -1, 1e7, float("nan")])
-def test_what_to_estimate_is_yes_no_or_what_it_may_cost(value):
+def test_estimate_error_is_true_false_or_a_budget(value):
     with pytest.raises(ValueError, match="estimate_error = .*; it must be True, False or None .* a number above 0"):
         simulate(system_of("pendulum"), 1.0, 0.01, estimate_error=value)
 
@@ -365,8 +365,8 @@ def test_wheel_loads_of_a_car_that_is_too_fast_for_its_step_are_reported():
 
     edge = {"road.kerb_x": 4.0, "road.kerb_height": 0.12}
     with pytest.warns(AccuracyWarning, match=r"off by about [56]\.?\d? % .*wheel_"):
-        reported = run(0.02, 1.3)
-    assert reported.accuracy.error == pytest.approx(0.055, rel=0.15)
+        result = run(0.02, 1.3)
+    assert result.accuracy.error == pytest.approx(0.055, rel=0.15)
     assert run(0.002, 1.3).accuracy.message == ""
     level = simulate(system, 1.3, 0.01, pose=Pose(speed=20.0), parameters={"road.kerb_x": 200.0})
     assert level.accuracy.check_cost == 0.0

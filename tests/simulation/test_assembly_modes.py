@@ -154,19 +154,19 @@ def test_two_bodies_and_the_ground_are_a_loop() -> None:
 def test_a_step_onto_the_other_circuit_is_reported() -> None:
     """At 20 rad/s the crank turns radians in a step, and the rocker lands on the side that no motion reaches."""
     system = compile(four_bar((0.4, 0.1, 0.4, 0.15), 1.0, 1, 20.0))
-    reported = []
+    changes = []
     for method in ("ali3p_no_projection", "energy_momentum", "radau_5"):
         for h in (0.05, 0.1, 0.15, 0.2):
             simulation = Simulation(system, settings=Settings(method=method, max_halvings=0))
             with suppress(SimulationError):
                 simulation.step(h, 10)
-            reported += [simulation.branch_change] if simulation.report.branch_kind == 1 else []
-    assert len(reported) >= 3
-    assert all("the closed loop of 'B', 'C' left its assembly mode at 'C'" in text for text in reported)
+            changes += [simulation.branch_change] if simulation.report.branch_kind == 1 else []
+    assert len(changes) >= 3
+    assert all("the closed loop of 'B', 'C' left its assembly mode at 'C'" in text for text in changes)
     assert simulate(system, 0.4, 0.001, method="radau_5").report.branch_changes == 0  # type: ignore[union-attr]
 
 
-def test_the_sensor_of_the_status_tells_it_from_then_on() -> None:
+def test_the_status_sensor_reports_it_from_then_on() -> None:
     m = suspension(15.0)
     m.sense_solver("solver.status", "status")
     run = simulate(compile(m), 0.15, 5e-4)
@@ -179,14 +179,14 @@ def test_the_sensor_of_the_status_tells_it_from_then_on() -> None:
 @pytest.mark.filterwarnings("ignore::mbs.results.accuracy.AccuracyWarning")  # steps long for what they show
 def test_the_first_change_is_the_one_that_is_reported(thrown: System) -> None:
     """It comes back and turns over again: the count goes on, loop, triad and time are those of the first."""
-    simulation, reported = Simulation(thrown), {}
+    simulation, changes = Simulation(thrown), {}
     for _ in range(250):
         simulation.step(2e-3)
         report = simulation.report
-        reported.setdefault(report.branch_changes, (simulation.branch_change, report.branch_time))
-    assert max(reported) >= 2
-    assert reported[1] == reported[2]
-    assert reported[1][1] == pytest.approx(0.094)
+        changes.setdefault(report.branch_changes, (simulation.branch_change, report.branch_time))
+    assert max(changes) >= 2
+    assert changes[1] == changes[2]
+    assert changes[1][1] == pytest.approx(0.094)
 
 
 def test_watching_changes_no_bit(defect: System) -> None:
@@ -211,7 +211,7 @@ def test_what_a_step_leaves_behind_is_that_of_the_whole_step(defect: System) -> 
     assert pair[0].sensors == pair[1].sensors
 
 
-def test_a_restored_state_goes_on_with_its_count(thrown: System) -> None:
+def test_a_restored_state_continues_its_count(thrown: System) -> None:
     first, second = Simulation(thrown), Simulation(thrown)
     first.step(5e-4, 170)
     state = first.save()
@@ -252,7 +252,7 @@ def test_a_model_of_one_body_has_no_loops() -> None:
 
 
 @pytest.mark.parametrize(("method", "h"), [("ali3p", 0.03), ("energy_momentum", 0.01)])
-def test_a_run_that_nobody_reads_ends_as_one_that_is_read(method: str, h: float) -> None:
+def test_a_run_without_output_ends_as_one_with_output(method: str, h: float) -> None:
     """Past singular positions steps are repeated in parts; their ends then come back in two ways."""
     system, steps = compile(double_four_bar.build()), round(3.0 / h)
     read, unread = (Simulation(system, settings=Settings(method=method)) for _ in range(2))

@@ -107,7 +107,7 @@ def test_the_missed_share_is_half_a_step_times_the_frequency_of_an_impact(stiffn
     assert missed_share(run.report, "ali3p") == pytest.approx(0.5 * h * np.sqrt(stiffness), rel=0.1)
 
 
-def test_a_coarser_run_that_does_not_resolve_an_impact_tells_nothing() -> None:
+def test_a_coarser_run_that_does_not_resolve_an_impact_is_not_used() -> None:
     """Half a step in a contact: the ball is 31 % off, and by chance alike with twice the step."""
     rate, gap, h, steps = 577.55155, 0.684585, 0.01, 196
     system, settings = ball(rate**2, gap), mbs.Settings(step_iterations=8)
@@ -194,9 +194,9 @@ def test_which_coarser_runs_are_made() -> None:
     assert coarser_steps(energy_momentum, moves, False, RESOLVED, still) == [2]
     radau = mbs.Settings(method="radau_5")
     assert coarser_steps(radau, moves, False, 2.0 * RESOLVED, still) == [8, 2]
-    for times, made in ((9.0, [8, 2]), (7.0, [4, 2]), (3.0, [2]), (1.0, [])):
+    for times, expected_steps in ((9.0, [8, 2]), (7.0, [4, 2]), (3.0, [2]), (1.0, [])):
         scaled = replace(run.report, predictor_squares=1.0 / times**2, velocity_squares=1.0)
-        assert coarser_steps(radau, moves, False, 2.0 * RESOLVED, scaled) == made
+        assert coarser_steps(radau, moves, False, 2.0 * RESOLVED, scaled) == expected_steps
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""What of a run is judged: what rests or is prescribed judges nothing, and switches nothing off."""
+"""Signals that are judged in a run: those at rest or prescribed are not, and do not disable others."""
 
 import numpy as np
 import pytest
@@ -93,7 +93,7 @@ def test_angles_from_minus_pi_to_pi_are_compared_as_angles() -> None:
     }
 
 
-def test_an_angle_goes_on_from_the_turns_of_the_runs_before() -> None:
+def test_an_angle_continues_from_the_turns_of_earlier_runs() -> None:
     angle = {"a": Compared("rad", place=True, wrapped=True)}
     first = Comparison(angle, 1.0)
     for begin, end in ((0.0, 10.0), (10.0, 16.0)):
@@ -106,7 +106,7 @@ def test_an_angle_goes_on_from_the_turns_of_the_runs_before() -> None:
     assert {name: seen.gap for name, seen in first.ends.items()} == {"a": 0.0}
 
 
-def test_forces_are_compared_at_their_samples_and_what_is_not_known_nowhere() -> None:
+def test_forces_are_compared_at_their_samples_and_unknown_values_are_skipped() -> None:
     both = {"x": PLACE, "load": Compared("N", load=True)}
     fine = {"x": 1.0 * np.arange(6.0), "load": 10.0 + np.arange(6.0)}
     coarse = {"x": fine["x"] + np.array([0.0, 0.1, np.nan, 0.0, 0.0, 9.0]), "load": fine["load"] + np.arange(6.0)}

@@ -1,4 +1,4 @@
-"""What the check of a run costs: no repeat is made whose outcome is known, and none is left out that would tell."""
+"""Cost of the check of a run: no refined run whose outcome is known, and none omitted that would detect an error."""
 
 from collections.abc import Callable
 from typing import Any
@@ -97,7 +97,9 @@ def never(*_: Any) -> Any:
         pytest.param(lambda t: 4e-3 + 0.0 * t, False, id="more than a tenth of what it may be"),
     ],
 )
-def test_a_coarser_run_goes_on_where_a_difference_grows(grown: Callable[[np.ndarray], np.ndarray], ends: bool) -> None:
+def test_a_coarser_run_continues_where_a_difference_grows(
+    grown: Callable[[np.ndarray], np.ndarray], ends: bool
+) -> None:
     system, t = ball(1e3, 0.9), np.linspace(0.0, 1.0, 101)
     run = mbs.simulate(system, 1.0, 0.01, estimate_error=False, progress=False)
     look = CoarserRuns(RefinedRuns(system, (run, []), never, 0.01, 1, never)).watch(run, 0.03, 40)
@@ -112,11 +114,11 @@ def test_a_coarser_run_goes_on_where_a_difference_grows(grown: Callable[[np.ndar
 
 def machine(number: int) -> tuple[mbs.System, float]:
     """A random one of seed 1, and its span, s."""
-    _, made = random_machines.machine(np.random.default_rng([1, number]))
-    return mbs.compile(random_machines.model_of(made)), made.span
+    _, drawing = random_machines.machine(np.random.default_rng([1, number]))
+    return mbs.compile(random_machines.model_of(drawing)), drawing.span
 
 
-def test_no_16th_of_the_step_follows_where_an_eighth_tells() -> None:
+def test_no_16th_of_the_step_follows_where_an_eighth_decides() -> None:
     """The larger error counted: 15 runs in place of 31, and the same verdict on 5.1 %."""
     system, span = machine(56)
     with pytest.warns(mbs.AccuracyWarning, match=r"off by about 5\.1 %"):
@@ -125,14 +127,14 @@ def test_no_16th_of_the_step_follows_where_an_eighth_tells() -> None:
     assert run.accuracy.check_cost == 14.0
 
 
-def test_what_repeats_may_cost_is_kept_and_what_is_not_judged_is_reported() -> None:
+def test_the_budget_of_refined_runs_is_kept_and_unchecked_runs_are_reported() -> None:
     system, span = machine(97)
 
     def judged(most: float | None) -> mbs.Trajectory:
         return mbs.simulate(system, span, span / 250, every=5, progress=False, estimate_error=most)
 
-    for most, spent, reported in ((1.0, 0.4, "there is no estimate"), (10.0, 6.4, "is 3.9 % of the largest range")):
-        with pytest.warns(mbs.AccuracyWarning, match=f"not checked: .* budget of {most:g} runs .*{reported}") as caught:
+    for most, spent, words in ((1.0, 0.4, "there is no estimate"), (10.0, 6.4, "is 3.9 % of the largest range")):
+        with pytest.warns(mbs.AccuracyWarning, match=f"not checked: .* budget of {most:g} runs .*{words}") as caught:
             run = judged(most)
         assert run.accuracy is not None
         assert run.accuracy.check_cost == pytest.approx(spent)

@@ -11,7 +11,10 @@ import mbs
 from mbs.common.errors import ModelError
 from mbs.elements import ContactPoints, EndStops, GridRoad, KerbRoad, PlaneRoad
 
-G, MASS, HALF, HEIGHT = 9.81, 40.0, (0.3, 0.2), 0.1
+G = 9.81  # m/s2
+MASS = 40.0  # kg
+HALF = (0.3, 0.2)  # m
+HEIGHT = 0.1  # m
 MU = 0.4
 CONTACT = ContactPoints.for_mass(10.0, depth=0.002, onset=0.001, loss=0.5)
 CORNERS = [(x, y, -HEIGHT) for x in (-HALF[0], HALF[0]) for y in (-HALF[1], HALF[1])]
@@ -87,8 +90,8 @@ def test_block_on_a_slope(grade, holds):
 
 def after_impact(v, chi):
     """Speed after an impact by Hunt and Crossley with the loss of `mbs.elements.ContactPoints`."""
-    remaining = (chi * v - math.log1p(chi * v)) / chi**2
-    return brentq(lambda x: x * x / 2.0 + chi * x**3 / 3.0 - remaining, 0.0, v, xtol=1e-14)
+    energy = (chi * v - math.log1p(chi * v)) / chi**2
+    return brentq(lambda x: x * x / 2.0 + chi * x**3 / 3.0 - energy, 0.0, v, xtol=1e-14)
 
 
 @pytest.mark.parametrize("chi", [0.05, 0.5])

@@ -1,4 +1,4 @@
-"""Runs to a tolerance of motions in which errors grow: two runs that are far apart, or off alike, say nothing."""
+"""Runs to a tolerance of motions with growing errors: comparisons of two inaccurate runs are not conclusive."""
 
 import numpy as np
 import pytest

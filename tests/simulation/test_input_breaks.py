@@ -14,7 +14,8 @@ from mbs.settings.input_breaks import function_breaks, input_breaks, sampled
 from mbs.settings.input_signals import InputSignals
 from tests.simulation.drawn import drawn
 
-H, SPAN = 0.02, 1.0
+H = 0.02  # s
+SPAN = 1.0  # s
 Table = tuple[np.ndarray, np.ndarray]
 
 
@@ -130,7 +131,7 @@ FUNCTIONS: dict[str, Callable[[float, float], tuple[Callable[[float], float], fl
 
 @pytest.mark.parametrize("kind", FUNCTIONS)
 @pytest.mark.parametrize("way", ["simulate", "by hand", "many", "tolerance"])
-def test_a_pulse_of_a_function_within_a_step_moves_what_it_pushes(kind: str, way: str) -> None:
+def test_a_pulse_of_a_function_within_a_step_moves_its_body(kind: str, way: str) -> None:
     """Of a tenth to the whole of a step, also one that begins where a step ends: the impulse moves the sledge."""
     system = sledge()
     for begin, lasting in ((0.3, 0.1), (0.305, 0.1), (0.303, 0.37), (0.31, 0.5), (0.301, 0.9)):
@@ -247,8 +248,8 @@ def test_lanes_and_limited_steps_have_the_parts_of_a_run_alone() -> None:
     many = mbs.simulate_many(
         system, [mbs.Variant(inputs={"push": t}) for t in tables], SPAN, H, progress=False, estimate_error=False
     )
-    for given, found, alone in zip(tables, many.trajectories, many.alone, strict=True):
-        inputs = {"push": given}
+    for table, found, alone in zip(tables, many.trajectories, many.alone, strict=True):
+        inputs = {"push": table}
         run = mbs.simulate(system, SPAN, H, inputs, progress=False, estimate_error=False)
         one = mbs.Settings(step_iterations=1)
         limited = mbs.simulate(system, SPAN, H, inputs, progress=False, estimate_error=False, settings=one)
@@ -271,14 +272,14 @@ def test_parts_of_a_run_by_hand_are_those_of_one_run() -> None:
 
 @pytest.mark.parametrize("way", RUNS)
 @pytest.mark.parametrize("lasting", [0.016, 5e-4, 1e-5])
-def test_a_pulse_between_two_steps_moves_what_it_pushes(way: str, lasting: float) -> None:
+def test_a_pulse_between_two_steps_moves_its_body(way: str, lasting: float) -> None:
     """The impulse p moves the sledge by p/m (t_end - t): of a step of 20 ms, or a 2000th of it."""
     height = 1.6 / lasting
     run = RUNS[way](sledge(), {"push": pulse(0.302, lasting, height)})
     assert run["x"][-1] - 1.0 == pytest.approx(0.5 * 1.6 / 2.0 * (SPAN - 0.302 - 0.5 * lasting), rel=1e-4)
 
 
-def test_a_coarser_run_that_missed_what_moves_does_not_agree() -> None:
+def test_a_coarser_run_that_missed_a_pulse_does_not_agree() -> None:
     """A pulse of a function between two times at which runs with eight and four times the step ask ahead."""
     run = mbs.simulate(
         sledge(50.0), 4.0, 0.01, {"push": lambda t: 700.0 if 0.5305 < t < 0.5319 else 0.0}, progress=False

@@ -120,7 +120,7 @@ class TestWholeInputs:
             ({"whole": 1}, "whole of input 'lever'"),
         ],
     )
-    def test_a_model_refuses_what_an_integer_cannot_say(self, given, sentence):
+    def test_a_model_refuses_values_that_are_no_integers(self, given, sentence):
         m = Model("levers")
         with pytest.raises(ValueError, match=sentence):
             m.input("lever", **({"whole": True} | given))

@@ -51,7 +51,7 @@ def test_cars_over_kerbs_and_falls() -> None:
     each = told_by_each(system, variants, 1.0, 0.02, 10)
     assert told_together(system, variants, 1.0, 0.02, 10) == each
     assert each[0] == Counter()
-    assert sum(bool(reported) for reported in each) > 0
+    assert sum(bool(warnings) for warnings in each) > 0
 
 
 def test_a_mechanism_that_swings_too_fast() -> None:
@@ -59,7 +59,7 @@ def test_a_mechanism_that_swings_too_fast() -> None:
     variants = [mbs.Variant(), mbs.Variant()]
     each = told_by_each(system, variants, 3.0, 0.05, 1)
     assert told_together(system, variants, 3.0, 0.05, 1) == each
-    assert any(kind is mbs.AccuracyWarning for reported in each for kind, _ in reported)
+    assert any(kind is mbs.AccuracyWarning for warnings in each for kind, _ in warnings)
 
 
 def test_without_checks_nothing_is_repeated_and_true_is_refused() -> None:

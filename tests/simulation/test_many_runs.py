@@ -67,7 +67,7 @@ def test_trajectories_are_those_of_single_runs() -> None:
 @pytest.mark.filterwarnings(
     "ignore:Variant 0. At .* rebound stop:mbs.results.accuracy.AccuracyWarning"
 )  # at 40 ms it is so
-def test_a_failed_run_tells_why_and_leaves_the_others() -> None:
+def test_a_failed_run_is_reported_and_leaves_the_others() -> None:
     """A start below the road and a step that is refused, beside a slalom that goes on to its end."""
     high = CARS["stiff tyre at a kerb"]
     variants = [Variant(inputs=SLALOM, pose=Pose(speed=15.0)), Variant(pose=Pose(z=-2.0)), high]
@@ -122,9 +122,9 @@ def test_no_variants_are_no_runs() -> None:
     ],
 )
 def test_bad_arguments_are_refused(arguments: dict[str, object], message: str) -> None:
-    given = {"variants": [Variant()], "t_end": 1.0, "h": 0.01} | arguments
+    all_arguments = {"variants": [Variant()], "t_end": 1.0, "h": 0.01} | arguments
     with pytest.raises(ValueError, match=re.escape(message)):
-        simulate_many(system(), **given)  # type: ignore[arg-type]
+        simulate_many(system(), **all_arguments)  # type: ignore[arg-type]
 
 
 def test_a_variant_is_a_variant() -> None:
@@ -140,8 +140,8 @@ def test_a_value_with_which_no_car_works_is_reported_with_the_number_of_its_vari
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         simulate_many(system(), variants, 0.02, 0.002, lanes=2, progress=False)
-    reported = [str(w.message) for w in caught if w.category is ParameterWarning]
-    assert [line.partition(", outside")[0] for line in reported] == [
+    messages = [str(w.message) for w in caught if w.category is ParameterWarning]
+    assert [line.partition(", outside")[0] for line in messages] == [
         f"Variant {k}: Parameter 'front.tyre.stiffness' is set to 1.{k + 1}e+06 N/m" for k in (1, 2)
     ]
 
@@ -153,14 +153,14 @@ def test_the_first_rows_are_those_of_single_runs_for_all_cars() -> None:
     for name in car_names():
         car = compile(load(name).model())
         for pose in (None, Pose(z=0.02, speed=8.0)):
-            given: list[dict[str, Signal]] = [
+            input_sets: list[dict[str, Signal]] = [
                 {"throttle": 0.2 + 0.6 * random.uniform(), "steering": ([0.0, 0.4], [0.3, -0.3 * random.uniform()])}
                 for _ in range(3)
             ]
-            variants = [Variant(inputs=inputs, pose=pose) for inputs in given]
+            variants = [Variant(inputs=inputs, pose=pose) for inputs in input_sets]
             runs = simulate_many(car, variants, 0.006, 0.002, lanes=2, progress=False)
             assert runs.failures == {}
-            for inputs, run in zip(given, runs.trajectories, strict=True):
+            for inputs, run in zip(input_sets, runs.trajectories, strict=True):
                 one = simulate(car, 0.006, 0.002, inputs, pose=pose, estimate_error=False)
                 first = {"throttle": inputs["throttle"], "steering": 0.3}
                 start = Simulation(car, inputs=first, pose=pose).sensors  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""Loads between the instants at which two runs are compared: a missed one is seen, a late one is not."""
+"""Loads between the compared instants of two runs: a missed peak is detected, a late one is not an error."""
 
 import warnings
 
@@ -60,7 +60,7 @@ def test_a_short_record_is_compared_at_all_its_samples() -> None:
     assert run.accuracy.error == pytest.approx(gaps.max(), rel=0.1)
 
 
-def test_a_fourth_repeat_tells_what_three_leave_open() -> None:
+def test_a_fourth_refined_run_decides_what_three_leave_open() -> None:
     """By a third one, with an eighth of the step, this car is 4.8 % off, and it is 5.1 %."""
     with pytest.warns(mbs.AccuracyWarning):
         run = random_cars.drive(_stream(31, 27)).run(h=0.02)

@@ -95,8 +95,8 @@ def test_every_method_records_where_the_bodies_are(method):
 def test_a_wheel_turns_by_its_way_over_its_radius():
     run = mbs.simulate(mbs.compile(bicycle.build()), 2.0, 0.005)
     angle = run.poses["rear wheel.angle"]
-    way = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(run.t) * (run["speed"][1:] + run["speed"][:-1]))])
-    np.testing.assert_allclose(angle, way / bicycle.REAR_RADIUS, atol=0.05)  # its frame pitches and leans
+    distance = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(run.t) * (run["speed"][1:] + run["speed"][:-1]))])
+    np.testing.assert_allclose(angle, distance / bicycle.REAR_RADIUS, atol=0.05)  # its frame pitches and leans
 
 
 def test_the_turning_of_the_carrier_is_taken_off_the_angle_of_a_wheel():
@@ -138,7 +138,7 @@ def test_thinning_keeps_poses_at_the_samples():
 
 
 @pytest.mark.parametrize("every", [1, 4])
-def test_many_samples_are_thinned_and_said(monkeypatch, every):
+def test_many_samples_are_thinned_and_reported(monkeypatch, every):
     whole = mbs.simulate(mbs.compile(swinging(2)), 3.2, 0.001, every=every)
     monkeypatch.setattr(poses_module, "MOST_SAMPLES", 200)
     run = mbs.simulate(mbs.compile(swinging(2)), 3.2, 0.001, every=every)
@@ -191,7 +191,7 @@ def test_a_system_from_a_file_has_poses_and_scene(tmp_path):
         np.testing.assert_array_equal(runs[0].poses[name], runs[1].poses[name])
 
 
-def test_a_system_without_a_drawing_says_so():
+def test_a_system_without_a_drawing_is_refused():
     system = mbs.compile(swinging(2))
     bare = mbs.System.from_bytes(system.kernel_bytes())
     assert len(system.kernel_bytes()) < len(system.to_bytes())

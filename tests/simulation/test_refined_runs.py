@@ -1,4 +1,4 @@
-"""What repeats with shorter steps say, in closed form."""
+"""Error estimates from refined runs, in closed form."""
 
 from collections.abc import Callable
 from typing import Any
@@ -34,10 +34,10 @@ def test_the_limit_of_repeats_gives_the_error(order: float) -> None:
     """By Richardson: with the order that is taken to the last digit, with others but for what the orders differ by."""
     run, coarse, fine = (repeat(h, order) for h in (1.0, 0.25, 0.125))
     actual = extrapolated(by(N=0.2), [run, coarse, fine], dict.fromkeys("ab", Compared("N", load=True)), None, 1.0)
-    remaining = 0.125**order - (0.25**order - 0.125**order) / 3.0
+    error = 0.125**order - (0.25**order - 0.125**order) / 3.0
     true = float(np.abs(run["a"] - FORCE).max())
-    assert abs(remaining) < (1e-15 if order == 2.0 else 0.084)
-    assert actual.sensors["a"] == pytest.approx(true * (1.0 - remaining), rel=1e-12)
+    assert abs(error) < (1e-15 if order == 2.0 else 0.084)
+    assert actual.sensors["a"] == pytest.approx(true * (1.0 - error), rel=1e-12)
     assert actual.units["N"] == pytest.approx(actual.sensors["a"] / np.abs(FORCE).max(), rel=2e-3)
 
 
@@ -62,7 +62,7 @@ def test_the_order_of_three_runs_is_seen(order: float, near: int, finest: int) -
 
 
 @pytest.mark.parametrize("order", [1.0, 2.0])
-def test_a_tried_step_is_off_by_what_is_reported_of_it(order: float) -> None:
+def test_a_tried_step_has_the_reported_error(order: float) -> None:
     """Of errors of order one an 8th of 6 % was told as 0.4 %, what half of it and both differ by."""
     system, last = oscillator(), 0
 
@@ -101,13 +101,13 @@ def oscillator(x: float = 0.0) -> mbs.System:
 
 def test_what_moves_is_judged_wherever_it_lies() -> None:
     """A range below 1e-4 of the coordinates was taken for rest: 87 % off at x = 1000 m, without a word."""
-    reported = []
+    errors = []
     for x in (0.0, 1e3, 1e5):
         with pytest.warns(mbs.AccuracyWarning, match="off by at least 81 %"):
             run = mbs.simulate(oscillator(x), 2.0, 0.02, progress=False)
         assert run.accuracy is not None
-        reported.append(run.accuracy.error)
-    assert reported == pytest.approx([reported[0]] * 3, rel=1e-6)
+        errors.append(run.accuracy.error)
+    assert errors == pytest.approx([errors[0]] * 3, rel=1e-6)
 
 
 @pytest.mark.parametrize(("length", "mass"), [(1.0, 1.0), (1e-3, 1e-9), (1e-6, 1e-12)])
@@ -167,10 +167,10 @@ def test_an_open_balance_is_reported_where_that_of_the_refined_run_is_open_too(f
     system, h = system_of("double_four_bar"), 0.8 / 6
 
     def march(step: float, every: int, *_: Any) -> Run:
-        made = mbs.simulate(
+        trajectory = mbs.simulate(
             system, 0.8, step if finer else h, every=every if finer else 1, progress=False, estimate_error=False
         )
-        return made, []
+        return trajectory, []
 
     run = march(h, 1)
     known = check(RefinedRuns(system, run, march, h, 1, lambda _: None), always=False)
@@ -192,8 +192,8 @@ def test_an_energy_that_jumps_in_a_right_run_is_a_notice_of_it(many: bool) -> No
         else mbs.Simulation(system).run(end, h, every=2, progress=False)
     )
     assert other is not None
-    for made in (run, other):
-        (notices,) = [text for text in made.notices if "J of work, 7.8 %" in text]
+    for trajectory in (run, other):
+        (notices,) = [text for text in trajectory.notices if "J of work, 7.8 %" in text]
         assert notices.endswith(RIGHT)
-        assert notices in str(made)
+        assert notices in str(trajectory)
     assert other.notices == run.notices

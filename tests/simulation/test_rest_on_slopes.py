@@ -122,8 +122,8 @@ def test_beyond_friction_they_slide_and_beyond_the_angle_they_tip():
         else:
             speed = -np.column_stack([r[f"v{c}"] for c in "xyz"]) @ axes(slope)[:, 0]
             i = np.searchsorted(r.t, 5.0)
-            wanted = G * (math.sin(slope) - mu * math.cos(slope))
-            assert (speed[-1] - speed[i]) / (r.t[-1] - r.t[i]) == pytest.approx(wanted, rel=1e-6)
+            expected = G * (math.sin(slope) - mu * math.cos(slope))
+            assert (speed[-1] - speed[i]) / (r.t[-1] - r.t[i]) == pytest.approx(expected, rel=1e-6)
             slid += 1
     assert slid == tipped == 20
 
@@ -149,8 +149,8 @@ def witness(sizes, mass, mu, slope, contact, fall, t_end, h):
             loss = contact.loss * abs(pressing) / (1.0 + bound * contact.loss * abs(pressing))
             force = contact.stiffness * (depth * depth / (2.0 * w) if depth < w else depth - 0.5 * w)
             force *= 1.0 + loss if pressing > 0.0 else 1.0 / (1.0 + loss)
-            held = k * stick[i] + d * speed
-            rub = max(-mu * force, min(mu * force, held))
+            elastic = k * stick[i] + d * speed
+            rub = max(-mu * force, min(mu * force, elastic))
             stick[i] += h * (rub - k * stick[i]) / d
             fx, fz = fx - 2.0 * rub, fz + 2.0 * force  # two corners each
             moment += 2.0 * (rz * -rub - rx * force)

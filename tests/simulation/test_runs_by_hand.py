@@ -25,7 +25,7 @@ def swing(at: float = 1.0) -> mbs.System:
     return mbs.compile(m)
 
 
-def test_the_robot_in_steps_that_are_too_long_says_so() -> None:
+def test_the_robot_with_too_long_steps_is_reported() -> None:
     """169 mm at its hand; at half the step 27 mm, 4.2 % of an angle, which is right."""
     system = mbs.compile(puma.build())
     with pytest.warns(AccuracyWarning, match=r"off by .* % of the .* range, as a refined run with steps of 0.025 s"):
@@ -34,7 +34,7 @@ def test_the_robot_in_steps_that_are_too_long_says_so() -> None:
 
 
 @pytest.mark.slow
-def test_a_checked_run_goes_on_bit_for_bit() -> None:
+def test_a_checked_run_continues_bit_for_bit() -> None:
     checked, plain = (Simulation(swing(), inputs={"push": 0.3}, parameters={"stiffness": 5.0}) for _ in range(2))
     for simulation, estimate in ((checked, True), (plain, False)):
         simulation.run(0.5, 0.005, estimate_error=estimate, **QUIET)
@@ -45,7 +45,7 @@ def test_a_checked_run_goes_on_bit_for_bit() -> None:
     assert checked.save() == plain.save()
 
 
-def test_the_twin_goes_on_from_run_to_run() -> None:
+def test_the_refined_instance_continues_from_run_to_run() -> None:
     simulation = Simulation(swing())
     first = simulation.run(1.0, 0.01, estimate_error=True, **QUIET)
     second = simulation.run(2.0, 0.01, estimate_error=True, **QUIET)
@@ -62,16 +62,16 @@ def test_a_few_steps_are_not_repeated() -> None:
 
 def test_a_tolerance_holds_across_switches() -> None:
     simulation, fine = Simulation(swing()), Simulation(swing())
-    reported = []
+    errors = []
     for end, on in ((0.8, True), (1.0, False), (2.0, False)):
         run = simulation.run(end, tolerance=1e-4, **QUIET)
         fine.run(end, 1e-4, estimate_error=False, every=100, **QUIET)
         assert run.t[-1] == simulation.time == end
         assert [run[c][-1] for c in "xy"] == [simulation.sensors[c] for c in "xy"]
-        reported.append(max(abs(simulation.sensors[c] - fine.sensors[c]) for c in "xy") / run.control.length)
+        errors.append(max(abs(simulation.sensors[c] - fine.sensors[c]) for c in "xy") / run.control.length)
         for one in (simulation, fine):
             one.set_switch("hold", on)
-    assert 0.0 < max(reported) < 5e-4
+    assert 0.0 < max(errors) < 5e-4
     assert simulation.settings == fine.settings
     simulation.step(0.001, 10)
 

@@ -1,4 +1,4 @@
-"""Settings are checked when they are made, and their defaults are the kernel's."""
+"""Settings are checked when they are created, and their defaults are the kernel's."""
 
 import dataclasses
 

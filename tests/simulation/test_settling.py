@@ -13,7 +13,8 @@ from mbs.results.simulation_error import SimulationError
 from mbs.scenes import double_four_bar
 from mbs.vehicle import car_names, load
 
-H, G = 0.005, 9.81
+H = 0.005  # s
+G = 9.81  # m/s2
 POSE = mbs.Pose(speed=15.0, lateral_speed=0.2, yaw_rate=0.4)
 
 
@@ -25,12 +26,12 @@ def car() -> mbs.System:
 def test_it_is_that_of_the_kernel(car: mbs.System) -> None:
     run = mbs.Simulation(car, pose=POSE, inputs={"steering": 0.1})
     drawn = run.sensors["chassis.roll"]
-    remaining = run.settle(1.0, H)
+    speed = run.settle(1.0, H)
     instance = Instance(LoadedSystem(car.to_bytes()))
     instance.set_input([entry["name"] for entry in car.meta["inputs"]].index("steering"), 0.1)
     instance.set_pose(0.0, 0.0, 0.0, 0.0, 15.0, 0.2, 0.4)
     instance.initialise(0.0)
-    assert instance.settle(1.0, H) == remaining
+    assert instance.settle(1.0, H) == speed
     assert list(run.instance.sensors()) == list(instance.sensors())
     assert run.time == 0.0
     assert abs(run.sensors["chassis.roll"]) > 100.0 * abs(drawn)
@@ -56,19 +57,19 @@ def test_invalid_values_are_refused(car: mbs.System, duration: float, h: float, 
 
 def test_the_remaining_speed_after_settling_is_reported(car: mbs.System) -> None:
     """The speed of the motion beside the held one, which dies away: roll of 1 rad/s leaves centimetres a second."""
-    remaining = []
+    speeds = []
     for duration in (0.1, 1.0, 3.0):
         run = mbs.Simulation(car, pose=POSE, inputs={"steering": 0.1})
-        remaining.append(run.settle(duration, H))
-    assert remaining[0] > 0.1
-    assert remaining[0] > 5.0 * remaining[1] > 25.0 * remaining[2]
+        speeds.append(run.settle(duration, H))
+    assert speeds[0] > 0.1
+    assert speeds[0] > 5.0 * speeds[1] > 25.0 * speeds[2]
     rolled = run.sensors["chassis.roll"]
     run.settle(H, H)
     # A vector of the chassis is longer than a metre: its end moves by more than the roll.
-    assert abs(run.sensors["chassis.roll"] - rolled) / H < remaining[2]
+    assert abs(run.sensors["chassis.roll"] - rolled) / H < speeds[2]
 
 
-def test_the_clock_goes_on_where_it_was(car: mbs.System) -> None:
+def test_the_clock_continues_after_settling(car: mbs.System) -> None:
     run = mbs.Simulation(car, pose=POSE)
     run.step(H, 100)
     run.settle(1.0, H)
@@ -99,13 +100,13 @@ def in_balance(name, road, duration, brake=0.0, **pose):
     known = {entry["name"] for entry in system.meta["inputs"]}
     inputs = {name: value for name, value in {"brake": brake, "selector": 0.0}.items() if name in known}
     run = mbs.Simulation(system, inputs=inputs, pose=mbs.Pose(z=1.7, **pose))
-    remaining = run.settle(duration, 0.002)
+    speed = run.settle(duration, 0.002)
     loads, before = [], run.sensors["chassis.x"]
     for steps in (0, 5, 495):
         if steps:
             run.step(0.002, steps)
         loads.append([run.sensors[f"wheel_{w}.Fz"] for w in ("FL", "FR", "RL", "RR")])
-    return np.array(loads), run.sensors["chassis.x"] - before, remaining
+    return np.array(loads), run.sensors["chassis.x"] - before, speed
 
 
 @pytest.mark.slow
@@ -114,29 +115,29 @@ def test_on_a_slope_it_begins_in_balance(name):
     """Parked along and across slopes the loads stay for a second; let go or driven it begins without a jump of them;
     in all of these the wheels carry the part of the weight across the road."""
     weight = in_balance(name, PlaneRoad(), 10.0, brake=1.0)[0][0].sum()
-    for way in ("grade_x", "grade_y"):
+    for grade in ("grade_x", "grade_y"):
         for degrees, duration in ((10.0, 5.0), (30.0, 10.0)):
             slope = math.radians(degrees)
-            road, across = PlaneRoad(**{way: math.tan(slope)}, friction=1.0), weight * math.cos(slope)
-            loads, moved, remaining = in_balance(name, road, duration, brake=1.0)
-            assert loads.sum(axis=1) == pytest.approx(across, rel=1e-3), (way, degrees)
-            assert np.abs(loads - loads[0]).max() < 1e-3 * weight, (way, degrees)
-            assert abs(moved) < 2e-3, (way, degrees)
-            assert remaining < 1e-4, (way, degrees)
-        road, across = PlaneRoad(**{way: math.tan(0.15)}, friction=1.0), weight * math.cos(0.15)
+            road, across = PlaneRoad(**{grade: math.tan(slope)}, friction=1.0), weight * math.cos(slope)
+            loads, moved, final_speed = in_balance(name, road, duration, brake=1.0)
+            assert loads.sum(axis=1) == pytest.approx(across, rel=1e-3), (grade, degrees)
+            assert np.abs(loads - loads[0]).max() < 1e-3 * weight, (grade, degrees)
+            assert abs(moved) < 2e-3, (grade, degrees)
+            assert final_speed < 1e-4, (grade, degrees)
+        road, across = PlaneRoad(**{grade: math.tan(0.15)}, friction=1.0), weight * math.cos(0.15)
         for speed in (0.0, 15.0):
             loads, moved, _ = in_balance(name, road, 5.0, speed=speed)
-            assert loads[0].sum() == pytest.approx(across, rel=2e-3), (way, speed)
-            assert np.abs(loads[1] - loads[0]).max() < 1e-4 * weight, (way, speed)
-            if (way, speed) == ("grade_x", 0.0):  # wheels and gears turn with it
+            assert loads[0].sum() == pytest.approx(across, rel=2e-3), (grade, speed)
+            assert np.abs(loads[1] - loads[0]).max() < 1e-4 * weight, (grade, speed)
+            if (grade, speed) == ("grade_x", 0.0):  # wheels and gears turn with it
                 assert -0.5 * G * math.sin(0.15) * math.cos(0.15) < moved < -0.35 * G * math.sin(0.15), speed
 
 
 @pytest.mark.slow
 def test_with_its_front_on_a_kerb_it_begins_in_balance():
     road = KerbRoad(-1.3, 0.1, upper="after")
-    loads, moved, remaining = in_balance("hatchback", road, 5.0, brake=1.0)
+    loads, moved, speed = in_balance("hatchback", road, 5.0, brake=1.0)
     assert np.abs(loads - loads[0]).max() < 0.1
     assert abs(moved) < 1e-6
-    assert remaining < 1e-5
+    assert speed < 1e-5
     assert loads[0].sum() == pytest.approx(in_balance("hatchback", PlaneRoad(), 5.0, brake=1.0)[0][0].sum(), rel=1e-3)

@@ -78,10 +78,10 @@ def test_time_is_counted_not_added(system):
 
 def test_a_run_ends_at_the_last_whole_step(system):
     """What is told of is more than a hundredth of the run, and the step that is proposed ends there."""
-    reported = r"ends at 0\.9 s, a whole number of steps of 0\.3 s, in place of 1 s; h = 0\.25 ends there"
-    with pytest.warns(AccuracyWarning, match=reported):
+    message = r"ends at 0\.9 s, a whole number of steps of 0\.3 s, in place of 1 s; h = 0\.25 ends there"
+    with pytest.warns(AccuracyWarning, match=message):
         assert simulate(system, 1.0, 0.3, estimate_error=False).t[-1] == pytest.approx(0.9, abs=ROUND_OFF)
-    with pytest.warns(AccuracyWarning, match=reported):
+    with pytest.warns(AccuracyWarning, match=message):
         simulate_many(system, [], 1.0, 0.3)
     assert simulate(system, 1.0, 0.25, estimate_error=False).t[-1] == pytest.approx(1.0, abs=ROUND_OFF)
     assert simulate(system, 1.0, 0.03).t[-1] == pytest.approx(0.99, abs=ROUND_OFF)
@@ -229,7 +229,7 @@ class TestErrors:
             Simulation(system, pose=Pose(speed=1.0))  # tied to the ground
         assert "Worst" not in str(caught.value)
 
-    def test_a_failing_run_hands_over_what_it_recorded(self, system):
+    def test_a_failed_run_returns_its_recorded_rows(self, system):
         def jolt(t):
             return 0.0 if t < 0.205 else 1e200
 
@@ -242,7 +242,7 @@ class TestErrors:
         assert part["bob.x"].tolist() == reference["bob.x"][::2].tolist()
 
     @pytest.mark.parametrize("n", [-1, 2.5])
-    def test_a_number_of_steps_that_is_none_is_refused(self, system, n):
+    def test_an_invalid_number_of_steps_is_refused(self, system, n):
         with pytest.raises(ValueError, match="whole number of steps"):
             Simulation(system).step(H, n)
 

@@ -66,7 +66,7 @@ def test_a_flexible_chassis_finds_it_too() -> None:
 
 
 @pytest.mark.parametrize("x", [2e6, 9e7])
-def test_the_built_in_road_goes_on_as_far_as_a_car_can_start(cars: dict[float, System], x: float) -> None:
+def test_the_built_in_road_extends_as_far_as_a_car_can_start(cars: dict[float, System], x: float) -> None:
     near, far = (Simulation(cars[12360.0], pose=Pose(x=at)) for at in (0.0, x))
     for simulation in (near, far):
         simulation.step(0.005, 40)
@@ -126,7 +126,7 @@ def test_given_coordinates_stay(cars: dict[float, System]) -> None:
     assert list(instance.get_state()[0]) == pytest.approx(system.arrays["q0"].tolist(), abs=1e-12)
 
 
-def test_what_has_no_equilibrium_says_so() -> None:
+def test_a_system_without_equilibrium_is_refused() -> None:
     system = compile(hanging())
     with pytest.raises(SimulationError, match="no static equilibrium near the drawing") as refusal:
         Simulation(system, parameters={"k": 0.0, "payload": 1.0})

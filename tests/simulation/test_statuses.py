@@ -1,4 +1,4 @@
-"""Each status is caused: in the kernel, where nothing is left that refuses before it, and through Python."""
+"""Each status of the kernel is provoked, in the kernel and through Python."""
 
 import ctypes
 import math
@@ -189,22 +189,22 @@ def test_the_kernel_ends_with_it(status: Status, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("status", [Status.BAD_FILE, Status.NO_MEMORY], ids=lambda status: status.name)
-def test_a_system_that_is_refused_says_what_helps(status: Status, tmp_path: Path) -> None:
+def test_a_refused_system_is_reported_with_a_remedy(status: Status, tmp_path: Path) -> None:
     with pytest.raises(KernelError, match="^the System file was refused: ") as refused:
         KERNEL[status](tmp_path)
     assert refused.value.message.endswith(f". {status_remedy(status)}")
 
 
 @pytest.mark.parametrize("status", PYTHON, ids=lambda status: status.name)
-def test_python_says_its_words_and_its_remedy(status: Status, tmp_path: Path) -> None:
+def test_python_reports_message_and_remedy(status: Status, tmp_path: Path) -> None:
     with pytest.raises(SimulationError) as refused:
         PYTHON[status](tmp_path)
     assert refused.value.status == status
     assert isinstance(refused.value.__cause__, KernelError)
     text = str(refused.value)
     assert f": {load_library().ali3_status_text(status).decode()}" in text
-    reported = status != Status.SINGULAR  # here at a start, where no step can be shorter
-    assert text.count(status_remedy(status)) == reported
+    has_remedy = status != Status.SINGULAR  # here at a start, where no step can be shorter
+    assert text.count(status_remedy(status)) == has_remedy
     assert ("Worst " in text) <= (status_cause(status) in (Cause.START, Cause.EQUATIONS))
 
 

@@ -72,7 +72,7 @@ def test_a_lag_hinge_swings_at_the_root_of_its_offset(driven):
     assert model.frame_turning == pytest.approx((0.0, 0.0, rate), rel=RELATIVE)
 
 
-def test_a_steady_top_nutates_as_its_effective_potential_says():
+def test_the_nutation_of_a_steady_top_is_that_of_its_effective_potential():
     """Heavy symmetric top: sqrt(V''(theta)/I1) with the momenta about both axes held (Goldstein, section 5.7)."""
     angle, spin, mass, arm, across, along = 0.4, 150.0, 1.0, 0.2, 0.02, 0.006
     about_tip = across + mass * arm**2
@@ -120,7 +120,7 @@ def test_a_state_at_rest_out_of_equilibrium_is_refused():
         linearise(Simulation(compile(m)))
 
 
-def test_a_moving_system_from_a_file_says_that_it_does_not_know_its_axes():
+def test_a_moving_system_from_a_file_reports_unknown_axes():
     rotor = spinning_body((0.05, 0.05, 0.07), (0.0, 0.0, 100.0)).system
     with pytest.raises(ValueError, match="read from a file"):
         linearise(Simulation(System.from_bytes(rotor.to_bytes())))

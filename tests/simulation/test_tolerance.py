@@ -142,9 +142,9 @@ def test_a_kerb_is_run_down_with_the_loads_of_short_steps() -> None:
     manoeuvre = load("kerb_drop")
     system = car_of("kerb_drop")
     parameters, pose = start_of(manoeuvre, system)
-    given = (inputs_of(manoeuvre, system), None, parameters)
-    fine = mbs.simulate(system, 2.5, 5e-4, *given, every=20, pose=pose, progress=False)
-    run = mbs.simulate(system, 2.5, 0.01, *given, pose=pose, progress=False, tolerance=1e-3)
+    arguments = (inputs_of(manoeuvre, system), None, parameters)
+    fine = mbs.simulate(system, 2.5, 5e-4, *arguments, every=20, pose=pose, progress=False)
+    run = mbs.simulate(system, 2.5, 0.01, *arguments, pose=pose, progress=False, tolerance=1e-3)
     assert run.control is not None
     assert run.control.method == "ali3p"
     assert 0.02 < run.control.largest < 0.06  # before the kerb: a twentieth of the length at 5 m/s
@@ -212,7 +212,7 @@ def test_times_of_the_record() -> None:
     assert len(mbs.simulate(system, 1.0, tolerance=1e-3).t) == 201
 
 
-def test_a_step_is_picked_where_none_is_given() -> None:
+def test_a_step_is_chosen_if_none_is_given() -> None:
     run = mbs.simulate(system_of("pendulum"), 2.0)
     control = run.control
     assert control is not None
@@ -235,9 +235,9 @@ def test_the_choice_of_the_method_is_reported() -> None:
     named = run_of("pendulum", 1e-3, "radau_5")
     assert named.control is not None
     assert named.control.reason == ""
-    given = mbs.simulate(system_of("pendulum"), 1.0, settings=mbs.Settings(method="radau_5"), tolerance=1e-3)
-    assert given.control is not None
-    assert given.control.method == "radau_5"
+    result = mbs.simulate(system_of("pendulum"), 1.0, settings=mbs.Settings(method="radau_5"), tolerance=1e-3)
+    assert result.control is not None
+    assert result.control.method == "radau_5"
     equal = mbs.simulate(system_of("pendulum"), 1.0, 0.01, method="auto")
     assert equal.control is not None
     assert equal.control.h == 0.01
@@ -250,7 +250,7 @@ def test_the_same_call_gives_the_same_bits() -> None:
 
 
 @pytest.mark.parametrize("tolerance", [0, 0.0, -1e-3, math.nan, math.inf, "1e-3", True, 1e-30, 2.0])
-def test_a_tolerance_that_is_none_is_one_sentence(tolerance: object) -> None:
+def test_an_invalid_tolerance_is_refused_in_one_sentence(tolerance: object) -> None:
     with pytest.raises(ValueError, match=r"^The tolerance is .*; .*must be a number between 1e-11 and 0.5") as error:
         mbs.simulate(system_of("pendulum"), 1.0, tolerance=tolerance)  # type: ignore[arg-type]
     assert repr(tolerance) in str(error.value)
@@ -292,14 +292,14 @@ def test_an_error_beyond_three_tolerances_is_warned_of_with_a_number() -> None:
     assert not run.control.kept
 
 
-def test_a_method_that_does_not_take_the_system_says_so() -> None:
+def test_a_method_that_does_not_take_the_system_is_refused() -> None:
     with pytest.raises(mbs.SimulationError, match="semi_recursive"):
         run_of("pendulum", 1e-3, "semi_recursive")
 
 
 def test_the_length_is_stated_or_of_the_drawing() -> None:
-    def system(**given: float) -> mbs.System:
-        m = mbs.Model("pendulum", dimension=2, **given)  # type: ignore[arg-type]
+    def system(**options: float) -> mbs.System:
+        m = mbs.Model("pendulum", dimension=2, **options)  # type: ignore[arg-type]
         bob = m.point_mass("bob", mass=1.0, position=(3.0, 4.0))
         m.distance("rod", (m.ground, (0.0, 0.0)), bob)
         return mbs.compile(m)

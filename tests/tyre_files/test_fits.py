@@ -1,4 +1,4 @@
-"""Tyres from one formula to the other and to a file: by the kernel's forces of both, with the errors that are told."""
+"""Conversion of tyres between both formulas and to files: by the kernel's forces of both, with reported errors."""
 
 from dataclasses import asdict, replace
 from functools import cache
@@ -57,7 +57,7 @@ def force_of(tyre: Tyre | MagicTyre, load: float, kappa: float, tangent: float) 
 
 
 @pytest.mark.parametrize("q", [0.5, 1.0, 2.0])
-def test_the_magic_formula_of_a_tmeasy_tyre_has_its_forces_within_the_errors_told(q: float) -> None:
+def test_the_magic_formula_of_a_tmeasy_tyre_has_its_forces_within_the_reported_errors(q: float) -> None:
     result, errors = magic_of_tmeasy(TYRE)
     load = q * TYRE.nominal_load
     assert errors["longitudinal"] < 0.17
@@ -73,7 +73,7 @@ def test_the_magic_formula_of_a_tmeasy_tyre_has_its_forces_within_the_errors_tol
 
 
 @pytest.mark.parametrize("file", FILES, ids=ids)
-def test_tmeasy_of_a_file_is_a_tyre_that_has_its_forces_within_the_errors_told(file: Path) -> None:
+def test_tmeasy_of_a_file_has_its_forces_within_the_reported_errors(file: Path) -> None:
     bare = replace(magic(file), combination="none")
     shifts = ("PHX1", "PHX2", "PVX1", "PVX2", "PEX4", "PHY1", "PHY2", "PVY1", "PVY2", "PEY3", "LMUV", "RVY1", "RVY2")
     bare = replace(bare, coefficients={**bare.coefficients, **dict.fromkeys(shifts, 0.0)})
@@ -113,8 +113,8 @@ def test_a_written_file_is_read_as_the_same_tyre(tmp_path: Path, file: Path) -> 
     c["LKY"] = c.get("LKY", 1.0) * 1.1
     for name, value in asdict(replace(tyre, lky=1.0, coefficients={})).items():
         if name not in ("coefficients", "largest_load"):
-            wanted = value if isinstance(value, (str, bool, type(None))) else pytest.approx(value, rel=1e-12)
-            assert getattr(again, name) == wanted, name
+            expected = value if isinstance(value, (str, bool, type(None))) else pytest.approx(value, rel=1e-12)
+            assert getattr(again, name) == expected, name
     assert {n: v for n, v in c.items() if again.coefficients[n] != pytest.approx(v, rel=1e-12)} == {}
     assert (tmp_path / "again.tir").read_text(encoding="utf-8").startswith("$ written again\n")
 

@@ -47,7 +47,7 @@ def test_versions_sides_and_ways_to_combine() -> None:
     assert read_tyre(OWN).notes == ()
 
 
-def test_what_a_file_lacks_and_what_is_not_used_is_named() -> None:
+def test_missing_and_unused_entries_of_a_file_are_named() -> None:
     notes = " ".join(read_tyre(SEDAN).notes)
     assert "RBX1, RCX1, RBY1, RCY1 missing or 0: slips are combined by the friction ellipse" in notes
     assert "QSY1" in notes
@@ -70,7 +70,8 @@ UNITS = (
     ("LONGVL", "LONGVL = 16.7"),
     ("VXLOW", "VXLOW = 1"),
 )
-N, PRESSURE = 1.0 / 4.4482216152605, 1e-6 / 4.4482216152605
+N = 1.0 / 4.4482216152605
+PRESSURE = 1e-6 / 4.4482216152605
 
 
 def test_units_change_the_numbers_and_not_the_tyre(tmp_path: Path) -> None:
@@ -117,8 +118,8 @@ def test_the_vertical_stiffness_of_a_file_is_that_at_the_nominal_load(tmp_path: 
     """Fz = F0 (Q_FZ1 d/R + Q_FZ2 (d/R)^2), Pacejka 2012, eq. 4.E68: its slope at F0 is VERTICAL_STIFFNESS."""
     f = read_tyre(OWN)
     tyre = f.tyre(pressure=f.nominal_pressure)
-    radius, load, wanted, second = tyre.radius, tyre.nominal_load, 190000.0, 14.5
-    first = ((wanted * radius / load) ** 2 - 4.0 * second) ** 0.5
+    radius, load, stiffness, second = tyre.radius, tyre.nominal_load, 190000.0, 14.5
+    first = ((stiffness * radius / load) ** 2 - 4.0 * second) ** 0.5
 
     def force(d: float) -> float:
         u, ud = np.zeros(7), np.zeros(7)
@@ -129,7 +130,7 @@ def test_the_vertical_stiffness_of_a_file_is_that_at_the_nominal_load(tmp_path: 
         assert force(d) == pytest.approx(load * (first * d / radius + second * (d / radius) ** 2), rel=1e-9)
     nominal = radius * ((first**2 + 4.0 * second) ** 0.5 - first) / (2.0 * second)
     assert force(nominal) == pytest.approx(load, rel=1e-9)
-    assert (force(nominal + 1e-5) - force(nominal - 1e-5)) / 2e-5 == pytest.approx(wanted, rel=1e-6)
+    assert (force(nominal + 1e-5) - force(nominal - 1e-5)) / 2e-5 == pytest.approx(stiffness, rel=1e-6)
     both = read_tyre(changed(tmp_path, ("Q_FZ2", f"Q_FZ2 = {second}\nQ_FZ1 = 15.0")))
     (note,) = (n for n in both.notes if "VERTICAL_STIFFNESS" in n)
     assert note.startswith("VERTICAL_STIFFNESS is 1.9e+05 N/m and Q_FZ1 and Q_FZ2 give 1.624e+05 N/m at FNOMIN")
@@ -239,7 +240,7 @@ def test_what_is_no_text_of_such_a_file_is_refused(tmp_path: Path, content: byte
         read_tyre(tmp_path)
 
 
-def test_comments_and_words_in_latin_1_are_read(tmp_path: Path) -> None:
+def test_comments_and_texts_in_latin_1_are_read(tmp_path: Path) -> None:
     text = (
         OWN.read_text()
         .replace("$ Assumed", "$ für jeden Größenfall", 1)
@@ -251,7 +252,7 @@ def test_comments_and_words_in_latin_1_are_read(tmp_path: Path) -> None:
 def test_a_cut_or_altered_file_is_a_tyre_or_a_sentence(tmp_path: Path) -> None:
     """No other error, and what is read can be evaluated."""
     rng, data, read = random.Random(5), SEDAN.read_bytes(), 0
-    reported: set[bool] = set()
+    names_file: set[bool] = set()
     for k in range(400):
         if k % 2:
             content = data[: rng.randrange(len(data))]
@@ -262,11 +263,11 @@ def test_a_cut_or_altered_file_is_a_tyre_or_a_sentence(tmp_path: Path) -> None:
         try:
             tyre = read_tyre(written(tmp_path, bytes(content))).tyre()
         except TyreFileError as error:
-            reported.add("tyre.tir" in str(error))
+            names_file.add("tyre.tir" in str(error))
             continue
         read += 1
         assert element_of(tyre).check() is None
-    assert reported == {True}
+    assert names_file == {True}
     assert 20 < read < 380
 
 

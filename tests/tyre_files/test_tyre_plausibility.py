@@ -1,4 +1,4 @@
-"""Tyre files that are right in form and wrong in meaning are told; those of others are not."""
+"""Implausible tyre files are reported; published ones are not."""
 
 import re
 from pathlib import Path
@@ -71,7 +71,7 @@ def test_implausible_values_are_reported(case: str, version: str, tmp_path: Path
     assert len(lines) == 1 or not message.startswith(("per", "degrees", "percent", "kilograms")), lines
 
 
-def test_no_cause_is_named_that_leaves_what_shares_its_key(tmp_path: Path) -> None:
+def test_no_cause_is_named_that_leaves_another_value_of_its_key_outside(tmp_path: Path) -> None:
     """The shift follows from the stiffness too: what is wrong in both is not the angle of the shift."""
     text = (Path(__file__).with_name("data") / "chrono" / "Sedan_Pac02Tire.tir").read_text(encoding="utf-8")
     file = tmp_path / "odd.tir"

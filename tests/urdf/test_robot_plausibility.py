@@ -1,4 +1,4 @@
-"""Robots that are right in form and wrong in meaning are told; what is malformed is an error with its line."""
+"""Implausible robots are reported; malformed files are errors with their line."""
 
 import re
 import warnings

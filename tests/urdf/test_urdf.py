@@ -32,9 +32,9 @@ JOINT = (
 def test_torques_are_those_of_the_inverse_dynamics_of_pinocchio(name: str, tmp_path: Path) -> None:
     """Eight states, angles up to 2.5 rad, rates up to 2 rad/s, accelerations up to 8 rad/s2."""
     file = write_urdf(ROBOTS[name], tmp_path / f"{name}.urdf")
-    wanted = np.loadtxt(DATA / f"{name}_rnea.csv", delimiter=",")
-    assert wanted.shape == (8, len(ROBOTS[name]))
-    for state, torques in zip(states(name), wanted, strict=True):
+    expected = np.loadtxt(DATA / f"{name}_rnea.csv", delimiter=",")
+    assert expected.shape == (8, len(ROBOTS[name]))
+    for state, torques in zip(states(name), expected, strict=True):
         guides = {
             f"joint_{k}": PPoly(np.array([[qdd / 2.0], [qd], [q]]), [0.0, 1.0])
             for k, (q, qd, qdd) in enumerate(state.T, 1)
@@ -91,10 +91,10 @@ def test_a_slide_moves_by_its_force_with_its_reaction(tmp_path: Path) -> None:
     first = s.sensors
     assert first["slide.position"] == pytest.approx(0.25)
     s.step(0.01, 50)
-    way = 0.5 * 12.0 * (1.0 / 2.0 + 1.0 / 3.0) * 0.5**2
+    distance = 0.5 * 12.0 * (1.0 / 2.0 + 1.0 / 3.0) * 0.5**2
     now = s.sensors
-    assert now["slide.position"] - 0.25 == pytest.approx(way, rel=1e-9)
-    assert now["slide.speed"] == pytest.approx(2.0 * way / 0.5, rel=1e-9)
+    assert now["slide.position"] - 0.25 == pytest.approx(distance, rel=1e-9)
+    assert now["slide.speed"] == pytest.approx(2.0 * distance / 0.5, rel=1e-9)
     assert 2.0 * (now["a"] - first["a"]) + 3.0 * (now["b"] - first["b"]) == pytest.approx(0.0, abs=1e-9)
 
 
@@ -124,7 +124,7 @@ def test_a_joint_that_follows_another_moves_and_loads_it(leader: str, follower: 
         read_urdf(file, at={"follow": 0.0})
 
 
-def test_damping_turns_and_what_is_left_out_is_reported(tmp_path: Path) -> None:
+def test_damping_acts_and_omitted_elements_are_reported(tmp_path: Path) -> None:
     """A rod about its vertical axis loses its rate as exp(-c t / I)."""
     dynamics = '<dynamics damping="0.5" friction="0.1"/>'
     text = '<link name="a"/>' + LINK.format("b", 1.0) + JOINT.format("turn", "continuous", "a", "b", dynamics)
@@ -230,14 +230,14 @@ def test_a_file_that_is_cut_is_no_smaller_robot(part: float, tmp_path: Path) -> 
         ),
     ],
 )
-def test_a_value_that_is_none_is_one_sentence(old: str, new: str, message: str, tmp_path: Path) -> None:
+def test_an_invalid_value_is_refused_in_one_sentence(old: str, new: str, message: str, tmp_path: Path) -> None:
     file = write_urdf([ROD], tmp_path / "rod.urdf")
     file.write_text(re.sub(old, new, file.read_text(encoding="utf-8")), encoding="utf-8")
     with pytest.raises(ModelError, match=message):
         read_urdf(file)
 
 
-def test_names_that_are_none_and_a_missing_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_invalid_names_and_a_missing_library_are_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = write_urdf([ROD], tmp_path / "rod.urdf")
     with pytest.raises(ModelError, match="there is no joint 'joint_2'; did you mean 'joint_1'"):
         read_urdf(file, at={"joint_2": 1.0})
@@ -368,7 +368,7 @@ def test_a_rotor_that_is_fixed_and_has_an_inertia_alone_is_carried(tmp_path: Pat
     ("principal", "change"),
     [((0.0, 0.06, 0.06), "0.0002"), ((0.01, 0.05, 0.0606), "0.5"), ((-1e-9, 0.06, 0.06), "0.0002")],
 )
-def test_an_inertia_that_no_mass_has_is_corrected_with_a_word(
+def test_an_impossible_inertia_is_corrected_with_a_warning(
     principal: tuple[float, ...], change: str, tmp_path: Path
 ) -> None:
     """A thin rod swings as m g l says: its largest principal value stays, or nearly."""
@@ -392,7 +392,7 @@ def test_an_inertia_far_from_any_is_refused_with_the_nearest(tmp_path: Path) -> 
         read_urdf(file)
 
 
-def test_what_needs_a_free_root_says_so(tmp_path: Path) -> None:
+def test_robots_that_need_a_free_root_are_refused_with_the_option(tmp_path: Path) -> None:
     """A single link, links that are fixed to each other, and a floating joint on a root without mass."""
     file = tmp_path / "free.urdf"
     floating = '<link name="world"/>' + LINK.format("a", 2.0) + JOINT.format("j", "floating", "world", "a", "")

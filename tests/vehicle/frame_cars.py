@@ -106,7 +106,7 @@ def recovery_table(readings: Sequence[Reading], nodes: Sequence[str], dof: np.nd
 def exported(folder: Path) -> Car:
     """The prototype with its own frame as matrices in SciPy's files, gauges by recovery."""
     flexible = PROTOTYPE.flexible_frame
-    model, given = flexible.model, PROTOTYPE._data["chassis"]["frame"]
+    model, frame_data = flexible.model, PROTOTYPE._data["chassis"]["frame"]
     sp.save_npz(folder / "K.npz", sp.csc_matrix(model.K))
     sp.save_npz(folder / "M.npz", sp.csc_matrix(model.mass_matrix()))
     places = [f"{n},{x[0]!r},{x[1]!r},{x[2]!r}" for n, x in zip(model.names, model.positions.tolist(), strict=True)]
@@ -119,8 +119,8 @@ def exported(folder: Path) -> Car:
         "mass": "M.npz",
         "nodes": "nodes.csv",
         "loads": "loads.csv",
-        "damping": given["damping"],
-        "gauges": {name: {"kind": "recovery", "table": "recovery.csv"} for name in given["gauges"]},
+        "damping": frame_data["damping"],
+        "gauges": {name: {"kind": "recovery", "table": "recovery.csv"} for name in frame_data["gauges"]},
     }
     return prototype_with(frame, folder)
 

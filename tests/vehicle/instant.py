@@ -52,8 +52,8 @@ def lever_rate(bar, twist):
     """Angular velocity of a lever of the bar about +y."""
     pivot, end, link = (point(bar.points, name) for name in ("pivot", "lever_end", "link_end"))
     rod = link - end
-    way = np.cross((0.0, 1.0, 0.0), end - np.array([pivot[0], end[1], pivot[2]]))
-    return velocity(twist, link) @ rod / (way @ rod)
+    direction = np.cross((0.0, 1.0, 0.0), end - np.array([pivot[0], end[1], pivot[2]]))
+    return velocity(twist, link) @ rod / (direction @ rod)
 
 
 def _across(v):

@@ -12,7 +12,8 @@ from tests.hosts.systems.weak_coupling import car_fmu
 from tests.vehicle.cars_with_ports import WHEELS
 from tests.vehicle.test_road_port import FRICTION, Waves, closed, drive
 
-STEP, COUNT = 0.002, 500
+STEP = 0.002  # s
+COUNT = 500
 
 
 def loads_of_fmu(waves: Waves, speed: float, lead: float = 1.0) -> tuple[float, list[str]]:

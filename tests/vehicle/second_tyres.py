@@ -69,12 +69,12 @@ def drive(
     coming = None
     for k in range(round(time / step)):
         now = loop.sensors
-        reported = [tyre.wrench(now, step if k else 0.0) for tyre in tyres]
-        found = np.array([each for each, _ in reported])
+        wrenches = [tyre.wrench(now, step if k else 0.0) for tyre in tyres]
+        found = np.array([each for each, _ in wrenches])
         wrench, coming = found if not late or coming is None else coming, found
         rate = np.zeros_like(wrench) if last is None or not slopes else (wrench - last) / step
         last = wrench
-        loads.append([[closed.sensors[f"wheel_{w}.Fz"], load] for w, (_, load) in zip(WHEELS, reported, strict=True)])
+        loads.append([[closed.sensors[f"wheel_{w}.Fz"], load] for w, (_, load) in zip(WHEELS, wrenches, strict=True)])
         for s in (closed, loop):
             s.set_input("steering", steer * np.sin(5.0 * s.time))
             for pedal, value in (pedals or {}).items():

@@ -37,7 +37,7 @@ def car():
     return load("hatchback").changed(ANGLES)
 
 
-def test_kinematics_at_the_drawing_are_what_the_file_sets(car):
+def test_kinematics_at_the_drawing_have_the_angles_of_the_file(car):
     curves = kinematics(car, points=5).curves
     for axle in ("front", "rear"):
         drawn = curves[axle, "parallel"].drawn()
@@ -69,11 +69,11 @@ def test_bump_steer_is_that_of_the_linkage_with_straight_wheels(car):
 
 def test_wheels_of_the_standing_car_lean_and_point_as_set(car):
     rest = _run(car, 0.1)
-    for wheel, way in (("FL", 1.0), ("FR", -1.0), ("RL", 1.0), ("RR", -1.0)):
+    for wheel, sign in (("FL", 1.0), ("FR", -1.0), ("RL", 1.0), ("RR", -1.0)):
         axle, side = {"F": "front", "R": "rear"}[wheel[0]], {"L": "left", "R": "right"}[wheel[1]]
         toe, camber = (ANGLES[f"{axle}.alignment.{angle}_{side}"] for angle in ("toe", "camber"))
-        assert rest[f"wheel_{wheel}.steer"][-1] == pytest.approx(-way * toe, abs=2e-4)
-        assert rest[f"wheel_{wheel}.inclination"][-1] == pytest.approx(-way * camber, abs=2e-4)
+        assert rest[f"wheel_{wheel}.steer"][-1] == pytest.approx(-sign * toe, abs=2e-4)
+        assert rest[f"wheel_{wheel}.inclination"][-1] == pytest.approx(-sign * camber, abs=2e-4)
         assert abs(rest[f"wheel_{wheel}.Fy"][-1]) < 25.0
 
 
@@ -86,9 +86,9 @@ def test_rear_toe_in_pushes_both_wheels_inwards_by_the_slope_of_the_tyre():
     for wheel, inwards in (("RL", -1.0), ("RR", 1.0)):
         q = run[f"wheel_{wheel}.Fz"][-1] / car.rear.tyre.nominal_load
         slope = q * (2.0 * first - 0.5 * second - (first - 0.5 * second) * q)
-        wanted = inwards * slope * math.tan(abs(run[f"wheel_{wheel}.slip_angle"][-1]))
+        expected = inwards * slope * math.tan(abs(run[f"wheel_{wheel}.slip_angle"][-1]))
         assert run[f"wheel_{wheel}.slip_angle"][-1] == pytest.approx(-inwards * toe, abs=2e-4)
-        assert run[f"wheel_{wheel}.Fy"][-1] == pytest.approx(wanted, rel=0.03)
+        assert run[f"wheel_{wheel}.Fy"][-1] == pytest.approx(expected, rel=0.03)
     assert abs(run["chassis.yaw"][-1]) < 1e-3
 
 

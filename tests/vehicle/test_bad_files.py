@@ -1,4 +1,4 @@
-"""A car file that is wrong is refused with a sentence for each fault, the same through every door."""
+"""An invalid car file is refused with a sentence for each fault, the same in every command and function."""
 
 import os
 
@@ -12,7 +12,8 @@ from mbs.vehicle.changed_content import changed_content
 from tests.quick import quick
 from tests.vehicle.content import new_with, numbers, sentences, tables, told
 
-FIRST, CAR_NAMES = "prototype", sorted(car_names(), reverse=True)
+FIRST = "prototype"
+CAR_NAMES = sorted(car_names(), reverse=True)
 SWEPT = quick(("prototype", "hatchback", "commonroad_320i"), CAR_NAMES, "proof")
 
 
@@ -149,8 +150,8 @@ def test_all_points_of_the_right_side():
     changes = {p: -v for p, v in numbers("prototype").items() if p.endswith(".1") and ".points." in p}
     assert len(refused(changes, lines=None)) > 5
     right = dict(load("prototype")._data["front"]["suspension"]["points"])
-    given = {f"front.suspension.points_right.{k}": [x, -y, z] for k, (x, y, z) in right.items()}
-    (line,) = refused(given)
+    points = {f"front.suspension.points_right.{k}": [x, -y, z] for k, (x, y, z) in right.items()}
+    (line,) = refused(points)
     assert line == "front.suspension.points_right is not known; did you mean 'points'?"
 
 
@@ -240,7 +241,7 @@ def test_implausible_values_are_reported_and_built(case):
 
 
 @pytest.mark.parametrize("ports", ["", '\n[ports]\ntyre = "hub"\n'])
-def test_a_user_is_warned_of_what_is_odd(copied, ports):
+def test_a_user_is_warned_of_implausible_values(copied, ports):
     file = copied()
     text = file.read_text(encoding="utf-8").replace("stiffness = 12360.0", "stiffness = 9000.0")
     file.write_text(text + ports, "utf-8")

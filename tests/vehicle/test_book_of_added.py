@@ -1,4 +1,4 @@
-"""What a user adds to a car stands in its books of energy; what he does not add changes no car."""
+"""Energy balance of elements that a user adds to a car; without them a car is unchanged."""
 
 import numpy as np
 import pytest
@@ -31,9 +31,9 @@ def test_works_of_added_elements_close_the_balance() -> None:
     m.sense_solver("solver.energy_error", "energy_error")
     r = mbs.simulate(mbs.compile(m), 2.0, 0.002, {"port.turn": 3000.0}, parameters={"road.friction": 0.0})
     change = {n: float(r[n][-1] - r[n][0]) for n in (*WORKS, "energy.total", "energy.added", "solver.energy_error")}
-    remaining = change["energy.total"] - sum(change[n] for n in WORKS) - change["solver.energy_error"]
+    residual = change["energy.total"] - sum(change[n] for n in WORKS) - change["solver.energy_error"]
     assert np.abs(r["chassis.yaw"]).max() > 0.05
-    assert change["energy.added"] == pytest.approx(remaining, rel=1e-6)
+    assert change["energy.added"] == pytest.approx(residual, rel=1e-6)
     assert abs(change["energy.added"]) > 10.0
 
 

@@ -31,7 +31,7 @@ def test_braking_turns_the_car_to_the_stronger_side(to_the_left):
     mirrored(to_the_left, stop(-0.1), 1e-7)
 
 
-def test_the_file_says_the_same_as_the_parameter(to_the_left):
+def test_file_and_parameter_have_the_same_effect(to_the_left):
     system = compile(car().changed({"brakes.side": 0.1}).model())
     run = drive(1.2, inputs=STOP, pose=Pose(speed=25.0), of=system)
     assert np.array_equal(run["chassis.yaw"], to_the_left["chassis.yaw"])

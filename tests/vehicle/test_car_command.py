@@ -29,7 +29,7 @@ def test_a_copy_is_the_same_car(name, tmp_path, capsys):
 
 
 @pytest.mark.parametrize("name", car_names())
-def test_it_prints_what_a_car_is(name, capsys):
+def test_it_prints_a_summary_of_a_car(name, capsys):
     assert main(["car", name, "--show-parameters"]) == 0
     printed = capsys.readouterr()
     assert printed.err == ""

@@ -1,4 +1,4 @@
-"""Cars and tyres that are right in form and wrong in meaning are told, with the mistake that explains it."""
+"""Implausible cars and tyres are reported with the probable mistake."""
 
 import json
 import warnings
@@ -111,17 +111,17 @@ def test_tables_of_a_car_with_a_port_in_place_of_its_tyres_are_those_on_its_own(
         return settled(model, car)
 
     monkeypatch.setattr(built_car, "settled", counted)
-    reported = {}
+    messages = {}
     for ports in ({}, {"ports.tyre": "hub"}):
         car = load("hatchback").changed(ports)
         results.clear()
-        reported[len(ports)] = [
+        messages[len(ports)] = [
             summary(car),
             car.summary(),
             [plausibility.to_json() for plausibility in car.plausibility()],
         ]
         assert len(results) == 1, "its rest is found once for all of them"
-    assert reported[1] == reported[0]
+    assert messages[1] == messages[0]
 
 
 @pytest.mark.parametrize(

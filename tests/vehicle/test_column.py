@@ -92,18 +92,18 @@ def test_stiffer_columns_approach_the_rigid_rack():
 def test_the_recorded_torque_gives_the_angle_again_to_second_order():
     gaps = []
     for h in (0.005, 0.0025):
-        held = run(system(), 4.0, h, **LEFT)
-        torque = held.t, held["steering_wheel_torque"]
+        guided = run(system(), 4.0, h, **LEFT)
+        torque = guided.t, guided["steering_wheel_torque"]
         turned = run(system(), 4.0, h, 1, throttle=0.12, steering_torque=torque)
         np.testing.assert_allclose(turned["steering_wheel_torque"], torque[1], atol=1e-6)
-        gaps.append(np.max(np.abs(turned["steering_wheel_angle"] - held["steering_wheel_angle"])))
+        gaps.append(np.max(np.abs(turned["steering_wheel_angle"] - guided["steering_wheel_angle"])))
     assert gaps[0] < 2e-3  # rad, of 0.7
     assert gaps[0] / gaps[1] == pytest.approx(4.0, rel=0.15)
 
 
 def test_without_hands_the_car_centres_its_steering_and_goes_straight_on():
-    held = run(system(), 4.0, **LEFT)
-    torque = (np.append(held.t, 4.0 + 1e-9), np.append(held["steering_wheel_torque"], 0.0))
+    guided = run(system(), 4.0, **LEFT)
+    torque = (np.append(guided.t, 4.0 + 1e-9), np.append(guided["steering_wheel_torque"], 0.0))
     t = run(system(), 9.0, by_torque=1, throttle=0.12, steering_torque=torque)
     angle, release = t["steering_wheel_angle"], int(4.0 / H)
     assert angle[release] > 0.7
@@ -159,10 +159,10 @@ def test_the_way_of_steering_is_chosen_before_the_start():
 
 
 def test_the_other_way_of_steering_is_not_heard():
-    held = run(system(), 2.0, **LEFT)
+    guided = run(system(), 2.0, **LEFT)
     both = run(system(), 2.0, **LEFT, steering_torque=20.0)
-    np.testing.assert_allclose(both["chassis.y"], held["chassis.y"], atol=1e-9)
-    np.testing.assert_allclose(both["steering_wheel_torque"], held["steering_wheel_torque"], atol=1e-6)
+    np.testing.assert_allclose(both["chassis.y"], guided["chassis.y"], atol=1e-9)
+    np.testing.assert_allclose(both["steering_wheel_torque"], guided["steering_wheel_torque"], atol=1e-6)
     free = run(system(), 2.0, by_torque=1, throttle=0.12, steering_torque=1.0)
     requested = run(system(), 2.0, by_torque=1, throttle=0.12, steering_torque=1.0, steering=0.5)
     np.testing.assert_allclose(requested["chassis.y"], free["chassis.y"], atol=1e-9)
@@ -212,18 +212,18 @@ def test_a_parameter_is_the_number_of_the_file(name):
         np.testing.assert_allclose(a[output], b[output], rtol=0, atol=1e-9)
 
 
-def test_a_saved_state_goes_on_with_the_same_bits():
+def test_a_saved_state_continues_with_the_same_bits():
     def fresh() -> Simulation:
         return Simulation(system(), pose=Pose(speed=15.0), parameters={"steering.by_torque": 1})
 
-    given = {"throttle": 0.2, "steering_torque": lambda t: 1.5 * math.sin(4.0 * t)}
+    inputs = {"throttle": 0.2, "steering_torque": lambda t: 1.5 * math.sin(4.0 * t)}
     first = fresh()
-    first.run(1.0, H, inputs=given)
+    first.run(1.0, H, inputs=inputs)
     state = first.save()
-    on = first.run(2.0, H, inputs=given)
+    on = first.run(2.0, H, inputs=inputs)
     again = fresh()
     again.restore(state)
     assert not again.switch("steering angle")
-    resumed = again.run(2.0, H, inputs=given)
+    resumed = again.run(2.0, H, inputs=inputs)
     np.testing.assert_array_equal(resumed["steering_wheel_angle"], on["steering_wheel_angle"])
     np.testing.assert_array_equal(resumed["chassis.y"], on["chassis.y"])

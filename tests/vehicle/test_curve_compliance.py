@@ -17,7 +17,9 @@ from mbs.vehicle.springs import AxleSprings
 from tests.vehicle.curved_car import after_a_turn, curved_content, linked_car
 
 STEER = {"per_moment": 8e-5}
-CAMBER, LATERAL, FORWARD = -4e-6, 1.5e-6, 8e-7  # rad/N, m/N
+CAMBER = -4e-6  # rad/N
+LATERAL = 1.5e-6  # m/N
+FORWARD = 8e-7  # m/N
 ALL = {
     "camber_per_lateral_force": CAMBER,
     "lateral_per_lateral_force": LATERAL,
@@ -36,10 +38,10 @@ def content(folder: Path) -> dict[str, Any]:
 
 
 def compliant(content: dict[str, Any], folder: Path, **axles: dict[str, float]) -> Car:
-    made = dict(content)
+    changed = dict(content)
     for axle, numbers in axles.items():
-        made[axle] = content[axle] | {"suspension": content[axle]["suspension"] | {"compliance": numbers}}
-    return car_from(made, folder, "compliant", at_rest=False)
+        changed[axle] = content[axle] | {"suspension": content[axle]["suspension"] | {"compliance": numbers}}
+    return car_from(changed, folder, "compliant", at_rest=False)
 
 
 def on_rig(car: Car, axle: str, forces: dict[str, float]) -> dict[str, dict[str, float]]:
@@ -59,8 +61,10 @@ def on_rig(car: Car, axle: str, forces: dict[str, float]) -> dict[str, dict[str,
     for corner in data.suspension.corners(b, axle, AxleSprings(data.spring, data.damper, None), None):
         w = corner.side.wheel
         (travel,) = (i for i, c in enumerate(m.coordinates) if c.name == f"wheel travel {w}")
-        held = ScalarSpringDamper(1e9, 1e6, unit="N").record(f"held {w}", mbs.common.affine.Affine({travel: 1.0}))
-        m.add(held)
+        travel_spring = ScalarSpringDamper(1e9, 1e6, unit="N").record(
+            f"held {w}", mbs.common.affine.Affine({travel: 1.0})
+        )
+        m.add(travel_spring)
         x, y, _ = corner.side.point(data.wheel.centre)
         m.force(f"force {w}", corner.carrier, (x, y, 0.0), inputs=push)
         m.torque(f"moment {w}", corner.carrier, inputs=turn)
@@ -113,9 +117,9 @@ def test_wheels_of_a_turning_car_lean_by_their_lateral_forces(content: dict[str,
         assert not axle.suspension.linked
         mass = axle.wheel.mass + axle.suspension.bodies.carrier.mass
         sideways = out[f"wheel_{wheel}.Fy"] + out[f"wheel_{wheel}.Fz"] * np.sin(roll)
-        held = mass * (out["chassis.ay"] + 9.81 * np.sin(roll)) * (height - axle.wheel.centre[2])
+        roll_moment = mass * (out["chassis.ay"] + 9.81 * np.sin(roll)) * (height - axle.wheel.centre[2])
         assert abs(lean) > 1e-3
-        assert lean == pytest.approx((height * sideways - held) * CAMBER**2 / LATERAL, rel=0.1), (
+        assert lean == pytest.approx((height * sideways - roll_moment) * CAMBER**2 / LATERAL, rel=0.1), (
             wheel
         )  # the load acts beside it
 

@@ -91,7 +91,7 @@ def test_one_axle_may_have_links_and_the_fidelity_of_tables_takes_both(content: 
         assert force == pytest.approx(2437.0, abs=5.0)
 
 
-def test_compliance_is_what_the_forces_in_the_contact_ask_for(content: dict, folder: Path) -> None:
+def test_compliance_is_that_of_the_forces_in_the_contact(content: dict, folder: Path) -> None:
     """u = c_x F_x + c_y F_y + c_m M_z of a wheel that does not steer, of both wheels of a turning car."""
     c_m, c_y, c_x = 8e-5, -3e-6, 2e-6
     data = content["saloon"]
@@ -194,7 +194,7 @@ def test_uneven_points_are_a_smooth_curve_and_two_sweeps_of_a_rack_are_added(con
     np.testing.assert_allclose(toe, whole[:, [k]] + whole[[i]] - whole[i, k], atol=1e-15)
 
 
-def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None:
+def test_an_invalid_table_is_refused_in_one_sentence(content: dict, copied: Path) -> None:
     heading, rows = rows_of(copied / "rear.csv")
     toe = heading.index("toe_angle [rad]")
 
@@ -246,9 +246,7 @@ def test_a_table_that_is_none_is_a_sentence(content: dict, copied: Path) -> None
     refused(r"values of wheel_travel twice, and no .*: rack_travel", [heading[k] for k in alone], rows[:, alone])
 
 
-def test_wheels_that_the_rack_turns_by_another_angle_than_the_file_says_are_reported(
-    content: dict, copied: Path
-) -> None:
+def test_a_wheel_angle_that_differs_from_that_of_the_file_is_reported(content: dict, copied: Path) -> None:
     """As a table in degrees under headings in radians."""
     data = copy.deepcopy(content["saloon"])
     car = car_from(data, copied, "x")
@@ -256,9 +254,9 @@ def test_wheels_that_the_rack_turns_by_another_angle_than_the_file_says_are_repo
     suspension, centre = car.front.suspension, car.front.wheel.centre
     assert not [*suspension.steering_oddities(car.steering, centre)]
     data["steering"]["front_wheel_angle_max"] = 0.9
-    (reported,) = suspension.steering_oddities(car_from(data, copied, "x").steering, centre)
-    assert "front_wheel_angle_max is 0.9 rad, but at full travel of the rack, 0.07 m, the wheels of front" in reported
-    assert reported.endswith("(front.csv) are turned by 0.6 rad; are the units of its headings right?")
+    (sentence,) = suspension.steering_oddities(car_from(data, copied, "x").steering, centre)
+    assert "front_wheel_angle_max is 0.9 rad, but at full travel of the rack, 0.07 m, the wheels of front" in sentence
+    assert sentence.endswith("(front.csv) are turned by 0.6 rad; are the units of its headings right?")
 
 
 def test_a_row_of_both_wheels_is_one_place_of_the_axle(content: dict, folder: Path, tmp_path: Path) -> None:
@@ -307,15 +305,15 @@ def test_a_column_of_one_wheel_is_asked_of_the_other(tmp_path: Path) -> None:
     table(*sides, "spring_length_left", "spring_length_right")
     with pytest.raises(CarFileError, match="no column toe_angle or steer_angle of the right wheel"):
         table(*(n for n in sides if not n.startswith("toe")), "toe_angle")
-    for given in (
+    for one_wheel in (
         ["spring_length"],
         ["spring_length_left"],
         ["spring_length_right"],
         ["spring_length", "spring_length_left", "spring_length_right"],
     ):
-        match = rf"right wheel and {', '.join(given)}; there must be spring_length_left and spring_length_right"
+        match = rf"right wheel and {', '.join(one_wheel)}; there must be spring_length_left and spring_length_right"
         with pytest.raises(CarFileError, match=match):
-            table(*sides, *given)
+            table(*sides, *one_wheel)
 
 
 def test_a_table_of_many_rows_is_thinned_or_refused_with_its_name(content: dict, folder: Path, copied: Path) -> None:
@@ -406,9 +404,7 @@ def test_track_change_is_of_both_wheels(content: dict, copied: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("tabled", ["front", "rear"])
-def test_the_axle_with_links_has_its_curves_where_the_other_has_none(
-    tabled: str, tmp_path: Path, capsys: pytest.CaptureFixture
-) -> None:
+def test_the_axle_with_links_has_its_own_curves(tabled: str, tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
     whole, other = linked("saloon"), "rear" if tabled == "front" else "front"
     (tmp_path / "car.toml").write_text(tomli_w.dumps(curved_content(whole, tmp_path, (tabled,))))
     assert main(["car", str(tmp_path), "--kinematics", "--points", "5", "--out", str(tmp_path / "out")]) == 0
@@ -434,14 +430,14 @@ def test_the_axle_with_links_has_its_curves_where_the_other_has_none(
         ({"inner": [-2.58, -0.3, 0.2]}, r"points\.inner has y = -0\.3 m; points are given for the left side"),
     ],
 )
-def test_a_link_that_is_none_is_a_sentence(points: dict, message: str, content: dict, copied: Path) -> None:
+def test_an_invalid_link_is_refused_in_one_sentence(points: dict, message: str, content: dict, copied: Path) -> None:
     data = copy.deepcopy(content["saloon"])
     data["rear"]["suspension"]["bodies"]["links"]["lower_wishbone"]["points"] = {"outer": [-2.58, 0.62, 0.20]} | points
     with pytest.raises(CarFileError, match=message):
         car_from(data, copied, "x")
 
 
-def test_links_are_asked_for_where_there_are_none(content: dict, folder: Path) -> None:
+def test_functions_that_need_links_ask_for_them(content: dict, folder: Path) -> None:
     car = car_from(content["saloon"], folder / "saloon", "x")
     with pytest.raises(ModelError, match=r"front\.suspension\.kind is 'curves'.*front\.csv has its curves"):
         kinematics(car)

@@ -1,4 +1,4 @@
-"""Cars far from the origin: the same bits as at it, at every fidelity."""
+"""Cars far from the origin: the same bits as at the origin, at every fidelity."""
 
 import numpy as np
 import pytest

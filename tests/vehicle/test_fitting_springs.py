@@ -30,10 +30,10 @@ def said_of(car: Car, lengths: dict[str, float]) -> tuple[str, Car | None]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", CarWarning)
         try:
-            made = checked_car(type(car), data, car.folder, "car", warn=True)
+            checked = checked_car(type(car), data, car.folder, "car", warn=True)
         except CarFileError as error:
             return str(error), None
-    return "\n".join(str(entry.message) for entry in caught), made
+    return "\n".join(str(entry.message) for entry in caught), checked
 
 
 @pytest.mark.parametrize("case", quick(("longer",), CASES))
@@ -41,13 +41,13 @@ def test_with_the_free_length_that_is_given_the_car_stands_as_drawn(case: str) -
     name, changes = CASES[case]
     car = load(name)
     drawn = {axle: getattr(car, axle).spring.free_length for axle in changes}
-    reported, _ = said_of(car, {axle: drawn[axle] + change for axle, change in changes.items()})
-    assert reported.count("a car is drawn in its equilibrium: with ") == len(changes)
-    given = {
-        axle: float(value) for axle, value in re.findall(r"with (\w+)\.spring\.free_length = ([\d.]+) it is", reported)
+    message, _ = said_of(car, {axle: drawn[axle] + change for axle, change in changes.items()})
+    assert message.count("a car is drawn in its equilibrium: with ") == len(changes)
+    lengths = {
+        axle: float(value) for axle, value in re.findall(r"with (\w+)\.spring\.free_length = ([\d.]+) it is", message)
     }
-    assert given.keys() == changes.keys()
-    again, result = said_of(car, given)
+    assert lengths.keys() == changes.keys()
+    again, result = said_of(car, lengths)
     assert "equilibrium" not in again
     assert result is not None
     model = result.empty()

@@ -33,9 +33,9 @@ def test_works_of_forces_and_wind_close_the_balance(axes: str) -> None:
     end = s.sensors
     works = {n: x for n, x in end.items() if n.startswith("energy.") and n not in STORED}
     assert works["energy.ports"] > 1e4
-    remaining = end["energy.total"] - start["energy.total"] - sum(works.values())
+    residual = end["energy.total"] - start["energy.total"] - sum(works.values())
     own = abs(s.instance.report()["energy_error"])
-    assert abs(remaining) < 1e-6 * max(map(abs, works.values())) + own
+    assert abs(residual) < 1e-6 * max(map(abs, works.values())) + own
 
 
 @pytest.mark.slow
@@ -131,7 +131,7 @@ def test_a_wheel_is_calm_up_to_the_step_that_its_tyre_bears(make: Callable[[], C
 
 
 @pytest.mark.slow
-def test_a_tyre_with_little_damping_shakes_earlier_and_is_calm_where_the_fmu_says_so() -> None:
+def test_a_tyre_with_little_damping_shakes_above_the_step_that_the_fmu_names() -> None:
     """At 5 m/s: 4 ms are too long for held forces, 2 ms and, with derivatives, 5 ms are not."""
     steps = ((0.004, False), (0.002, False), (0.005, True))
     shaken, held, followed = (drive(h, 5.0, make=saloon, slopes=slopes, time=1.0)[2] for h, slopes in steps)

@@ -1,4 +1,4 @@
-"""Tables beside a car file that are wrong are refused with a sentence."""
+"""Invalid tables beside a car file are refused with a sentence."""
 
 import os
 
@@ -7,7 +7,9 @@ import pytest
 from mbs.vehicle import CarFileError, load
 from tests.vehicle.content import sentences
 
-JOINT, TUBE, MASS = "F2L,0.45,0.28,0.4,", "F1L,LFL,M,2", "powertrain,EML,32"
+JOINT = "F2L,0.45,0.28,0.4,"
+TUBE = "F1L,LFL,M,2"
+MASS = "powertrain,EML,32"
 CASES = {  # table, what is replaced by what, words of the sentence
     "missing file": ("joints.csv", "", "", "chassis.frame.joints: 'joints.csv' cannot be read: there is no such file"),
     "missing column": ("joints.csv", "joint,x,y,z,", "joint,x,y,height,", "(joints.csv) has no column z"),
@@ -87,7 +89,7 @@ def test_a_table_that_is_wrong(case, copied):
         (b"joint,x,y,z\n", "has no lines under its titles"),
     ],
 )
-def test_a_table_that_is_none(content, message, copied):
+def test_an_invalid_table_is_refused(content, message, copied):
     file = copied()
     (file.parent / "joints.csv").write_bytes(content)
     with pytest.raises(CarFileError) as error:
@@ -127,7 +129,7 @@ def test_a_table_that_is_a_link_elsewhere_is_refused(copied, tmp_path):
         ),
     ],
 )
-def test_a_frame_that_names_what_is_not_there(changes, message):
+def test_a_frame_that_names_missing_parts_is_refused(changes, message):
     with pytest.raises(CarFileError) as error:
         load("prototype").changed(changes)
     assert message in "\n".join(sentences(error.value, "car 'prototype': "))

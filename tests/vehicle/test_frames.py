@@ -82,7 +82,7 @@ def test_the_weight_of_the_chassis_enters_the_ports_of_a_frame_of_the_user(small
     np.testing.assert_allclose(total, (0.0, 0.0, 9.81 * small.chassis.mass), rtol=0, atol=1e-3)
 
 
-def test_without_loads_the_load_paths_say_what_is_missing(small: Car) -> None:
+def test_load_paths_without_loads_report_what_is_missing(small: Car) -> None:
     with pytest.raises(ModelError, match=r"chassis\.frame\.loads is missing: fidelity 2 needs a table"):
         small.model(fidelity="load_paths")
 
@@ -130,7 +130,7 @@ def test_the_own_frame_of_the_prototype_comes_back_from_matrices(tmp_path: Path)
 def test_the_own_frame_of_the_prototype_comes_back_from_nastran(tmp_path: Path) -> None:
     op4 = pytest.importorskip("pyyeti.nastran.op4")
     flexible = PROTOTYPE.flexible_frame
-    model, given = flexible.model, PROTOTYPE._data["chassis"]["frame"]
+    model, frame_data = flexible.model, PROTOTYPE._data["chassis"]["frame"]
     matrices = {"KGG": model.K.toarray(), "MGG": model.mass_matrix().toarray()}
     op4.write(str(tmp_path / "frame.op4"), matrices, binary=True)
     numbers = {name: str(101 + k) for k, name in enumerate(model.names)}
@@ -144,8 +144,8 @@ def test_the_own_frame_of_the_prototype_comes_back_from_nastran(tmp_path: Path) 
         "kind": "nastran",
         "bulk_data": "frame.bdf",
         "matrices": "frame.op4",
-        "damping": given["damping"],
-        "gauges": {name: {"kind": "recovery", "table": "recovery.csv"} for name in given["gauges"]},
+        "damping": frame_data["damping"],
+        "gauges": {name: {"kind": "recovery", "table": "recovery.csv"} for name in frame_data["gauges"]},
     }
     car = prototype_with(frame, tmp_path)
     assert car.flexible_frame.interfaces == tuple(numbers[joint] for joint in flexible.interfaces)

@@ -1,4 +1,4 @@
-"""Gauges of a car file against closed forms, and what they leave as it was."""
+"""Gauges of a car file against closed forms; they change no motion."""
 
 from functools import cache
 from typing import Any
@@ -14,7 +14,9 @@ from mbs.vehicle.errors import CarFileError
 from tests.flexible.structures import straight
 from tests.vehicle.frame_cars import PROTOTYPE
 
-DIAMETER, WALL, LENGTH = 0.04, 0.002, 1.2
+DIAMETER = 0.04  # m
+WALL = 0.002  # m
+LENGTH = 1.2  # m
 SECTION = tube(DIAMETER, WALL)
 AREA = np.pi * (DIAMETER - WALL) * WALL
 SECOND = np.pi / 64 * (DIAMETER**4 - (DIAMETER - 2 * WALL) ** 4)
@@ -41,10 +43,10 @@ def stresses(direction: tuple[float, float, float], place: float, **gauge: Any) 
     """Readings of a gauge on a tube that is clamped at its first end and loaded at the other."""
     frame = straight(4, LENGTH, SECTION, direction=direction)
     model = frame.finite_element_model()
-    held, end = np.arange(6), 6 * 4 + np.arange(6)
+    fixed, end = np.arange(6), 6 * 4 + np.arange(6)
     load = np.zeros(model.n_dof)
     load[end] = [*FORCE, *(TORQUE * np.array(direction) / np.linalg.norm(direction))]
-    free = np.setdiff1d(np.arange(model.n_dof), held)
+    free = np.setdiff1d(np.arange(model.n_dof), fixed)
     u = np.zeros(model.n_dof)
     u[free] = np.linalg.solve(model.K.toarray()[np.ix_(free, free)], load[free])
     section = TubeGauge(tube=("A", "B"), place=place, **gauge)

@@ -51,7 +51,7 @@ def reached(car, axle):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "axle"), [("prototype", "front"), ("hatchback", "rear")])
-def test_it_is_what_the_tyres_reach(name, axle):
+def test_the_grip_is_that_of_the_tyres(name, axle):
     car = load(name)
     variants = [
         car,

@@ -29,7 +29,7 @@ def masses():
     return results
 
 
-def test_the_masses_of_the_file_are_the_car_as_it_says():
+def test_the_masses_of_the_file_add_up_to_the_car():
     total = sum(m for m, _ in masses())
     centre = sum(m * p for m, p in masses()) / total
     assert total == pytest.approx(1250.0, abs=1e-9)
@@ -101,7 +101,7 @@ def test_a_stop_by_newtons_law():
     assert torque["RL"] == pytest.approx(0.4 * car().brakes.torque * (1.0 - car().brakes.balance), rel=1e-3)
 
 
-def test_energy_is_kept_but_for_what_takes_it():
+def test_energy_changes_by_the_dissipation_only():
     """Kinetic, gravity and elastic energy change by the works of drive, brakes, tyres, dampers and air, no more."""
     inputs = {"steering": ([0, 1, 1.5, 3], [0, 0, 0.2, 0.2]), "throttle": ([0, 0.5, 2, 2.2, 4], [0, 0.6, 0.6, 0, 0])}
     run = drive(4.0, 0.002, inputs=inputs | {"brake": ([0, 2.5, 3.0, 4.0], [0, 0, 0.3, 0.3])}, pose=Pose(speed=10.0))

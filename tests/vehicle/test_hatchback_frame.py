@@ -136,9 +136,9 @@ def test_the_energy_of_the_car_is_that_of_its_works_and_the_frame_only_loses() -
     """Damping of the frame is no work of the list; it is a small part of what the tyres and dampers take."""
     run = Simulation(system(3)).run(3.0, 0.001, inputs={"throttle": 0.6, "steering": 0.2})
     works = sum(run[f"energy.{name}"] for name in ("drive", "brakes", "tyres", "dampers", "drag", "ground"))
-    remaining = run["energy.total"] - run["energy.total"][0] - works
+    residual = run["energy.total"] - run["energy.total"][0] - works
     assert run["energy.drive"][-1] > 2e4
-    assert np.abs(remaining).max() < 2e-3 * run["energy.drive"][-1]
+    assert np.abs(residual).max() < 2e-3 * run["energy.drive"][-1]
 
 
 @pytest.mark.parametrize(("fidelity", "tolerance"), [(1, 8e-3), (2, 3e-4), (3, 3e-4)])
@@ -152,8 +152,8 @@ def test_the_scene_gives_the_gauges_of_every_fidelity(fidelity: int, tolerance: 
     model = car().model(fidelity=fidelity)
     pose_outputs(model)
     (part,) = model.flexible_scene
-    given = {"steering": 0.4, "throttle": 0.7}
-    run = Simulation(compile(model)).run(2.0, 0.01, inputs=given, estimate_error=False)
+    inputs = {"steering": 0.4, "throttle": 0.7}
+    run = Simulation(compile(model)).run(2.0, 0.01, inputs=inputs, estimate_error=False)
     eta = amplitudes(part, run)
     tubular = car().frame_section.tubular(car().folder)
     frame, tubes = tubular.frame()

@@ -26,7 +26,7 @@ def test_a_car_by_links_has_tables_too(saloon):
     assert list(saloon) == [Fidelity.TABLE, Fidelity.RIGID]
 
 
-def test_its_own_drives_are_as_said(saloon):
+def test_its_own_drives_reach_their_accelerations_and_speeds(saloon):
     system = saloon[Fidelity.TABLE]
     slalom, braking, kerb = own_drives(saloon[Fidelity.RIGID])
     run = simulate(system, slalom.duration, 0.01, slalom.inputs, pose=slalom.pose, estimate_error=False)
@@ -89,7 +89,7 @@ def rows_of(*lines: tuple[str, str, float, float | None, float | None]) -> list[
     return [dict(zip(keys, line, strict=True)) | {"h_s": 0.01} for line in lines]
 
 
-def test_it_chooses_what_meets_all_tolerances_in_all_drives():
+def test_it_chooses_the_level_that_meets_all_tolerances_in_all_drives():
     rows = rows_of(
         ("a", "table", 10.0, 0.001, 0.02), ("b", "table", 20.0, 0.001, 0.05),
         ("a", "rigid", 40.0, 0.002, 0.02), ("b", "rigid", 30.0, 0.001, 0.02),
@@ -99,8 +99,8 @@ def test_it_chooses_what_meets_all_tolerances_in_all_drives():
     both = cheapest(rows, {"path": 0.01, "load": 0.03})
     assert (both.fidelity, both.errors, both.ms_per_second) == (Fidelity.RIGID, {"path": 0.002, "load": 0.02}, 4.0)
     assert [c.fidelity for c in levels(rows, ["load"])] == [Fidelity.TABLE, Fidelity.RIGID]  # one run failed
-    reported = "path right to 0.0015 and load right to 0.025; the best is path 0.002 and load 0.02 away"
-    with pytest.raises(ValueError, match=re.escape(reported)):
+    message = "path right to 0.0015 and load right to 0.025; the best is path 0.002 and load 0.02 away"
+    with pytest.raises(ValueError, match=re.escape(message)):
         cheapest(rows, {"path": 0.0015, "load": 0.025})
 
 
@@ -117,8 +117,8 @@ def drive_file(tmp_path):
 
 def test_the_command_names_the_cheapest_for_a_drive_of_ones_own(tmp_path, capsys):
     result = tmp_path / "levels.json"
-    given = ["car", "saloon", "--cheapest", f"drive={drive_file(tmp_path)}", "speed=10"]
-    assert main([*given, "loads=5", "--json", str(result)]) == 0
+    arguments = ["car", "saloon", "--cheapest", f"drive={drive_file(tmp_path)}", "speed=10"]
+    assert main([*arguments, "loads=5", "--json", str(result)]) == 0
     printed = capsys.readouterr().out
     assert "saloon: errors against fidelity 0 with steps of 0.5 ms, the largest of: turn" in printed
     assert "Cheapest within 1 % of the way and 5 % of the wheel loads: fidelity " in printed
@@ -127,7 +127,7 @@ def test_the_command_names_the_cheapest_for_a_drive_of_ones_own(tmp_path, capsys
     assert content["tolerances"] == {"path": 0.01, "load": pytest.approx(0.05)}
     assert content["cheapest"]["fidelity"] in (0, 10)
     assert {row["manoeuvre"] for row in content["rows"]} == {"turn"}
-    assert main([*given, "path=1e-9"]) == 2
+    assert main([*arguments, "path=1e-9"]) == 2
     captured = capsys.readouterr()
     assert captured.err.splitlines()[-1].startswith(
         "error: No level is within 1e-09 % of the way and 3 % of the wheel loads; the nearest is fidelity "

@@ -62,13 +62,13 @@ def quantity(name, path):
 
 def driven(compiled, parameters):
     """From rest and from 20 m/s: full throttle, coasting, brake, hand brake, a turn."""
-    wanted = {
+    input_values = {
         "steering": lambda t: 0.15 * np.sin(3.0 * t),
         "throttle": lambda t: 1.0 if t < 0.3 else 0.0,
         "brake": lambda t: 0.0 if t < 0.45 else 0.4,
         "hand_brake": lambda t: 0.0 if t < 0.6 else 0.3,
     }
-    inputs = {i["name"]: wanted[i["name"]] for i in compiled.meta["inputs"] if i["name"] in wanted}
+    inputs = {i["name"]: input_values[i["name"]] for i in compiled.meta["inputs"] if i["name"] in input_values}
     quiet = {"estimate_error": False, "progress": False}
     return [simulate(compiled, 0.7, H, inputs, None, parameters, pose=Pose(speed=v), **quiet) for v in (0.0, 20.0)]
 
@@ -150,7 +150,7 @@ def without_assistance(car):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", quick(OF_ALL_KINDS, car_names(), "proof"))
-def test_parameters_do_together_what_the_file_would_do(name):
+def test_all_parameters_together_have_the_effect_of_the_file(name):
     """A few at a time, each of which is seen in its run; of cars in `OF_ALL_KINDS` those of a kind of their own."""
     car = load(name)
     before = OF_ALL_KINDS[: OF_ALL_KINDS.index(name)] if name in OF_ALL_KINDS else ()
@@ -168,7 +168,7 @@ def test_parameters_do_together_what_the_file_would_do(name):
 
 @pytest.mark.proof
 @pytest.mark.parametrize("name", car_names())
-def test_a_parameter_does_what_the_file_would_do(name):
+def test_a_parameter_has_the_effect_of_the_file(name):
     car = load(name)
     wrong = wrong_parameters(name, [[path] for path in told(car) if path not in without_assistance(car)])
     assert not wrong, "\n".join(wrong)

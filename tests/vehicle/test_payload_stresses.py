@@ -6,7 +6,8 @@ import pytest
 import mbs
 from mbs.vehicle import load
 
-PLACE, MASS = [-1.2, 0.35, 0.45], 80.0
+PLACE = [-1.2, 0.35, 0.45]  # m
+MASS = 80.0  # kg
 LOADED = {"payload.driver.mass": MASS}
 FIDELITIES = {"quasi_static": 0.05}
 """How far the change of a moment at rest may be from that of the dynamic frame, parts of the largest change."""
@@ -41,10 +42,10 @@ def test_a_car_that_is_loaded_is_one_rebuilt_with_the_load() -> None:
     for fidelity in ("quasi_static", "load_paths", "dynamic"):
         cars = [load("prototype").changed(values | more) for more in ({}, LOADED)]
         runs = [
-            mbs.Simulation(mbs.compile(car.model(fidelity=fidelity)), parameters=given, pose=mbs.Pose(speed=10.0)).run(
-                0.5, 0.005, inputs={"steering": 0.3}
-            )
-            for car, given in zip(cars, (LOADED, {}), strict=True)
+            mbs.Simulation(
+                mbs.compile(car.model(fidelity=fidelity)), parameters=parameters, pose=mbs.Pose(speed=10.0)
+            ).run(0.5, 0.005, inputs={"steering": 0.3})
+            for car, parameters in zip(cars, (LOADED, {}), strict=True)
         ]
         for name in runs[0]:
             scale = max(1.0, np.abs(runs[1][name]).max())

@@ -126,8 +126,10 @@ def test_the_tie_rods_keep_their_length_to_a_four_bar(car):
     linkage, frame = Linkage(car), car.steering.plane
     for k in (40, 100, 200):
         theta = t["steering_arm_angle"][k]
-        way = linkage.end(theta, 1.0) - linkage.end(0.0, 1.0)
-        assert [t["steering_link_x"][k], t["steering_link_y"][k]] == pytest.approx([e @ way for e in frame], abs=1e-10)
+        displacement = linkage.end(theta, 1.0) - linkage.end(0.0, 1.0)
+        assert [t["steering_link_x"][k], t["steering_link_y"][k]] == pytest.approx(
+            [e @ displacement for e in frame], abs=1e-10
+        )
         assert t["steering_link_angle"][k] == pytest.approx(linkage.at(theta)[2], abs=1e-10)
     assert np.ptp(t["steering_link_angle"]) > 0.01
 
@@ -139,8 +141,8 @@ def test_a_parallelogram_does_not_turn_its_link():
     _, turn, rate = linkage.turned(phi)
     assert np.abs(turn).max() < 1e-14
     assert np.abs(rate).max() < 1e-13
-    way, _ = linkage.carried(car.steering.in_plane((-0.125, 0.295, 0.232)), phi)
-    np.testing.assert_allclose(way, -0.155 * (np.exp(1j * phi) - 1.0), rtol=0, atol=1e-15)
+    displacement, _ = linkage.carried(car.steering.in_plane((-0.125, 0.295, 0.232)), phi)
+    np.testing.assert_allclose(displacement, -0.155 * (np.exp(1j * phi) - 1.0), rtol=0, atol=1e-15)
 
 
 def test_torque_at_the_arm_is_the_work_of_the_tie_rods():
@@ -199,8 +201,8 @@ def test_the_ratio_of_the_box_as_a_parameter_is_that_of_the_file():
 
 
 def test_friction_is_at_the_steering_wheel():
-    given = {"steering_wheel_angle_demand": lambda t: 2.0 * t}
-    smooth, rough = run(TRAPEZOID, given), run(CAR.changed({"steering": ARM | {"friction": 0.8}}), given)
+    inputs = {"steering_wheel_angle_demand": lambda t: 2.0 * t}
+    smooth, rough = run(TRAPEZOID, inputs), run(CAR.changed({"steering": ARM | {"friction": 0.8}}), inputs)
     assert rough["steering_wheel_torque"][-1] - smooth["steering_wheel_torque"][-1] == pytest.approx(0.8, rel=1e-6)
     np.testing.assert_allclose(rough["chassis.y"], smooth["chassis.y"], rtol=0, atol=1e-9)
 
@@ -220,7 +222,7 @@ def test_lanes_have_it_too():
     system = compile(SKEWED.model())
     turns = [{"throttle": 0.3, "steering": ([0.0, 0.4], [0.0, side * 0.7])} for side in (1.0, -0.6)]
     together = mbs.simulate_many(
-        system, [mbs.Variant(inputs=given) for given in turns], 0.5, 0.005, lanes=2, progress=False
+        system, [mbs.Variant(inputs=inputs) for inputs in turns], 0.5, 0.005, lanes=2, progress=False
     )
     assert not together.failures
     for a, given in zip(together.trajectories, turns, strict=True):
@@ -249,8 +251,8 @@ def test_an_fmu_of_it_steers_as_here(tmp_path):
     data = tomllib.loads((folder / "car.toml").read_text(encoding="utf-8"))
     data |= {"name": "armed", "steering": ARM | SKEW}
     (folder / "car.toml").write_text(tomli_w.dumps(data), encoding="utf-8")
-    given = [str(folder), "--out", str(tmp_path), "--kind", "native", "--platforms", fmpy.platform]
-    assert build_fmu.main(given) == 0
+    arguments = [str(folder), "--out", str(tmp_path), "--kind", "native", "--platforms", fmpy.platform]
+    assert build_fmu.main(arguments) == 0
     names = ["steering_arm_angle", "steering_link_x", "steering_link_y", "steering_link_angle", "steering_wheel_angle"]
     with Fmu(tmp_path / "Armed.fmu") as fmu:
         fmu.initialise({"steering.ratio": 18.0})
@@ -260,8 +262,8 @@ def test_an_fmu_of_it_steers_as_here(tmp_path):
             steer([0.8 * math.sin(0.1 * k), 0.3])
             fmu.step(0.01 * k, 0.01)
             theta, x, y, turned, wheel, torque = read()
-            way = linkage.end(theta, 1.0) - linkage.end(0.0, 1.0)
-            assert [x, y] == pytest.approx([e @ way for e in SKEWED.steering.plane], abs=1e-9)
+            displacement = linkage.end(theta, 1.0) - linkage.end(0.0, 1.0)
+            assert [x, y] == pytest.approx([e @ displacement for e in SKEWED.steering.plane], abs=1e-9)
             assert turned == pytest.approx(linkage.at(theta)[2], abs=1e-9)
             assert [wheel, -18.0 * torques()[0]] == pytest.approx([18.0 * theta, torque], abs=1e-9)
     assert abs(theta) > 0.2
@@ -276,8 +278,8 @@ def test_the_drawing_moves_the_link_as_the_four_bar():
         for names, values in zip((frame["position"], frame["quaternion"]), frame["start"], strict=True):
             columns |= {name: np.array([value]) for name, value in zip(names, values, strict=True)}
     drawn, theta = FramePoses(scene, columns, 1), 0.4
-    way, frame = linkage.end(theta, 1.0) - linkage.end(0.0, 1.0), SKEWED.steering.plane
-    moved = {"steering_link_x": frame[0] @ way, "steering_link_y": frame[1] @ way}
+    displacement, frame = linkage.end(theta, 1.0) - linkage.end(0.0, 1.0), SKEWED.steering.plane
+    moved = {"steering_link_x": frame[0] @ displacement, "steering_link_y": frame[1] @ displacement}
     moved["steering_link_angle"] = linkage.at(theta)[2]
     poses = FramePoses(scene, columns | {name: np.array([value]) for name, value in moved.items()}, 1)
     a, b, _ = linkage.at(theta)
@@ -306,10 +308,10 @@ REFUSED = {
 
 @pytest.mark.parametrize("change", REFUSED)
 def test_an_invalid_linkage_is_refused(change):
-    values, reported = REFUSED[change]
+    values, message = REFUSED[change]
     with pytest.raises(CarFileError) as error:
         CAR.changed({"steering": ARM | values})
-    assert reported in str(error.value)
+    assert message in str(error.value)
     assert str(error.value).count("\n") == 0
 
 

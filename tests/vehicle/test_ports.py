@@ -126,11 +126,11 @@ def test_the_work_that_moves_the_rack_is_booked(ports: dict[str, str], name: str
     all the same, and what they leave open of the change of the energy is below 1e-5 of the largest work. The work of a
     held demand is the step's own force times the travel: 0.0145, 0.0034 and 0.0008 J off in 1, 2 and 4 parts.
     """
-    works, remaining, own = {}, {}, {}
+    works, residuals, own = {}, {}, {}
     for parts in (1, 4, 16):
-        of_all, remaining[parts], own[parts] = open_and_own(simulation(rigid, **ports), name, amplitude, parts)
+        of_all, residuals[parts], own[parts] = open_and_own(simulation(rigid, **ports), name, amplitude, parts)
         works[parts] = of_all[book]
-        assert abs(remaining[parts] - own[parts]) < 1e-5 / parts * max(map(abs, of_all.values()))
+        assert abs(residuals[parts] - own[parts]) < 1e-5 / parts * max(map(abs, of_all.values()))
     assert works[16] > 1.0
     assert abs(works[4] - works[16]) < 4e-3
     assert abs(works[1] - works[16]) < 2e-2
@@ -181,7 +181,7 @@ def test_a_pressure_gives_the_torque_of_the_pedal_at_the_same_share() -> None:
     assert now["wheel_FL.brake_power"] == pytest.approx(now["wheel_FL.brake_torque"] * now["wheel_FL.omega"], rel=1e-2)
 
 
-def test_the_pedal_tells_the_pressure_that_gives_its_torque() -> None:
+def test_the_pedal_reports_the_pressure_of_its_torque() -> None:
     pedal = simulation(rigid, torque="half_shafts", full_pressure=8e6)
     port = simulation(rigid, torque="half_shafts", brakes="pressure", full_pressure=8e6)
     pedal.set_input("brake", 0.25)
@@ -197,7 +197,7 @@ def test_the_pedal_tells_the_pressure_that_gives_its_torque() -> None:
     assert "brake_pressure" not in port.sensors
 
 
-def test_a_torque_that_is_asked_for_tells_the_pressure_that_it_takes() -> None:
+def test_a_requested_torque_reports_its_pressure() -> None:
     """Of brakes as those of the car file, whose sides differ here: both cars brake alike."""
     result = {"brakes.side": 0.1, "ports.full_pressure": 8e6}
     cars = [hatchback().changed(result | {"ports.brakes": kind}) for kind in ("torque", "pressure")]
@@ -209,9 +209,9 @@ def test_a_torque_that_is_asked_for_tells_the_pressure_that_it_takes() -> None:
         pressure.set_input(f"wheel_{w}.brake_pressure", torque.sensors[f"used.wheel_{w}.brake_pressure"])
     pressure.step(STEP, 50)
     for w in WHEELS:
-        reported = torque.sensors[f"wheel_{w}.brake_torque"]
-        assert reported < -90.0
-        assert pressure.sensors[f"wheel_{w}.brake_torque"] == pytest.approx(reported, rel=1e-9)
+        brake_torque = torque.sensors[f"wheel_{w}.brake_torque"]
+        assert brake_torque < -90.0
+        assert pressure.sensors[f"wheel_{w}.brake_torque"] == pytest.approx(brake_torque, rel=1e-9)
 
 
 def test_outputs_of_loops_alone_leave_a_car_as_it_is() -> None:
@@ -253,7 +253,7 @@ def test_the_rack_follows_its_port() -> None:
 
 
 @pytest.mark.slow
-def test_the_force_on_the_rack_is_that_of_its_work_where_the_demand_goes_on() -> None:
+def test_the_force_on_the_rack_is_that_of_its_work_for_a_continuous_demand() -> None:
     """To 1e-3 of the work; of held demands the follower makes jolts, which the force at the end of a step has too."""
     run = mbs.simulate(
         system(rigid, (("steering", "rack_position"),)),
@@ -278,19 +278,19 @@ def test_the_force_on_the_rack_is_that_of_its_work_where_the_demand_goes_on() ->
 
 def test_a_force_on_the_rack_relieves_the_steering_wheel() -> None:
     """In a standing start of a turn the force that the rods ask for is that of the actuator and of the pinion."""
-    car, held = column_car(), {}
+    car, by_force = column_car(), {}
     for force in (0.0, 100.0):
         s = simulation(column_car, steering="rack_force")
         s.set_input("steering_wheel_angle_demand", 0.3)
         s.set_input("steering_rack_actuator_force", force)
         s.step(STEP, 1000)
-        held[force] = s.sensors
+        by_force[force] = s.sensors
     per_radian = car.steering.rack_per_turn / (2.0 * np.pi)
-    relief = held[0.0]["steering_wheel_torque"] - held[100.0]["steering_wheel_torque"]
-    rods = held[100.0]["steering_rack_force"] - held[0.0]["steering_rack_force"]
-    way = car.rack_direction
+    relief = by_force[0.0]["steering_wheel_torque"] - by_force[100.0]["steering_wheel_torque"]
+    rods = by_force[100.0]["steering_rack_force"] - by_force[0.0]["steering_rack_force"]
+    direction = car.rack_direction
     assert abs(relief) > 0.1
-    assert abs(relief - way * per_radian * (100.0 + rods)) < 0.3 * abs(relief)
+    assert abs(relief - direction * per_radian * (100.0 + rods)) < 0.3 * abs(relief)
 
 
 def test_outputs_that_loops_need_agree_with_others() -> None:
@@ -316,7 +316,7 @@ def test_outputs_that_loops_need_agree_with_others() -> None:
     assert now["wheel_RL.My"] == pytest.approx(lever, abs=0.1 * abs(lever) + 1.0)
 
 
-def test_a_damper_tells_its_speed_and_force_apart_from_the_stops() -> None:
+def test_a_damper_reports_speed_and_force_without_the_stops() -> None:
     """In a fall that reaches both stops: c times the rate of its length; spring and stops have the rest."""
     rest = simulation(rigid, 0.0, torque="half_shafts").sensors
     s = mbs.Simulation(system(rigid, (("torque", "half_shafts"),)), pose=mbs.Pose(z=0.4))
@@ -388,7 +388,7 @@ def test_a_gear_that_is_asked_for_is_engaged_and_the_drive_shifts_by_itself_with
     assert [n for n in observation if n in sensors] == sensors
 
 
-def test_a_clutch_hands_on_what_its_pedal_leaves() -> None:
+def test_a_clutch_transmits_the_torque_of_its_pedal() -> None:
     """Released it changes no bit; pressed the car rolls as in neutral; between it has the torque that is left."""
     plain, ported = simulation(rigid, 3.0), simulation(rigid, 3.0, clutch="pedal")
     for s in (plain, ported):

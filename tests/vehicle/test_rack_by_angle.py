@@ -61,7 +61,7 @@ def test_the_torque_of_the_hands_is_that_of_the_tie_rods_times_the_travel_per_ra
     assert 0.5 < t["steering_wheel_torque"][-1] < 10.0
 
 
-def test_beyond_full_lock_it_stays_there_and_says_so(car):
+def test_beyond_full_lock_the_angle_is_limited_and_reported(car):
     simulation = Simulation(car)
     t = simulation.run(1.0, 0.01, inputs={"steering": 0.9, "steering_wheel_angle_demand": 2.0}, estimate_error=False)
     largest = CAR.steering.wheel_angle_max
@@ -71,12 +71,12 @@ def test_beyond_full_lock_it_stays_there_and_says_so(car):
     assert not Simulation(car).run(0.1, 0.01, inputs={"steering": 1.0}, estimate_error=False).notices
 
 
-def test_friction_is_what_the_hands_need_besides():
+def test_friction_is_the_additional_torque_of_the_hands():
     """At a constant rate of the wheel the torque is larger by the friction; the car does not notice."""
     rubbing = CAR.changed({"steering.friction": 0.8})
-    given = {"steering_wheel_angle_demand": lambda t: 0.4 * t}
-    smooth = Simulation(compile(CAR.model())).run(3.0, 0.01, inputs=given)
-    rough = Simulation(compile(rubbing.model())).run(3.0, 0.01, inputs=given)
+    inputs = {"steering_wheel_angle_demand": lambda t: 0.4 * t}
+    smooth = Simulation(compile(CAR.model())).run(3.0, 0.01, inputs=inputs)
+    rough = Simulation(compile(rubbing.model())).run(3.0, 0.01, inputs=inputs)
     difference = rough["steering_wheel_torque"] - smooth["steering_wheel_torque"]
     np.testing.assert_allclose(difference[50:], 0.8, rtol=0, atol=1e-3)
     np.testing.assert_allclose(rough["steering_rack_force"], smooth["steering_rack_force"], rtol=0, atol=1e-2)

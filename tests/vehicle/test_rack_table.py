@@ -93,8 +93,8 @@ def test_power_of_the_hands_is_power_of_the_rack(tabled):
 
 def test_friction_is_at_the_steering_wheel():
     """Turned at a constant rate, the hands need it besides; the car does not notice."""
-    given = {"steering_wheel_angle_demand": lambda t: 2.0 * t}
-    smooth, rough = run(TABLED, given), run(TABLED.changed({"steering.friction": 0.8}), given)
+    inputs = {"steering_wheel_angle_demand": lambda t: 2.0 * t}
+    smooth, rough = run(TABLED, inputs), run(TABLED.changed({"steering.friction": 0.8}), inputs)
     more = rough["steering_wheel_torque"] - smooth["steering_wheel_torque"]
     assert more[-1] == pytest.approx(0.8, rel=1e-6)
     np.testing.assert_allclose(rough["chassis.y"], smooth["chassis.y"], rtol=0, atol=1e-9)
@@ -141,9 +141,9 @@ def test_lanes_have_it_too():
     """Two cars that advance together, steered to both sides, as each does alone."""
     system = compile(TABLED.model())
     turns = [{"throttle": 0.3, "steering": ([0.0, 0.4], [0.0, side * 0.7])} for side in (1.0, -0.6)]
-    variants = [mbs.Variant(inputs=given) for given in turns]
+    variants = [mbs.Variant(inputs=inputs) for inputs in turns]
     together = mbs.simulate_many(system, variants, 0.5, 0.005, lanes=2, progress=False)
-    alone = [Simulation(system).run(0.5, 0.005, inputs=given, estimate_error=False) for given in turns]
+    alone = [Simulation(system).run(0.5, 0.005, inputs=inputs, estimate_error=False) for inputs in turns]
     assert not together.failures
     assert sum(together.alone) < 20
     for a, b in zip(together.trajectories, alone, strict=True):
@@ -165,8 +165,8 @@ def test_an_fmu_of_the_file_steers_by_it(tmp_path):
     text, count = re.subn(r"rack_per_turn = 0\.042", requested, text)
     assert count == 1
     (folder / "car.toml").write_text(text.replace('name = "prototype"', 'name = "quick"'), encoding="utf-8")
-    given = [str(folder), "--out", str(tmp_path), "--kind", "native", "--platforms", fmpy.platform]
-    assert build_fmu.main(given) == 0
+    arguments = [str(folder), "--out", str(tmp_path), "--kind", "native", "--platforms", fmpy.platform]
+    assert build_fmu.main(arguments) == 0
     names = ["steering_rack", "steering_wheel_angle", "steering_wheel_speed", "steering_wheel_torque"]
     recorded = []
     with Fmu(tmp_path / "Quick.fmu") as fmu:

@@ -97,7 +97,7 @@ def test_random_changes_give_a_car_or_sentences(file):
 
 @given(changed_files())
 @settings(max_examples=EXAMPLES, deadline=None, derandomize=EXAMPLES <= 60, suppress_health_check=list(HealthCheck))
-def test_the_json_schema_refuses_what_the_types_refuse(file):
+def test_the_json_schema_refuses_as_the_types_do(file):
     _, data = file
     assume(not re.search(r"\b(nan|inf)\b", str(data)))  # JSON has neither
     try:

@@ -91,7 +91,7 @@ def test_two_validators_accept_the_cars_of_the_package(name):
         ("chassis.accelerometers", {"a b": [0.0, 0.0, 0.2]}),
     ],
 )
-def test_two_validators_refuse_what_the_types_refuse(path, value):
+def test_two_validators_refuse_as_the_types_do(path, value):
     data = json.loads(json.dumps(load("prototype")._data))
     *outer, last = path.split(".")
     table = data
@@ -103,7 +103,7 @@ def test_two_validators_refuse_what_the_types_refuse(path, value):
         fast_validator()(data)
 
 
-def test_0_is_allowed_where_the_type_says_so():
+def test_0_is_allowed_as_the_type_declares():
     schema = json.loads(schema_text())["definitions"]["TMeasy"]["properties"]["grip"]
     validator = jsonschema.Draft7Validator(schema)
     assert [validator.is_valid(value) for value in (0, 0.0, 0.01, 0.5, 11)] == [True, True, False, True, False]

@@ -14,7 +14,8 @@ from mbs.kernel.binding import Status
 from mbs.vehicle import load
 from tests.vehicle.cars_with_ports import WHEELS, with_ports
 
-BEGIN, SPEED = 3.0, 10.0  # m, m/s
+BEGIN = 3.0  # m
+SPEED = 10.0  # m/s
 FRICTION = load("hatchback").road.friction
 
 
@@ -129,8 +130,8 @@ def test_a_raised_road_does_the_work_that_the_tyres_store() -> None:
     s.step(0.002)
     now, car = s.sensors, load("hatchback")
     stiffness = {"F": car.front.tyre.stiffness, "R": car.rear.tyre.stiffness}
-    wanted = sum(before[f"wheel_{w}.Fz"] * d + 0.5 * stiffness[w[0]] * d * d for w in WHEELS)
-    assert now["energy.road"] - before["energy.road"] == pytest.approx(wanted, rel=1e-3)
+    expected = sum(before[f"wheel_{w}.Fz"] * d + 0.5 * stiffness[w[0]] * d * d for w in WHEELS)
+    assert now["energy.road"] - before["energy.road"] == pytest.approx(expected, rel=1e-3)
 
 
 def test_the_start_stands_on_the_answers_as_on_a_road() -> None:
@@ -184,7 +185,7 @@ def test_a_car_climbs_an_edge_that_is_answered_as_a_kerb(h: float) -> None:
     assert other.sensors["energy.ground"] == 0.0
 
 
-def test_a_normal_that_is_none_is_refused() -> None:
+def test_an_invalid_normal_is_refused() -> None:
     s = mbs.Simulation(at_ports())
     for normal in ((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, 0.0, 0.5)):
         for c, value in zip("xyz", normal, strict=True):
@@ -233,7 +234,7 @@ def test_no_other_road_fits_and_the_own_one_is_left_out() -> None:
     ("first", "sentence"),
     [([1], "has 7; `road_answer` makes them"), ([], "must be a list of at least one number"), ([0.5], "whole number")],
 )
-def test_a_road_of_inputs_that_are_none_is_refused(first: list[float], sentence: str) -> None:
+def test_a_road_of_missing_inputs_is_refused(first: list[float], sentence: str) -> None:
     m = mbs.Model("answered")
     m.road_answer("road")
     with pytest.raises(mbs.ModelError, match=sentence):

@@ -10,7 +10,9 @@ from mbs.vehicle.kinematics import kinematics
 from mbs.vehicle.kinematics.curves import Curve
 
 # of the sprung mass, with half of the tracks, of the measured car
-MASS, AHEAD, BEHIND = 1093.3, 1.1717, 2.5789 - 1.1717
+MASS = 1093.3  # kg
+AHEAD = 1.1717  # m
+BEHIND = 2.5789 - 1.1717  # m
 WHEEL_RATE = {"front": 24453.0, "rear": 19635.0}
 DAMPING = {"front": 1786.0, "rear": 1649.0}
 MORE_ROLL_STIFFNESS = {"front": 6915.0, "rear": 2644.0}
@@ -33,8 +35,8 @@ def _drawn(curve: Curve, name: str) -> float:
 def test_its_weight_is_on_the_axles_as_measured(car):
     rest = simulate(compile(car.model()), 0.05, 0.005, progress=False, estimate_error=False)
     for wheel, arm in (("FL", BEHIND), ("FR", BEHIND), ("RL", AHEAD), ("RR", AHEAD)):
-        wanted = 0.5 * MASS * GRAVITY * arm / (AHEAD + BEHIND)
-        assert rest[f"wheel_{wheel}.Fz"][0] == pytest.approx(wanted, rel=1e-3)
+        expected = 0.5 * MASS * GRAVITY * arm / (AHEAD + BEHIND)
+        assert rest[f"wheel_{wheel}.Fz"][0] == pytest.approx(expected, rel=1e-3)
         assert abs(rest[f"wheel_{wheel}.travel"][0]) < 1e-5
 
 

@@ -1,4 +1,4 @@
-"""Looks of cars: drawn from the hard points of their files, and nothing but looks."""
+"""Appearance of cars: shapes from the hard points of their files, without effect on the motion."""
 
 import math
 from functools import cache
@@ -20,8 +20,8 @@ from tests.viewer.poses import FramePoses
 
 @cache
 def scene(car: str, body: str = "") -> dict[str, Any]:
-    made = load(car).changed({"chassis.body": body}) if body else load(car)
-    return mbs.compile(made.model()).scene
+    data = load(car).changed({"chassis.body": body}) if body else load(car)
+    return mbs.compile(data.model()).scene
 
 
 def named(car: str, name: str) -> dict[str, Any]:
@@ -61,7 +61,7 @@ def test_a_long_car_is_no_higher_than_its_wheels_let_it_be() -> None:
     """Of the 320i no height is known."""
     car = load("commonroad_320i")
     long = car.changed({"vehicle.length": 5.5})
-    heights = [BodyShell(made).height for made in (car, long)]
+    heights = [BodyShell(data).height for data in (car, long)]
     assert heights[0] == heights[1] == pytest.approx(1.51, abs=0.05)
     assert BodyShell(car.changed({"vehicle.length": 3.5})).height == pytest.approx(0.5823 / 0.39)
 
@@ -182,8 +182,8 @@ def test_nobody_looks_through_the_car_between_tyre_and_arch(name: str) -> None:
     for axle in (shell.car.front, shell.car.rear):
         x, y, z = axle.wheel.centre
         for angle in np.radians([20.0, 50.0, 90.0, 130.0, 160.0]):
-            way = axle.tyre.radius + 0.5 * ARCH
-            start = np.array([x + way * math.cos(angle), y, z + way * math.sin(angle)])
+            distance = axle.tyre.radius + 0.5 * ARCH
+            start = np.array([x + distance * math.cos(angle), y, z + distance * math.sin(angle)])
             for ahead, down in ((0.0, 0.0), (0.5, 0.0), (-0.5, 0.0), (0.0, 0.4), (0.4, 0.3), (-0.4, 0.3)):
                 end = start + 3.0 * np.array([ahead, -1.0, -down])
                 for side in ([1.0, 1.0, 1.0], [1.0, -1.0, 1.0]):
@@ -218,10 +218,10 @@ def test_the_hands_of_the_driver_lie_at_the_rim_at_any_steering_angle(name: str)
 def meets(start: np.ndarray, end: np.ndarray, triangles: np.ndarray) -> bool:
     """Whether a line between two points goes through one of the triangles, of shape (n, 3, 3)."""
     a, b, c = np.moveaxis(triangles, 1, 0)
-    way, normal = end - start, np.cross(b - a, c - a)
-    along = normal @ way
+    ray, normal = end - start, np.cross(b - a, c - a)
+    along = normal @ ray
     share = np.einsum("ij,ij->i", normal, a - start) / np.where(np.abs(along) > 1e-12, along, np.nan)
-    hit = start + share[:, None] * way
+    hit = start + share[:, None] * ray
     inside = [np.einsum("ij,ij->i", normal, np.cross(q - p, hit - p)) >= 0.0 for p, q in ((a, b), (b, c), (c, a))]
     return bool(((share > 0.0) & (share < 1.0) & np.all(inside, axis=0)).any())
 
@@ -236,7 +236,7 @@ def meets(start: np.ndarray, end: np.ndarray, triangles: np.ndarray) -> bool:
         ("hatchback", "clear", 3, 1),
     ],
 )
-def test_the_body_is_as_the_file_says(car: str, body: str, shell: int, tubes: int) -> None:
+def test_the_body_has_the_shape_of_the_file(car: str, body: str, shell: int, tubes: int) -> None:
     shapes = scene(car, body)["shapes"]
     meshes = [shape for shape in shapes if shape["kind"] == "mesh"]
     assert len(meshes) == shell

@@ -97,7 +97,7 @@ def test_the_same_scene_gives_the_gauges_of_the_other_fidelities(
         )
 
 
-def test_a_rigid_chassis_has_the_same_outputs_and_says_that_nothing_is_computed(part: dict[str, Any]) -> None:
+def test_a_rigid_chassis_has_the_same_outputs_marked_as_not_computed(part: dict[str, Any]) -> None:
     """With amplitudes as outputs there is no model with ports that follows it."""
     run = kerb_run(0)
     assert part["computed"] == "stress.computed"
@@ -119,10 +119,10 @@ def test_the_gauges_of_a_car_stand_where_its_file_has_them(part: dict[str, Any])
     assert [g["name"] for g in part["gauges"]] == list(TUBULAR.section.gauges) == ["SG1", "SG2", "SG3", "SG4"]
     joints, shift = TUBULAR.joint_places(), prototype_car.car().vehicle.reference_point
     for actual in part["gauges"]:
-        given = TUBULAR.section.gauges[actual["name"]]
-        start, end = (joints[joint] for joint in given.tube)
+        gauge = TUBULAR.section.gauges[actual["name"]]
+        start, end = (joints[joint] for joint in gauge.tube)
         at, to = (np.array(part["nodes"][k]) + shift for k in actual["nodes"])
-        np.testing.assert_allclose(at + actual["along"] * (to - at), start + given.place * (end - start), atol=1e-6)
+        np.testing.assert_allclose(at + actual["along"] * (to - at), start + gauge.place * (end - start), atol=1e-6)
         assert actual["value"] == f"stress.{actual['name']}"
 
 

@@ -59,8 +59,8 @@ def test_macpherson_in_bump():
 def test_macpherson_in_roll():
     axle = hatchback().front
     twist = rolls(axle, instant.macpherson(axle.suspension.points))
-    way = instant.velocity(twist, instant.contact(axle.wheel.centre))
-    height = 0.5 * axle.track * way[1] / way[2]
+    velocity = instant.velocity(twist, instant.contact(axle.wheel.centre))
+    height = 0.5 * axle.track * velocity[1] / velocity[2]
     assert measured()["front.roll_centre_height"] == pytest.approx(height, rel=0.02)
     assert 0.02 < height < 0.12
     assert measured()["front.roll_steer"] == pytest.approx(twist[5], rel=0.02)
@@ -94,8 +94,8 @@ def test_twist_beam_in_bump_moves_straight_up():
 def test_twist_beam_in_roll_turns_about_the_line_through_its_pivot_and_the_shear_centre():
     axle = hatchback().rear
     twist = rolls(axle, instant.twist_beam(axle.suspension.points, "roll"))
-    way = instant.velocity(twist, instant.contact(axle.wheel.centre))
-    height = 0.5 * axle.track * way[1] / way[2]
+    velocity = instant.velocity(twist, instant.contact(axle.wheel.centre))
+    height = 0.5 * axle.track * velocity[1] / velocity[2]
     assert measured()["rear.roll_centre_height"] == pytest.approx(height, rel=2e-3)
     assert 0.08 < height < 0.25
     assert measured()["rear.roll_steer"] == pytest.approx(twist[5], rel=2e-3)

@@ -1,4 +1,4 @@
-"""Cars that are their own image in the middle plane, at every fidelity that they offer."""
+"""Cars that are mirror-symmetric to the middle plane, at every fidelity that they offer."""
 
 import numpy as np
 import pytest

@@ -20,8 +20,9 @@ from tests.viewer.poses import FramePoses
 CARS = ("prototype", "hatchback")
 WHEELS = ("FL", "FR", "RL", "RR")
 STRESSES = ("bending_moment", "stress")
-PLACE, TURN = 5e-7, 1e-5
-"""How far a table may be from its links between its points, m and rad."""
+# largest difference between a table and its links between the points of the table
+PLACE = 5e-7  # m
+TURN = 1e-5  # rad
 
 
 @cache

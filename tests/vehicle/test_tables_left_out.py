@@ -1,4 +1,4 @@
-"""Each table of the cars' files left out: a car that drives, or a sentence that names the table."""
+"""Each table of the cars' files omitted: a car that drives, or a sentence that names the table."""
 
 import re
 import warnings
@@ -84,8 +84,8 @@ def test_without_stops_it_is_reported_how_far_the_links_follow(name, tmp_path):
     file.write_text(re.sub(r"\[(front|rear)\.stops\]\n(?:.+\n)+", "", text), encoding="utf-8")
     with pytest.warns(CarWarning) as caught:
         car = load(file)
-    reported = [str(warning.message) for warning in caught if "stops" in str(warning.message)]
-    for axle, line in zip(("front", "rear"), reported, strict=True):
+    messages = [str(warning.message) for warning in caught if "stops" in str(warning.message)]
+    for axle, line in zip(("front", "rear"), messages, strict=True):
         assert f"car.toml: {axle}.stops is missing" in line
         if not getattr(car, axle).suspension.linked:
             assert "goes from -0.130 to +0.130 m of wheel travel" in line

@@ -18,9 +18,11 @@ from mbs.vehicle.quantities import quantities_in
 from mbs.vehicle.section import sections_of
 from tests.vehicle.hatchback import drive
 
-L, M = 1.6, 8.0
+L = 1.6
+M = 8.0
 T = math.sqrt(L)
-FORCE, POWER = M, M * L / T
+FORCE = M
+POWER = M * L / T
 FACTORS = {
     **{"1": 1.0, "rad": 1.0, "deg": 1.0, "m": L, "m2": L**2, "kg": M, "kg.m2": M * L**2, "kg/m3": M / L**3},
     **{"s": T, "Hz": 1.0 / T, "rad/s": 1.0 / T, "m/s": L / T, "s/m": T / L, "N": FORCE, "N/m": FORCE / L},

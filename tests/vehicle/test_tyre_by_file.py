@@ -51,17 +51,17 @@ def test_the_car_has_the_tyres_of_the_file_each_on_its_side(car):
 def test_it_runs_straight_and_turns_left_to_the_left(car):
     system = compile(car.model())
     run = {
-        way: simulate(
+        side: simulate(
             system,
             1.5,
             0.005,
-            {"steering": lambda t, way=way: 0.1 * way if t > 0.2 else 0.0},
+            {"steering": lambda t, way=side: 0.1 * way if t > 0.2 else 0.0},
             None,
             pose=Pose(speed=20.0),
             progress=False,
             estimate_error=False,
         )
-        for way in (-1.0, 0.0, 1.0)
+        for side in (-1.0, 0.0, 1.0)
     }
     assert abs(run[0.0]["chassis.y"][-1]) < 0.01  # left and right tyres are images of each other
     assert run[1.0]["chassis.y"][-1] > 0.3

@@ -50,12 +50,12 @@ def carrier(run: mbs.Trajectory, wheel: str) -> Rotation:
 @pytest.mark.slow
 @pytest.mark.parametrize("car", CARS)
 def test_they_are_the_last_outputs_at_every_fidelity(car: str) -> None:
-    wanted = [f"wheel_{w}.{part}" for w in WHEELS for part in PARTS]
+    expected = [f"wheel_{w}.{part}" for w in WHEELS for part in PARTS]
     for make in load(car).fidelities().values():
         names = [s["name"] for s in mbs.compile(make()).meta["sensors"]]
         while names[-1].startswith(("anti_roll_bar_", "energy.steering")):  # what came later
             names.pop()
-        assert names[-len(wanted) :] == wanted
+        assert names[-len(expected) :] == expected
 
 
 @pytest.mark.parametrize("car", CARS)
@@ -117,8 +117,8 @@ def test_contact_and_normal_come_from_centre_axis_and_road(car: str, road: str) 
         assert np.max(np.abs(n - slope)[touching]) < max(tolerance, 4e-3 if road == "grid" else 0.0)
         down = np.sum(slope * e, axis=1)[:, None] * e - slope
         down /= np.linalg.norm(down, axis=1)[:, None]
-        way = np.sum(slope * (q - centre), axis=1) / np.sum(slope * down, axis=1)
-        again = centre + way[:, None] * down
+        distance = np.sum(slope * (q - centre), axis=1) / np.sum(slope * down, axis=1)
+        again = centre + distance[:, None] * down
         assert np.max(np.linalg.norm(again - point, axis=1)[touching]) < tolerance
         loaded = np.linalg.norm(point - centre, axis=1)
         deflection = run[f"wheel_{w}.deflection"]

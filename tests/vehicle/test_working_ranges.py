@@ -1,4 +1,4 @@
-"""Values with which no car works are told in Python too, and at the ends of the ranges that are told a car stands."""
+"""Values with which no car works are reported in Python too; at the ends of the reported ranges a car stands."""
 
 import warnings
 from functools import cache
@@ -45,10 +45,10 @@ def test_they_are_reported_before_the_start_and_after_it(name):
                 with warnings.catch_warnings(record=True) as caught:
                     warnings.simplefilter("always")
                     act()
-                reported = [str(w.message) for w in caught if w.category is ParameterWarning and w.filename == __file__]
+                messages = [str(w.message) for w in caught if w.category is ParameterWarning and w.filename == __file__]
                 range_told = f"outside the range in which such models work, {low:.4g} to {high:.4g}"
-                if not any(message in line and range_told in line for line in reported):
-                    missing.append((message, reported))
+                if not any(message in line and range_told in line for line in messages):
+                    missing.append((message, messages))
     assert missing == []
     assert all(ranges[path][0] <= load(name).values()[path] <= ranges[path][1] for path in BAD)
 

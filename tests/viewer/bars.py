@@ -1,4 +1,4 @@
-"""What must hold for the bar of every page: one line within the window, and no choice whose words are cut."""
+"""Checks of the bar of a page: one line within the window, and no choice with cut text."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Recordings of films, one Chromium for the pictures of a module of tests, and a page with one view in it."""
+"""Recordings of films, a Chromium for the pictures of a module of tests, and a page with one view."""
 
 import io
 import pickle
@@ -46,11 +46,11 @@ class DrawnPage:
         self._late = True
 
     def ask(self, code: str, *values: Any) -> Any:
-        """What an expression of `view` is worth, or a function of one value."""
+        """Value of a JavaScript expression of `view`, or of a function applied to one value."""
         return self.page.evaluate(code, *values)
 
     def picture(self) -> np.ndarray:
-        """Pixels (height, width, 3) from 0 to 255, without the words over them."""
+        """Pixels (height, width, 3) from 0 to 255, without the texts over them."""
         from PIL import Image
 
         self._page.evaluate("() => { document.body.className = 'hidden'; view.render(); }")
@@ -67,8 +67,8 @@ class DrawnPage:
 def chromium() -> Iterator[Any]:
     """A Chromium without a window; tests are skipped where there is none."""
     bundle_or_skip()
-    with headless_chromium() as made:
-        yield made
+    with headless_chromium() as browser:
+        yield browser
 
 
 @pytest.fixture(scope="module")

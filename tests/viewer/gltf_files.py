@@ -41,11 +41,11 @@ def content(path):
 
 
 def accessor(path, index):
-    made, raw = content(path)
-    result = made["accessors"][index]
+    document, raw = content(path)
+    result = document["accessors"][index]
     kind = {5126: "<f4", 5125: "<u4", 5123: "<u2"}[result["componentType"]]
     width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[result["type"]]
-    start = made["bufferViews"][result["bufferView"]].get("byteOffset", 0)
+    start = document["bufferViews"][result["bufferView"]].get("byteOffset", 0)
     return np.frombuffer(raw, kind, result["count"] * width, start).reshape(-1, width).astype(float)
 
 
@@ -74,17 +74,17 @@ class Part(NamedTuple):
 
 def parts_of(path):
     """The triangles of a file, read by hand."""
-    made = content(path)[0]
-    frames = {child: node["name"] for node in made["nodes"] for child in node.get("children", ())}
+    document = content(path)[0]
+    frames = {child: node["name"] for node in document["nodes"] for child in node.get("children", ())}
     results = []
-    for number, node in enumerate(made["nodes"]):
-        for part in made["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
+    for number, node in enumerate(document["nodes"]):
+        for part in document["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
             kept, triangles = np.unique(accessor(path, part["indices"]).astype(int), return_inverse=True)
             read = {key: accessor(path, index)[kept] for key, index in part["attributes"].items()}
             turn = Rotation.from_quat(node.get("rotation", [0.0, 0.0, 0.0, 1.0]))
             points = turn.apply(read["POSITION"] * node.get("scale", 1.0)) + node.get("translation", 0.0)
             mesh = trimesh.Trimesh(points, triangles.reshape(-1, 3), process=False)
-            look = made["materials"][part["material"]]
+            look = document["materials"][part["material"]]
             normals = turn.apply(read["NORMAL"]) if "NORMAL" in read else None
             results.append(Part(node["name"], frames.get(number, ""), look, mesh, normals))
     return results

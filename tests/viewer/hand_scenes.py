@@ -1,4 +1,4 @@
-"""Scenes made by hand: one with every kind of thing in it, and a mechanism with a run in closed form."""
+"""Scenes written by hand: one with every kind of object, and a mechanism with a run in closed form."""
 
 import base64
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""A world made by hand: a hill, a kerb, patches of different spacing, one lane of each surface, one of each scenery."""
+"""A world written by hand: a hill, a kerb, patches of different spacing, a lane of each surface, all scenery."""
 
 from itertools import pairwise
 from typing import Any
@@ -69,8 +69,8 @@ def terrain(dx: float = 0.0, dy: float = 0.0) -> dict[str, Any]:
     for a, (x0, x1) in enumerate(pairwise(cuts)):
         for b, (y0, y1) in enumerate(pairwise(across)):
             spacing = (0.5, 0.5) if a == b == 1 else (4.0, 4.0)
-            made = patch(x0, y0, x1, y1, spacing)
-            patches.append(made | {"origin": [x0 + dx, y0 + dy]})
+            patch_road = patch(x0, y0, x1, y1, spacing)
+            patches.append(patch_road | {"origin": [x0 + dx, y0 + dy]})
     return {"kind": "terrain", "patches": patches, "surface": surface(dx, dy)}
 
 

@@ -1,4 +1,4 @@
-"""A corner of a car on a bumpy way, in closed form: every kind of frame and shape, each where it can be recomputed."""
+"""A corner of a car on a bumpy road, in closed form: every kind of frame and shape."""
 
 from typing import Any
 
@@ -56,7 +56,7 @@ def scene(parts: bool = True) -> dict[str, Any]:
         {"kind": "steering_wheel", "frame": "chassis", "radius": 0.2, "axis": [1, 0, 0.3]},
         {"kind": "mesh", "frame": "chassis", "mesh": "triangle", "at": [0, 0, 1]},
     ]
-    made: dict[str, Any] = {
+    scene_data: dict[str, Any] = {
         "format": "ALi3 scene",
         "version": 1,
         "name": "corner",
@@ -69,7 +69,7 @@ def scene(parts: bool = True) -> dict[str, Any]:
         },
     }
     if parts:
-        made["flexible"] = [
+        scene_data["flexible"] = [
             {
                 "frame": "chassis",
                 "name": "frame",
@@ -85,7 +85,7 @@ def scene(parts: bool = True) -> dict[str, Any]:
                 },
             }
         ]
-        made["roads"] = [
+        scene_data["roads"] = [
             {"kind": "flat", "height": 0.0},
             {
                 "kind": "grid",
@@ -95,7 +95,7 @@ def scene(parts: bool = True) -> dict[str, Any]:
                 "heights": floats(rng.random((30, 20))),
             },
         ]
-    return made
+    return scene_data
 
 
 def recording(t: NDArray[np.float64], parts: bool = True) -> Recording:

@@ -54,14 +54,14 @@ class FramePoses:
         if name not in self._found:
             frame = self._frames[name]
             if "way" in frame:
-                made = self._slid(frame)
+                poses = self._slid(frame)
             elif "parent" in frame:
-                made = self._turned(frame)
+                poses = self._turned(frame)
             elif "points" in frame:
-                made = self._carried(frame)
+                poses = self._carried(frame)
             else:
-                made = held(self._stack(frame["position"]), self._stack(frame["quaternion"]))
-            self._found[name] = made
+                poses = held(self._stack(frame["position"]), self._stack(frame["quaternion"]))
+            self._found[name] = poses
         return self._found[name]
 
     def points(self, anchor: Sequence[Any]) -> Vectors:
@@ -82,9 +82,9 @@ class FramePoses:
 
     def _slid(self, frame: Mapping[str, Any]) -> Poses:
         parent = self.of(frame["parent"])
-        way = np.asarray(self._columns[frame["way"]], dtype=float)
+        travel = np.asarray(self._columns[frame["way"]], dtype=float)
         at = np.asarray(frame.get("at") or (0.0, 0.0, 0.0), dtype=float)
-        position = parent.points(at + way[:, None] * np.asarray(frame["direction"], dtype=float))
+        position = parent.points(at + travel[:, None] * np.asarray(frame["direction"], dtype=float))
         position[~parent.shown] = np.nan
         return held(position, parent.quaternion)
 

@@ -1,4 +1,4 @@
-"""In place of the program that drives the car: frames that a test sends, and what the page says."""
+"""A substitute for the program that drives the car: frames that a test sends, and messages of the page."""
 
 import json
 import struct
@@ -24,12 +24,12 @@ _HEADER = struct.Struct("<4I10d")
 
 def variables(recording: Recording, inputs: tuple[str, ...]) -> list[dict[str, Any]]:
     """Variables of an FMU with the columns of a recording."""
-    made: list[dict[str, Any]] = [{"name": n, "causality": "input", "type": "Real", "start": 0} for n in inputs]
+    rows: list[dict[str, Any]] = [{"name": n, "causality": "input", "type": "Real", "start": 0} for n in inputs]
     for name in recording.columns:
         if name not in inputs:
             unit = recording.units.get(name, "")
-            made.append({"name": name, "causality": "output", "type": "Real", "unit": unit})
-    return made
+            rows.append({"name": name, "causality": "output", "type": "Real", "unit": unit})
+    return rows
 
 
 class Program:
@@ -118,7 +118,7 @@ class Program:
     def send(self, time: float, flags: int = RUNNING, **header: float) -> None:
         """A frame at a time of the recording."""
         self.count += 1
-        given = {
+        fields = {
             "count": round(time / 0.002) + 1e6 * self.epoch,
             "time": time,
             "speed": 1.0,
@@ -131,7 +131,7 @@ class Program:
             "saved": time,
         } | header
         row = self.row(time)
-        bytes_ = _HEADER.pack(0x31463341, self.epoch, flags, len(row), *given.values())
+        bytes_ = _HEADER.pack(0x31463341, self.epoch, flags, len(row), *fields.values())
         self.sockets[-1].send(bytes_ + np.asarray(row, "<f8").tobytes())
 
     def drive(self, begin: float, end: float, every: float = 0.02, **header: float) -> None:

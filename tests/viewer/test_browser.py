@@ -1,4 +1,4 @@
-"""How the user's browser is told of an address that nobody else may know."""
+"""How the user's browser gets an address that nobody else may know."""
 
 import threading
 from http.server import BaseHTTPRequestHandler, HTTPServer
@@ -32,8 +32,8 @@ class Told(BaseHTTPRequestHandler):
 def test_a_secret_address_is_on_no_command_line_and_is_reached(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, chromium: Any
 ) -> None:
-    given: list[str] = []
-    monkeypatch.setattr(open_browser.webbrowser, "open", lambda address: given.append(address) or True)
+    addresses: list[str] = []
+    monkeypatch.setattr(open_browser.webbrowser, "open", lambda address: addresses.append(address) or True)
     monkeypatch.setenv("DISPLAY", ":0")
     path = "/?token=se-cr_et&x=\"<'"
     with HTTPServer(("127.0.0.1", 0), Told) as server:
@@ -41,7 +41,7 @@ def test_a_secret_address_is_on_no_command_line_and_is_reached(
         thread.start()
         try:
             assert open_browser.open_secretly(f"http://127.0.0.1:{server.server_port}{path}", tmp_path)
-            (address,) = given
+            (address,) = addresses
             assert "se-cr_et" not in address
             assert Path(unquote(urlsplit(address).path)).parent == tmp_path
             page = chromium.new_page()

@@ -1,4 +1,4 @@
-"""The script of the page: built once, whole, by one process at a time, and in one sentence where it cannot be."""
+"""The script of the page: built once, complete, by one process at a time, and one sentence if it cannot be built."""
 
 import importlib.util
 import json
@@ -160,7 +160,7 @@ def test_packages_of_another_version_are_not_those_of_the_lock_file(page):
     assert not page_build._installed(page)
 
 
-def test_a_wheel_uses_its_script_and_one_without_it_says_so(tmp_path):
+def test_a_wheel_uses_its_script_and_a_missing_script_is_reported(tmp_path):
     (tmp_path / "bundle").mkdir()
     nowhere = tmp_path / "page"
     with pytest.raises(RuntimeError, match="carries no page that draws"):
@@ -197,21 +197,21 @@ def test_node_is_asked_for_by_a_wheel_only(backend, monkeypatch):
 
 
 @pytest.mark.parametrize("built", [True, False])
-def test_a_wheel_carries_the_page_or_says_that_it_does_not(backend, tmp_path, built):
+def test_a_wheel_carries_the_page_or_its_build_warns(backend, tmp_path, built):
     error = 'raise RuntimeError("npm could not fetch its packages")'
     body = 'return "ali3-viewer.js"' if built else error
     (tmp_path / "viewer").mkdir()
     text = f'SCRIPT = "ali3-viewer.js"\nGLTF = "gltf.mjs"\nLICENCES = "LICENCES.txt"\ndef bundle():\n    {body}\n'
     (tmp_path / "viewer" / "bundle.py").write_text(text, encoding="utf-8")
-    reported = []
-    app = SimpleNamespace(display_warning=reported.append, display_info=lambda text: None)
+    messages = []
+    app = SimpleNamespace(display_warning=messages.append, display_info=lambda text: None)
     data = {"artifacts": []}
     backend.BuildHook._bundle(SimpleNamespace(root=str(tmp_path), app=app), data)
     if built:
         assert data["artifacts"] == [
             f"/viewer/bundle/{name}" for name in ("ali3-viewer.js", "gltf.mjs", "LICENCES.txt")
         ]
-        assert reported == []
+        assert messages == []
     else:
         assert data["artifacts"] == []
-        assert reported == ["this wheel carries no page that draws: npm could not fetch its packages"]
+        assert messages == ["this wheel carries no page that draws: npm could not fetch its packages"]

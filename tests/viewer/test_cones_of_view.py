@@ -17,10 +17,11 @@ from mbs.vehicle import load
 from tests.viewer.test_draft import _orange
 from tests.viewer.test_player import Opened
 
-SPEED, STRIDE = 14.0, 9.0
-"""m/s, and m between pictures, of which each shows 24 m of the way."""
-HEIGHT, PLATE, TOP = 0.5, 0.14, 0.01
-"""m: of a cone, half the width of the plate below it, and half that of its upper end."""
+SPEED = 14.0  # m/s
+STRIDE = 9.0  # m between pictures, of which each shows 24 m of the course
+HEIGHT = 0.5  # m, of a cone
+PLATE = 0.14  # m, half the width of the plate below it
+TOP = 0.01  # m, half the width of its upper end
 _CORNERS = [[a * r, b * r, z] for r, z in ((PLATE, 0.0), (TOP, HEIGHT)) for a in (-1.0, 1.0) for b in (-1.0, 1.0)]
 _PROJECTED = "points => points.map(point => window.player.view.project(point))"
 
@@ -62,14 +63,14 @@ def test_the_cones_of_the_lanes_stand_where_the_run_is_judged(opened: tuple[Open
     met = np.zeros(len(places), bool)
     size = np.array(page("window.player.view.size"))
     points = [[x + a, y + b, z] for x, y in places for a, b, z in _CORNERS]
-    for way in np.arange(places[0][0], places[-1][0] + STRIDE, STRIDE):
-        page.seek(float(way) / SPEED)
+    for distance in np.arange(places[0][0], places[-1][0] + STRIDE, STRIDE):
+        page.seek(float(distance) / SPEED)
         edges = np.array(page(_PROJECTED, points)).reshape(len(places), len(_CORNERS), 2)
         low, high = edges.min(axis=1), edges.max(axis=1)
         seen = middles_of(page.picture()[: size[1], : size[0]])
-        assert len(seen) == np.all((high > 1.0) & (low < size - 1.0), axis=1).sum(), way
+        assert len(seen) == np.all((high > 1.0) & (low < size - 1.0), axis=1).sum(), distance
         near = np.all(np.abs(low + high - size) < size * [0.5, 1.0] - 20.0, axis=1)  # aside their tips are too thin
         apart = np.abs(0.5 * (low + high)[near, None] - seen).max(axis=2).min(axis=1)
-        assert (apart <= 1.0).all(), (way, apart)
+        assert (apart <= 1.0).all(), (distance, apart)
         met |= near
     assert met.all()

@@ -14,7 +14,8 @@ from tests.viewer.test_worlds_drawn import level
 
 pytestmark = pytest.mark.slow
 
-MOST_CALLS, MOST_TRIANGLES = 60, 50_000
+MOST_CALLS = 60
+MOST_TRIANGLES = 50_000
 _AS_THIN_AS_GIVEN = """() => {
   const { radii, geometry } = view.parts.flexible[0].tubes;
   radii.fill(5e-4);

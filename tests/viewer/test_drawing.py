@@ -1,4 +1,4 @@
-"""What stands in a picture, and where: pixels of pictures against places and numbers that are known."""
+"""Content of pictures: pixels against known positions and numbers."""
 
 from itertools import combinations, pairwise
 from pathlib import Path
@@ -81,7 +81,7 @@ def test_a_hundred_kilometres_away_the_picture_is_the_same(drawn):
     assert red(drawn.picture()) == pytest.approx(red(far), abs=1)
 
 
-def test_a_wheel_turns_about_its_axis_to_the_side_that_its_angle_says(drawn):
+def test_a_wheel_turns_about_its_axis_in_the_sense_of_its_angle(drawn):
     """The mark of the valve, at the front (x) at angle 0, goes down when the wheel turns forward about +y."""
     frames = {"hub": moving("hub") | {"start": [[0, 0, 0], [1, 0, 0, 0]]}}
     frames["wheel"] = {"parent": "hub", "at": [0, 0, 0], "axis": [0, 1, 0], "angle": "angle"}
@@ -139,11 +139,11 @@ def test_each_stress_has_a_colour_that_is_right_to_half_a_percent_of_the_scale(d
     """Sixty stresses of a tube from nothing to the end of the scale."""
     drawn.show(frame_of_two_beams(), at(0, 0, 0, q=0.0, on=1.0))
     drawn.ask("view.set({ stressMost: 8e7, deformation: 0 })")
-    reported, seen = np.linspace(0.0, 8e7, 60), []
-    for stress in reported:
+    stresses, seen = np.linspace(0.0, 8e7, 60), []
+    for stress in stresses:
         drawn.update(at(0, 0, 0, q=stress / 1e6, on=1.0))
         seen.append(stress_seen(colour(drawn, (0, 0.25, 0)), 8e7))
-    assert np.array(seen) == pytest.approx(reported, abs=0.005 * 8e7)
+    assert np.array(seen) == pytest.approx(stresses, abs=0.005 * 8e7)
 
 
 def test_the_root_of_a_beam_has_the_colour_of_the_closed_form(drawn):
@@ -169,7 +169,7 @@ def test_displacements_are_drawn_as_many_times_as_asked(drawn):
     assert "\u00d75" in drawn.page.locator("[data-legend=stress]").inner_text()
 
 
-def test_gauges_the_largest_stress_and_what_is_clicked_have_words(drawn):
+def test_gauges_the_largest_stress_and_clicked_parts_have_labels(drawn):
     """Fibre stresses are 40 MPa in the left tube and 10 MPa in the right one, in closed form."""
     framework = frame_of_two_beams()
     framework["flexible"][0]["names"] = ["A", "B", "C"]
@@ -238,7 +238,7 @@ def test_stress_that_is_not_known_is_not_coloured_and_why_is_reported(drawn, num
     assert max(r, g, b) - min(r, g, b) < 40  # steel
 
 
-def test_a_thing_without_numbers_is_hidden_said_once_and_comes_back(drawn):
+def test_a_part_without_numbers_is_hidden_reported_once_and_drawn_again(drawn):
     drawn.show(scene(shapes=[ball()]), at(0, 0, 0))
     place = red(drawn.picture())
     for _ in range(3):
@@ -286,9 +286,9 @@ def test_every_kind_of_thing_is_drawn_from_every_camera(drawn):
         pictures.append(drawn.picture())
         assert pictures[-1].std() > 5, camera
     assert all(np.abs(a - b).mean() > 1 for a, b in pairwise(pictures))
-    reported = drawn.ask("() => { try { view.camera('drone'); } catch (error) { return error.message; } }")
-    assert "'drone'" in reported
-    assert "chase" in reported
+    message = drawn.ask("() => { try { view.camera('drone'); } catch (error) { return error.message; } }")
+    assert "'drone'" in message
+    assert "chase" in message
 
 
 def test_a_ghost_is_seen_beside_the_run_and_goes(drawn):

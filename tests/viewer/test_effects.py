@@ -92,7 +92,7 @@ def split_ground(factor: float) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize(("factor", "marks"), [(1.0, True), (0.6, False), (0.1, False)])
-def test_a_tyre_that_slides_on_what_is_slick_leaves_no_mark(drawn, factor, marks):
+def test_a_tyre_that_slides_on_a_slick_surface_leaves_no_mark(drawn, factor, marks):
     """The wheel runs at y = -3 m, on wet ground or ice; beside it the ground is dry."""
     sliding = [tyre(float(x), **{"wheel.contact_y": -3.0, "wheel.slip": -1.0}) for x in np.arange(0.0, 12.0, 0.1)]
     drawn.show(tyre_scene("asphalt") | {"roads": [split_ground(factor)]}, tyre(0.0), camera="top")
@@ -175,7 +175,7 @@ def test_gravel_is_thrown_up_behind_the_wheel_and_asphalt_is_not(drawn):
     assert columns.mean() < 150  # x points to the right of the picture: it hangs behind the wheel
 
 
-def test_a_scene_without_tyres_has_no_effects_and_says_so(drawn):
+def test_a_scene_without_tyres_has_no_effects_and_reports_it(drawn):
     drawn.show(scene(shapes=[ball()]), at(0, 0, 0))
     for kind in ("TyreMarks", "Dust"):
         count, problem = drawn.ask(_DRIVE, [[[0.0, 1, at(0, 0, 0)]], kind])
@@ -242,8 +242,8 @@ def test_without_new_numbers_the_sound_fades(drawn):
     assert np.abs(samples[-RATE // 4 :]).max() < 1e-3
 
 
-def test_without_audio_one_sentence_and_it_goes_on(drawn):
-    reported = drawn.ask(
+def test_without_audio_one_sentence_is_shown_and_the_page_continues(drawn):
+    notice = drawn.ask(
         """async columns => {
           const kept = [window.AudioContext, window.webkitAudioContext];
           window.AudioContext = window.webkitAudioContext = undefined;
@@ -258,5 +258,5 @@ def test_without_audio_one_sentence_and_it_goes_on(drawn):
         }""",
         COLUMNS,
     )
-    assert "no sound" in reported
-    assert "goes on" in reported
+    assert "no sound" in notice
+    assert "goes on" in notice

@@ -7,7 +7,8 @@ import pytest
 
 from tests.viewer.hand_scenes import moving, names
 
-RADIUS, CENTRE = 0.3, 0.26
+RADIUS = 0.3  # m
+CENTRE = 0.26  # m
 EXTENT = 0.8
 PIXEL = 1.24 * EXTENT / 180
 """Height of a pixel of a planar picture, m."""
@@ -40,11 +41,11 @@ def numbers(angle: float, road: tuple[float, float], at: list[float]) -> dict[st
     pose = (*origin, np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2))
     height, slope = road
     normal = np.array([-slope, 1.0, 0.0]) / np.hypot(slope, 1.0)
-    given = dict(zip(names("wheel FL", ("x", "y", "z", "qw", "qx", "qy", "qz")), pose, strict=True))
+    columns = dict(zip(names("wheel FL", ("x", "y", "z", "qw", "qx", "qy", "qz")), pose, strict=True))
     parts = {"contact": (0.0, height, 0.0), "normal": normal, "axis": (0.0, 0.0, 1.0), "forces": (0.0, 0.0, 0.0)}
     for what, values in parts.items():
-        given |= dict(zip(names(f"wheel_FL.{what}", "xyz"), values, strict=True))
-    return {name: float(value) for name, value in given.items()}
+        columns |= dict(zip(names(f"wheel_FL.{what}", "xyz"), values, strict=True))
+    return {name: float(value) for name, value in columns.items()}
 
 
 @pytest.mark.slow

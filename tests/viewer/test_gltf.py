@@ -1,4 +1,4 @@
-"""glTF files: nothing for the validator of Khronos to say, and the poses of the recording for another reader."""
+"""glTF files: no finding of the validator of Khronos, and the poses of the recording by another reader."""
 
 import base64
 import re
@@ -28,11 +28,11 @@ def still():
 
 
 def with_gaps_and_steps():
-    made = moving_car.recording(np.sort(np.append(T, [1.0, 1.0, 1.0 + 1e-9])))
-    values = made.columns["carrier.x"].copy()
+    recording = moving_car.recording(np.sort(np.append(T, [1.0, 1.0, 1.0 + 1e-9])))
+    values = recording.columns["carrier.x"].copy()
     values[:5] = values[50:60] = np.nan
-    made.columns["carrier.x"] = values
-    return made
+    recording.columns["carrier.x"] = values
+    return recording
 
 
 def everything():
@@ -81,7 +81,7 @@ def test_the_validator_finds_nothing(tmp_path):
     assert [report["info"]["animationCount"] for report in reports] == [1, 1, 1, 1, 0, 0, 1, 1, 1, 1, 1, 1]
 
 
-def test_the_validator_finds_what_is_wrong(corner, tmp_path):
+def test_the_validator_finds_faults(corner, tmp_path):
     data = bytearray(corner.read_bytes())
     length = struct.unpack_from("<I", data, 12)[0]
     data[20 : 20 + length] = data[20 : 20 + length].replace(b'"VEC4"', b'"VEC5"')
@@ -107,9 +107,9 @@ def test_places_far_from_the_origin_are_relative_to_one_that_is_reported(tmp_pat
         for axis, by in zip("xyz", far, strict=True):
             result.columns[f"{name}.{axis}"] = result.columns[f"{name}.{axis}"] + by
     written = write_gltf(tmp_path / "far.glb", result, rate=240.0)
-    held = content(written.path)[0]
-    root = held["nodes"][held["scenes"][0]["nodes"][0]]
-    assert root["extras"] == held["scenes"][0]["extras"]
+    document = content(written.path)[0]
+    root = document["nodes"][document["scenes"][0]["nodes"][0]]
+    assert root["extras"] == document["scenes"][0]["extras"]
     origin = np.array(root["extras"]["origin"])
     assert np.abs(origin - far).max() < 20.0
     assert f"relative to x = {origin[0]:.0f} m, y = {origin[1]:.0f} m, z = {origin[2]:.0f} m" in " ".join(written.notes)
@@ -135,10 +135,10 @@ def test_a_wheel_that_turns_fast_turns_the_right_way_between_the_times(corner):
 
 
 def rotation_sampler(path, name):
-    made = content(path)[0]
-    animation = made["animations"][0]
+    document = content(path)[0]
+    animation = document["animations"][0]
     for channel in animation["channels"]:
-        node = made["nodes"][channel["target"]["node"]]
+        node = document["nodes"][channel["target"]["node"]]
         if node["name"] == name and channel["target"]["path"] == "rotation":
             return animation["samplers"][channel["sampler"]]
     raise AssertionError(name)
@@ -172,9 +172,9 @@ def test_a_coil_begins_at_its_seat_on_the_way_to_the_other_end(tmp_path):
     write_gltf(tmp_path / "seat.glb", result)
     times = T[::20]
     top, hub = moving_car.place("chassis", moving_car.TOP, times), moving_car.place("carrier", moving_car.HUB, times)
-    way = hub - top
+    axis = hub - top
     begin = world(tmp_path / "seat.glb", times, "spring")[:, :3, 3]
-    assert np.abs(begin - top - 0.1 * way / np.linalg.norm(way, axis=1)[:, None]).max() < 1e-5
+    assert np.abs(begin - top - 0.1 * axis / np.linalg.norm(axis, axis=1)[:, None]).max() < 1e-5
 
 
 def flexible_points(path, times):
@@ -215,8 +215,8 @@ def test_colours_are_those_of_the_largest_stress(tmp_path):
     note = next(note for note in written.notes if "colours" in note)
     assert float(re.search(r"largest stress, ([\d.e+]+) Pa", note)[1]) == pytest.approx(stress.max(), rel=5e-3)
     assert float(re.search(r"at ([\d.]+) s", note)[1]) == pytest.approx(T[peak], abs=5e-3)
-    made = content(path)[0]
-    mesh = next(m for m in made["meshes"] if m["name"] == "frame")
+    document = content(path)[0]
+    mesh = next(m for m in document["meshes"] if m["name"] == "frame")
     colors = accessor(path, mesh["primitives"][0]["attributes"]["COLOR_0"])
     expected = viridis(stress[peak] / stress.max())
     for beam in range(3):
@@ -300,7 +300,9 @@ def test_roads_face_up_and_have_their_heights(tmp_path, up, kind):
         },
     }
     surfaces = road_of(tmp_path, roads[kind] | {"kind": kind}, up)
-    heights, at = (np.vstack([mesh.vertices for mesh in surfaces.values()]) @ way for way in (up, [1.0, 0.0, 0.0]))
+    heights, at = (
+        np.vstack([mesh.vertices for mesh in surfaces.values()]) @ direction for direction in (up, [1.0, 0.0, 0.0])
+    )
     for mesh in surfaces.values():
         assert mesh.area_faces.min() > 0.0
         assert (mesh.face_normals @ up).min() >= -1e-9
@@ -327,8 +329,8 @@ def road_of(folder, road, up=(0.0, 0.0, 1.0)):
     scene |= {"focus": "", "frames": {"body": hand_scenes.moving("body")}, "roads": [road]}
     scene["shapes"] = [{"kind": "sphere", "frame": "body", "radius": 0.1}]
     columns = {f"body.{name}": np.full(3, name == "qw") for name in ("x", "y", "z", "qw", "qx", "qy", "qz")}
-    made = write_gltf(folder / "road.glb", Recording(scene, np.arange(3.0), columns))
-    return {part.look["name"]: part.mesh for part in parts_of(made.path) if part.node == "road"}
+    written = write_gltf(folder / "road.glb", Recording(scene, np.arange(3.0), columns))
+    return {part.look["name"]: part.mesh for part in parts_of(written.path) if part.node == "road"}
 
 
 def test_frictions_of_a_grid_are_asphalt_wet_and_ice(tmp_path):

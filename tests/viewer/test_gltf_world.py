@@ -11,7 +11,8 @@ from tests.viewer.hand_world import LANES, height, scenery, terrain
 from viewer.gltf import write_gltf
 
 T = np.linspace(0.0, 4.0, 81)
-RADIUS, SPEED = 0.3, 10.0
+RADIUS = 0.3  # m
+SPEED = 10.0  # m/s
 
 
 def run(**parts):

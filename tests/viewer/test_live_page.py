@@ -247,10 +247,10 @@ def test_sliders_of_a_mechanism_and_a_step_that_is_refused(reach: Path, chromium
 
     opened.ask("player.set('pull', 5)")
     opened.ask("player.advance(300)")
-    reported = opened.text("flag stopped 0")
-    assert reported.startswith("Stopped at 0.")
-    assert "refused" in reported
-    assert "step_size" in reported
+    message = opened.text("flag stopped 0")
+    assert message.startswith("Stopped at 0.")
+    assert "refused" in message
+    assert "step_size" in message
     at = opened.ask("player.time")
     assert_same_bits(reach, opened.ask("player.csv()"), tmp_path)
     opened.page.locator('[data-a3="go back"]').click()
@@ -282,9 +282,7 @@ def test_two_run_side_by_side_and_one_that_stops_does_not_stop_the_other(
 
 
 @pytest.mark.slow
-def test_an_fmu_that_cannot_begin_says_why_and_says_it_again_when_it_is_to_run(
-    reach: Path, chromium: Any, tmp_path: Path
-) -> None:
+def test_an_fmu_that_cannot_start_is_reported_at_each_attempt(reach: Path, chromium: Any, tmp_path: Path) -> None:
     """One starts outside of the reach of its cable, the binary of the other is none."""
     far = written([reach], tmp_path / "far", "--set", "pull=9")
     text = written([reach], tmp_path / "binary").read_text(encoding="utf-8")
@@ -293,15 +291,15 @@ def test_an_fmu_that_cannot_begin_says_why_and_says_it_again_when_it_is_to_run(
     spoilt.write_text(re.sub(r'"wasm":"[^"]*"', f'"wasm":"{binary}"', text), encoding="utf-8")
     for file in (far, spoilt):
         opened = Page(chromium, file)
-        reported = opened.text("flag problem")
-        assert reported.startswith("The FMU could not be started: ")
+        message = opened.text("flag problem")
+        assert message.startswith("The FMU could not be started: ")
         assert opened.page.locator('[data-a3="flag problem"]').get_attribute("role") == "alert"
         assert opened.page.locator("canvas").count() > 0, "it is drawn as it was built"
         opened.close()
 
 
 @pytest.mark.proof  # as `live.test.js` has it
-def test_a_browser_that_lacks_a_part_says_so(reach: Path, chromium: Any, tmp_path: Path) -> None:
+def test_a_browser_that_lacks_a_feature_is_reported(reach: Path, chromium: Any, tmp_path: Path) -> None:
     file = written([reach], tmp_path)
     for missing, script in (
         ("WebAssembly", "delete window.WebAssembly;"),

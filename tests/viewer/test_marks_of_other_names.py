@@ -12,7 +12,8 @@ from hosts.fmu.fmu import Fmu
 from hosts.fmu.geometry import scene_of
 from viewer.page_file import write_page
 
-STEP, STEPS = 0.002, 600
+STEP = 0.002  # s
+STEPS = 600
 
 
 def braked(fmu: Path, names: str) -> Recording:
@@ -20,9 +21,9 @@ def braked(fmu: Path, names: str) -> Recording:
     with Fmu(fmu) as car:
         inputs, outputs = car.names("input"), car.names("output")
         car.initialise({"initial.speed": 20.0})
-        held = car.start_values(inputs)
-        held[inputs.index({"carmaker": "DM.Brake"}.get(names, "brake"))] = 1.0
-        car.setter(inputs)(held.tolist())
+        input_values = car.start_values(inputs)
+        input_values[inputs.index({"carmaker": "DM.Brake"}.get(names, "brake"))] = 1.0
+        car.setter(inputs)(input_values.tolist())
         read = car.getter(outputs)
         rows = [list(read())]
         for k in range(STEPS):

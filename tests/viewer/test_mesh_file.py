@@ -1,4 +1,4 @@
-"""Meshes from files: a block written by hand in every format, and one sentence for what is none."""
+"""Mesh files: a block written by hand in every format, and one sentence for an invalid file."""
 
 import struct
 import sys
@@ -195,7 +195,7 @@ def test_a_file_that_is_not_there(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_fine_mesh_is_thinned_and_says_so(tmp_path):
+def test_a_fine_mesh_is_thinned_and_reported(tmp_path):
     n = 300
     u, v = np.meshgrid(np.linspace(0, np.pi, n), np.linspace(0, 2 * np.pi, 2 * n, endpoint=False), indexing="ij")
     points = np.stack([np.sin(u) * np.cos(v), np.sin(u) * np.sin(v), np.cos(u)], axis=2).reshape(-1, 3)

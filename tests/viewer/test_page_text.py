@@ -1,4 +1,4 @@
-"""The text of a page: whole or not at all, closed in itself, safe from any name; and what a notebook shows."""
+"""The text of a page: complete or not written, self-contained, safe from any name; the output of a notebook."""
 
 import base64
 import gzip
@@ -49,7 +49,7 @@ class Elements(HTMLParser):
 
 
 def data_of(page: str) -> Any:
-    return json.loads(next(text for tag, given, text in Elements(page).found if given.get("id") == "data"))
+    return json.loads(next(text for tag, attributes, text in Elements(page).found if attributes.get("id") == "data"))
 
 
 def numbers(block: dict[str, Any]) -> dict[str, np.ndarray]:
@@ -113,7 +113,9 @@ def test_no_text_breaks_the_page() -> None:
 def test_nothing_is_fetched() -> None:
     text = page_html(crank(TIMES))
     assert "default-src 'none'" in text
-    addresses = [v for _, given, _ in Elements(text).found for k, v in given.items() if k in ("src", "href", "data")]
+    addresses = [
+        v for _, attributes, _ in Elements(text).found for k, v in attributes.items() if k in ("src", "href", "data")
+    ]
     assert addresses == ["data:,"]
 
 
@@ -166,7 +168,7 @@ def test_a_page_has_as_many_times_as_were_asked_for(most: int, tmp_path: Path) -
         ({"theme": "blue"}, "must be 'auto', 'light' or 'dark'"),
     ],
 )
-def test_options_that_are_none(options: dict[str, Any], sentence: str) -> None:
+def test_invalid_options_are_refused(options: dict[str, Any], sentence: str) -> None:
     with pytest.raises(ViewerError, match=re.escape(sentence)):
         page_html(crank(TIMES), options=options)
 
@@ -179,7 +181,7 @@ def test_a_folder_without_a_recording_is_refused(recordings: Any) -> None:
 
 def test_a_notebook_gets_the_page_in_a_frame_with_its_size() -> None:
     text = html_of(crank(TIMES), height=300)
-    frame = next(given for tag, given, _ in Elements(text).found if tag == "iframe")
+    frame = next(attributes for tag, attributes, _ in Elements(text).found if tag == "iframe")
     assert frame["srcdoc"] == page_html(crank(TIMES))
     assert "height:300px" in str(frame["style"])
     assert "This animation takes 0.0 MB of the notebook." in html.unescape(text)

@@ -1,4 +1,4 @@
-"""What a run leaves on the ground, and the cameras that stand still: pixels against places that are known."""
+"""Paths of a run on the ground, and fixed cameras: pixels against known positions."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -15,7 +15,9 @@ from viewer.page_file import write_page
 
 pytestmark = pytest.mark.slow
 
-RADIUS, SPEED, BEND = 0.3, 10.0, 20.0
+RADIUS = 0.3  # m
+SPEED = 10.0  # m/s
+BEND = 20.0
 _EYE = """() => {
   const { cameras, origin } = window.player.view;
   return cameras.rig.position.toArray().map((p, k) => p + origin[k]);
@@ -25,7 +27,7 @@ YAW = SPEED * T / BEND
 """Along a circle of `BEND` m to the left; the reference point 0.5 m, the wheel's centre its radius above the road."""
 
 
-def way(t: float, height: float = 0.0) -> list[float]:
+def position(t: float, height: float = 0.0) -> list[float]:
     angle = SPEED * t / BEND
     return [BEND * np.sin(angle), BEND * (1.0 - np.cos(angle)), height]
 
@@ -52,15 +54,15 @@ def run(name: str, t: np.ndarray = T, **parts: Any) -> Recording:
 
 def straight(speed: float) -> Recording:
     """4 s along x without a turn."""
-    made = run("straight")
-    made.columns |= {"body.x": speed * T, "body.y": 0.0 * T, "body.qw": 1.0 + 0.0 * T, "body.qz": 0.0 * T}
-    return made
+    recording = run("straight")
+    recording.columns |= {"body.x": speed * T, "body.y": 0.0 * T, "body.qw": 1.0 + 0.0 * T, "body.qz": 0.0 * T}
+    return recording
 
 
 @pytest.fixture(scope="module")
 def seen(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
     file = tmp_path_factory.mktemp("paths") / "run.html"
-    cones = [{"kind": "cone", "at": [way(1.9)[0], way(1.9)[1] - 0.6, 0.0]}]
+    cones = [{"kind": "cone", "at": [position(1.9)[0], position(1.9)[1] - 0.6, 0.0]}]
     write_page(file, [run("one", scenery=cones)], options={"camera": "top"})
     opened = Opened(chromium, file)
     yield opened
@@ -82,9 +84,9 @@ def yellow(opened: Opened, point: list[float]) -> bool:
 
 def test_the_path_lies_on_the_ground_where_the_run_has_been(seen: Opened) -> None:
     seen.seek(2.0)
-    assert [yellow(seen, way(t)) for t in (1.84, 1.87, 1.9)] == [True] * 3
-    assert not yellow(seen, way(2.12))  # where it goes next
-    x, y = seen.place(way(1.87))
+    assert [yellow(seen, position(t)) for t in (1.84, 1.87, 1.9)] == [True] * 3
+    assert not yellow(seen, position(2.12))  # where it goes next
+    x, y = seen.place(position(1.87))
     picture = seen.picture()
     rows = [row for row in range(y - 12, y + 13) if picture[row, x, 0] > 150 and picture[row, x, 2] < 130]
     assert abs(np.mean(rows) - y) <= 1.0  # its middle
@@ -102,13 +104,13 @@ def test_nothing_is_drawn_from_one_epoch_to_the_next(opened: Callable[..., Opene
     result.columns |= {"body.qw": np.cos(0.5 * angle), "body.qz": np.sin(0.5 * angle)}
     page = opened(result, camera="top")
     page.seek(2.0)
-    assert yellow(page, way(1.87))
-    held = [page("() => window.player.view.origin")]
+    assert yellow(page, position(1.87))
+    origins = [page("() => window.player.view.origin")]
     page.seek(2.007)  # it stands until the reset, which is at 2.01 s
-    held.append(page("() => window.player.view.origin"))
-    assert np.allclose(*held, atol=1e-9)
+    origins.append(page("() => window.player.view.origin"))
+    assert np.allclose(*origins, atol=1e-9)
     page.seek(2.5)
-    assert yellow(page, np.add(way(0.35), [0.0, -3.0, 0.0]).tolist())
+    assert yellow(page, np.add(position(0.35), [0.0, -3.0, 0.0]).tolist())
     triangles = """() => window.player.drawnRuns[0].traces.paths.map(({ geometry, start }) => {
       const { position } = geometry.attributes;
       const corner = (k) => [0, 1, 2].map((axis) => position.array[3 * geometry.index.array[k] + axis] + start[axis]);
@@ -153,15 +155,15 @@ def test_the_path_goes_and_comes_with_its_key(seen: Opened) -> None:
     seen.seek(2.0)
     seen.page.keyboard.press("y")
     seen("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-    assert not yellow(seen, way(1.87))
+    assert not yellow(seen, position(1.87))
     seen.page.keyboard.press("Y")
     seen("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-    assert yellow(seen, way(1.87))
+    assert yellow(seen, position(1.87))
 
 
 def test_a_cone_of_the_scene_stands_beside_the_path(seen: Opened) -> None:
     seen.seek(2.0)
-    x, y = seen.place([way(1.9)[0], way(1.9)[1] - 0.6, 0.05])
+    x, y = seen.place([position(1.9)[0], position(1.9)[1] - 0.6, 0.05])
     red, _, blue = np.moveaxis(seen.picture()[y - 12 : y + 13, x - 12 : x + 13], 2, 0)
     assert ((red > 120) & (red > 2.0 * blue)).sum() > 20
 
@@ -172,7 +174,7 @@ def test_the_fixed_camera_sees_the_whole_of_a_short_way_and_does_not_move(opened
     places = []
     for t in (0.1, 0.7):
         page.seek(t)
-        places.append([page.place(way(s)) for s in (0.0, 0.4, 0.8)])
+        places.append([page.place(position(s)) for s in (0.0, 0.4, 0.8)])
     assert np.abs(np.subtract(*places)).max() <= 1
     assert all(0 <= x < 640 and 0 <= y < 360 for x, y in places[0])
 
@@ -221,12 +223,12 @@ def test_the_path_has_no_gaps_however_far_the_eye_is(opened: Callable[..., Opene
     assert (below[..., 0] - below[..., 2]).max() < 30  # the ground is grey
 
 
-def test_the_camera_beside_the_track_looks_at_what_moves_past(seen: Opened) -> None:
+def test_the_camera_beside_the_track_follows_passing_bodies(seen: Opened) -> None:
     seen("() => window.player.camera('trackside')")
     eyes = []
     for t in (1.0, 1.05):
         seen.seek(t)
-        x, y = seen.place(way(t, 0.5))
+        x, y = seen.place(position(t, 0.5))
         assert abs(x - 320) <= 90
         assert abs(y - 180) <= 90
         eyes.append(seen(_EYE))
@@ -254,13 +256,13 @@ def test_a_ghost_is_distinguished_by_its_colour_even_where_both_ran(opened: Call
     assert is_yellow(*swatches[0])
     assert is_magenta(*swatches[1])
     page.seek(2.0)
-    x, y = page.place(way(1.87))
+    x, y = page.place(position(1.87))
     rows = page.picture()[y - 12 : y + 13, x]
     first, second = np.flatnonzero(is_yellow(*rows.T)), np.flatnonzero(is_magenta(*rows.T))
     assert first.size >= 2, rows
     assert second.min() < first.min() <= first.max() < second.max(), rows
     page.seek(3.5)
-    x, y = page.place(np.add(way(3.5, 0.6), [0.0, 1.5, 0.0]).tolist())
+    x, y = page.place(np.add(position(3.5, 0.6), [0.0, 1.5, 0.0]).tolist())
     assert is_magenta(*page.picture()[y, x])
 
 
@@ -272,7 +274,7 @@ def test_a_ghost_where_the_run_is_leaves_its_picture_as_it_is(opened: Callable[.
     recorded = []
     for page in (alone, both):
         page.seek(2.0)
-        x, y = page.place(way(2.0, 0.6))
+        x, y = page.place(position(2.0, 0.6))
         recorded.append(page.picture()[y - 4 : y + 5, x - 4 : x + 5].astype(int))
         page.seek(3.5)
     assert abs(recorded[0] - recorded[1]).max() <= 2
@@ -309,7 +311,7 @@ def test_a_flexible_ghost_is_drawn_where_it_bends_otherwise_only(opened: Callabl
     assert is_magenta(*both.picture()[y, x])
 
 
-def test_a_picture_of_two_runs_tells_whose_colour_is_whose(opened: Callable[..., Opened]) -> None:
+def test_a_picture_of_two_runs_has_a_legend_of_colours(opened: Callable[..., Opened]) -> None:
     """As pictures and films are made, without controls; a picture of one run has no names."""
     ghost = run("two")
     ghost.columns["body.y"] += 1.5
@@ -357,8 +359,8 @@ def test_a_body_that_falls_stays_above_the_floor(opened: Callable[..., Opened], 
 def test_the_path_of_a_flattened_tyre_lies_on_the_ground(opened: Callable[..., Opened]) -> None:
     """Without outputs of a tyre its wheel reaches 2 cm into the road; with one it is in the air, and so is its path."""
     sunk, lifted = run("sunk"), run("lifted")
-    for made, height in ((sunk, 0.48), (lifted, 0.6)):
-        made.columns["body.z"] = np.full_like(T, height)
+    for recording, height in ((sunk, 0.48), (lifted, 0.6)):
+        recording.columns["body.z"] = np.full_like(T, height)
     heights = """() => window.player.drawnRuns.map(({ traces }) => {
       const path = traces.paths[1];
       const z = path.geometry.attributes.position.array.filter((_, k) => k % 3 === 2);

@@ -1,4 +1,4 @@
-"""The player in a browser without a window: what it shows at which time, its controls, and what it asks of nobody."""
+"""The player in a headless browser: what it shows at a time, its controls, and no network requests."""
 
 import io
 from collections.abc import Callable, Iterator
@@ -155,7 +155,7 @@ def test_it_plays_in_time_and_stops_at_the_key(pair: Opened) -> None:
     pair("player.speed(1)")
 
 
-def test_where_pictures_take_long_there_are_fewer_and_time_goes_on(pair: Opened) -> None:
+def test_slow_pictures_reduce_the_frame_rate_and_not_the_speed_of_time(pair: Opened) -> None:
     """Ten pictures of at least 150 ms: the run goes on by the clock, at its speed, within one picture."""
     pair("player.speed(0.2)")
     passed, shown, longest = pair(
@@ -197,7 +197,7 @@ def test_the_difference_of_runs(pair: Opened) -> None:
     assert count == 3
 
 
-def test_the_settings_show_what_is_set_by_keys_and_programs(opened: Callable[..., Opened]) -> None:
+def test_the_settings_show_values_set_by_keys_and_programs(opened: Callable[..., Opened]) -> None:
     page = opened(crank(TIMES), arrows=False)
     page.page.locator(".a3-bar button", has_text="settings").click()
     box = page.page.locator(".a3-panel input[type=checkbox]").first
@@ -246,7 +246,7 @@ def test_signals_are_searched_and_chosen(pair: Opened) -> None:
     pair("document.activeElement.blur()")
 
 
-def test_the_address_names_what_is_shown(opened: Callable[..., Opened]) -> None:
+def test_the_address_names_the_displayed_state(opened: Callable[..., Opened]) -> None:
     page = opened(crank(TIMES), hash_text="#t=1.5&plots=fx&speed=0.5")
     assert page("player.time") == 1.5
     assert page("player.source.speed") == 0.5
@@ -326,7 +326,7 @@ def test_a_result_without_a_scene_has_its_diagrams(opened: Callable[..., Opened]
     assert page.said == []
 
 
-def test_a_result_without_columns_says_that_there_are_no_signals(opened: Callable[..., Opened]) -> None:
+def test_a_result_without_columns_reports_that_there_are_no_signals(opened: Callable[..., Opened]) -> None:
     page = opened(Recording(None, TIMES, {}, name="empty"))
     assert page.page.inner_text(".a3-list") == "there are no signals"
     assert page.said == []
@@ -340,7 +340,7 @@ def test_a_camera_that_is_not_there_is_reported(opened: Callable[..., Opened]) -
 
 def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page(pair: Opened) -> None:
     """Of another program: a flexible body without the numbers of its mode."""
-    reported = pair(
+    messages = pair(
         """async () => {
           const data = JSON.parse(document.getElementById('data').textContent);
           const [scene] = data.scenes;
@@ -353,7 +353,7 @@ def test_a_scene_that_cannot_be_drawn_shows_a_sentence_in_place_of_an_empty_page
           return [made.problem, place.textContent];
         }"""
     )
-    assert reported == ["modes of a flexible body has 0 numbers, not 3.", f"This page cannot be shown: {reported[0]}"]
+    assert messages == ["modes of a flexible body has 0 numbers, not 3.", f"This page cannot be shown: {messages[0]}"]
 
 
 def test_without_webgl_there_is_one_sentence_and_the_diagrams(chromium: Any, tmp_path: Path) -> None:
@@ -373,14 +373,14 @@ def test_without_webgl_there_is_one_sentence_and_the_diagrams(chromium: Any, tmp
 def test_in_a_notebook_it_runs_in_its_frame(chromium: Any, tmp_path: Path) -> None:
     (tmp_path / "cell.html").write_text(f"<!DOCTYPE html><meta charset='utf-8'>{html_of(crank(TIMES), height=300)}")
     page = chromium.new_page(viewport={"width": 640, "height": 400})
-    reported: list[str] = []
-    page.on("console", lambda message: reported.append(message.text))
-    page.on("pageerror", lambda error: reported.append(str(error)))
+    messages: list[str] = []
+    page.on("console", lambda message: messages.append(message.text))
+    page.on("pageerror", lambda error: messages.append(str(error)))
     page.goto((tmp_path / "cell.html").as_uri())
     frame = page.frames[1]
     wait_until(frame, "window.player !== undefined")
     assert frame.evaluate("async () => { await player.ready; await player.seek(1.5); return player.problem; }") == ""
     assert frame.evaluate("player.time") == 1.5
     frame.evaluate("player.pause()")
-    assert [line for line in reported if "GL Driver" not in line] == []
+    assert [line for line in messages if "GL Driver" not in line] == []
     page.close()

@@ -59,11 +59,11 @@ def test_the_page_has_the_same_poses():
 
 def test_a_sliding_frame_moves_along_a_direction_of_its_parent():
     recording = moving_car.recording(T)
-    way = 0.2 * np.sin(T)
+    travel = 0.2 * np.sin(T)
     scene = recording.scene | {"frames": recording.scene["frames"] | {"rack": SLIDING}}
-    poses = FramePoses(scene, recording.columns | {"rack": way}, len(T))
+    poses = FramePoses(scene, recording.columns | {"rack": travel}, len(T))
     position, rotation = moving_car.pose("chassis", T)
-    exact = position + rotation.apply(np.array([0.1, 0.2, 0.3]) + way[:, None] * [0.0, 0.6, 0.8])
+    exact = position + rotation.apply(np.array([0.1, 0.2, 0.3]) + travel[:, None] * [0.0, 0.6, 0.8])
     assert np.abs(poses.of("rack").position - exact).max() < 1e-12
     assert np.abs(poses.of("rack").quaternion - poses.of("chassis").quaternion).max() < 1e-15
 
@@ -96,6 +96,6 @@ def test_an_angle_without_a_number_is_that_before_it():
 def test_quaternions_of_matrices():
     rotations = Rotation.random(500, random_state=3)
     half_turns = Rotation.from_rotvec(np.pi * np.vstack([np.eye(3), [[0.6, 0.8, 0.0], [0.0, 0.6, -0.8]]]))
-    for given in (rotations, half_turns, Rotation.identity(2)):
-        result = from_matrices(given.as_matrix())
-        assert (given.inv() * Rotation.from_quat(np.roll(result, -1, axis=1))).magnitude().max() < 1e-7
+    for rotation in (rotations, half_turns, Rotation.identity(2)):
+        result = from_matrices(rotation.as_matrix())
+        assert (rotation.inv() * Rotation.from_quat(np.roll(result, -1, axis=1))).magnitude().max() < 1e-7

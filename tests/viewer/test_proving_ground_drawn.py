@@ -11,7 +11,8 @@ from mbs.vehicle import load
 from mbs.worlds import command as world_command
 from tests.viewer.test_drawing import at, ball, scene
 
-MOST_CALLS, MOST_TRIANGLES = 200, 1_500_000
+MOST_CALLS = 200
+MOST_TRIANGLES = 1_500_000
 _ALL_MARKS = """() => {
   const columns = new Proxy([], { get: (list, key) => (key === "includes" ? () => true : list[key]) });
   window.marks = new ALi3Viewer.TyreMarks(view, { columns });

@@ -37,7 +37,7 @@ def test_a_whole_recording_draws_all() -> None:
         ([0.0, 2.0, 1.0], "go back from 2 s to 1 s"),
     ],
 )
-def test_times_that_are_none(t: Any, sentence: str) -> None:
+def test_invalid_times_are_refused(t: Any, sentence: str) -> None:
     with pytest.raises(ViewerError, match=sentence):
         Recording(None, t, {})
 
@@ -51,7 +51,7 @@ def test_times_that_are_none(t: Any, sentence: str) -> None:
         (np.ones(21, complex), "complex128"),
     ],
 )
-def test_columns_that_are_none(values: Any, sentence: str) -> None:
+def test_invalid_columns_are_refused(values: Any, sentence: str) -> None:
     with pytest.raises(ViewerError, match=sentence):
         Recording(None, TIMES, {"x": values})
 
@@ -76,7 +76,7 @@ def test_a_result_without_poses_is_reported_in_one_sentence() -> None:
     )
 
 
-def test_one_column_takes_no_more_than_what_needs_it() -> None:
+def test_a_missing_column_removes_only_the_parts_that_need_it() -> None:
     recording = full(angle=None, **{"spring.force": None, "body.mode_1": None})
     assert recording.scene is not None
     assert set(recording.scene["frames"]) == {"body", "arm"}
@@ -128,13 +128,13 @@ def test_an_angle_within_one_turn_becomes_continuous() -> None:
     assert other.notes == []
 
 
-def test_a_pose_as_drawn_is_added_where_there_is_none() -> None:
+def test_the_drawn_pose_is_added_if_there_is_none() -> None:
     recording = crank(TIMES)
     assert recording.scene is not None
     assert recording.scene["frames"]["slider"]["start"] == [[1.5, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]
 
 
-def test_thinning_is_uniform_in_time_and_said() -> None:
+def test_thinning_is_uniform_in_time_and_reported() -> None:
     t = np.concatenate([np.linspace(0.0, 1.0, 90_001), np.linspace(1.0, 10.0, 10_001)[1:]])
     recording = crank(t)
     shown = recording.thinned(1000)
@@ -147,7 +147,7 @@ def test_thinning_is_uniform_in_time_and_said() -> None:
     assert recording.notes == []
 
 
-def test_thinning_says_how_far_the_motion_between_is_from_the_record() -> None:
+def test_thinning_reports_the_error_of_the_motion_between() -> None:
     rate, step = 30.0, 0.05
     shown = crank(np.linspace(0.0, 10.0, 20_001), rate).thinned(201)
     note = shown.notes[0]
@@ -184,7 +184,7 @@ def test_of_many_resets_the_last_pose_stands_until_the_next() -> None:
     assert "the place of 'slider' by up to 50 m" in shown.notes[0]
 
 
-def test_epochs_that_are_none() -> None:
+def test_invalid_epochs_are_refused() -> None:
     with pytest.raises(ViewerError, match=r"'epoch' has the shape \(20,\); there are 21 times"):
         Recording(None, TIMES, {}, epoch=np.ones(20))
 
@@ -205,7 +205,7 @@ def test_a_million_times_in_bounded_memory() -> None:
 
 
 @pytest.mark.parametrize("most", [1, 0, -3, 2.5, True, "many"])
-def test_a_number_of_times_that_is_none(most: Any) -> None:
+def test_an_invalid_number_of_times_is_refused(most: Any) -> None:
     with pytest.raises(ViewerError, match="whole number from 2 on"):
         crank(TIMES).thinned(most)
 

@@ -1,4 +1,4 @@
-"""The page of a run and the simulator draw one world: pixel by pixel the same picture of the same instant."""
+"""The page of a run and the simulator draw the same world: equal pixels at the same instant."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -16,16 +16,16 @@ from viewer.page_file import write_page
 INSTANT = 4.0
 """s: the car turns into the second lane."""
 SIZE = {"width": 640, "height": 360}
-ALIKE, MOST = 2, 1
-"""Steps of 256 of a colour, and how many of the 230 400 pixels may differ by more."""
+ALIKE = 2  # of 256 levels of a colour
+MOST = 1  # of the 230 400 pixels may differ by more
 _BOTH = "({ look }) => { const { view } = window.player; view.options.lift = 0; view.set(look); view.resize(); }"
 
 
 @pytest.fixture(scope="module")
 def run() -> Recording:
-    made = manoeuvres.run("double_lane_change", 0.002, car=manoeuvres.PROTOTYPE, every=5).recording()
-    scene = dict(made.scene or {}) | {"roads": [terrain()], "scenery": scenery()}
-    return Recording(scene, made.t, made.columns, made.units, made.name)
+    recording = manoeuvres.run("double_lane_change", 0.002, car=manoeuvres.PROTOTYPE, every=5).recording()
+    scene = dict(recording.scene or {}) | {"roads": [terrain()], "scenery": scenery()}
+    return Recording(scene, recording.t, recording.columns, recording.units, recording.name)
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""The format of scenes: what is wrong is said in one sentence with the place; the JSON Schema says the same."""
+"""The format of scenes: one sentence with the place for each fault; the JSON Schema agrees."""
 
 import copy
 import json
@@ -49,7 +49,7 @@ NEEDED |= {(("scenery", k), "at") for k in (1, 2, 3, 5, 6, 7)} | {(("scenery", 2
 NEEDED |= {(("arrows", k), "name") for k in range(3)} | {((), "name"), (("arrows", 2, "tyre"), "axis")}
 
 
-def test_a_scene_with_one_of_each_is_good_and_the_schema_says_so() -> None:
+def test_a_scene_with_one_of_each_is_valid_by_types_and_schema() -> None:
     assert scene_errors(everything()) == []
     VALIDATOR.validate(everything())
 
@@ -86,8 +86,8 @@ def test_keys_that_are_misspelt() -> None:
         table = at(scene, path)
         table[f"{key}x"] = table.pop(key)
         errors = scene_errors(scene)
-        reported = (f"'{key}'", f"{key} is missing", "or 'tyre'")
-        good = len(errors) == 1 and f"{key}x" in errors[0] and any(t in errors[0] for t in reported)
+        parts = (f"'{key}'", f"{key} is missing", "or 'tyre'")
+        good = len(errors) == 1 and f"{key}x" in errors[0] and any(t in errors[0] for t in parts)
         if not good or "\n" in errors[0]:
             wrong.append(f"{path}, {key}: {errors}")
     assert not wrong, "\n".join(wrong)

@@ -1,4 +1,4 @@
-"""Every scene that has a film: its bodies stand in the picture where the run has them, all of the way."""
+"""Every scene with a film: its bodies are drawn where the run has them, at all times."""
 
 from typing import Any
 

@@ -35,11 +35,11 @@ def lane_change() -> Recording:
 def program(chromium: Any, lane_change: Recording) -> Iterator[Program]:
     """The page, open; an error in its script fails the test."""
     context = chromium.new_context(viewport={"width": 640, "height": 360})
-    made = Program(context.new_page(), lane_change, world=WORLD)
-    made.open()
-    yield made
+    opened = Program(context.new_page(), lane_change, world=WORLD)
+    opened.open()
+    yield opened
     context.close()
-    assert made.errors == []
+    assert opened.errors == []
 
 
 def shown(program: Program, time: float, flags: int = 0, **header: float) -> None:
@@ -130,7 +130,7 @@ def test_a_broken_wire_is_reported_and_mended_and_a_world_that_comes_then_is_no_
 
 
 @pytest.mark.slow
-def test_the_car_is_where_its_frame_says_in_every_camera(chromium: Any, lane_change: Recording) -> None:
+def test_the_car_is_drawn_at_its_frame_in_every_camera(chromium: Any, lane_change: Recording) -> None:
     """Points inside the wheels, which are magenta here."""
     scene = dict(lane_change.scene or {})
     scene["shapes"] = [s | {"color": "#ff00ff", "material": "plastic"} for s in scene["shapes"] if s["kind"] == "wheel"]

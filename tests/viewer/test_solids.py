@@ -120,8 +120,8 @@ def test_the_mark_of_a_steering_wheel_is_on_top(parts: list[Part]) -> None:
 
 
 def ends_of(name: str) -> tuple[np.ndarray, np.ndarray]:
-    given = SHAPES[name]
-    a, b = (POSES.points(anchor) for anchor in (given.get("ends") or given["points"]))
+    shape = SHAPES[name]
+    a, b = (POSES.points(anchor) for anchor in (shape.get("ends") or shape["points"]))
     return a, b
 
 
@@ -166,14 +166,14 @@ def test_rods_of_a_damper_keep_their_length(written: WrittenGltf, parts: list[Pa
         assert np.abs(np.cross(found[:, :3, 3] - begin, along)).max() < 1e-6
 
 
-def test_a_plate_that_bends_keeps_its_form_and_says_so(written: WrittenGltf) -> None:
+def test_a_bending_plate_keeps_its_form_and_is_reported(written: WrittenGltf) -> None:
     (note,) = (note for note in written.notes if "form" in note)
     corners = np.stack([POSES.points(anchor) for anchor in MIXED], axis=1)
     apart = np.linalg.norm(corners[:, 2] - corners[:, 0], axis=1)
     least = 1000.0 * np.abs(apart - apart[0]).max()
-    reported = float(note.split("off by ")[1].split()[0])
+    deviation = float(note.split("off by ")[1].split()[0])
     assert note.startswith("The plate 'plate' changes its form; it keeps that of the start, ")
-    assert least < reported < 1000.0
+    assert least < deviation < 1000.0
 
 
 def test_places_far_away_are_of_double_precision(tmp_path: Path) -> None:

@@ -54,12 +54,12 @@ def slider(picture):
 @pytest.mark.parametrize("suffix", [".mp4", pytest.param(".webp", marks=pytest.mark.proof), ".gif"])
 def test_a_film_shows_the_motion_of_the_recording(tmp_path, suffix):
     path = tmp_path / f"crank{suffix}"
-    reported = []
-    written = write_mp4(path, hand_scenes.crank(T), size=SIZE, fps=4.0, speed=1.0, progress=reported.append)
+    progress = []
+    written = write_mp4(path, hand_scenes.crank(T), size=SIZE, fps=4.0, speed=1.0, progress=progress.append)
     assert written.frames == 13
     assert written.duration == pytest.approx(13 / 4.0)
     assert written.size == path.stat().st_size
-    assert reported == pytest.approx((np.arange(13) + 1) / 13)
+    assert progress == pytest.approx((np.arange(13) + 1) / 13)
     pictures = frames_of(path)
     assert len(pictures) == 13
     assert pictures[0].shape == (SIZE[1], SIZE[0], 3)

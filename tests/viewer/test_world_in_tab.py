@@ -76,11 +76,11 @@ def test_the_proving_ground_in_a_tab_is_one_file_and_the_car_drives_on_it(
     assert not page.locator("[data-a3='help list']").is_visible()
     place = page.evaluate("Object.keys(player.options.places)")[3]
     page.get_by_title("begin at a place of the world").select_option(place)
-    wanted = page.evaluate("name => player.options.places[name]", place)
+    start = page.evaluate("name => player.options.places[name]", place)
     wait_until(
         page,
         "([x, y]) => Math.hypot(player.view.origin[0] - x, player.view.origin[1] - y) < 5",
-        [wanted["initial.x"], wanted["initial.y"]],
+        [start["initial.x"], start["initial.y"]],
     )
     page.keyboard.press("o")
     page.select_option("[data-a3=quality]", "medium")

@@ -49,14 +49,14 @@ def level(road_height: float, surface: str = "asphalt") -> dict[str, Any]:
 
 def stripes() -> dict[str, Any]:
     """A level terrain with a stripe of 10 m along x of each surface, from y = -40 m to the left."""
-    made = level(0.0)
+    ground = level(0.0)
     classes = np.tile(np.repeat(np.arange(8, dtype=np.uint8), 10), (80, 1))
     surface = {"origin": [-39.5, -39.5], "spacing": [1, 1], "shape": [80, 80], "classes": octets(classes)}
-    return made | {"surface": made["surface"] | surface}
+    return ground | {"surface": ground["surface"] | surface}
 
 
 @pytest.mark.parametrize("quality", ["medium", pytest.param("high", marks=pytest.mark.proof)])
-def test_each_surface_has_its_colour_and_what_is_wet_mirrors_the_sky(drawn, quality):
+def test_each_surface_has_its_colour_and_wet_ones_mirror_the_sky(drawn, quality):
     drawn.show(world(roads=[stripes()], extent=62.0), at(0, 0, 0), camera="top", quality=quality)
     picture = drawn.picture()
     seen = {name: around(picture, drawn.project((0.0, 10.0 * k - 35.0, 0.0)), 5) for k, name in enumerate(NAMES)}
@@ -100,7 +100,7 @@ def test_a_road_that_is_slick_everywhere_is_drawn_wet_or_as_ice(drawn, quality):
     assert (brightness > 1.0) == (quality == "high"), brightness
 
 
-def test_the_border_of_a_grid_goes_on_before_it_as_road_and_beside_it_as_grass(drawn):
+def test_the_border_of_a_grid_continues_before_it_as_road_and_beside_it_as_grass(drawn):
     """At its height, 2 m: of a ball below it nothing is seen, of one that lies on it the upper half."""
     grid = {"kind": "grid", "origin": [5, -3], "spacing": [10, 6], "shape": [3, 2], "heights": floats(np.full(6, 2.0))}
     result = world(roads=[grid], shapes=[ball(radius=0.5)], extent=12.0)
@@ -133,8 +133,8 @@ def edge(drawn: Any, quality: str, left: str, right: str) -> tuple[float, float]
     ground = level(0.0)
     classes = np.repeat([NAMES.index(right), NAMES.index(left)], 40)[None].repeat(80, axis=0)
     surface = {"origin": [-19.75, -19.75], "spacing": [0.5, 0.5], "shape": [80, 80], "classes": octets(classes)}
-    made = world(roads=[ground | {"surface": ground["surface"] | surface}], extent=2.0)
-    drawn.show(made, at(0, 0, 0), camera="top", quality=quality)
+    scene = world(roads=[ground | {"surface": ground["surface"] | surface}], extent=2.0)
+    drawn.show(scene, at(0, 0, 0), camera="top", quality=quality)
     (u, v), (_, next_v) = (drawn.project((0.0, y, 0.0)) for y in (0.0, 1.0))
     across = drawn.picture()[:, : int(u) - 10].mean(axis=(1, 2))
     y = (np.arange(len(across)) + 0.5 - v) / (next_v - v)
@@ -147,10 +147,10 @@ def edge(drawn: Any, quality: str, left: str, right: str) -> tuple[float, float]
 @pytest.mark.parametrize("quality", ["draft", "medium"])
 def test_an_edge_between_two_surfaces_of_one_channel_is_as_soft_as_others_and_where_they_are(drawn, quality):
     """Ice and wet share one, ice and asphalt do not."""
-    (own, soft), (other, wanted) = (edge(drawn, quality, "ice", name) for name in ("wet", "asphalt"))
-    assert wanted > 0.05
+    (own, soft), (other, expected) = (edge(drawn, quality, "ice", name) for name in ("wet", "asphalt"))
+    assert expected > 0.05
     assert own == pytest.approx(other, abs=0.05)
-    assert 0.6 * wanted < soft < 1.6 * wanted
+    assert 0.6 * expected < soft < 1.6 * expected
 
 
 @pytest.mark.parametrize("quality", ["draft", "medium"])
@@ -270,7 +270,7 @@ def test_far_away_a_world_is_drawn_the_same(drawn):
     assert np.abs(drawn.picture() - far).mean() < 1.0
 
 
-def test_beyond_a_world_its_border_goes_on(drawn):
+def test_beyond_a_world_its_border_continues(drawn):
     drawn.show(world(shapes=[ball(radius=0.3)], extent=1.5), at(9e4, -7e4, 0.0), camera="side")
     r, g, b = np.moveaxis(drawn.picture(), 2, 0)
     assert np.median(g[140:]) > np.median(b[140:]) * 1.2  # grass

@@ -32,8 +32,8 @@ def built(made_once: Callable[[str, Callable[[Path], None]], Path], tmp_path_fac
 
     def make(named: str, systems: Callable[[], tuple[str, object]], added: dict[str, bytes] | None = None) -> Fmu:
         def fill(folder: Path) -> None:
-            name, given = systems()
-            build_fmu(given, name, folder, PLATFORMS)
+            name, built_systems = systems()
+            build_fmu(built_systems, name, folder, PLATFORMS)
 
         (path,) = made_once(f"wasm_{named}", fill).glob("*.fmu")
         return Fmu(path, tmp_path_factory.mktemp(named) / "unpacked", added)

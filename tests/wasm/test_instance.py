@@ -1,4 +1,4 @@
-"""The page's instance: refusals in the FMU's words, states, types, files, memory."""
+"""The page's FMU instance: refusals with the FMU's message, states, types, files, memory."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def test_modules_that_cannot_be_loaded_are_refused(told: Any, what: str, message
         ("freed", "This instance was freed."),
     ],
 )
-def test_a_refusal_has_the_words_of_the_fmu(told: Any, what: str, message: str) -> None:
+def test_a_refusal_has_the_message_of_the_fmu(told: Any, what: str, message: str) -> None:
     is_fmu_error, status, text = told[what]
     assert is_fmu_error
     assert status == "error"

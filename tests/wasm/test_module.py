@@ -1,4 +1,4 @@
-"""The module itself: what it imports and exports, files and messages in its memory, memory that runs out."""
+"""The WebAssembly module: imports and exports, files and messages in its memory, exhausted memory."""
 
 from __future__ import annotations
 
@@ -60,16 +60,16 @@ def test_it_imports_nothing_and_exports_fmi(small: Callable[[str], Fmu]) -> None
 @pytest.mark.slow
 def test_the_stack_lies_below_all_data(small: Callable[[str], Fmu]) -> None:
     """An overflow is then a trap, and no change of data."""
-    made = module(small("crane"))
-    assert made.address("ali3_messages") >= STACK
-    assert made.address("ali3_callbacks") >= STACK
+    loaded = module(small("crane"))
+    assert loaded.address("ali3_messages") >= STACK
+    assert loaded.address("ali3_callbacks") >= STACK
 
 
 @pytest.mark.slow
 def test_memory_that_runs_out_is_a_sentence(prototype: Fmu) -> None:
-    made = module(prototype)
-    assert made.there
-    for limit, there in ((made.memory_size, True), (made.memory_size - (1 << 18), False)):
+    loaded = module(prototype)
+    assert loaded.there
+    for limit, there in ((loaded.memory_size, True), (loaded.memory_size - (1 << 18), False)):
         limited = module(prototype, memory_limit=limit)
         assert limited.there == there
         if not there:
@@ -78,12 +78,12 @@ def test_memory_that_runs_out_is_a_sentence(prototype: Fmu) -> None:
 
 @pytest.mark.slow
 def test_a_road_for_which_there_is_no_memory(prototype: Fmu) -> None:
-    made = module(prototype, memory_limit=module(prototype).memory_size + (1 << 16))
+    loaded = module(prototype, memory_limit=module(prototype).memory_size + (1 << 16))
     with pytest.raises(FMICallException):
-        made.set("String", [prototype.kinds["road.file"][1]], ["own.road"])
-    assert made.messages[-1][1].endswith(": there is not enough memory.")
+        loaded.set("String", [prototype.kinds["road.file"][1]], ["own.road"])
+    assert loaded.messages[-1][1].endswith(": there is not enough memory.")
     with pytest.raises(MemoryError):
-        made.add_file("roads/large.road", bytes(1 << 20))
+        loaded.add_file("roads/large.road", bytes(1 << 20))
 
 
 @pytest.mark.slow
@@ -99,29 +99,29 @@ def test_a_table_whose_points_exceed_32_bits_is_refused(prototype: Fmu) -> None:
 @pytest.mark.slow
 def test_messages_beyond_the_room_for_them_are_counted(small: Callable[[str], Fmu]) -> None:
     fmu = small("crane")
-    made = module(fmu)
+    loaded = module(fmu)
     reference = struct.pack("<I", fmu.kinds["torque"][1])
-    where, value = made.block(reference), made.block(struct.pack("<d", np.nan))
-    refuse = made.caller("fmi2SetReal")
+    where, value = loaded.block(reference), loaded.block(struct.pack("<d", np.nan))
+    refuse = loaded.caller("fmi2SetReal")
     assert {refuse(where, 1, value) for _ in range(2000)} == {3}
-    made.listen()
-    *kept, lost = made.messages
+    loaded.listen()
+    *kept, lost = loaded.messages
     assert lost == (1, f"{2000 - len(kept)} lost")
     assert 300 < len(kept) < 2000
     assert len(set(kept)) == 1
     assert kept[0][0] == 3
     assert "'torque' was set to nan" in kept[0][1]
     refuse(where, 1, value)
-    made.listen()
-    assert made.messages[-1] == kept[0]
+    loaded.listen()
+    assert loaded.messages[-1] == kept[0]
 
 
 @pytest.mark.slow
 def test_a_percent_sign_is_one(prototype: Fmu) -> None:
-    made = module(prototype)
+    loaded = module(prototype)
     with pytest.raises(FMICallException):
-        made.set("String", [prototype.kinds["road.file"][1]], ["50%.road"])
-    assert "'50%.road' (/resources/roads/50%.road)" in made.messages[-1][1]
+        loaded.set("String", [prototype.kinds["road.file"][1]], ["50%.road"])
+    assert "'50%.road' (/resources/roads/50%.road)" in loaded.messages[-1][1]
 
 
 @pytest.mark.slow
@@ -133,22 +133,22 @@ def test_a_file_that_is_open_stays_when_another_takes_its_name(prototype: Fmu, t
     files = [(tmp_path / name).read_bytes() for name in ("long.road", "other.road")]
 
     def driven(change: str) -> list[float]:
-        made = module(prototype)
-        made.add_file("roads/long.road", files[0])
-        made.set("String", [prototype.kinds["road.file"][1]], ["long.road"])
-        made.set("Real", [prototype.kinds["initial.speed"][1]], [60.0])
-        made.setupExperiment()
-        made.enterInitializationMode()
-        made.exitInitializationMode()
+        loaded = module(prototype)
+        loaded.add_file("roads/long.road", files[0])
+        loaded.set("String", [prototype.kinds["road.file"][1]], ["long.road"])
+        loaded.set("Real", [prototype.kinds["initial.speed"][1]], [60.0])
+        loaded.setupExperiment()
+        loaded.enterInitializationMode()
+        loaded.exitInitializationMode()
         if change == "other":
-            made.add_file("roads/long.road", files[1])
+            loaded.add_file("roads/long.road", files[1])
         elif change == "none":
-            assert made.remove_file("roads/long.road")
-            assert not made.remove_file("roads/long.road")
+            assert loaded.remove_file("roads/long.road")
+            assert not loaded.remove_file("roads/long.road")
         heights = []
         for k in range(100):
-            made.doStep(k * 0.05, 0.05)
-            heights += made.getReal([prototype.kinds[name][1] for name in ("chassis.x", "chassis.z")])
+            loaded.doStep(k * 0.05, 0.05)
+            heights += loaded.getReal([prototype.kinds[name][1] for name in ("chassis.x", "chassis.z")])
         return heights
 
     usual = driven("")

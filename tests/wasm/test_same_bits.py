@@ -29,8 +29,8 @@ def drive(steps: int, start: dict[str, Any], every: int = 250, h: float = H) -> 
         steering = 0.4 * np.sin(3.0 * t) if part > 0.2 else 0.0
         throttle, brake = (0.7, 0.0) if part < 0.7 else (0.0, 0.8)
         inputs.append([float(steering), throttle, brake])
-    made = [{"h": h, "inputs": given, "save": (k + 1) % every == 0} for k, given in enumerate(inputs)]
-    return Plan(start, ["steering", "throttle", "brake"], made)
+    plan_steps = [{"h": h, "inputs": values, "save": (k + 1) % every == 0} for k, values in enumerate(inputs)]
+    return Plan(start, ["steering", "throttle", "brake"], plan_steps)
 
 
 def moved(driven: Driven) -> int:
@@ -118,14 +118,14 @@ def test_in_chromium(prototype: Fmu, hatchback: Fmu, small: Callable[[str], Fmu]
         plan = refused_steps()
         assert_same(chromium(small("reach"), plan), native(small("reach"), plan), small("reach"), plan)
         chromium.run("(xml) => (window.xml = xml)", described_text(prototype))
-        reported = chromium.run("async () => (await import('/description.js')).describe(window.xml)")
-    given = prototype.job(plan)["description"]
-    assert (reported["guid"], reported["modelName"]) == (given["guid"], given["modelName"])
-    assert [{key: v[key] for key in w} for v, w in zip(reported["variables"], given["variables"], strict=True)] == (
-        given["variables"]
-    )
-    assert (reported["stepSize"], reported["stopTime"]) == (H, 10.0)
-    variables = {v["name"]: v for v in reported["variables"]}
+        description = chromium.run("async () => (await import('/description.js')).describe(window.xml)")
+    written = prototype.job(plan)["description"]
+    assert (description["guid"], description["modelName"]) == (written["guid"], written["modelName"])
+    assert [
+        {key: v[key] for key in w} for v, w in zip(description["variables"], written["variables"], strict=True)
+    ] == (written["variables"])
+    assert (description["stepSize"], description["stopTime"]) == (H, 10.0)
+    variables = {v["name"]: v for v in description["variables"]}
     assert variables["fidelity"] | {"type": "Integer", "min": 0, "max": 2, "start": 0} == variables["fidelity"]
     assert variables["front.spring.stiffness"]["unit"] == "N/m"
     assert variables["road.file"]["start"] == ""

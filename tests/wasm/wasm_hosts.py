@@ -63,8 +63,8 @@ class Fmu:
 
     def job(self, plan: Plan) -> dict[str, Any]:
         """What `drive.js` takes."""
-        given = {"start": plan.start, "inputs": plan.inputs, "steps": plan.steps, "outputs": self.outputs(plan)}
-        return job_of(self.path, given, self.added)
+        description = {"start": plan.start, "inputs": plan.inputs, "steps": plan.steps, "outputs": self.outputs(plan)}
+        return job_of(self.path, description, self.added)
 
 
 def _drive(slave: Any, fmu: Fmu, plan: Plan) -> Driven:
@@ -164,11 +164,11 @@ class Chromium:
         return self._page.run(code, argument)
 
 
-def decoded(reported: dict[str, Any], plan: Plan) -> Driven:
+def decoded(encoded: dict[str, Any], plan: Plan) -> Driven:
     """What `drive.js` gave."""
-    rows = np.frombuffer(base64.b64decode(reported["rows"]))
-    states = [base64.b64decode(text) for text in reported["states"]]
-    refusals = [(k, status) for k, status, _ in reported["refusals"]]
+    rows = np.frombuffer(base64.b64decode(encoded["rows"]))
+    states = [base64.b64decode(text) for text in encoded["states"]]
+    refusals = [(k, status) for k, status, _ in encoded["refusals"]]
     return Driven(rows.reshape(len(plan.steps) + 1, -1), states, refusals)
 
 

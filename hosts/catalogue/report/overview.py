@@ -139,24 +139,24 @@ def _outcome(record: TestRecord | str | None) -> HtmlElement:
     return element("td", kept_shown(False, text), *more)
 
 
-def _row(name: str, found: Sequence[Measure | None]) -> list[Content]:
+def _row(name: str, measures: Sequence[Measure | None]) -> list[Content]:
     """A measure of all cars, the first of which is what others are compared with."""
-    present = [m for m in found if m is not None]
-    known = present[0]
-    tail = typeset(known.unit)
-    shared = known.note if len(present) > 1 and all(m.note == known.note for m in present) else ""
-    what: list[Content] = [known.text or name, element("small", f" {name}{f', {tail}' if tail else ''}")]
+    present = [m for m in measures if m is not None]
+    first = present[0]
+    tail = typeset(first.unit)
+    shared = first.note if len(present) > 1 and all(m.note == first.note for m in present) else ""
+    what: list[Content] = [first.text or name, element("small", f" {name}{f', {tail}' if tail else ''}")]
     if shared:
         what.append(element("small", f" {shared}"))
     cells: list[Content] = [element("span", *what)]
-    for k, measure in enumerate(found):
+    for k, measure in enumerate(measures):
         if measure is None:
             cells.append(element("td", NONE))
         else:
-            cells.append(_value_cell(measure, found[0] if k else None, known, "" if shared else measure.note))
-    limit = known.limit
+            cells.append(_value_cell(measure, measures[0] if k else None, first, "" if shared else measure.note))
+    limit = first.limit
     cells.append(
-        "" if limit is None else element("td", limit.words(typeset(known.unit)), element("small", limit.source))
+        "" if limit is None else element("td", limit.words(typeset(first.unit)), element("small", limit.source))
     )
     return cells
 

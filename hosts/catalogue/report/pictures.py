@@ -46,16 +46,16 @@ def pictures_of(plots_by_car: Mapping[str, Sequence[Plot]]) -> dict[str, Drawing
         for plot in plots:
             by_title.setdefault(plot.title, {})[k] = (label, plot)
     with matplotlib.rc_context(dict(_SETTINGS)):
-        return {title: _picture(title, found, len(plots_by_car) > 1) for title, found in by_title.items()}
+        return {title: _picture(title, plots, len(plots_by_car) > 1) for title, plots in by_title.items()}
 
 
-def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> Drawing:
-    found = {k: (label, _displayed(plot)) for k, (label, plot) in found.items()}
-    first = next(iter(found.values()))[1]
-    shared = _shared([plot for _, plot in found.values()])
+def _picture(title: str, plots: Mapping[int, tuple[str, Plot]], many: bool) -> Drawing:
+    plots = {k: (label, _displayed(plot)) for k, (label, plot) in plots.items()}
+    first = next(iter(plots.values()))[1]
+    shared = _shared([plot for _, plot in plots.values()])
     names = [
         *shared,
-        *(_name(n, line, p, many) for n, p in found.values() for line in p.lines if line.label not in shared),
+        *(_name(n, line, p, many) for n, p in plots.values() for line in p.lines if line.label not in shared),
     ]
     columns = 1 if max(map(len, names), default=0) > 30 else 2
     rows = -(-len(names) // columns) if len(names) > 1 else 0
@@ -65,7 +65,7 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> D
     # Fixed margins: a layout that is computed takes longer than the drawing.
     figure.subplots_adjust(_LEFT / _WIDTH, below / height, 1.0 - _RIGHT / _WIDTH, 1.0 - _ABOVE / height)
     axes = figure.add_subplot()
-    descriptions = _drawn(axes, found, shared, many)
+    descriptions = _drawn(axes, plots, shared, many)
     texts = [axes.set_title(title), axes.xaxis.label, axes.yaxis.label]
     if rows:
         legend = figure.legend(
@@ -77,14 +77,14 @@ def _picture(title: str, found: Mapping[int, tuple[str, Plot]], many: bool) -> D
     return drawing(figure, f"{title}: {first.y} over {first.x}. {'; '.join(descriptions) or 'No lines'}.")
 
 
-def _drawn(axes: Axes, found: Mapping[int, tuple[str, Plot]], shared: Mapping[str, Line], many: bool) -> list[str]:
+def _drawn(axes: Axes, plots: Mapping[int, tuple[str, Plot]], shared: Mapping[str, Line], many: bool) -> list[str]:
     """Draw lines, labels and scales of a plot; what they show in words."""
-    first = next(iter(found.values()))[1]
+    first = next(iter(plots.values()))[1]
     descriptions = []
     for line in shared.values():
         axes.plot(line.x, line.y, color=_SHARED, linewidth=1.2, label=line.label)
         descriptions.append(f"{line.label}: {_range(line)}")
-    for k, (label, plot) in found.items():
+    for k, (label, plot) in plots.items():
         for j, line in enumerate(line for line in plot.lines if line.label not in shared):
             name = _name(label, line, plot, many)
             _draw(axes, line, name, *((k, j) if many else (j, 0)))

@@ -62,13 +62,13 @@ def section(
 def command_of(command: Sequence[str], test: str) -> list[str]:
     """The command for one test: without the list of tests and without settings of others."""
     kept: list[str] = []
-    remaining = iter(command)
-    for word in remaining:
+    words = iter(command)
+    for word in words:
         name, equals, value = word.partition("=")
         if name not in (_OF_TESTS, _OF_SETTINGS):
             kept.append(word)
             continue
-        value = value if equals else next(remaining, "")
+        value = value if equals else next(words, "")
         if name == _OF_SETTINGS and value.startswith(f"{test}."):
             kept += [_OF_SETTINGS, value]
     return [*kept, _OF_TESTS, test]

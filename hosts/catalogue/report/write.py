@@ -48,7 +48,7 @@ def write_report(
     plots, sections = Plots(file.parent / "plots"), [Section("Overview", overview(tests, labels, records), "overview")]
     for test in tests:
         results = {n: r for n in labels if (r := records.get(test.name, {}).get(n)) is not None}
-        drawn = pictures_of({n: r.plots for n, r in results.items() if isinstance(r, TestRecord)})
-        shown = [plots.add(one, f"{test.name} {name}") for name, one in drawn.items()]
+        pictures = pictures_of({n: r.plots for n, r in results.items() if isinstance(r, TestRecord)})
+        shown = [plots.add(one, f"{test.name} {name}") for name, one in pictures.items()]
         sections.append(section(test, results, settings.get(test.name, {}), command, shown))
     write_text(file, page(f"Standard tests of {', '.join(labels)}", head(cars), sections))

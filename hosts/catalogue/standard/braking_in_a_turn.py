@@ -24,11 +24,11 @@ def drive(sheet: Sheet) -> None:
     car, settings = sheet.with_step_up_to(STEP, "the yaw acceleration"), sheet.settings
     levels, stops = round(settings["levels"]), []
     for k in range(1, levels + 1):
-        made = stop(car, settings, settings["pedal"] * k / levels)
-        stops.append(made)
-        sheet.keep(f"pedal_{made.pedal:.3g}", made.result)
-        if math.isnan(made.onset):
-            sheet.add("not_there", last=made)
+        braked = stop(car, settings, settings["pedal"] * k / levels)
+        stops.append(braked)
+        sheet.keep(f"pedal_{braked.pedal:.3g}", braked.result)
+        if math.isnan(braked.onset):
+            sheet.add("not_there", last=braked)
             break
         sheet.progress(k / levels)
     add_stops(sheet, stops)

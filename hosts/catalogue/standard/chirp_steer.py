@@ -68,5 +68,5 @@ def _response(run: SteeredRun, values: NDArray[np.float64], low: float, high: fl
     kept, before = run.time >= 0.0, run.time < 0.0
     if not run.whole or np.isnan(values).any() or not before.any():
         return FrequencyResponse(np.zeros(0), np.zeros(0, complex), np.zeros(0))
-    given, answer = (x[kept] - x[before].mean() for x in (run.steering, values))
-    return frequency_response(given, answer, run.interval, np.geomspace(low, high, _LINES))
+    steering, answer = (x[kept] - x[before].mean() for x in (run.steering, values))
+    return frequency_response(steering, answer, run.interval, np.geomspace(low, high, _LINES))

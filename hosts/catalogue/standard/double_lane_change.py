@@ -147,26 +147,26 @@ def drive_through(car: TestedCar, layout: _Layout, speed: float, driver: str) ->
 
     `speed`: in km/h; `driver`: one of `DRIVERS`.
     """
-    constants, wanted = car.facts.constants, speed / 3.6
+    constants, entry_speed = car.facts.constants, speed / 3.6
     length, width = constants["vehicle.length"], constants["vehicle.width"]
     course = course_of(layout.name, width, RUN_UP + 0.5 * length)
-    run_up = RunUp(car, wanted)
+    run_up = RunUp(car, entry_speed)
     pilot = RunUpPilot(
-        steering_of(driver, course, constants, wanted),
-        wanted,
+        steering_of(driver, course, constants, entry_speed),
+        entry_speed,
         run_up.is_over,
         course.gates[0].x_start + layout.release - 0.5 * length,
     )
-    way = course.gates[-1].x_end + length
-    ends = StopConditions(stands=0.3 * wanted)
+    course_end = course.gates[-1].x_end + length
+    ends = StopConditions(stands=0.3 * entry_speed)
 
     def over(time: float, outputs: Mapping[str, float]) -> bool:
         if math.isnan(pilot.start):
             return time > run_up.longest
         x, y, _ = pilot.seen(outputs)
-        return ends(outputs) or x > way or abs(y) > 8.0
+        return ends(outputs) or x > course_end or abs(y) > 8.0
 
-    stop_time = run_up.longest + 3.0 * way / wanted
+    stop_time = run_up.longest + 3.0 * course_end / entry_speed
     manoeuvre = held(car, f"{layout.name} {speed:g} km/h", stop_time, {}, run_up.start)
     result = car.drive(manoeuvre, pilot, over)
     after = result.time >= pilot.start - 1e-9 if not math.isnan(pilot.start) else np.zeros(len(result.time), bool)

@@ -26,10 +26,10 @@ def drive(sheet: Sheet) -> None:
     # In neutral and without a torque that creeps the car rolls.
     inputs = {"steering": 0.0, "throttle": 0.0, "brake": 0.0, "selector": 0.0}
     stop_time = ahead / settings["speed"] * 3.6 + AFTER
-    for way, (start, rise) in ways.items():
-        run = sheet.keep(way, car.drive(held(car, f"kerb_{way}", stop_time, inputs, start)))
+    for direction, (start, rise) in ways.items():
+        run = sheet.keep(direction, car.drive(held(car, f"kerb_{direction}", stop_time, inputs, start)))
         sheet.progress(len(sheet.runs) / len(ways))
         gauges = [n for n in run.names if n.startswith("stress.") and n != "stress.computed"]
         if "stress.computed" in run and not (run["stress.computed"] == 1.0).all():
             gauges = []
-        sheet.add("passage", way=way, rise=rise, run=run, gauges=gauges)
+        sheet.add("passage", way=direction, rise=rise, run=run, gauges=gauges)

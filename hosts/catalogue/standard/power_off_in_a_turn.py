@@ -16,12 +16,12 @@ def drive(sheet: Sheet) -> None:
     levels, released = round(settings["levels"]), list[tuple[float, Stop]]()
     for k in range(1, levels + 1):
         requested = settings["lowest"] + (settings["highest"] - settings["lowest"]) * (k - 1) / max(levels - 1, 1)
-        made = stop(car, settings | {"lateral_acceleration": requested, "rise_time": 0.0}, 0.0, AFTER + STEADY)
-        sheet.keep(f"{requested:.6g}_m_s2", made.result)
-        if math.isnan(made.onset):
-            sheet.add("not_there", last=made, asked=requested)
+        release = stop(car, settings | {"lateral_acceleration": requested, "rise_time": 0.0}, 0.0, AFTER + STEADY)
+        sheet.keep(f"{requested:.6g}_m_s2", release.result)
+        if math.isnan(release.onset):
+            sheet.add("not_there", last=release, asked=requested)
             break
-        released.append((requested, made))
+        released.append((requested, release))
         sheet.progress(k / levels)
     add_releases(sheet, released)
 

@@ -42,5 +42,5 @@ def _one_period(run: SteeredRun, values: NDArray[np.float64], period: float) -> 
     if not run.whole:
         return NOTHING
     before, kept = run.time < 0.0, (run.time >= 0.0) & (run.time <= period + _AFTER)
-    given, answer = (x[kept] - (x[before].mean() if before.any() else x[0]) for x in (run.steering, values))
-    return one_period(run.time[kept], given, answer, longest=0.45 * period)
+    steering, answer = (x[kept] - (x[before].mean() if before.any() else x[0]) for x in (run.steering, values))
+    return one_period(run.time[kept], steering, answer, longest=0.45 * period)

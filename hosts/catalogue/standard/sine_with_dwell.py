@@ -20,11 +20,11 @@ _MOST_RUNS = 80
 
 def drive(sheet: Sheet) -> None:
     """Ramps to both sides, then the series to both sides."""
-    car, settings, given = sheet.car, sheet.settings, SteeringInput.of(sheet.car.facts)
+    car, settings, steering = sheet.car, sheet.settings, SteeringInput.of(sheet.car.facts)
     speed = settings["speed"] / 3.6
     ramps = {}
     for side, sign in (("left", 1.0), ("right", -1.0)):
-        ramps[side] = _ramp(car, speed, sign, given.largest)
+        ramps[side] = _ramp(car, speed, sign, steering.largest)
         sheet.runs[f"ramp_{side}"] = ramps[side].thinned()
         sheet.progress(0.1 * len(ramps))
     refuse_odd(ramps["left"])
@@ -33,25 +33,25 @@ def drive(sheet: Sheet) -> None:
         raise HostError(_no_angle(list(ramps.values()), settings["speed"]))
     # the regulation rounds to 0.1°, each ramp and the mean
     a = _rounded(0.5 * sum(map(_rounded, angles)))
-    wanted = amplitudes(a, settings["first"], settings["increment"], given.largest)
-    if len(wanted) > _MOST_RUNS:
+    angles_of_series = amplitudes(a, settings["first"], settings["increment"], steering.largest)
+    if len(angles_of_series) > _MOST_RUNS:
         raise HostError(
-            f"A is {math.degrees(a):.1f}°, so the series to {math.degrees(wanted[-1]):.0f}° has {len(wanted)} runs "
-            f"to each side, where {_MOST_RUNS} are the most: raise the setting increment, or look at the unit "
-            "of the steering wheel's angle."
+            f"A is {math.degrees(a):.1f}°, so the series to {math.degrees(angles_of_series[-1]):.0f}° has "
+            f"{len(angles_of_series)} runs to each side, where {_MOST_RUNS} are the most: raise the setting increment, "
+            "or look at the unit of the steering wheel's angle."
         )
     sides: dict[str, list[DwellRun]] = {}
     for side, sign, begin in (("left", 1.0, 0.2), ("right", -1.0, 0.6)):
-        sides[side] = series(car, speed, sign, wanted, lambda done, b=begin: sheet.progress(b + 0.4 * done))  # type: ignore[misc]
+        sides[side] = series(car, speed, sign, angles_of_series, lambda done, b=begin: sheet.progress(b + 0.4 * done))  # type: ignore[misc]
         sheet.runs |= {f"{side}_{math.degrees(r.amplitude):.0f}_deg": r.run.thinned() for r in sides[side]}
     # one is enough: the largest amplitude is the first that a slow steering does not reach
     slow = [s for s in (r.run.shortfall(r.amplitude) for side in sides.values() for r in side[-1:]) if s][:1]
     sheet.add("law")
     for side, runs in sides.items():
         if runs and runs[-1].is_lost:
-            sheet.add("lost", a=a, wanted=wanted, side=side, last=runs[-1])
+            sheet.add("lost", a=a, wanted=angles_of_series, side=side, last=runs[-1])
     sheet.notes += slow
-    sheet.add("series", a=a, found=angles, wanted=wanted, sides=sides, given=given, ramps=ramps)
+    sheet.add("series", a=a, found=angles, wanted=angles_of_series, sides=sides, given=steering, ramps=ramps)
 
 
 def _rounded(angle: float) -> float:

@@ -38,8 +38,8 @@ class Derivation:
         t = np.asarray(time, np.float64)
         columns: list[NDArray[np.float64]] = list(np.asarray(values, np.float64).T)
         for derived, arguments in zip(self._derived, self._arguments, strict=True):
-            made = derived.how.compute(t, *(columns[a] if isinstance(a, int) else a for a in arguments))
-            columns.append(made if made.shape == t.shape else np.broadcast_to(made, t.shape))
+            column = derived.how.compute(t, *(columns[a] if isinstance(a, int) else a for a in arguments))
+            columns.append(column if column.shape == t.shape else np.broadcast_to(column, t.shape))
         return np.array(columns[self._width :]).reshape(len(self.names), len(t)).T
 
     def live(self, time: float, values: ArrayLike) -> NDArray[np.float64]:
@@ -56,9 +56,9 @@ class Derivation:
         if not self._needs_past:
             self._past.clear()
         self._past.append((time, np.array(values, np.float64)))
-        made = self.record([t for t, _ in self._past], np.array([row for _, row in self._past]))[-1].copy()
+        derived = self.record([t for t, _ in self._past], np.array([row for _, row in self._past]))[-1].copy()
         if self._last is not None and self._turning:
-            turns = np.round((self._last[self._turning] - made[self._turning]) / (2.0 * np.pi))
-            made[self._turning] += 2.0 * np.pi * turns
-        self._last = made
-        return np.array(made)
+            turns = np.round((self._last[self._turning] - derived[self._turning]) / (2.0 * np.pi))
+            derived[self._turning] += 2.0 * np.pi * turns
+        self._last = derived
+        return np.array(derived)

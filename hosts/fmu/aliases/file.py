@@ -51,10 +51,10 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
     except UserError as error:
         raise HostError(str(error)) from None
     names = set(variables.names if isinstance(variables, Variables) else variables)
-    known = variables if isinstance(variables, Variables) else None
-    constants = _constants(content, known)
+    of_fmu = variables if isinstance(variables, Variables) else None
+    constants = _constants(content, of_fmu)
     missing: dict[str, str] = {}
-    wanted: set[str] = set()
+    needed: set[str] = set()
     aliases = []
     for entry in content.entries.values():
         if "from" in entry.value:
@@ -63,10 +63,10 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
         if lacks:
             missing[entry.ours] = lacks
         elif entry.value.get("factor") in content.needs and entry.value["factor"] not in constants:
-            wanted.add(entry.value["factor"])
+            needed.add(entry.value["factor"])
         else:
-            aliases.append(_alias(entry, constants, known))
-            if known is not None and _is_hidden(known[entry.value["name"]]):
+            aliases.append(_alias(entry, constants, of_fmu))
+            if of_fmu is not None and _is_hidden(of_fmu[entry.value["name"]]):
                 missing[entry.ours] = (
                     f"{entry.file} takes '{entry.ours}' from '{entry.value['name']}', which is a local variable of the "
                     "FMU and no output"
@@ -77,8 +77,8 @@ def read_aliases(file: Path, variables: Variables | Collection[str]) -> Aliases:
         other = seen.setdefault(alias.theirs, alias.ours)
         if other != alias.ours:
             raise HostError(f"{file}: '{alias.theirs}' is named {other} and {alias.ours}; give it one name.")
-    derived = _derived(content, constants, aliases, names, known, missing)
-    _demand(wanted | {n for d in derived for n in d.names if n in content.needs and n not in names}, content)
+    derived = _derived(content, constants, aliases, names, of_fmu, missing)
+    _demand(needed | {n for d in derived for n in d.names if n in content.needs and n not in names}, content)
     if content.entries and not aliases and not derived:
         first = next(iter(content.entries.values()))
         raise HostError(
@@ -92,22 +92,22 @@ def _is_hidden(variable: Variable) -> bool:
     return variable.causality in ("local", "independent") and variable.variability != "constant"
 
 
-def _constants(content: Content, known: Variables | None) -> dict[str, float]:
+def _constants(content: Content, variables: Variables | None) -> dict[str, float]:
     """Those of the file, and those of its needs that are constants of the FMU."""
-    made = dict(content.constants)
+    constants = dict(content.constants)
     for name in content.needs:
-        if name not in made and known is not None and name in known.names:
-            variable = known[name]
+        if name not in constants and variables is not None and name in variables.names:
+            variable = variables[name]
             if variable.variability == "constant" and isinstance(variable.start, (int, float)):
-                made[name] = float(variable.start)
-    return made
+                constants[name] = float(variable.start)
+    return constants
 
 
-def _demand(wanted: Collection[str], content: Content) -> None:
+def _demand(needed: Collection[str], content: Content) -> None:
     """Refuse a car of which numbers are not known, all in one sentence."""
-    if not wanted:
+    if not needed:
         return
-    numbers = ", ".join(f"'{name}' ({content.needs[name]})" for name in content.needs if name in wanted)
+    numbers = ", ".join(f"'{name}' ({content.needs[name]})" for name in content.needs if name in needed)
     base = Path(content.file)
     how = (
         f'write a file with extends = "{base.stem}" and them in its table [constants], for --aliases'
@@ -127,7 +127,7 @@ def _lacks(entry: Entry, names: Collection[str]) -> str:
     raise HostError(f"{entry.where}: the FMU has no variable '{theirs}'{did_you_mean(theirs, names)}")
 
 
-def _alias(entry: Entry, constants: dict[str, float], known: Variables | None) -> Alias:
+def _alias(entry: Entry, constants: dict[str, float], variables: Variables | None) -> Alias:
     value, where = entry.value, entry.where
     factor = value.get("factor", 1.0)
     by_constant = isinstance(factor, str)
@@ -143,7 +143,7 @@ def _alias(entry: Entry, constants: dict[str, float], known: Variables | None) -
     if factor == 0.0:
         raise HostError(f"{where}: factor is 0; it must be another number.")
     unit = value.get("unit")
-    variable = None if known is None else known[value["name"]]
+    variable = None if variables is None else variables[value["name"]]
     if unit is not None:
         factor *= factor_of_unit(unit, variable, where)
     alias = Alias(entry.ours, value["name"], factor, offset)
@@ -166,12 +166,12 @@ def _derived(
     constants: dict[str, float],
     aliases: list[Alias],
     names: Collection[str],
-    known: Variables | None,
+    variables: Variables | None,
     missing: dict[str, str],
 ) -> tuple[Derived, ...]:
     """Those that can be computed, in order."""
     ours_of = {a.theirs: a.ours for a in aliases}
-    present = {ours_of.get(n, n) for n in names if known is None or known[n].causality in _RECORDED}
+    present = {ours_of.get(n, n) for n in names if variables is None or variables[n].causality in _RECORDED}
     requested = []
     for entry in content.entries.values():
         if "from" not in entry.value or entry.ours in present:
@@ -192,9 +192,14 @@ def _derived(
     for d in done:
         where = content.entries[d.ours].where
         for name in d.names:
-            if known is not None and name in known.names and name not in ours_of.values() and not is_si(known[name]):
+            if (
+                variables is not None
+                and name in variables.names
+                and name not in ours_of.values()
+                and not is_si(variables[name])
+            ):
                 raise HostError(
-                    f"{where}: '{name}' is in {declared(known[name])} in the FMU, formulas take SI units; give it a "
-                    f"name of its own with that unit and use it here."
+                    f"{where}: '{name}' is in {declared(variables[name])} in the FMU, formulas take SI units; give it "
+                    "a name of its own with that unit and use it here."
                 )
     return tuple(done)

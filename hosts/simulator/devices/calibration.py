@@ -152,10 +152,10 @@ class Assignment:
         if self.name not in (*CENTRED, *PEDALS) or not base:
             return None
         k = max(range(len(base)), key=lambda i: abs(reading.axes[i] - base[i]))
-        way = reading.axes[k] - base[k]
-        if abs(way) < self.WAY:
+        travel = reading.axes[k] - base[k]
+        if abs(travel) < self.WAY:
             return None
         if self.name in CENTRED:
-            return InputMapping(f"axis {k}", inverted=way < 0.0)
-        low, high = (-1.0, 1.0) if abs(base[k]) > self.WAY else (0.0, 1.0) if way > 0.0 else (-1.0, 0.0)
-        return InputMapping(f"axis {k}", way < 0.0, low, high, PEDAL_DEAD_ZONE)
+            return InputMapping(f"axis {k}", inverted=travel < 0.0)
+        low, high = (-1.0, 1.0) if abs(base[k]) > self.WAY else (0.0, 1.0) if travel > 0.0 else (-1.0, 0.0)
+        return InputMapping(f"axis {k}", travel < 0.0, low, high, PEDAL_DEAD_ZONE)

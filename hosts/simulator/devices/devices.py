@@ -75,12 +75,12 @@ class Devices:
         """
         with self._reader.lock:
             result = self._device(device)
-            made = None if mapping is None else read_input(name, mapping)
+            assigned = None if mapping is None else read_input(name, mapping)
             if name not in self._inputs:
                 raise HostError(f"The car has no input for '{name}'; {number_text(self._inputs)}.")
-            if made is not None and not Source.read(made.source).is_in(result.reading):
-                raise HostError(f"{result.label} has no {made.source}; it has {result.reading.counts()}.")
-            self._reader.remap(result, result.mapping.with_input(name, made))
+            if assigned is not None and not Source.read(assigned.source).is_in(result.reading):
+                raise HostError(f"{result.label} has no {assigned.source}; it has {result.reading.counts()}.")
+            self._reader.remap(result, result.mapping.with_input(name, assigned))
 
     def assign_by_moving(self, device: str, name: str, on: bool = True) -> None:
         """The next axis or button that is moved on this device drives this input; see `assign`."""
@@ -123,8 +123,8 @@ class Devices:
         """Other `DeviceSettings`; those not named stay. Kept in the device's file; see `assign` for errors."""
         with self._reader.lock:
             result = self._device(device)
-            made = read_settings(settings, result.mapping.settings)
-            self._reader.remap(result, DeviceMapping(result.mapping.inputs, made))
+            device_settings = read_settings(settings, result.mapping.settings)
+            self._reader.remap(result, DeviceMapping(result.mapping.inputs, device_settings))
 
     def test_force(self, device: str) -> None:
         """A short push to the left. Raises `HostError`: the device is not there or has no motor that works."""

@@ -12,8 +12,8 @@ from hosts.simulator.devices.motor import Motor
 
 PERIOD = 0.008
 """s; motors on a USB cable take about 125 values per second."""
-PULSE, PULSE_TIME = 0.3, 0.4
-"""Test of the force: share of the largest, and seconds."""
+PULSE = 0.3  # of the largest force, in a test of it
+PULSE_TIME = 0.4  # s
 
 
 class ForceFeedback:

@@ -45,8 +45,8 @@ class Joystick:
         sdl, handle = self.sdl, self.handle
         for k in self._axes:
             if not self._known[k]:
-                reported = sdl.SDL_JoystickGetAxisInitialState(handle, k, ctypes.byref(self._first))
-                self._known[k] = bool(reported)
+                has_initial_state = sdl.SDL_JoystickGetAxisInitialState(handle, k, ctypes.byref(self._first))
+                self._known[k] = bool(has_initial_state)
         return Reading(
             tuple([_share(sdl.SDL_JoystickGetAxis(handle, k)) for k in self._axes]),
             tuple(self._known),
@@ -86,13 +86,13 @@ class Joysticks:
         for instance, index in present.items():
             if instance < 0 or instance in self._open or instance in self._refused:
                 continue
-            made = self._opened(index)
-            if made is None:
+            joystick = self._opened(index)
+            if joystick is None:
                 self._refused.add(instance)
                 refused.append(text(sdl.SDL_JoystickNameForIndex(index)) or "A device without a name")
             else:
-                self._open[instance] = made
-                added.append(made)
+                self._open[instance] = joystick
+                added.append(joystick)
         return added, removed, refused
 
     def close(self) -> None:

@@ -61,8 +61,8 @@ class InputMapping:
 
     def _centred(self, at: float) -> float:
         centre = 0.5 * (self.low + self.high) if self.centre is None else self.centre
-        way = self.high - centre if at >= centre else centre - self.low
-        share = max(-1.0, min(1.0, (at - centre) / way))
+        travel = self.high - centre if at >= centre else centre - self.low
+        share = max(-1.0, min(1.0, (at - centre) / travel))
         size = max(0.0, abs(share) - self.dead_zone) / (1.0 - self.dead_zone)
         return math.copysign(size, -share if self.inverted else share) if size else 0.0
 

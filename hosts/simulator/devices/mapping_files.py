@@ -26,9 +26,9 @@ _HEAD = """\
 
 def configuration_folder() -> Path:
     """Folder of the mappings: in ``ALI3_CONFIG``, else in the user's folder of configurations of this system."""
-    given = os.environ.get("ALI3_CONFIG")
-    if given:
-        return Path(given, "devices")
+    folder = os.environ.get("ALI3_CONFIG")
+    if folder:
+        return Path(folder, "devices")
     return user_config_path("ali3", appauthor=False) / "devices"
 
 

@@ -136,7 +136,7 @@ class Reader:
             time.sleep(max(0.0, next_time - time.monotonic()))
 
     def _follow(self, device: Device, now: float, everything: bool) -> None:
-        """Read a device, and do what it is waiting for."""
+        """Read a device, advance its calibration or assignment, and request the inputs that it drives."""
         device.reading = device.joystick.read()
         if device.calibration is not None:
             device.calibration.feed(now, device.reading)

@@ -32,7 +32,7 @@ class Reading:
         """Sources that are pressed: buttons and ways of hats."""
         results = {f"button {k}" for k, down in enumerate(self.buttons) if down}
         for k, bits in enumerate(self.hats):
-            results.update(f"hat {k} {way}" for way, bit in WAYS.items() if bits & bit)
+            results.update(f"hat {k} {direction}" for direction, bit in WAYS.items() if bits & bit)
         return results
 
 

@@ -164,10 +164,10 @@ def without_round_off(values: NDArray[np.float64], unit: str) -> NDArray[np.floa
 def _round_off_of(unit: str) -> float:
     """What rounding leaves of a number of a car that is zero, in this unit: 1e-9 of its base units, and 1e-6 where it
     has kg (forces, moments and energies are some thousand N, N m and J); 1e-12 of a unit that is not known."""
-    known = known_unit(unit)
-    if known is None:
+    definition = known_unit(unit)
+    if definition is None:
         return 1e-12
-    return (1e-6 if known.exponents.get("kg") else 1e-9) / known.factor
+    return (1e-6 if definition.exponents.get("kg") else 1e-9) / definition.factor
 
 
 def _numbers(column: pd.Series[Any]) -> tuple[NDArray[np.float64], tuple[str, ...]]:

@@ -57,8 +57,8 @@ def report_of(frame: pd.DataFrame, folder: Path, commands: Commands) -> list[Pat
         sections = [*limits_section(data), measures_section(data), *failed_sections(data, plots, commands)]
         if shown and data.parameters:
             message = "Spearman's: 1 or -1 where the measure only grows or only falls with it."
-            drawn = plots.add(drawing(plot_correlations(data, shown), "Rank correlations"), "correlations")
-            sections.append(Section("Rank correlations", [paragraph(message, FAINT), drawn]))
+            correlations = plots.add(drawing(plot_correlations(data, shown), "Rank correlations"), "correlations")
+            sections.append(Section("Rank correlations", [paragraph(message, FAINT), correlations]))
         for k, response in enumerate(bar_of(shown, desc="report", unit="measure")):
             sections.append(measure_section(data, response, k, plots, commands, numbers))
     file, rows = folder / "report.html", make_folder(folder / ANALYSIS) / "effects.csv"

@@ -71,11 +71,11 @@ def measures_section(data: StudyData) -> Section:
 
 def limits_section(data: StudyData) -> list[Section]:
     """Which share of the runs keeps the limits of the study; empty where it has none."""
-    found = shares(data.frame)
-    if not found:
+    share_list = shares(data.frame)
+    if not share_list:
         return []
-    rows = share_rows(found, data.about)
-    message = " ".join(share_notes(found, data.about))
+    rows = share_rows(share_list, data.about)
+    message = " ".join(share_notes(share_list, data.about))
     head = ("measure", "limit", "within", "share", "95 % interval")
     return [Section("Limits", [table("Runs within the limits", head, rows, "numbers"), paragraph(message, FAINT)])]
 
@@ -92,9 +92,9 @@ def failed_sections(data: StudyData, plots: Plots, commands: Commands) -> list[S
             continue
         body = []
         if title == "Failed runs" and data.parameters:
-            drawn = drawing(plot_failed(data), "Share of failed runs over each parameter")
+            plot = drawing(plot_failed(data), "Share of failed runs over each parameter")
             message = "Share of failed runs, Wilson's interval of 95 %; a mark below is a failed run."
-            body += [plots.add(drawn, "failed"), paragraph(message, FAINT)]
+            body += [plots.add(plot, "failed"), paragraph(message, FAINT)]
         rows: list[tuple[Content, ...]] = []
         for text, indices in groups[:_SHOWN_REASONS]:
             for k, index in enumerate(indices[:_SHOWN_OF_A_REASON]):

@@ -96,8 +96,8 @@ class Expression:
         try:
             if result.refusal:
                 raise NotYieldedError(sentence_of(result.refusal))
-            found = _evaluated(self.text, self._signals_of(result))
-            value, unit = float(found.values), found.unit
+            quantity = _evaluated(self.text, self._signals_of(result))
+            value, unit = float(quantity.values), quantity.unit
             if not math.isfinite(value):
                 note = f"'{self.text}' is {value:g}: it divides by zero or is too large for a number."
                 value = math.nan

@@ -52,22 +52,22 @@ class Reduction:
         begin, end = signal.time[0], signal.time[-1]
         if self.name == "value" and not begin - SAME_TIME <= number <= end + SAME_TIME:
             raise NotYieldedError(f"The run ends at {end:g} s, before the {number:g} s of '{text}'.")
-        wanted = (signal.time >= after - SAME_TIME) & (signal.time <= before + SAME_TIME)
-        if not wanted.any():
+        inside = (signal.time >= after - SAME_TIME) & (signal.time <= before + SAME_TIME)
+        if not inside.any():
             raise NotYieldedError(f"The run from {begin:g} to {end:g} s has no sample for '{text}'.")
-        result = self.apply(signal.time[wanted], np.broadcast_to(signal.values, signal.time.shape)[wanted], number)
+        result = self.apply(signal.time[inside], np.broadcast_to(signal.values, signal.time.shape)[inside], number)
         return Quantity(text, np.asarray(result), self.unit or signal.unit)
 
     def _window(self, window: dict[str, Quantity]) -> tuple[float, float]:
         limits = {"after": -math.inf, "before": math.inf}
-        for name, given in window.items():
+        for name, limit in window.items():
             if not self.windowed:
                 raise HostError(f"{self.name} has no {name}.")
             if name not in limits:
                 raise HostError(f"{self.name} has no {name}; it has after and before, times in s.")
-            limits[name] = float(given.values) if given.time is None else math.nan
+            limits[name] = float(limit.values) if limit.time is None else math.nan
             if not 0.0 <= limits[name] < math.inf:
-                raise HostError(f"{name} is {given.text}, not a time of the run in s.")
+                raise HostError(f"{name} is {limit.text}, not a time of the run in s.")
         if limits["after"] >= limits["before"]:
             raise HostError(f"it is to begin after {limits['after']:g} s and to end before {limits['before']:g} s.")
         return limits["after"], limits["before"]

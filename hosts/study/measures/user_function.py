@@ -71,11 +71,11 @@ class UserFunction:
             note = sentence_of(result.refusal)
         else:
             try:
-                found = self._named(self._call(result, dict(parameters or {})), columns)
-                values = {name: _number(value) for name, value in found.items()}
+                named = self._named(self._call(result, dict(parameters or {})), columns)
+                values = {name: _number(value) for name, value in named.items()}
                 notes = {
                     name: f"{self.text} gave {value!r:.60} for it, not a finite number."
-                    for name, value in found.items()
+                    for name, value in named.items()
                     if not math.isfinite(values[name])
                 }
             except Exception as error:
@@ -86,25 +86,25 @@ class UserFunction:
         function = _load(self)
         return function(result, parameters) if _takes_parameters(function) else function(result)
 
-    def _named(self, given: Any, columns: Mapping[str, str]) -> dict[str, Any]:
+    def _named(self, value: Any, columns: Mapping[str, str]) -> dict[str, Any]:
         """What the function gave, by the names of the columns."""
         single = list(columns) == [self.name]
-        if not isinstance(given, Mapping):
+        if not isinstance(value, Mapping):
             if single:
-                return {self.name: given}
-            raise HostError(f"{self.text} gave {given!r:.60}; {self.function}.units declares a mapping.")
+                return {self.name: value}
+            raise HostError(f"{self.text} gave {value!r:.60}; {self.function}.units declares a mapping.")
         if single:
             raise HostError(
                 f"{self.text} gave a mapping; declare its names and units behind the function, such as "
-                f"{self.function}.units = {{{', '.join(f'{str(k)!r}: {chr(34)}1{chr(34)}' for k in list(given)[:3])}}}."
+                f"{self.function}.units = {{{', '.join(f'{str(k)!r}: {chr(34)}1{chr(34)}' for k in list(value)[:3])}}}."
             )
-        wanted = {name.removeprefix(f"{self.name}."): name for name in columns}
-        if set(given) != set(wanted):
+        columns_by_key = {name.removeprefix(f"{self.name}."): name for name in columns}
+        if set(value) != set(columns_by_key):
             raise HostError(
-                f"{self.text} gave {', '.join(map(str, given)) or 'nothing'}; {self.function}.units declares "
-                f"{', '.join(wanted)}."
+                f"{self.text} gave {', '.join(map(str, value)) or 'nothing'}; {self.function}.units declares "
+                f"{', '.join(columns_by_key)}."
             )
-        return {wanted[k]: given[k] for k in wanted}
+        return {columns_by_key[k]: value[k] for k in columns_by_key}
 
 
 def read_user_function(file: Path, function: str, name: str = "") -> UserFunction:
@@ -115,34 +115,34 @@ def read_user_function(file: Path, function: str, name: str = "") -> UserFunctio
     if not function.isidentifier():
         raise HostError(f"'{file}:{function}' names no function; the form is file.py:function.")
     source = read_text(file, LARGEST_TEXT, HostError, f"{file}, in which the function {function} is to be,")
-    made = UserFunction(name or function, str(file), function, source)
-    _load(made)
-    made.columns({})
-    return made
+    user_function = UserFunction(name or function, str(file), function, source)
+    _load(user_function)
+    user_function.columns({})
+    return user_function
 
 
 @lru_cache(maxsize=100)
-def _load(wanted: UserFunction) -> Callable[..., Any]:
+def _load(function: UserFunction) -> Callable[..., Any]:
     """Run the file in a module of its own, once in a process."""
-    module = ModuleType(f"study_function_{hashlib.sha256(wanted.source.encode()).hexdigest()[:16]}")
-    module.__file__ = wanted.file
+    module = ModuleType(f"study_function_{hashlib.sha256(function.source.encode()).hexdigest()[:16]}")
+    module.__file__ = function.file
     # Data classes and pickling look there for the module of a class.
     sys.modules[module.__name__] = module
-    neighbours = str(Path(path_of_caller(wanted.file)).resolve().parent)
+    neighbours = str(Path(path_of_caller(function.file)).resolve().parent)
     sys.path.insert(0, neighbours)
     try:
-        exec(compile(wanted.source, wanted.file, "exec"), module.__dict__)
+        exec(compile(function.source, function.file, "exec"), module.__dict__)
     except (Exception, SystemExit) as error:
-        raise HostError(_words(wanted, error)) from None
+        raise HostError(_words(function, error)) from None
     finally:
         sys.path.remove(neighbours)
-    result = getattr(module, wanted.function, None)
+    result = getattr(module, function.function, None)
     if result is None:
         functions = {n: "" for n, value in vars(module).items() if inspect.isfunction(value)}
-        raise HostError(f"{wanted.file} has no function '{wanted.function}'{near(wanted.function, functions)}")
+        raise HostError(f"{function.file} has no function '{function.function}'{near(function.function, functions)}")
     if not callable(result):
-        raise HostError(f"{wanted.text} is {type(result).__name__}, not a function.")
-    _takes_parameters(result, wanted.text)
+        raise HostError(f"{function.text} is {type(result).__name__}, not a function.")
+    _takes_parameters(result, function.text)
     return result  # type: ignore[no-any-return]
 
 
@@ -170,9 +170,9 @@ def _number(value: Any) -> float:
     return number if math.isfinite(number) else math.nan
 
 
-def _words(wanted: UserFunction, error: BaseException) -> str:
-    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == wanted.file]
+def _words(function: UserFunction, error: BaseException) -> str:
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == function.file]
     line = error.lineno if isinstance(error, SyntaxError) else lines[-1] if lines else None
     what = error.msg if isinstance(error, SyntaxError) else str(error)
-    where = f"{wanted.text}, line {line}" if line is not None else wanted.text
+    where = f"{function.text}, line {line}" if line is not None else function.text
     return f"{where}: {type(error).__name__}: {what}".rstrip(": ") + "."

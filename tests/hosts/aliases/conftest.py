@@ -47,15 +47,15 @@ def with_units(tmp_path):
     """A copy of an FMU that declares units of variables."""
 
     def declare(fmu: Path, units: dict[str, str]) -> Path:
-        made = tmp_path / f"{fmu.stem}_with_units.fmu"
-        shutil.copy(fmu, made)
-        with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(made, "w") as new:
+        copy = tmp_path / f"{fmu.stem}_with_units.fmu"
+        shutil.copy(fmu, copy)
+        with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(copy, "w") as new:
             for item in old.infolist():
                 content = old.read(item)
                 if item.filename == "modelDescription.xml":
                     content = _declared(content, units)
                 new.writestr(item, content)
-        return made
+        return copy
 
     return declare
 

@@ -10,10 +10,17 @@ import math
 from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Real
 
 STYLE = "ours"
-MASS, INERTIA, FRONT, REAR = 1200.0, 1800.0, 1.1, 1.4
-STIFFNESS_FRONT, STIFFNESS_REAR = 70000.0, 90000.0
-LOCK, RATIO, PRESSURE = 8.0, 16.0, 12e6
-ROLL_PER_AY, ROLL_TIME = 0.006, 0.15
+MASS = 1200.0  # kg
+INERTIA = 1800.0  # kg m2
+FRONT = 1.1  # m, from the centre of mass to the axle
+REAR = 1.4  # m
+STIFFNESS_FRONT = 70000.0  # N/rad
+STIFFNESS_REAR = 90000.0  # N/rad
+LOCK = 8.0  # rad, largest angle of the steering wheel
+RATIO = 16.0  # steering wheel to road wheels
+PRESSURE = 12e6  # Pa
+ROLL_PER_AY = 0.006  # rad s2/m
+ROLL_TIME = 0.15  # s
 POINT = (-0.35, 0.0, 0.25)  # of the reference frames that are not the centre of mass, from it
 SUBSTEP = 0.001
 GRAVITY = 9.80665
@@ -110,19 +117,25 @@ def told(style, car):
     slip = math.atan2(v[1], v[0]) if math.hypot(v[0], v[1]) >= 0.1 else 0.0
     speed = math.sqrt(sum(x * x for x in v))
     if style == "ours":
-        made = dict(zip(("chassis.x", "chassis.y", "chassis.z"), position))
-        made |= {"chassis.yaw": car.yaw, "chassis.pitch": 0.0, "chassis.roll": car.roll}
+        outputs = dict(zip(("chassis.x", "chassis.y", "chassis.z"), position))
+        outputs |= {"chassis.yaw": car.yaw, "chassis.pitch": 0.0, "chassis.roll": car.roll}
         for name, vector in (("v", v), ("a", a), ("w", w)):
-            made |= {f"chassis.{name}{axis}": x for axis, x in zip("xyz", vector)}
-        return made | {"speed": speed, "sideslip": slip, "steering_wheel_angle": angle}
+            outputs |= {f"chassis.{name}{axis}": x for axis, x in zip("xyz", vector)}
+        return outputs | {"speed": speed, "sideslip": slip, "steering_wheel_angle": angle}
     if style == "carmaker":
-        made = dict(zip(("Car.tx", "Car.ty", "Car.tz"), position))
-        made |= {"Car.Yaw": car.yaw, "Car.Pitch": 0.0, "Car.Roll": car.roll, "Car.v": speed, "Car.SideSlipAngle": slip}
-        made |= dict(zip(("Car.vx", "Car.vy", "Car.vz", "Car.ax", "Car.ay", "Car.az"), (*v, *a)))
-        return made | dict(zip(("Car.RollVel", "Car.PitchVel", "Car.YawRate"), w)) | {"VC.Steer.Ang": angle}
+        outputs = dict(zip(("Car.tx", "Car.ty", "Car.tz"), position))
+        outputs |= {
+            "Car.Yaw": car.yaw,
+            "Car.Pitch": 0.0,
+            "Car.Roll": car.roll,
+            "Car.v": speed,
+            "Car.SideSlipAngle": slip,
+        }
+        outputs |= dict(zip(("Car.vx", "Car.vy", "Car.vz", "Car.ax", "Car.ay", "Car.az"), (*v, *a)))
+        return outputs | dict(zip(("Car.RollVel", "Car.PitchVel", "Car.YawRate"), w)) | {"VC.Steer.Ang": angle}
     if style == "carsim":
-        made = dict(zip(("XCG_TM", "YCG_TM", "ZCG_TM"), position))
-        made |= {
+        outputs = dict(zip(("XCG_TM", "YCG_TM", "ZCG_TM"), position))
+        outputs |= {
             "Yaw": car.yaw / deg,
             "Pitch": 0.0,
             "Roll": car.roll / deg,
@@ -131,29 +144,33 @@ def told(style, car):
         }
         # Along axes that do not roll, as CarSim has them.
         c, s = math.cos(car.roll), math.sin(car.roll)
-        made |= dict(zip(("Vx", "Vy", "Vz"), (3.6 * v[0], 3.6 * (c * v[1] - s * v[2]), 3.6 * (s * v[1] + c * v[2]))))
-        made |= dict(zip(("AVx", "AVy", "AVz"), (x / deg for x in w)))
+        outputs |= dict(zip(("Vx", "Vy", "Vz"), (3.6 * v[0], 3.6 * (c * v[1] - s * v[2]), 3.6 * (s * v[1] + c * v[2]))))
+        outputs |= dict(zip(("AVx", "AVy", "AVz"), (x / deg for x in w)))
         level = (a[0], c * a[1] - s * a[2], s * a[1] + c * a[2])
-        return made | dict(zip(("Ax", "Ay", "Az"), (x / GRAVITY for x in level)))
+        return outputs | dict(zip(("Ax", "Ay", "Az"), (x / GRAVITY for x in level)))
     q = quaternion(car.yaw, car.roll)
     if style == "chrono":
-        made = {f"ref_frame.pos.{axis}": x for axis, x in zip("xyz", place)}
-        made |= {f"ref_frame.pos_dt.{axis}": x for axis, x in zip("xyz", to_earth(axes, moved))}
-        made |= {f"ref_frame.rot.e{k}": x for k, x in enumerate(q)}
-        return made | {f"ref_frame.rot_dt.e{k}": x for k, x in enumerate(quaternion_rate(q, w))}
+        outputs = {f"ref_frame.pos.{axis}": x for axis, x in zip("xyz", place)}
+        outputs |= {f"ref_frame.pos_dt.{axis}": x for axis, x in zip("xyz", to_earth(axes, moved))}
+        outputs |= {f"ref_frame.rot.e{k}": x for k, x in enumerate(q)}
+        return outputs | {f"ref_frame.rot_dt.e{k}": x for k, x in enumerate(quaternion_rate(q, w))}
     if style == "osi":
         base = "moving_object.base."
-        made = {base + "orientation.yaw": wrapped, base + "orientation.pitch": 0.0, base + "orientation.roll": car.roll}
+        outputs = {
+            base + "orientation.yaw": wrapped,
+            base + "orientation.pitch": 0.0,
+            base + "orientation.roll": car.roll,
+        }
         fields = (("position", place), ("velocity", to_earth(axes, moved)), ("acceleration", to_earth(axes, moved_a)))
         for name, vector in fields:
-            made |= {f"{base}{name}.{axis}": x for axis, x in zip("xyz", vector)}
+            outputs |= {f"{base}{name}.{axis}": x for axis, x in zip("xyz", vector)}
         rate = to_earth(axes, w)
-        return made | {f"{base}orientation_rate.{name}": x for name, x in zip(("roll", "pitch", "yaw"), rate)}
+        return outputs | {f"{base}orientation_rate.{name}": x for name, x in zip(("roll", "pitch", "yaw"), rate)}
     assert style == "vehicle_interfaces"
-    made = {f"chassis.body.Q[{k + 1}]": x for k, x in enumerate((*q[1:], q[0]))}
+    outputs = {f"chassis.body.Q[{k + 1}]": x for k, x in enumerate((*q[1:], q[0]))}
     for name, vector in (("r_0", position), ("v_0", to_earth(axes, v)), ("a_0", to_earth(axes, a)), ("w_a", w)):
-        made |= {f"chassis.body.{name}[{k + 1}]": x for k, x in enumerate(vector)}
-    return made | {"controlBus.chassisBus.longitudinalVelocity": v[0]}
+        outputs |= {f"chassis.body.{name}[{k + 1}]": x for k, x in enumerate(vector)}
+    return outputs | {"controlBus.chassisBus.longitudinalVelocity": v[0]}
 
 
 # Name of an input, and what it is in terms of steering, throttle and brake from -1 or 0 to 1.

@@ -1,4 +1,4 @@
-"""Alias files: our names for variables of other programs, there and back, and what is refused."""
+"""Alias files: conversion of names and values in both directions, and refusals."""
 
 import numpy as np
 import pytest
@@ -31,8 +31,8 @@ def test_names_and_numbers_go_there_and_come_back(file):
     aliases = read_aliases(file(GOOD), NAMES)
     assert aliases.names(NAMES) == ("steering", "throttle", "chassis.x", "chassis.yaw", "brake")
     assert aliases.constants == {"vehicle.wheelbase": 2.6}
-    wanted = aliases.inputs({"steering": (0.5, 1.6), "throttle": (0.25, 2.5), "brake": (1.0, 4.0)})
-    assert wanted == {"StrAng": (-268.0, 864.0), "Acc_ped": (25.0, 250.0), "brake": (1.0, 4.0)}
+    their_inputs = aliases.inputs({"steering": (0.5, 1.6), "throttle": (0.25, 2.5), "brake": (1.0, 4.0)})
+    assert their_inputs == {"StrAng": (-268.0, 864.0), "Acc_ped": (25.0, 250.0), "brake": (1.0, 4.0)}
     factors, offsets = aliases.scales(NAMES)
     theirs = np.array([-268.0, 25.0, 7.0, 90.0, 1.0])
     assert (theirs - offsets) / factors == pytest.approx([0.5, 0.25, 7.0, np.pi / 2, 1.0], abs=1e-15)

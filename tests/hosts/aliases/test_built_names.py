@@ -1,4 +1,4 @@
-"""``ali3 build --names`` and ``--aliases`` are one another's inverse: a car under other names drives as under ours."""
+"""``ali3 build --names`` and ``--aliases`` are inverse: a car under other names drives as under ours."""
 
 import json
 from collections.abc import Callable
@@ -144,11 +144,9 @@ def test_runs_of_the_catalogue_are_drawn_as_those_of_other_names(
     assert shown.scene is not None
     assert shown.scene["shapes"]
     assert [item["name"] for item in shown.missing] == ["steering wheel"], "which is in degrees there"
-    reported = {
-        entry["name"]: entry["new"] for entry in json.loads(table.with_suffix(".json").read_text("utf-8"))["set"]
-    }
-    assert set(reported) <= set(Variables(described(theirs)).names)
-    assert reported["IMP_STEER_SW"] == pytest.approx(aliases.values({"steering": 0.5})["IMP_STEER_SW"])
+    start = {entry["name"]: entry["new"] for entry in json.loads(table.with_suffix(".json").read_text("utf-8"))["set"]}
+    assert set(start) <= set(Variables(described(theirs)).names)
+    assert start["IMP_STEER_SW"] == pytest.approx(aliases.values({"steering": 0.5})["IMP_STEER_SW"])
 
 
 @pytest.mark.slow

@@ -33,8 +33,8 @@ def step_steer(foreign_fmu):
 
     def measures(style: str, file: Path | None) -> dict[str, float]:
         fmu = foreign_fmu(style)
-        reported = Variables(described(fmu))
-        aliases = Aliases(constants=CONSTANTS) if file is None else find_aliases(file, reported)
+        variables = Variables(described(fmu))
+        aliases = Aliases(constants=CONSTANTS) if file is None else find_aliases(file, variables)
         car = TestedCar(style, FmuSource(fmu, aliases), step=0.01)
         assert missing_for(test, car, {s.name: s.value for s in test.settings}) is None
         return {m.name: m.value for m in perform(test, car).measures}
@@ -50,10 +50,10 @@ def ours(step_steer):
 @pytest.fixture
 def file(tmp_path):
     def write(style, entries=""):
-        made = tmp_path / f"{style}.toml"
+        alias_file = tmp_path / f"{style}.toml"
         numbers = "\n".join(f'"{name}" = {value}' for name, value in CONSTANTS.items())
-        made.write_text(f'extends = "{style}"\n{entries}\n[constants]\n{numbers}', encoding="utf-8")
-        return made
+        alias_file.write_text(f'extends = "{style}"\n{entries}\n[constants]\n{numbers}', encoding="utf-8")
+        return alias_file
 
     return write
 

@@ -18,7 +18,9 @@ from tests.quick import quick
 
 HERE = Path(__file__).parents[3] / "hosts" / "c"
 HEADERS = Path(fmpy.__file__).parent / "c-code"
-SPEED, SECONDS, STEP = 15.0, 5.0, 0.01
+SPEED = 15.0  # m/s
+SECONDS = 5.0  # s
+STEP = 0.01  # s
 LINUX = sys.platform == "linux" and platform.machine() == "x86_64"
 PLATFORMS = {
     "wine": ("win64", "x86_64-windows-gnu", ["wine"]),

@@ -1,4 +1,4 @@
-"""A car of the catalogue that is a linear bicycle model, so that every answer is known in closed form."""
+"""A linear bicycle model as a car of the catalogue, so that every result is known in closed form."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -15,8 +15,13 @@ from hosts.driving.pilots.pilot import Pilot
 from hosts.driving.result import Result
 from hosts.fmu.fmu_source import FmuSource
 
-MASS, INERTIA, FRONT, REAR = 1500.0, 2500.0, 1.2, 1.5
-STIFF_FRONT, STIFF_REAR, RATIO = 90e3, 110e3, 16.0
+MASS = 1500.0  # kg
+INERTIA = 2500.0  # kg m2
+FRONT = 1.2  # m, from the centre of mass to the axle
+REAR = 1.5  # m
+STIFF_FRONT = 90e3  # N/rad
+STIFF_REAR = 110e3  # N/rad
+RATIO = 16.0  # steering wheel to road wheels
 ROLL_PER_ACCELERATION = 0.01
 OUTPUTS = ("chassis.wz", "chassis.ay", "sideslip", "chassis.roll", "speed")
 

@@ -1,4 +1,4 @@
-"""A car whose motion is known on paper: the linear bicycle model, integrated; it drives as a `TestedCar` does."""
+"""A linear bicycle model, integrated, with the interface of `TestedCar`."""
 
 import math
 from collections.abc import Callable, Mapping

@@ -1,4 +1,4 @@
-"""A turn whose every measure is known."""
+"""A synthetic turn whose measures are known in closed form."""
 
 import math
 
@@ -17,9 +17,9 @@ def turn(deceleration: float, factor: float, radius: float, drift: float) -> Sto
     time = step * np.arange(3001)
     since = np.maximum(time - onset, 0.0)
     speed = np.maximum(v0 - deceleration * since, 0.1)
-    way = v0 * np.minimum(time, onset) + np.where(since > 0, v0 * since - 0.5 * deceleration * since**2, 0.0)
+    distance = v0 * np.minimum(time, onset) + np.where(since > 0, v0 * since - 0.5 * deceleration * since**2, 0.0)
     side, size = math.copysign(1.0, radius), abs(radius)
-    angle, r = way / size, size + drift * since
+    angle, r = distance / size, size + drift * since
     x, y = r * np.sin(angle), side * (size - r * np.cos(angle))
     rate = speed / radius * np.where(since > 0, factor, 1.0)
     sideslip = -side * (0.02 + np.where(since > 0, 0.05, 0.0))

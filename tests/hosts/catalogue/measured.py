@@ -1,4 +1,4 @@
-"""What a test of the catalogue has measured."""
+"""Measured values of a test of the catalogue, and empty sheets."""
 
 from typing import Any, cast
 
@@ -15,5 +15,5 @@ def values(record: TestRecord) -> dict[str, float]:
 def sheet_of(test: str, car: Any = None, **settings: float) -> Sheet:
     """A sheet of a test on which nothing stands; settings that are not given are by default."""
     file = file_of_test(test)
-    given = {s.name: s.value for s in file.settings} | settings
-    return Sheet(file, cast(Any, car), given, lambda done: None)
+    values = {s.name: s.value for s in file.settings} | settings
+    return Sheet(file, cast(Any, car), values, lambda done: None)

@@ -1,4 +1,4 @@
-"""Records of tests that nobody has driven: of every kind that a report can meet."""
+"""Synthetic records of tests: every kind that a report can contain."""
 
 from pathlib import Path
 

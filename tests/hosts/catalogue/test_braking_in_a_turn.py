@@ -1,4 +1,4 @@
-"""Stops from a circle: closed forms of a made turn, both sides of the prototype car, the step, what cannot be done."""
+"""Stops from a circle: closed forms of a synthetic turn, both sides of the prototype car, the step, refusals."""
 
 import math
 from dataclasses import replace
@@ -74,8 +74,8 @@ def test_right_is_the_mirror_of_left_and_the_step_does_not_matter(prototype: Tes
     odd = ("steady.yaw_rate", "steady.sideslip")
     for name, value in values(left).items():
         if not math.isnan(value):
-            wanted = -value if name in odd else value
-            assert right[name] == pytest.approx(wanted, rel=0.03, abs=2e-3), name
+            expected = -value if name in odd else value
+            assert right[name] == pytest.approx(expected, rel=0.03, abs=2e-3), name
 
 
 def test_a_circle_that_cannot_be_held_is_reported(prototype: TestedCar) -> None:

@@ -1,4 +1,4 @@
-"""The command does tests with cars side by side, and tells a user what is wrong before it begins."""
+"""The catalogue command with several cars, and its refusals before the first run."""
 
 import csv
 import json
@@ -124,7 +124,7 @@ def test_the_list_has_all_tests_with_their_settings(capsys: pytest.CaptureFixtur
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
 @pytest.mark.slow
-def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> None:
+def test_ctrl_c_keeps_the_written_files(prototype_fmu: Path, tmp_path: Path) -> None:
     """The drop is soon done, the circle goes on for minutes; then Ctrl-C."""
     out, pipe = tmp_path / "out", subprocess.PIPE
     slow = ["--tests", "drop,steady_circle", "--test-setting", "steady_circle.speed_rise=0.02", "--jobs", "2"]
@@ -147,8 +147,8 @@ def test_ctrl_c_leaves_what_was_written(prototype_fmu: Path, tmp_path: Path) -> 
     assert "1 of 2" not in output  # no verdict on what was not tried
     assert str(out / "report.html") in output
     assert "was stopped" in (out / "report.html").read_text()
-    (remaining,) = (row for row in rows(out) if row["test"] == "steady_circle")
-    assert remaining["note"] == "Not done yet: the command is still running, or was stopped."
+    (unfinished,) = (row for row in rows(out) if row["test"] == "steady_circle")
+    assert unfinished["note"] == "Not done yet: the command is still running, or was stopped."
     assert "load.peak_FL" in {row["measure"] for row in rows(out) if row["test"] == "drop"}
     assert list(out.rglob("runs/drop/*.csv"))
     assert "1 test is not done yet; the same command resumes here." in output

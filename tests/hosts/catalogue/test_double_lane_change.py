@@ -1,4 +1,4 @@
-"""The prototype car between cones: the limit is one, the measures are those of the run, and what is told."""
+"""The prototype car between cones: a limit speed, the measures of its run, and messages."""
 
 import math
 from dataclasses import replace
@@ -67,7 +67,7 @@ def measures_of(name: str, passed: Passage | None) -> list[Measure]:
     return sheet.measures
 
 
-def test_each_measure_says_of_which_course_it_is() -> None:
+def test_each_measure_names_its_course() -> None:
     texts = [m.text for name in ("iso_3888_1", "iso_3888_2") for m in measures_of(name, None)]
     assert len({*texts}) == len(texts) == 24
     assert all(text.startswith(("ISO 3888-1: ", "ISO 3888-2: ")) for text in texts)
@@ -84,12 +84,12 @@ def test_hit_or_stopped_is_not_clean() -> None:
 def test_the_limit_is_found_by_bisection(monkeypatch: pytest.MonkeyPatch) -> None:
     tried = []
 
-    def made(car: object, layout: object, speed: float, driver: str) -> Passage:
+    def passage_of(car: object, layout: object, speed: float, driver: str) -> Passage:
         tried.append((speed, driver))
         # only the second driver gets through at all, and up to 77.3 km/h
         return passage(speed, 0.0 if speed < 77.3 and driver == list(DRIVERS)[1] else 1.0, driver=driver)
 
-    monkeypatch.setattr(double_lane_change, "drive_through", made)
+    monkeypatch.setattr(double_lane_change, "drive_through", passage_of)
     settings = {"lowest": 40.0, "highest": 160.0, "increment": 10.0, "resolution": 1.0}
     done: list[float] = []
     passed, failed, notes = limit(None, _LAYOUTS[0], settings, done.append)  # type: ignore[arg-type]
@@ -162,7 +162,7 @@ def test_a_car_that_does_not_reach_the_speed_is_reported(prototype: TestedCar) -
     assert "the speed was not reached" in slow.why
 
 
-def test_a_value_at_a_place_is_none_where_the_car_did_not_come() -> None:
+def test_a_value_at_a_position_that_the_car_did_not_reach_is_undefined() -> None:
     """The front is 2 m ahead of the centre: at 45 m the centre is at 43 m; at 60 m nothing was measured."""
     driven = passage(60.0, 0.0)
     assert driven.at("speed", 45.0) == pytest.approx(60.0 / 3.6 - 2.0 * 43.0 / 50.0, abs=0.01)

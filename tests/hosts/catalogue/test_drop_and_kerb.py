@@ -31,9 +31,9 @@ def test_car_falls_freely_and_rests_on_its_weight(fallen: TestRecord) -> None:
     assert abs(measured["rest.load_error"]) < 1e-4
     # The weight is that of gravity's own book-keeping: energy given up in the air over the height that goes with it.
     falling = result.time < measured["contact.time"] - 0.004
-    given, time = -np.diff(result["energy.gravity"][falling])[-1], result.time[falling]
+    energy, time = -np.diff(result["energy.gravity"][falling])[-1], result.time[falling]
     middle = 0.5 * (time[-1] + time[-2])
-    assert given == pytest.approx(measured["rest.weight"] * 9.81 * middle * 0.002, rel=2e-3)
+    assert energy == pytest.approx(measured["rest.weight"] * 9.81 * middle * 0.002, rel=2e-3)
 
 
 def test_wheels_droop_in_the_air_and_touch_before_a_point_would(fallen: TestRecord) -> None:
@@ -48,7 +48,7 @@ def test_wheels_droop_in_the_air_and_touch_before_a_point_would(fallen: TestReco
     assert 0.05 < measured["rebound.height"] < 0.5
 
 
-def test_a_fall_that_is_too_short_to_settle_says_so(prototype: TestedCar) -> None:
+def test_a_fall_too_short_to_settle_is_reported(prototype: TestedCar) -> None:
     record = perform(standard_test("drop"), prototype, {"duration": 1.0})
     error = next(m for m in record.measures if m.name == "rest.load_error")
     assert math.isnan(error.value)
@@ -60,12 +60,12 @@ def test_kerb_is_passed_both_ways(over_kerb: TestRecord) -> None:
     assert not over_kerb.notes
     assert len({m.text for m in over_kerb.measures}) == len(over_kerb.measures)
     measured = values(over_kerb)
-    for way, sign in (("down", -1.0), ("up", 1.0)):
-        z = over_kerb.runs[way]["chassis.z"]
+    for direction, sign in (("down", -1.0), ("up", 1.0)):
+        z = over_kerb.runs[direction]["chassis.z"]
         assert z[-1] - z[0] == pytest.approx(sign * 0.08, abs=2e-3)
-        assert measured[f"{way}.load.peak_ratio"] > 1.5
+        assert measured[f"{direction}.load.peak_ratio"] > 1.5
         # what is felt is less than what there is
-        assert 0.0 < measured[f"{way}.az.running_rms"] < measured[f"{way}.az.peak"]
+        assert 0.0 < measured[f"{direction}.az.running_rms"] < measured[f"{direction}.az.peak"]
     # down, wheels hang; up, they are pushed in
     assert -measured["down.travel.droop"] > measured["down.travel.bump"]
     assert measured["up.travel.bump"] > -measured["up.travel.droop"]

@@ -1,4 +1,4 @@
-"""The same command takes tests that are done as they are; another test, program or FMU is done again."""
+"""The same command keeps finished tests; a changed test, program or FMU is run again."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -25,7 +25,7 @@ def kept(task: Task, out: Path) -> TestRecord | None:
 
 
 @pytest.mark.slow
-def test_what_is_kept_is_what_was_done(
+def test_kept_records_are_those_of_the_runs(
     prototype_fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     drop = standard_test("drop")
@@ -52,8 +52,8 @@ def test_what_is_kept_is_what_was_done(
         yield from (pytest.fail("it was done again") for _ in tasks)
 
     monkeypatch.setattr(command, "_done", undone)
-    given = [part for name, x in SETTINGS.items() for part in ("--test-setting", f"drop.{name}={x}")]
-    assert command.main([str(prototype_fmu), "--tests", "drop", "--out", str(tmp_path), *given]) == 0
+    options = [part for name, x in SETTINGS.items() for part in ("--test-setting", f"drop.{name}={x}")]
+    assert command.main([str(prototype_fmu), "--tests", "drop", "--out", str(tmp_path), *options]) == 0
     output = capsys.readouterr().out
     assert "1 of 1 tests are there; --again repeats them." in output
     assert "load.peak_FL" in output

@@ -1,4 +1,4 @@
-"""Limits of a user are judged beside those of standards, in any unit of the quantity."""
+"""Limits of the user are judged beside those of standards, in any unit of the quantity."""
 
 import json
 import math
@@ -35,10 +35,10 @@ def limits(folder: Path, text: str) -> GivenLimits:
     return GivenLimits(file, read_limits(file))
 
 
-def kept(made: dict[str, dict[str, Outcome]]) -> dict[tuple[str, str], bool | None]:
+def kept(outcomes: dict[str, dict[str, Outcome]]) -> dict[tuple[str, str], bool | None]:
     return {
         (label, m.name): m.is_kept
-        for by_car in made.values()
+        for by_car in outcomes.values()
         for label, o in by_car.items()
         if isinstance(o, TestRecord)
         for m in o.measures
@@ -46,8 +46,10 @@ def kept(made: dict[str, dict[str, Outcome]]) -> dict[tuple[str, str], bool | No
 
 
 def test_each_car_is_held_against_the_limits(tmp_path: Path) -> None:
-    given = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}\n"drop.critical_speed" = {min = 80, unit = "km/h"}')
-    result, faults = given.judged({"drop": {"a": record(1999.0), "b": record(2001.0, False), "c": "It has no wheels."}})
+    own_limits = limits(tmp_path, 'peak = {max = 2.0, unit = "kN"}\n"drop.critical_speed" = {min = 80, unit = "km/h"}')
+    result, faults = own_limits.judged(
+        {"drop": {"a": record(1999.0), "b": record(2001.0, False), "c": "It has no wheels."}}
+    )
     assert not faults
     assert kept(result) == {
         **{("a", "peak"): True, ("a", "critical_speed"): False, ("a", "rest"): True},
@@ -58,18 +60,20 @@ def test_each_car_is_held_against_the_limits(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("least", "both"), [(0.4, True), (0.6, False)])
 def test_the_limit_of_a_standard_holds_too(tmp_path: Path, least: float, both: bool) -> None:
-    made, _ = limits(tmp_path, f"rest = {{min = {least}, max = 9.0}}").judged({"drop": {"a": record(1.0)}})
-    outcome = made["drop"]["a"]
+    outcomes, _ = limits(tmp_path, f"rest = {{min = {least}, max = 9.0}}").judged({"drop": {"a": record(1.0)}})
+    outcome = outcomes["drop"]["a"]
     assert isinstance(outcome, TestRecord)
     assert outcome.measures[2].limit == Limit("at rest; limits.toml", least, 1.0)
     assert outcome.measures[2].is_kept is both
 
 
 def test_a_limit_of_nothing_is_reported_and_the_others_are_judged(tmp_path: Path) -> None:
-    given = limits(tmp_path, 'peek = {max = 1}\n"rest.unit" = {max = 1}\npeak = {max = 1}\n"drop.peak" = {min = 0}')
-    result, faults = given.judged({"drop": {"a": record(2.0)}})
+    own_limits = limits(
+        tmp_path, 'peek = {max = 1}\n"rest.unit" = {max = 1}\npeak = {max = 1}\n"drop.peak" = {min = 0}'
+    )
+    result, faults = own_limits.judged({"drop": {"a": record(2.0)}})
     assert kept(result)["a", "peak"] is False
-    assert [fault.removeprefix(f"{given.file}: limits.") for fault in faults] == [
+    assert [fault.removeprefix(f"{own_limits.file}: limits.") for fault in faults] == [
         "'peek': there is no measure 'peek'; there are drop.peak, drop.critical_speed, drop.rest.",
         "'rest.unit': there is no measure 'rest.unit'; there are drop.peak, drop.critical_speed, drop.rest.",
         "'drop.peak' and another limit are both of 'drop.peak'; give one of them.",
@@ -79,8 +83,10 @@ def test_a_limit_of_nothing_is_reported_and_the_others_are_judged(tmp_path: Path
 
 
 def test_limits_of_tests_that_are_not_done_are_left_out(tmp_path: Path) -> None:
-    given = limits(tmp_path, '"kerb.peak" = {max = 1}\n"drop.peak" = {max = 1}\npeak = {max = 1}').of_tests(["drop"])
-    assert list(given.entries) == ["drop.peak", "peak"]
+    own_limits = limits(tmp_path, '"kerb.peak" = {max = 1}\n"drop.peak" = {max = 1}\npeak = {max = 1}').of_tests(
+        ["drop"]
+    )
+    assert list(own_limits.entries) == ["drop.peak", "peak"]
 
 
 @pytest.mark.parametrize(
@@ -103,7 +109,7 @@ def test_a_file_without_limits_is_one_sentence(tmp_path: Path, text: str, messag
     assert "\n" not in str(refusal.value)
 
 
-def test_the_command_says_which_measure_is_outside(
+def test_the_command_names_the_measure_outside_its_limits(
     prototype_fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     task = Task(
@@ -130,6 +136,4 @@ def test_measures_are_in_si_units() -> None:
     results = [unit for unit in results if "{" not in unit]
     assert len(results) > 100
     known = {unit: known_unit(str(unit)) for unit in results}
-    assert {
-        unit: reported.factor for unit, reported in known.items() if reported is not None and reported.factor != 1.0
-    } == {}
+    assert {unit: entry.factor for unit, entry in known.items() if entry is not None and entry.factor != 1.0} == {}

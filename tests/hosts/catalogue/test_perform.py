@@ -1,4 +1,4 @@
-"""A test is checked before it is done, and what the FMU says in it is kept."""
+"""A test is checked before it is run, and messages of the FMU are recorded."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -31,7 +31,7 @@ TALKING = StandardTest(
 )  # fmt: skip
 
 
-def test_what_the_fmu_says_is_noted_once() -> None:
+def test_messages_of_the_fmu_are_noted_once() -> None:
     record = perform(TALKING, BicycleCar())
     assert record.notes == [
         "Noted.",
@@ -52,10 +52,10 @@ def test_one_of_several_names_suffices() -> None:
 
 def test_settings_are_completed_and_checked() -> None:
     assert settings_of_test(TALKING, {}) == {"count": 2.0}
-    for given, message in (
+    for values, message in (
         ({"count": 10.0}, "it must be from 1 to 9"),
         ({"count": float("nan")}, "is nan"),
         ({"n": 1.0}, "no setting 'n'"),
     ):
         with pytest.raises(HostError, match=message):
-            settings_of_test(TALKING, given)
+            settings_of_test(TALKING, values)

@@ -1,4 +1,4 @@
-"""Tests run in processes of their own: what one does to itself is its outcome, and the others go on."""
+"""Tests in processes of their own: a crash is the outcome of its test, and the others continue."""
 
 import os
 import sys
@@ -44,7 +44,7 @@ def test_a_crash_and_a_fault_are_rows_and_the_others_are_done(tmp_path: Path) ->
 
 
 @pytest.mark.slow
-def test_processes_and_what_they_unpacked_go_with_the_iteration(
+def test_processes_and_their_unpacked_files_end_with_the_iteration(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, prototype_fmu: Path
 ) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))

@@ -1,4 +1,4 @@
-"""The throttle released on circles: closed forms of a made turn, the prototype car, what cannot be done."""
+"""The throttle released on circles: closed forms of a synthetic turn, the prototype car, and refusals."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The report: what stands in it, that it is whole HTML, and that nothing in a name can become a part of it."""
+"""The report: its content, valid HTML, and escaped names."""
 
 import re
 import shutil
@@ -33,7 +33,7 @@ COMMAND = ["ali3", "catalogue", "my car.fmu", "--tests=test_0", "--test-setting"
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory):
     """Its description is all that a report reads of a car."""
-    made = tmp_path_factory.mktemp("fmu") / "small.fmu"
+    file = tmp_path_factory.mktemp("fmu") / "small.fmu"
     text = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="Small &lt;b&gt;" guid="{1-2}" generationTool="a tool"
 numberOfEventIndicators="0"><CoSimulation modelIdentifier="small"/>
@@ -43,9 +43,9 @@ numberOfEventIndicators="0"><CoSimulation modelIdentifier="small"/>
 variability="fixed"><Real start="12360" unit="N/m"/></ScalarVariable>
 <ScalarVariable name="initial.x" valueReference="1" causality="parameter" variability="fixed"><Real start="0"/>
 </ScalarVariable></ModelVariables><ModelStructure/></fmiModelDescription>"""
-    with zipfile.ZipFile(made, "w") as archive:
+    with zipfile.ZipFile(file, "w") as archive:
         archive.writestr("modelDescription.xml", text)
-    return made
+    return file
 
 
 @pytest.fixture(scope="module")

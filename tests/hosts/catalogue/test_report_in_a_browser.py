@@ -15,24 +15,24 @@ def seen(tmp_path_factory):
     folder = tmp_path_factory.mktemp("report")
     file = folder / "report.html"
     write_report(file, *synthetic(folder / "none.fmu", tests=2, points=500))
-    reported, requested = [], []
+    messages, requested = [], []
     with headless_chromium() as chromium:
         pages = {}
         for width, colours in ((1280, "light"), (390, "dark")):
             page = chromium.new_page(viewport={"width": width, "height": 900}, color_scheme=colours)
-            page.on("console", lambda message: reported.append(message.text))
-            page.on("pageerror", lambda error: reported.append(str(error)))
+            page.on("console", lambda message: messages.append(message.text))
+            page.on("pageerror", lambda error: messages.append(str(error)))
             page.on("request", lambda request: requested.append(request.url))
             page.goto(file.as_uri())
             page.evaluate("document.querySelectorAll('img').forEach(i => i.loading = 'eager')")
             page.evaluate("Promise.all([...document.images].map(i => i.decode()))")
             pages[width] = page
-        yield pages, reported, requested
+        yield pages, messages, requested
 
 
-def test_it_opens_without_a_word_and_loads_nothing(seen):
-    _, reported, requested = seen
-    assert reported == []
+def test_it_opens_without_console_messages_and_loads_nothing(seen):
+    _, messages, requested = seen
+    assert messages == []
     assert {url.partition(":")[0] for url in requested} <= {"file", "data"}
     assert sum(url.startswith("file") for url in requested) == 2
 

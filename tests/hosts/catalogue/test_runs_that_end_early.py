@@ -1,4 +1,4 @@
-"""No test of the catalogue keeps a limit, or is silent, where the car was not driven through it."""
+"""A test whose run ended early keeps no limit, and says so."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""Braking on split friction: a made stop whose measures are known, and the prototype, which turns to the high side."""
+"""Braking on split friction: a synthetic stop with known measures, and the prototype, which turns to the high side."""
 
 import math
 
@@ -42,7 +42,7 @@ def test_measures_of_a_made_stop(heading: float) -> None:
     assert found["locked_time.FL"] == 0.0
 
 
-def test_a_stop_that_does_not_begin_says_so_and_one_without_locked_wheels_too() -> None:
+def test_a_stop_that_does_not_begin_or_locks_no_wheel_is_reported() -> None:
     names = ["speed", *(f"wheel_{w}.slip" for w in ("FL", "FR", "RL", "RR"))]
     run = Result(names, {}, np.arange(3.0), np.zeros((3, 5)), 0.0, 2.0, 0, [])
     sheet = sheet_of("split_braking")

@@ -1,4 +1,4 @@
-"""The steady circle measures what a linear bicycle model has on paper."""
+"""The steady circle with a linear bicycle model, against its closed form."""
 
 import math
 from typing import Any

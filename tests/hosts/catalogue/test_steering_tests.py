@@ -41,8 +41,8 @@ def test_round_off_is_no_asymmetry() -> None:
 
 def test_steady_values_of_a_step(step: TestRecord) -> None:
     actual, (yaw_rate, acceleration, slip) = values(step), gains(SPEED)
-    for level, wanted in (("level_2", 4.0), ("level_3", 6.0)):
-        assert actual[f"{level}.lateral_acceleration.steady"] == pytest.approx(wanted, rel=0.02)
+    for level, expected in (("level_2", 4.0), ("level_3", 6.0)):
+        assert actual[f"{level}.lateral_acceleration.steady"] == pytest.approx(expected, rel=0.02)
         assert actual[f"{level}.yaw_rate.gain"] == pytest.approx(yaw_rate, rel=1e-3)
         assert actual[f"{level}.lateral_acceleration.gain"] == pytest.approx(acceleration, rel=1e-3)
         angle = actual[f"{level}.steering_wheel_angle"]

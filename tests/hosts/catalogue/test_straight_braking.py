@@ -1,4 +1,4 @@
-"""The prototype car stops: closed forms of force, load and energy, the step, and what cannot be braked."""
+"""The prototype car stops: closed forms of force, load and energy, the step, and refusals."""
 
 import math
 from dataclasses import replace
@@ -100,7 +100,7 @@ def test_a_car_too_weak_for_the_speed_is_reported(prototype: TestedCar) -> None:
     assert all(math.isnan(m.value) and m.note for m in record.measures if "stopping" in m.name)
 
 
-def test_a_car_that_tells_its_speed_only() -> None:
+def test_a_car_with_speed_as_its_only_output() -> None:
     time = np.arange(0.0, 6.0, 0.01)
     speed = np.clip(20.0 - 5.0 * (time - 1.0), 0.0, 20.0)
     result = Result(["speed"], {"speed": "m/s"}, time, speed[:, None], 0.0, 6.0, 0, [])
@@ -116,10 +116,10 @@ def test_a_car_that_tells_its_speed_only() -> None:
 def test_the_deviation_is_beside_the_line_of_travel() -> None:
     time = np.arange(0.0, 6.0, 0.01)
     speed = np.clip(20.0 - 5.0 * (time - 1.0), 0.0, 20.0)
-    way = np.cumsum(speed) * 0.01
+    distance = np.cumsum(speed) * 0.01
     heading, side = 0.5, 0.3 * np.clip(time - 1.0, 0.0, 1.0)
-    x = way * math.cos(heading) - side * math.sin(heading)
-    y = way * math.sin(heading) + side * math.cos(heading)
+    x = distance * math.cos(heading) - side * math.sin(heading)
+    y = distance * math.sin(heading) + side * math.cos(heading)
     names = ["speed", "chassis.x", "chassis.y", "chassis.yaw"]
     values = np.column_stack([speed, x, y, np.full_like(time, heading)])
     result = Result(names, dict.fromkeys(names, "1"), time, values, 0.0, 6.0, 0, [])

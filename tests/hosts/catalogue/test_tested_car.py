@@ -1,4 +1,4 @@
-"""A foreign car is driven under our names, in our units and signs, and moves as if it were ours."""
+"""A car of another program under our names, in our units and signs, moves as ours."""
 
 import math
 import zipfile
@@ -113,7 +113,7 @@ def test_a_pilot_that_asks_for_nothing_is_reported(prototype: TestedCar) -> None
         prototype.drive(Manoeuvre("blank", np.zeros(0), {}, 0.3), turn)
 
 
-def test_start_values_of_the_car_are_set_but_the_test_has_the_last_word(prototype_fmu: Path) -> None:
+def test_start_values_of_the_test_override_those_of_the_car(prototype_fmu: Path) -> None:
     car = TestedCar("slow", FmuSource(prototype_fmu), start={"initial.speed": 3.0, "initial.yaw": 0.5})
     rest = Manoeuvre("rest", np.zeros(0), {}, 0.01)
     result = car.drive(rest)

@@ -1,4 +1,4 @@
-"""Makes what these tests share importable."""
+"""Adds the folder of these tests to the import path."""
 
 import sys
 from pathlib import Path

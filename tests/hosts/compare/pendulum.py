@@ -9,7 +9,9 @@ from scipy.signal import lfilter
 
 from hosts.measures.signal import Signal
 
-MASS, GRAVITY, FREE_LENGTH = 2.0, 9.80665, 0.8
+MASS = 2.0  # kg
+GRAVITY = 9.80665  # m/s2
+FREE_LENGTH = 0.8  # m
 END = 6.0
 Array = NDArray[np.float64]
 

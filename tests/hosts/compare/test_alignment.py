@@ -1,4 +1,4 @@
-"""Delay and drift that are known, in closed form."""
+"""Delay and drift against known values, in closed form."""
 
 import math
 import re
@@ -60,7 +60,7 @@ def test_intervals_hold_under_noise(curve: Curve) -> None:
 @pytest.mark.parametrize("memory", [0.0, 0.97])
 def test_intervals_hold_where_a_start_is_measured_with_noise(memory: float) -> None:
     """A rate, its integral and a speed whose start is off, as a log gives it: no clock runs fast for that."""
-    t, late, held, count = np.arange(0.0, END, 0.01), 0.02, 0, 60
+    t, late, covered, count = np.arange(0.0, END, 0.01), 0.02, 0, 60
     rate = motion(t)
     angle = np.cumsum(rate) * 0.01
     parts = {"rate": rate, "angle": angle, "speed": 15.0 + 0.5 * np.sin(0.4 * t) + 0.05 * rate**2}
@@ -74,10 +74,10 @@ def test_intervals_hold_where_a_start_is_measured_with_noise(memory: float) -> N
             curve = Curve(Result([name], {name: "1"}, t, values[:, None], 0.0, END, 0, []), name)
             pairs.append((Signal(name, name, "1", t[5:-5], measured[5:-5]), curve))
         alignment = align(pairs, 0.5)
-        held += abs(alignment.delay - late) <= alignment.delay_error
+        covered += abs(alignment.delay - late) <= alignment.delay_error
         assert not alignment.has_drift
-    print(f"\nmemory {memory:g}: intervals of 95 % hold in {held} of {count} logs")
-    assert held >= 54  # fewer have a probability of 2 % where it is 95 %
+    print(f"\nmemory {memory:g}: intervals of 95 % hold in {covered} of {count} logs")
+    assert covered >= 54  # fewer have a probability of 2 % where it is 95 %
 
 
 def test_a_delay_in_common_is_that_of_both(curve: Curve) -> None:
@@ -95,7 +95,7 @@ def test_a_delay_that_cannot_be_determined_is_reported(curve: Curve) -> None:
 
 
 @pytest.mark.parametrize("bend", [0.0, 1e-3])
-def test_a_log_too_short_and_straight_tells_no_delay(bend: float) -> None:
+def test_a_short_and_straight_log_gives_no_delay(bend: float) -> None:
     """The rest of another start is enough to move the best delay by samples: of 0.3 s it is none of the log."""
     t = np.arange(0.0, 0.295, 0.01)
     curve = simulated(20.0 - 0.5 * t + 0.1 * t**2, t)

@@ -1,4 +1,4 @@
-"""Intervals of parameters where signals differ alike, against many logs."""
+"""Confidence intervals of parameters with correlated residuals of signals, against many logs."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,10 @@ from scipy.signal import lfilter
 
 from hosts.compare.correlated_residuals import covariance
 
-SIGNALS, SAMPLES, MEMORY, LOGS = 4, 300, 0.8, 300
+SIGNALS = 4
+SAMPLES = 300
+MEMORY = 0.8
+LOGS = 300
 
 
 @pytest.mark.parametrize("share", [0.0, 0.9])

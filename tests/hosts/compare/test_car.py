@@ -131,7 +131,7 @@ def test_the_same_car_at_another_step_is_the_same(car: Path, tmp_path: Path) -> 
         ("ay", ["'ay' (chassis.ay) has the opposite sign of the simulation"]),
     ],
 )
-def test_what_is_turned_is_reported_and_not_what_it_moves(
+def test_an_inverted_input_is_reported_and_not_the_outputs(
     car: Path, tmp_path: Path, column: str, reported: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     log = logged(car, tmp_path, {"initial.speed": 15.0})
@@ -193,9 +193,9 @@ def test_a_driver_can_hold_the_measured_speed(car: Path, tmp_path: Path, capsys:
     log = logged(car, tmp_path, {"initial.speed": 15.0})
     other = ("--set", "aerodynamics.drag_area=8")
     pedals = values(compared(car, log, *other)[1])["speed.rms"]
-    held = values(compared(car, log, *other, "--hold-speed")[1])["speed.rms"]
+    speed_error = values(compared(car, log, *other, "--hold-speed")[1])["speed.rms"]
     assert pedals > 2.0
-    assert held < 0.1
+    assert speed_error < 0.1
     # It takes more of the throttle than the 0.2 of the car in the log, and from the start on.
     output = capsys.readouterr().out
     started = float(output.rpartition("The driver starts with ")[2].partition(" of the throttle.")[0])
@@ -247,9 +247,9 @@ def test_windows_begin_as_measured_each(car: Path, tmp_path: Path, capsys: pytes
     rms = [w["rms"]["chassis.wz"] for w in record["windows"]]
     assert values(record)["chassis.wz.rms"] == pytest.approx(np.sqrt(np.mean(np.square(rms))), rel=0.02)
     assert max(rms) < 0.02
-    reported = [b for b in record["bins"] if b["quantity"] == "lateral acceleration"]
-    assert sum(b["samples"] for b in reported) == 4 * 101
-    assert {(b["low"], b["high"]) for b in reported} >= {(0.0, 2.0), (2.0, 4.0)}
+    bins = [b for b in record["bins"] if b["quantity"] == "lateral acceleration"]
+    assert sum(b["samples"] for b in bins) == 4 * 101
+    assert {(b["low"], b["high"]) for b in bins} >= {(0.0, 2.0), (2.0, 4.0)}
     # Processes share the windows; not one digit depends on their number.
     _, shared = compared(car, log, *parts, "--jobs", "2", signals="chassis.wz")
     assert values(shared) == values(record)

@@ -1,4 +1,4 @@
-"""The command, from a log to its files, and what it says of logs and wishes that are not right."""
+"""The command from a log to its files, and its messages on faulty logs and options."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""Parameters come back within their confidence: logs by SciPy's integrator, with noise and delay, fitted by our FMU."""
+"""Coverage of confidence intervals: logs by SciPy with noise and delay, fitted by our FMU."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -15,7 +15,9 @@ from hosts.driving.result import Result
 from hosts.fmu.fmu_source import FmuSource
 
 STEP = 0.01
-STIFFNESS, DAMPING, DELAY = 123.0, 1.7, 0.043
+STIFFNESS = 123.0  # N/m
+DAMPING = 1.7  # N s/m
+DELAY = 0.043  # s
 UNKNOWNS = [
     Unknown("spring.stiffness", "N/m", 100.0, 50.0, 200.0, 30.0),
     Unknown("spring.damping", "N.s/m", 1.0, 0.2, 4.0, 1.0),
@@ -25,12 +27,12 @@ UNKNOWNS = [
 @pytest.fixture(scope="module")
 def replay(tuned: Path) -> Iterator[Replay]:
     manoeuvre = inputs_of("log", {"pull": measured_pull()}, {}, END, STEP)
-    with Replay(FmuSource(tuned.absolute()), [Segment(manoeuvre)], STEP) as made:
-        assert made.check_reset()
-        yield made
+    with Replay(FmuSource(tuned.absolute()), [Segment(manoeuvre)], STEP) as opened:
+        assert opened.check_reset()
+        yield opened
 
 
-def fitted(replay: Replay, seed: int, memory: float, wanted: tuple[str, ...] = ("delay",), drift: float = 0.0) -> Fit:
+def fitted(replay: Replay, seed: int, memory: float, kinds: tuple[str, ...] = ("delay",), drift: float = 0.0) -> Fit:
     guess = {"": 0.03, "bob.x": 0.03, "bob.y": 0.03}
     log = measured(motion(STIFFNESS, DAMPING), seed, memory, DELAY, drift)
     outputs = overlapping(log, END, 0.0, guess)
@@ -39,7 +41,7 @@ def fitted(replay: Replay, seed: int, memory: float, wanted: tuple[str, ...] = (
         result = replay.run(dict(values))
         return None if result.failed_steps else result
 
-    return fit(outputs, [*UNKNOWNS, *nuisances(wanted, outputs, guess, 0.5)], simulate)
+    return fit(outputs, [*UNKNOWNS, *nuisances(kinds, outputs, guess, 0.5)], simulate)
 
 
 def inside(replay: Replay, count: int, memory: float) -> np.ndarray:
@@ -56,8 +58,8 @@ def inside(replay: Replay, count: int, memory: float) -> np.ndarray:
 def test_the_other_engine_is_matched_without_noise(replay: Replay) -> None:
     result = replay.run({"spring.stiffness": STIFFNESS, "spring.damping": DAMPING})
     exact = motion(STIFFNESS, DAMPING)(result.time)
-    for axis, wanted in zip("xy", exact, strict=True):
-        assert np.abs(result[f"bob.{axis}"] - wanted).max() < 1e-3  # of 0.4 m; the noise is 10 and 5 mm
+    for axis, expected in zip("xy", exact, strict=True):
+        assert np.abs(result[f"bob.{axis}"] - expected).max() < 1e-3  # of 0.4 m; the noise is 10 and 5 mm
 
 
 @pytest.mark.slow

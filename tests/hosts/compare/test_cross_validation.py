@@ -1,4 +1,4 @@
-"""Parts that are left out of a fit, against fits that were made without them, and intervals against many logs."""
+"""Parts left out of a fit, against fits without them, and intervals against many logs."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,8 @@ from scipy import stats
 
 from hosts.compare.cross_validation import FOLDS, Parts, clustered_covariance, folds, left_out, without_each
 
-LENGTH, SAMPLES = 10.0, 40
+LENGTH = 10.0  # s
+SAMPLES = 40
 
 
 def linear(begins: np.ndarray, seed: int = 3) -> tuple[np.ndarray, np.ndarray, Parts]:
@@ -42,8 +43,8 @@ def test_the_parameters_without_a_fold_are_those_of_a_fit_without_it(every: floa
     for change, group in zip(actual, np.split(np.argsort(begins), FOLDS), strict=True):
         near = np.abs(begins[:, None] - begins[group]).min(axis=1) < LENGTH
         kept = ~near[parts.number]
-        wanted = np.linalg.lstsq(jacobian[kept], -residual[kept], rcond=None)[0]
-        np.testing.assert_allclose(change, wanted, rtol=1e-8)
+        expected = np.linalg.lstsq(jacobian[kept], -residual[kept], rcond=None)[0]
+        np.testing.assert_allclose(change, expected, rtol=1e-8)
 
 
 def test_a_parameter_that_tells_nothing_does_not_pay() -> None:

@@ -50,7 +50,7 @@ def test_names_of_the_fmu_need_no_aliases(fmu: NamedFmu, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize(("used", "reported"), [((), 1), (("bob.x",), 1), (("speed",), 0)])
-def test_a_sample_left_out_is_reported_of_what_is_used(
+def test_an_omitted_sample_is_reported_for_used_signals(
     fmu: NamedFmu, tmp_path: Path, used: tuple[str, ...], reported: int
 ) -> None:
     text = "time,pull,bob.x\n" + rows("{t},{f},{x}").replace("0.12,6.0,0.012", "0.12,6.0,9.9")
@@ -246,14 +246,14 @@ def test_a_signal_that_is_repeated_row_by_row_counts_where_it_is_new(
     count, chance = 20 * rate, np.random.default_rng(3)
     new = np.clip(rate * np.arange(20) + chance.integers(-jitter, jitter + 1, 20), 0, None)
     new[0] = 0
-    held = np.sin(new)[np.searchsorted(new, np.arange(count), side="right") - 1]
-    lines = [f"{0.01 * k:.2f},{0.5 * k},{float(held[k])!r},{0.25 * (k // rate)}" for k in range(count)]
+    staircase = np.sin(new)[np.searchsorted(new, np.arange(count), side="right") - 1]
+    lines = [f"{0.01 * k:.2f},{0.5 * k},{float(staircase[k])!r},{0.25 * (k // rate)}" for k in range(count)]
     log = read(fmu, tmp_path, "time,pull,bob.x,bob.y\n" + "\n".join(lines))
     actual = log.outputs["bob.x"]
     assert actual.time == pytest.approx(0.01 * new)
     assert actual.values == pytest.approx(np.sin(new))
-    (reported,) = [note for note in log.notes if "has a new value every" in note]
-    assert f"every {rate} rows" in reported
+    (repeated,) = [note for note in log.notes if "has a new value every" in note]
+    assert f"every {rate} rows" in repeated
     assert len(log.outputs["bob.y"].time) == count  # a ramp of a coarse signal
 
 

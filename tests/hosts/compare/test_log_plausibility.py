@@ -1,4 +1,4 @@
-"""A drive whose columns are in other units, late, exchanged, frozen or put together is told, with what mends it."""
+"""Faulty columns of a log (units, delays, exchanged, frozen, joined) are reported with their correction."""
 
 import re
 from collections.abc import Callable
@@ -123,10 +123,10 @@ PLANTED = {
 
 
 @pytest.mark.parametrize("case", PLANTED)
-def test_a_mistake_is_reported_with_what_would_mend_it(case: str) -> None:
+def test_a_mistake_is_reported_with_its_correction(case: str) -> None:
     change, message = PLANTED[case]
-    reported = log_plausibility("log.csv", change(drive(len(case)))).warnings()
-    assert any(message in sentence for sentence in reported), reported
+    warnings = log_plausibility("log.csv", change(drive(len(case)))).warnings()
+    assert any(message in sentence for sentence in warnings), warnings
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -164,8 +164,8 @@ def test_a_car_that_stands_at_lights_has_no_frozen_sensors() -> None:
     for name in ("chassis.x", "chassis.y"):
         level[name] = np.full(len(t), log[name].values[stands][0])
     still = {n: replace(log[n], values=np.where(stands, v, log[n].values)) for n, v in level.items()}
-    reported = log_plausibility("log.csv", log | still).warnings()
-    assert not any("longest time without a change" in sentence for sentence in reported), reported
+    warnings = log_plausibility("log.csv", log | still).warnings()
+    assert not any("longest time without a change" in sentence for sentence in warnings), warnings
 
 
 def test_a_speed_of_0_is_reported_unless_all_others_stand_too() -> None:
@@ -176,8 +176,8 @@ def test_a_speed_of_0_is_reported_unless_all_others_stand_too() -> None:
     message = "largest speed is 0 m/s"
     assert not any(message in sentence for sentence in log_plausibility("log.csv", still).warnings())
     for name in UNITS.keys() - {"speed", "chassis.yaw"}:
-        reported = log_plausibility("log.csv", still | {name: dead[name]}).warnings()
-        assert any(message in sentence for sentence in reported), name
+        warnings = log_plausibility("log.csv", still | {name: dead[name]}).warnings()
+        assert any(message in sentence for sentence in warnings), name
     assert any(message in sentence for sentence in log_plausibility("log.csv", {"speed": dead["speed"]}).warnings())
 
 
@@ -198,19 +198,19 @@ def test_peaks_that_are_rounded_are_no_range_that_a_sensor_reaches(step: float) 
     for round_to in (step, 1e-9):
         ay = np.clip(round_to * np.round(4.2 * wave / round_to), -3.8, 3.8)
         clipped = replace(result["chassis.ay"], values=ay)
-        (reported,) = log_plausibility("log.csv", result | {clipped.name: clipped}).warnings()
-        assert "'chassis.ay', samples at both ends of a range" in reported
-        assert "offset" not in reported, "it would make the ends unlike, and mend nothing"
+        (warning,) = log_plausibility("log.csv", result | {clipped.name: clipped}).warnings()
+        assert "'chassis.ay', samples at both ends of a range" in warning
+        assert "offset" not in warning, "it would make the ends unlike, and mend nothing"
 
 
-def test_the_steering_wheel_tells_the_sign_of_the_yaw_rate_and_no_factor() -> None:
+def test_the_steering_wheel_determines_the_sign_of_the_yaw_rate_and_no_factor() -> None:
     result = {n: s for n, s in drive().items() if n in ("speed", "chassis.wz")}
     wz = result["chassis.wz"]
     turn = replace(wz, name="steering_wheel_angle", source="wheel", unit="rad", values=12.0 * wz.values)
     plausibility = log_plausibility("log.csv", result | {turn.name: turn})
     assert (plausibility.warnings(), consistent(plausibility)) == ([], set())
-    (reported,) = log_plausibility("log.csv", result | {turn.name: replace(turn, values=-turn.values)}).warnings()
-    assert "the other sign of 'wheel' (steering_wheel_angle)" in reported
+    (warning,) = log_plausibility("log.csv", result | {turn.name: replace(turn, values=-turn.values)}).warnings()
+    assert "the other sign of 'wheel' (steering_wheel_angle)" in warning
     alike = np.tile(np.sin(np.linspace(0.0, 2.0 * np.pi, 250, endpoint=False)), len(wz.time) // 250)
     robot = replace(turn, values=alike)
     assert not any(

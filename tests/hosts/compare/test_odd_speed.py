@@ -1,4 +1,4 @@
-"""A speed that falls where that of the simulation rises."""
+"""A measured speed that falls while the simulated one rises."""
 
 from dataclasses import replace
 

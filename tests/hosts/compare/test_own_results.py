@@ -1,4 +1,4 @@
-"""A result of `ali3 run` as the log: what its record says was held drives the FMU as it did in the run."""
+"""A result of `ali3 run` as the log: the held inputs of its record drive the FMU as in the run."""
 
 import csv
 import json
@@ -44,8 +44,8 @@ def test_a_jump_means_the_same_as_in_the_run(
     """Of a result, whose record tells the jumps, and of samples with two rows where the input jumps."""
     table = tmp_path / "drive.csv"
     table.write_text("time,pull\n" + "\n".join(f"{t},{x}" for t, x in JUMPS) + "\n")
-    wanted = ["--step", "0.05", "--interval", str(interval)]
-    assert run([str(tuned), "-m", str(table), *wanted, "--out", str(tmp_path)]) == 0
+    options = ["--step", "0.05", "--interval", str(interval)]
+    assert run([str(tuned), "-m", str(table), *options, "--out", str(tmp_path)]) == 0
     log, manoeuvre = next(tmp_path.glob("*_drive.csv")), read_table(table)
     with log.open() as file:
         result = list(csv.DictReader(file))

@@ -1,4 +1,4 @@
-"""Starts of a fit that the FMU refuses are left out and told; one that the user has given is not."""
+"""Starts of a fit that the FMU refuses are left out and reported; one that the user has set is an error."""
 
 import json
 from collections.abc import Mapping
@@ -19,7 +19,8 @@ from hosts.driving.result import Result
 from hosts.fmu.fmu import Fmu
 from hosts.measures.signal import Signal
 
-RATE, REFUSED = 2.0, 3.0
+RATE = 2.0
+REFUSED = 3.0
 T = np.linspace(0.0, 3.0, 151)
 
 

@@ -1,4 +1,4 @@
-"""A log that begins in a turn: what is not measured has settled before the comparison begins."""
+"""A log that begins in a turn: unmeasured states have settled before the comparison begins."""
 
 import json
 from pathlib import Path
@@ -39,7 +39,7 @@ def compared(car: Path, log: Path, folder: Path, *options: str) -> dict:
     return dict(json.loads(record.read_text()))
 
 
-def test_it_goes_on_in_the_turn(prototype_fmu: Path, log: Path, tmp_path: Path) -> None:
+def test_the_comparison_continues_in_the_turn(prototype_fmu: Path, log: Path, tmp_path: Path) -> None:
     settled = compared(prototype_fmu, log, tmp_path)
     drawn = compared(prototype_fmu, log, tmp_path, "--set", "initial.settling=0")
     assert settled["start"]["initial.settling"] > 0.0
@@ -50,7 +50,7 @@ def test_it_goes_on_in_the_turn(prototype_fmu: Path, log: Path, tmp_path: Path) 
         assert errors[0][f"{name}.rms"] < 0.25 * errors[1][f"{name}.rms"], name
 
 
-def test_a_log_from_rest_needs_none(prototype_fmu: Path, log: Path, tmp_path: Path) -> None:
+def test_a_log_from_rest_needs_no_settling(prototype_fmu: Path, log: Path, tmp_path: Path) -> None:
     header, *rows = log.read_text().splitlines()
     at_rest = tmp_path / "rest.csv"
     at_rest.write_text("\n".join([header, *(f"{row.split(',')[0]},0,0,0,0,0,0" for row in rows)]))

@@ -1,4 +1,4 @@
-"""What a comparison shows: units of the field, and no rating where there is none."""
+"""Output of a comparison: units of the field, and no rating where there is none."""
 
 from dataclasses import replace
 
@@ -55,7 +55,7 @@ def test_a_drift_is_reported_where_it_is_one(comparison: Comparison) -> None:
     )
 
 
-def test_a_signal_that_tells_no_delay_has_no_say_in_the_common_one() -> None:
+def test_a_signal_without_a_delay_does_not_count_in_the_common_delay() -> None:
     """Noise beside a turn that is 30 ms late."""
     noise, other = np.random.default_rng(3).normal(size=(2, 201))
     turn = np.sin(3.0 * TIME) + np.sin(7.0 * TIME)
@@ -75,7 +75,7 @@ def test_deviations_by_speed_are_in_the_same_units(comparison: Comparison) -> No
 
 
 @pytest.mark.slow
-def test_the_picture_has_no_rating_that_is_none(comparison: Comparison) -> None:
+def test_the_picture_omits_undefined_ratings(comparison: Comparison) -> None:
     figure = comparison_figure(comparison, None, "a drive", {})
     titles = [axes.get_title(loc) for axes in figure.axes for loc in ("left", "center")]
     assert "chassis.wz, deg/s" in titles
@@ -99,7 +99,7 @@ def test_a_spike_of_a_long_log_is_drawn() -> None:
     plt.close(figure)
 
 
-def test_a_number_without_a_unit_has_none() -> None:
+def test_a_number_without_a_unit_is_shown_without_one() -> None:
     assert number_in(1.2, "1") == "1.2"
     assert number_in(1.2, "kg") == "1.2 kg"
     assert shown_number(0.5, "m/s", "speed") == "1.8 km/h"

@@ -44,7 +44,7 @@ def test_real_events_are_kept() -> None:
     assert spikes(2.0 * TIME, seldom).sum() == 1
 
 
-def test_short_and_constant_signals_have_none() -> None:
+def test_short_and_constant_signals_have_no_spikes() -> None:
     assert not spikes(TIME[:4], np.array([0.0, 5.0, 0.0, 0.0])).any()
     assert not spikes(TIME, np.zeros(len(TIME))).any()
 

@@ -1,4 +1,4 @@
-"""An experiment shows how much of it is done, and its folder keeps what is done for the same command."""
+"""An experiment shows its progress, and its folder keeps finished runs for the same command."""
 
 import os
 from collections.abc import Callable
@@ -26,14 +26,14 @@ def half(task: float, tell: Callable[[Any], None]) -> float:
 
 def test_progress_is_reported_and_a_lost_task_is_a_result() -> None:
     experiment: Experiment[float, float] = Experiment("halves", half, float, str, size=lambda task: task)
-    reported: list[tuple[int, float]] = []
-    with closing(experiment.results([2.0, 3.0], experiment.pool(), lambda *word: reported.append(word))) as results:
+    progress: list[tuple[int, float]] = []
+    with closing(experiment.results([2.0, 3.0], experiment.pool(), lambda *word: progress.append(word))) as results:
         actual = {number: (task, result) for number, task, result in results}
     assert actual[0] == (2.0, -2.0)
     assert actual[1][0] == 3.0
     assert isinstance(actual[1][1], Lost)
-    assert [done for number, done in reported if number == 0] == [1.0, 2.0]  # never more than there is
-    assert [done for number, done in reported if number == 1] == [1.5]
+    assert [done for number, done in progress if number == 0] == [1.0, 2.0]  # never more than there is
+    assert [done for number, done in progress if number == 1] == [1.5]
 
 
 def tenths(task: float, tell: Callable[[Any], None]) -> float:

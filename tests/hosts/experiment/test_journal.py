@@ -1,4 +1,4 @@
-"""What was written to a journal is there after a kill; what was cut is left out."""
+"""Entries of a journal survive a kill; an incomplete one is left out."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -45,7 +45,7 @@ def test_a_result_is_there_at_once_and_the_last_of_a_key_counts(tmp_path: Path) 
     assert keys(file) == {"d": 4.0}
 
 
-def test_a_file_that_was_cut_anywhere_has_what_came_before(tmp_path: Path) -> None:
+def test_a_truncated_file_keeps_the_entries_before_the_cut(tmp_path: Path) -> None:
     file, ends = tmp_path / "journal", [0]
     with Journal[Made](file, Made) as journal:
         for k in range(3):

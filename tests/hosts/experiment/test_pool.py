@@ -1,4 +1,4 @@
-"""Processes that make runs stay for the next ones, and end where an iteration is left."""
+"""Worker processes stay for the next runs, and end when an iteration is closed."""
 
 import os
 import time
@@ -60,7 +60,7 @@ def driven(task: Path, tell: Tell) -> int:
         return len(run(fmu, Manoeuvre("slow", np.zeros(0), {}, 0.3), 0.01, Slow()).time)
 
 
-def test_a_run_that_goes_on_is_alive_however_long_it_takes(scene_fmu: Callable[..., Path]) -> None:
+def test_a_long_run_that_makes_progress_is_not_ended(scene_fmu: Callable[..., Path]) -> None:
     """A test of a slow FMU was ended, because it told its progress after each of its runs alone."""
     fmu = scene_fmu(f"{Path(__file__).parents[1] / 'scenes.py'}:tuned")
     pool: Pool[Path, int] = Pool(driven, int, reads=[fmu], limit=1.5)
@@ -80,7 +80,7 @@ def threads(task: int, tell: Tell) -> int:
 def test_runs_are_asked_for_as_processes_become_free(monkeypatch: pytest.MonkeyPatch) -> None:
     """And each process computes with one thread, whatever the environment says."""
     monkeypatch.setenv("OMP_NUM_THREADS", "7")
-    requested, reported = [0], []
+    requested, words = [0], []
 
     def tasks() -> Iterator[int]:
         for k in range(12):
@@ -88,8 +88,8 @@ def test_runs_are_asked_for_as_processes_become_free(monkeypatch: pytest.MonkeyP
             yield k
 
     with Pool(threads, int, 2) as pool:
-        for count, (number, result) in enumerate(pool.results(tasks(), lambda *word: reported.append(word))):
+        for count, (number, result) in enumerate(pool.results(tasks(), lambda *word: words.append(word))):
             assert requested[0] <= count + 4
             assert result == 1
-            assert (number, float(number)) in reported
+            assert (number, float(number)) in words
     assert requested[0] == 12

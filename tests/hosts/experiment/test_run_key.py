@@ -1,11 +1,11 @@
-"""A run is the same where its FMU, all it is told, the files that it reads and the program are."""
+"""Equal keys for runs with equal FMU, settings, files and program."""
 
 from pathlib import Path
 
 from hosts.experiment.run_key import run_key
 
 
-def test_content_of_the_fmu_and_of_files_and_words_make_the_key(tmp_path: Path) -> None:
+def test_the_key_depends_on_the_fmu_its_files_and_the_settings(tmp_path: Path) -> None:
     fmu, road = tmp_path / "a.fmu", tmp_path / "flat.road"
     fmu.write_bytes(b"first")
     road.write_bytes(b"flat")

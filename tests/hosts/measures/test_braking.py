@@ -17,7 +17,9 @@ from hosts.measures.braking import (
     way_between,
 )
 
-ONSET, V, A = 1.0, 100.0 / 3.6, 8.0
+ONSET = 1.0  # s
+V = 100.0 / 3.6  # m/s
+A = 8.0  # m/s2
 
 
 def stop(step: float, offset: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
@@ -38,8 +40,8 @@ def test_constant_deceleration(step: float, offset: float) -> None:
 def test_formula_of_the_regulation_in_its_own_units() -> None:
     time = np.linspace(0.0, 8.0, 4001)
     speed = V * np.maximum(1.0 - time / 6.0, 0.0) ** 1.5
-    way = V * 6.0 / 2.5 * (1.0 - np.maximum(1.0 - time / 6.0, 0.0) ** 2.5)
-    begin, end = (np.interp(-share * V, -speed[:3000], way[:3000]) for share in (0.8, 0.1))
+    distance = V * 6.0 / 2.5 * (1.0 - np.maximum(1.0 - time / 6.0, 0.0) ** 2.5)
+    begin, end = (np.interp(-share * V, -speed[:3000], distance[:3000]) for share in (0.8, 0.1))
     regulation = ((0.8 * 100.0) ** 2 - (0.1 * 100.0) ** 2) / (25.92 * (end - begin))
     assert mean_fully_developed_deceleration(time, speed, 0.0, V) == pytest.approx(regulation, rel=1e-5)
 
@@ -52,8 +54,8 @@ def test_a_rise_of_the_deceleration_lengthens_the_way_but_not_the_mean() -> None
     speed = np.maximum(speed, 0.0)
     mean = mean_fully_developed_deceleration(time, speed, ONSET, V)
     assert mean == pytest.approx(A, rel=1e-6)
-    wanted = V * rise / 2 + V**2 / (2 * A) - A * rise**2 / 24
-    assert stopping_distance(time, speed, ONSET, mean) == pytest.approx(wanted, abs=1e-4)
+    expected = V * rise / 2 + V**2 / (2 * A) - A * rise**2 / 24
+    assert stopping_distance(time, speed, ONSET, mean) == pytest.approx(expected, abs=1e-4)
     deceleration = A * np.clip(since / rise, 0.0, 1.0)
     assert time_to_reach(time, deceleration, 0.9 * A, ONSET) == pytest.approx(0.9 * rise, abs=1e-9)
 
@@ -90,5 +92,5 @@ def test_speeds_before_the_onset_do_not_count() -> None:
 
 def test_wheels_are_locked_above_the_slowest_speed_only() -> None:
     slip = np.array([[-0.1, -1.0], [-0.95, -0.5], [-1.0, -1.0]])
-    wanted = [[False, True], [True, False], [False, False]]
-    assert locked(slip, np.array([10.0, 10.0, 2.0])).tolist() == wanted
+    expected = [[False, True], [True, False], [False, False]]
+    assert locked(slip, np.array([10.0, 10.0, 2.0])).tolist() == expected

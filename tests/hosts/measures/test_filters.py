@@ -1,4 +1,4 @@
-"""Filters leave what they should, where it is."""
+"""Filters keep the pass band in amplitude and phase."""
 
 import numpy as np
 import pytest

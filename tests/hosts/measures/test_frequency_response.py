@@ -1,4 +1,4 @@
-"""Responses over frequency against systems that are known."""
+"""Frequency responses against known systems."""
 
 import math
 
@@ -11,7 +11,9 @@ from hosts.measures.bandwidth import bandwidth
 from hosts.measures.frequency_response import FrequencyResponse, frequency_response
 from hosts.measures.second_order import fit_second_order
 
-W, ZETA, LEAD = 8.0, 0.4, 0.15
+W = 8.0  # rad/s
+ZETA = 0.4
+LEAD = 0.15  # s
 INTERVAL = 0.01
 F = np.geomspace(0.2, 4.0, 40)
 T = np.arange(0.0, 64.0, INTERVAL)

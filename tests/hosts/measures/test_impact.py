@@ -7,7 +7,8 @@ import pytest
 
 from hosts.measures.impact import fall_time, first_contact, rebound, settling_time, weight_from_momentum
 
-M, G = 600.0, 9.81
+M = 600.0  # kg
+G = 9.81  # m/s2
 
 
 def bounce(step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

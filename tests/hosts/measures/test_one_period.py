@@ -1,4 +1,4 @@
-"""One period of steering: known lags and ratios come back."""
+"""One period of steering: known lags and ratios are recovered."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Numbers of sine with dwell on signals that are made for them."""
+"""Numbers of sine with dwell from synthetic signals."""
 
 import math
 
@@ -59,7 +59,7 @@ def test_displacement_is_the_double_integral_from_the_begin() -> None:
     assert sine_with_dwell(T, steering(1.0), yaw_rate(0.0), grows).displacement == pytest.approx(1.07**3, rel=1e-3)
 
 
-def test_a_record_that_ends_early_keeps_what_it_shows() -> None:
+def test_a_short_record_gives_the_numbers_before_its_end() -> None:
     for end, known in ((0.5, 0), (1.5, 1), (END + 1.2, 2), (END + 1.8, 3)):
         n = int(np.searchsorted(T, end))
         result = sine_with_dwell(T[:n], steering(1.0)[:n], yaw_rate(0.5)[:n], np.ones(n))

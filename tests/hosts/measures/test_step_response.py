@@ -8,7 +8,8 @@ from scipy.optimize import brentq
 
 from hosts.measures.step_response import reference_time, step_response
 
-BEFORE, STEADY = (-0.9, -0.05), (9.0, 10.0)
+BEFORE = (-0.9, -0.05)  # s
+STEADY = (9.0, 10.0)  # s
 T = np.arange(-1.0, 10.0 + 1e-9, 0.005)
 
 

@@ -1,4 +1,4 @@
-"""Small FMUs that do what no FMU should, each one C file around `small.h`."""
+"""Small faulty FMUs, each one C file around `small.h`."""
 
 import zipfile
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""FMUs of a car with all ports: whatever comes in, steps are made or refused with a word."""
+"""FMUs of a car with all ports: any input gives a step, or a refusal with a message."""
 
 from pathlib import Path
 
@@ -46,10 +46,10 @@ def ports_of(car: Car) -> list[str]:
 
 def level(car: Car) -> dict[str, float]:
     """What stands on level ground: answers for the wheels, and forces of tyres that carry the car."""
-    given = dict.fromkeys(car.inputs, 0.0)
+    inputs = dict.fromkeys(car.inputs, 0.0)
     for w in WHEELS:
-        given |= {f"wheel_{w}.road_normal_z": 1.0, f"wheel_{w}.road_friction": 0.9, f"wheel_{w}.hub_Fz": 3065.0}
-    return {name: value for name, value in given.items() if name in car.inputs}
+        inputs |= {f"wheel_{w}.road_normal_z": 1.0, f"wheel_{w}.road_friction": 0.9, f"wheel_{w}.hub_Fz": 3065.0}
+    return {name: value for name, value in inputs.items() if name in car.inputs}
 
 
 @pytest.mark.slow
@@ -58,51 +58,51 @@ def test_steps_jumps_nan_and_silence_at_every_port(ported: Path) -> None:
     values = [np.nan, np.inf, -np.inf, 1e6, -1e6, 0.0, 1.0, -1.0, 1e-300]
     with Car(ported, step=0.005) as car:
         ports = [name for name in ports_of(car) if name != "gear_request"]
-        reported = 0
+        count = 0
         for seed in range(4):
             random = np.random.default_rng(seed)
             car.reset(**{"initial.speed": 10.0})
-            given = level(car)
+            inputs = level(car)
             for _ in range(60):
                 for name in ports:
                     if random.random() < 0.03:
-                        given[name] = float(random.choice(values))
+                        inputs[name] = float(random.choice(values))
                 before = len(car.messages)
                 try:
-                    car.step([given[name] for name in car.inputs])
+                    car.step([inputs[name] for name in car.inputs])
                 except StepRefusedError:
                     assert len(car.messages) > before
-                    given = level(car)
+                    inputs = level(car)
                 state = car.read(("chassis.x", "chassis.z", "speed", "energy.total"))
                 assert np.isfinite(state).all()
-            reported += len(car.messages)
-        assert reported > 10
+            count += len(car.messages)
+        assert count > 10
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS, indirect=True)
-def test_each_port_tells_once_that_it_is_silent_or_no_number(ported: Path) -> None:
+def test_each_silent_or_non_finite_port_is_reported_once(ported: Path) -> None:
     with Car(ported, step=0.002) as car:
         ports = ports_of(car)
         for port in ports:
             car.reset(**{"initial.speed": 10.0})
-            reported = len(car.messages)
-            given = level(car)
+            count = len(car.messages)
+            inputs = level(car)
             others = [name for name in car.inputs if name != port]
-            car.fmu.setter(others)([given[name] for name in others])
+            car.fmu.setter(others)([inputs[name] for name in others])
             car.fmu.step(0.0, 0.002)
-            (silent,) = (m for m in car.messages[reported:] if "not set before" in m)
+            (silent,) = (m for m in car.messages[count:] if "not set before" in m)
             assert f"'{port}'" in silent
             car.reset(**{"initial.speed": 10.0})
-            reported = len(car.messages)
+            count = len(car.messages)
             for bad in (np.nan, np.inf, np.nan):
-                row = [bad if name == port else given[name] for name in car.inputs]
+                row = [bad if name == port else inputs[name] for name in car.inputs]
                 if port == "gear_request":  # a whole number, which has no NaN
                     with pytest.raises(HostError, match="whole number"):
                         car.step(row)
                 else:
                     car.step(row)
-            messages = [m for m in car.messages[reported:] if f"'{port}'" in m]
+            messages = [m for m in car.messages[count:] if f"'{port}'" in m]
             assert len(messages) == (port != "gear_request"), port
             assert all("was set to nan and holds its last value" in m for m in messages)
             assert np.isfinite(car.read(("chassis.z", "energy.total"))).all()
@@ -128,17 +128,17 @@ def test_a_step_that_is_long_for_a_tyre_is_reported_once_at_each_wheel(
     """By the tyres left out, in words of the front ones; in the first step no host knows a derivative."""
     with Car(ported, step=step) as car:
         car.reset(**{"initial.speed": speed, "step_size": min(step, 0.002)})
-        given, hubs = level(car), [f"wheel_{w}.hub_Fx" for w in WHEELS]
+        inputs, hubs = level(car), [f"wheel_{w}.hub_Fx" for w in WHEELS]
         follow = car.fmu.slope_setter(hubs)
         for k in range(4):
             if k > 0 and slope:
                 follow([slope] * len(hubs))
-            car.step([given[name] for name in car.inputs])
+            car.step([inputs[name] for name in car.inputs])
             car.read(("speed",))
         messages = [m for m in car.messages if "may shake it" in m]
         assert len(messages) == (0 if message is None else len(WHEELS))
-        wanted = (message or "").format(at_once="where all programs step at once for longer than")
-        assert all(wanted in m for m in messages[:2])
+        expected = (message or "").format(at_once="where all programs step at once for longer than")
+        assert all(expected in m for m in messages[:2])
 
 
 @pytest.mark.slow
@@ -161,11 +161,11 @@ def test_a_tyre_that_answers_seldom_or_no_more_is_reported_once_at_each_wheel(
     """Steps of 2 ms would be short enough, and the master gives forces at each; one rest of 3 m is none to tell."""
     with Car(ported, step=0.002) as car:
         car.reset(**{"initial.speed": 10.0, "step_size": 0.002})
-        given = level(car)
+        inputs = level(car)
         for k in range(600):
             if k >= first and k % every == 0:
-                given |= {f"wheel_{w}.hub_Fz": 3065.0 + k % 7 for w in WHEELS}
-            car.step([given[name] for name in car.inputs])
+                inputs |= {f"wheel_{w}.hub_Fz": 3065.0 + k % 7 for w in WHEELS}
+            car.step([inputs[name] for name in car.inputs])
         messages = [m for m in car.messages if "the hub at" in m or "may shake it" in m]
         assert len(messages) == (0 if message is None else len(WHEELS))
         assert all(message is None or message in m for m in messages[:2])
@@ -177,28 +177,28 @@ def test_a_tyre_that_answers_seldom_or_no_more_is_reported_once_at_each_wheel(
 def test_a_whole_number_is_set_where_it_changes_alone(ported: Path, silent: str, reported: int) -> None:
     with Car(ported, step=0.002) as car:
         car.reset(**{"initial.speed": 10.0})
-        given, most = level(car), [name for name in car.inputs if name != silent]
+        inputs, most = level(car), [name for name in car.inputs if name != silent]
         all_of_them, others = car.fmu.setter(car.inputs), car.fmu.setter(most)
         for k in range(300):
             if k < 20:
-                all_of_them([given[n] for n in car.inputs])
+                all_of_them([inputs[n] for n in car.inputs])
             else:
-                others([given[n] for n in most])
+                others([inputs[n] for n in most])
             car.fmu.step(0.002 * k, 0.002)
         assert sum("again and again" in m and f"'{silent}'" in m for m in car.messages) == reported
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("ported", CARS[1:2], indirect=True)
-def test_a_wheel_in_the_air_and_a_car_that_stood_for_long_are_not_told(ported: Path) -> None:
+def test_a_wheel_in_the_air_and_a_standing_car_cause_no_warning(ported: Path) -> None:
     """Tyres in the air have no force, and those of a car that stands stay as they are: 2 m are not far."""
     with Car(ported, step=0.002) as car:
         for speed, load, steps in ((25.0, 0.0, 300), (0.0, 3065.0, 2900)):
             car.reset(**{"initial.speed": speed, "step_size": 0.002})
-            given = level(car) | {f"wheel_{w}.hub_Fz": load for w in WHEELS}
+            inputs = level(car) | {f"wheel_{w}.hub_Fz": load for w in WHEELS}
             for k in range(steps):
-                given["point_reference.Fx"] = 9000.0 if speed == 0.0 and k >= 2500 else 0.0
-                car.step([given[name] for name in car.inputs])
+                inputs["point_reference.Fx"] = 9000.0 if speed == 0.0 and k >= 2500 else 0.0
+                car.step([inputs[name] for name in car.inputs])
             assert car.read(("speed",))[0] > 2.0
             assert not [m for m in car.messages if "the hub at" in m]
 
@@ -214,15 +214,15 @@ def test_a_wheel_in_the_air_and_a_car_that_stood_for_long_are_not_told(ported: P
     ],
     indirect=["ported"],
 )
-def test_a_normal_that_is_none_is_a_sentence_at_each_wheel(ported: Path, normal: tuple[float, ...]) -> None:
+def test_an_invalid_normal_is_reported_at_each_wheel(ported: Path, normal: tuple[float, ...]) -> None:
     with Car(ported, step=0.004) as car:
         for wheel in WHEELS:
             car.reset(**{"initial.speed": 10.0})
-            reported, given = len(car.messages), level(car)
-            given |= {f"wheel_{wheel}.road_normal_{c}": x for c, x in zip("xyz", normal, strict=True)}
+            count, inputs = len(car.messages), level(car)
+            inputs |= {f"wheel_{wheel}.road_normal_{c}": x for c, x in zip("xyz", normal, strict=True)}
             for _ in range(3):
-                car.step([given[name] for name in car.inputs])
-            (messages,) = car.messages[reported:]
+                car.step([inputs[name] for name in car.inputs])
+            (messages,) = car.messages[count:]
             assert f"'wheel_{wheel}.road_normal_x'" in messages
             assert "must be a unit vector that points up" in messages
 
@@ -235,12 +235,12 @@ def test_road_answers_from_python_are_those_of_the_closed_car_on_level_ground(po
     with Car(ported, step=0.002) as car:
         car.reset(**{"initial.speed": 12.0})
         begin, first = car.read(("chassis.x", "chassis.z"))
-        given = level(car)
+        inputs = level(car)
         for _ in range(250):
             places = car.read(requested).reshape(2, 4)
             for w, x, y in zip(WHEELS, *places, strict=True):
-                given |= {f"wheel_{w}.road_x": float(x), f"wheel_{w}.road_y": float(y)}
-            car.step([given[name] for name in car.inputs])
+                inputs |= {f"wheel_{w}.road_x": float(x), f"wheel_{w}.road_y": float(y)}
+            car.step([inputs[name] for name in car.inputs])
         x, y, z, road = car.read(("chassis.x", "chassis.y", "chassis.z", "energy.road"))
         assert x - begin > 5.0
         assert abs(y) < 1e-6

@@ -1,4 +1,4 @@
-"""A car in Python: the bits of its FMU, starts by a seed, arrays, states that come back."""
+"""A car in Python: the bits of its FMU, seeded starts, arrays, saved states."""
 
 import shutil
 from collections.abc import Sequence
@@ -25,7 +25,9 @@ def drive(car: Car, steps: int) -> np.ndarray:
     return np.array(rows)
 
 
-def by_fmpy(path: Path, start: dict[str, float], inputs: Sequence[str], given: np.ndarray) -> dict[str, np.ndarray]:
+def by_fmpy(
+    path: Path, start: dict[str, float], inputs: Sequence[str], input_rows: np.ndarray
+) -> dict[str, np.ndarray]:
     """All outputs that are real, after each row of inputs, by a plain host."""
     description = fmpy.read_model_description(str(path))
     reference = {v.name: v.valueReference for v in description.modelVariables}
@@ -36,7 +38,7 @@ def by_fmpy(path: Path, start: dict[str, float], inputs: Sequence[str], given: n
     slave.enterInitializationMode()
     slave.exitInitializationMode()
     outputs = [v.name for v in description.modelVariables if (v.causality, v.type) == ("output", "Real")]
-    for k, row in enumerate(given):
+    for k, row in enumerate(input_rows):
         slave.setReal([reference[n] for n in inputs], list(row))
         slave.doStep(k * 0.01, 0.01)
         rows.append(slave.getReal([reference[n] for n in outputs]))
@@ -48,8 +50,8 @@ def by_fmpy(path: Path, start: dict[str, float], inputs: Sequence[str], given: n
 
 @pytest.fixture
 def car(rigid_fmu: Path):
-    with Car(rigid_fmu, inputs=INPUTS) as made:
-        yield made
+    with Car(rigid_fmu, inputs=INPUTS) as opened:
+        yield opened
 
 
 @pytest.mark.parametrize(
@@ -68,14 +70,14 @@ def test_its_bits_are_those_of_the_fmu_by_a_plain_host(
 ) -> None:
     """All outputs, with changed parameters, through ports, beyond ranges, and beside inputs that are refused."""
     path, random = request.getfixturevalue(fmu), np.random.default_rng(1)
-    given = random.random((40, len(inputs))) * [0.5, *(len(inputs) - 1) * [200.0 if "braked" in fmu else 0.7]]
-    given[7, 0], given[20, 1] = 3.0, 1e6
+    input_rows = random.random((40, len(inputs))) * [0.5, *(len(inputs) - 1) * [200.0 if "braked" in fmu else 0.7]]
+    input_rows[7, 0], input_rows[20, 1] = 3.0, 1e6
     if fmu == "braked_fmu":
-        given[30, 2] = np.nan
-    outputs = by_fmpy(path, start, inputs, given)
+        input_rows[30, 2] = np.nan
+    outputs = by_fmpy(path, start, inputs, input_rows)
     with Car(path, inputs=inputs) as car:
         car.reset(3, **start)
-        for k, row in enumerate(given):
+        for k, row in enumerate(input_rows):
             for bad in ((np.nan, *row[1:]), row[1:], "none"):
                 with pytest.raises(HostError):
                     car.step(bad)
@@ -191,7 +193,7 @@ def test_a_start_that_there_is_not_is_one_sentence_and_no_start(
     assert car.read(("speed",)) == pytest.approx(15.0, abs=0.01)
 
 
-def test_a_car_without_a_start_or_closed_says_so(rigid_fmu: Path) -> None:
+def test_a_car_without_a_start_or_closed_is_refused(rigid_fmu: Path) -> None:
     car = Car(rigid_fmu, inputs=INPUTS)
     uses = (lambda: car.step([0.0, 0.0]), lambda: car.read(READS), car.save)
     for use in uses:

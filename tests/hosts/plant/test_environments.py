@@ -1,4 +1,4 @@
-"""Environments of Gymnasium: its checker, seeds, several at once, and a controller that does what it should."""
+"""Environments of Gymnasium: its checker, seeds, several at once, and a controller."""
 
 from contextlib import closing
 from pathlib import Path
@@ -47,7 +47,7 @@ def test_several_run_beside_each_other(rigid_fmu: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_driver_keeps_the_lane_and_none_leaves_it(rigid_fmu: Path) -> None:
+def test_the_driver_keeps_the_lane_and_zero_steering_leaves_it(rigid_fmu: Path) -> None:
     ends = {}
     for gain in (1.0, 0.0):
         keeping = environments.LaneKeeping(str(rigid_fmu), speed=(12.0, 12.0), seconds=12.0)
@@ -62,7 +62,7 @@ def test_a_driver_keeps_the_lane_and_none_leaves_it(rigid_fmu: Path) -> None:
     assert ends == {1.0: False, 0.0: True}
 
 
-def test_an_action_that_is_none_is_refused_and_changes_nothing(braked_fmu: Path, rigid_fmu: Path) -> None:
+def test_an_invalid_action_is_refused_and_changes_nothing(braked_fmu: Path, rigid_fmu: Path) -> None:
     """Ports hold their last values and a car takes the first of several, which a policy that learns would not know."""
     for make, path in ((environments.AntiLockBraking, braked_fmu), (environments.LaneKeeping, rigid_fmu)):
         with closing(make(str(path))) as env:
@@ -81,8 +81,8 @@ def test_an_action_that_is_none_is_refused_and_changes_nothing(braked_fmu: Path,
 def test_options_of_a_reset_are_parameters_of_that_start(rigid_fmu: Path) -> None:
     with closing(environments.LaneKeeping(str(rigid_fmu))) as env:
         drawn, _ = env.reset(seed=1)
-        given, _ = env.reset(seed=1, options={"initial.speed": 10.0, "road.friction": (0.4, 0.5)})
-        assert given[2] == pytest.approx(10.0, rel=1e-3)
+        observation, _ = env.reset(seed=1, options={"initial.speed": 10.0, "road.friction": (0.4, 0.5)})
+        assert observation[2] == pytest.approx(10.0, rel=1e-3)
         assert 0.4 < env.car.read(("road.friction",))[0] < 0.5
         with pytest.raises(HostError, match="The options of a start are 5; they must be a dictionary"):
             env.reset(seed=1, options=5)
@@ -115,14 +115,14 @@ def test_brakes_that_let_go_stop_earlier_than_locked_ones(braked_fmu: Path) -> N
     for controlled in (True, False):
         braking = environments.AntiLockBraking(str(braked_fmu), speed=(15.0, 15.0), friction=(0.5, 0.5))
         observation, _ = braking.reset(seed=0)
-        action, way, ended, cut = np.zeros(4, np.float32), 0.0, False, False
+        action, distance, ended, cut = np.zeros(4, np.float32), 0.0, False, False
         while not (ended or cut):
             slips = -observation[1:5]
             change = np.where(slips > 0.1, -0.2, 0.05) if controlled else 0.2
             action = np.clip(action + change, 0.0, 1.0).astype(np.float32)
             observation, reward, ended, cut, _ = braking.step(action)
-            way -= reward
+            distance -= reward
         assert ended
-        ways[controlled] = way
+        ways[controlled] = distance
         braking.close()
     assert ways[True] < 0.97 * ways[False]

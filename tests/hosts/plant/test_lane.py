@@ -1,4 +1,4 @@
-"""What a car senses of a lane, against a circle and a straight."""
+"""Lane observations of a car, against a circle and a straight."""
 
 import numpy as np
 import pytest

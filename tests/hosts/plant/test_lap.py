@@ -90,9 +90,9 @@ def test_the_driver_makes_a_lap(rigid_fmu: Path) -> None:
     lap.close()
 
 
-def test_a_refused_step_ends_the_lap_and_costs_what_the_end_beside_the_road_does(rigid_fmu: Path, monkeypatch) -> None:
-    with gymnasium.make(LAP, car=str(rigid_fmu), road=LEVEL) as made:
-        lap = made.unwrapped
+def test_a_refused_step_ends_the_lap_with_the_reward_of_leaving_the_road(rigid_fmu: Path, monkeypatch) -> None:
+    with gymnasium.make(LAP, car=str(rigid_fmu), road=LEVEL) as env:
+        lap = env.unwrapped
         lap.reset(seed=1)
 
         def refuse(inputs: np.ndarray) -> None:

@@ -18,15 +18,15 @@ from tests.vehicle.test_road_port import Waves
 )
 def test_loads_are_those_of_the_closed_car_to_a_fifth_of_a_per_cent_up_to_40_m_s(waves: Waves, speed: float) -> None:
     """The first was 1.5 % off where each answer held over its step."""
-    load, reported = loads_of_fmu(waves, speed)
+    load, messages = loads_of_fmu(waves, speed)
     assert load < 2.1e-3
-    assert not reported
+    assert not messages
 
 
 @pytest.mark.slow
 def test_answers_for_the_wheel_hold_over_their_step_and_are_reported() -> None:
     """They come from no place ahead: from the last one to them would be late by a step, 5.4 % off."""
-    load, reported = loads_of_fmu(Waves("hatchback", 2.0, 0.015), 40.0, lead=0.0)
+    load, messages = loads_of_fmu(Waves("hatchback", 2.0, 0.015), 40.0, lead=0.0)
     assert 0.03 < load < 0.045
-    assert all("holds for 0.0 steps ahead of its wheel" in text for text in reported)
-    assert len(reported) == 4
+    assert all("holds for 0.0 steps ahead of its wheel" in text for text in messages)
+    assert len(messages) == 4

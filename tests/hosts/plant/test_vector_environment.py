@@ -1,4 +1,4 @@
-"""Environments on threads: to the last bit those one after the other, with Gymnasium's seeds and new starts."""
+"""Environments on threads: the bits of the same ones in sequence, with Gymnasium's seeds and resets."""
 
 import threading
 from pathlib import Path
@@ -16,7 +16,8 @@ from hosts.plant.environments import LaneKeeping
 from hosts.plant.vector_environment import VectorEnvironment
 
 LANE, BRAKES, LAP = (f"ali3/{name}-v0" for name in ("LaneKeeping", "AntiLockBraking", "ProvingGroundLap"))
-MANY, STEPS = 5, 24
+MANY = 5
+STEPS = 24
 
 
 @pytest.fixture(params=[LANE, BRAKES, LAP])
@@ -96,7 +97,7 @@ def test_steps_are_under_way_at_once(rigid_fmu: Path) -> None:
     result.close()
 
 
-def test_threads_that_are_none_are_a_sentence(rigid_fmu: Path) -> None:
+def test_an_invalid_number_of_threads_is_refused_in_one_sentence(rigid_fmu: Path) -> None:
     for threads in (0, -1, 1.5):
         with pytest.raises(HostError, match="whole number from 1"):
             gymnasium.make_vec(LANE, 2, threads=threads, car=str(rigid_fmu))

@@ -66,8 +66,8 @@ class FakeCar:
         )
 
     def events(self) -> list[Any]:
-        reported, self.told = self.told, []
-        return reported
+        pending, self.told = self.told, []
+        return pending
 
     def step_times(self) -> Any:
         return SimpleNamespace(report=lambda: {"steps": 11, "median": 1e-4})
@@ -76,11 +76,11 @@ class FakeCar:
 @contextmanager
 def serving(car: Any, access: AccessControl | None = None, address: str = "127.0.0.1") -> Iterator[Any]:
     """A server that runs; yields its port, hands, and what it told."""
-    arbiter, reported = InputArbiter(car.want, car.inputs), []
+    arbiter, notices = InputArbiter(car.want, car.inputs), []
     hello = {"columns": [*car.inputs, "speed"], "step": car.step, "recording": ""}
     content = Content("<!DOCTYPE html><title>page</title>", WORLD, hello, PLACES)
     access = access or AccessControl.of(address)
-    server = Server(car, arbiter, content, access, lambda kind, text: reported.append(text))
+    server = Server(car, arbiter, content, access, lambda kind, text: notices.append(text))
     listening: socket.socket = listening_socket(address, 0)
     port = listening.getsockname()[1]
     ready, error = threading.Event(), []
@@ -103,7 +103,7 @@ def serving(car: Any, access: AccessControl | None = None, address: str = "127.0
         assert ready.wait(10)
         key = f"?token={access.token}"
         url = f"ws://127.0.0.1:{port}/drive{key}"
-        yield SimpleNamespace(server=server, port=port, arbiter=arbiter, told=reported, key=key, url=url, error=error)
+        yield SimpleNamespace(server=server, port=port, arbiter=arbiter, told=notices, key=key, url=url, error=error)
     finally:
         if not error:
             ends["loop"].call_soon_threadsafe(ends["stop"].set)

@@ -42,8 +42,8 @@ def make(fmu: Callable[[str], Path]) -> object:
         return cars[-1]
 
     yield car
-    for made in cars:
-        made.close()
+    for started in cars:
+        started.close()
 
 
 def until(car: Car, reached: Callable[[CarState], bool]) -> CarState:
@@ -98,7 +98,7 @@ def pid_of(car: Car) -> int:
     return car._process.pid
 
 
-def test_it_begins_paused_and_tells_what_it_is(make: Made) -> None:
+def test_it_begins_paused_and_describes_itself(make: Made) -> None:
     car = make(start={"initial.speed": 10.0})
     assert car.inputs == ("steering", "throttle", "brake")
     assert car.names[:4] == ("steering", "throttle", "brake", "chassis.x")
@@ -253,8 +253,8 @@ def test_nobody_takes_the_events_and_the_car_drives_on(make: Made) -> None:
     lost = [e for e in events if e.kind == "overflow"]
     assert len(lost) == 1
     assert car.events() == []  # said once
-    reported = int(lost[0].text.split()[0]) + len(events) - 1
-    assert 200 * 20 <= reported <= 200 * 20 + 5  # the FMU has a word of its own on its step
+    count = int(lost[0].text.split()[0]) + len(events) - 1
+    assert 200 * 20 <= count <= 200 * 20 + 5  # the FMU has a word of its own on its step
 
 
 def for_ever(ask: Callable[[], None]) -> None:
@@ -381,7 +381,7 @@ def test_an_fmu_that_refuses_its_start_leaves_no_process(fmu: Callable[[str], Pa
     assert set(multiprocessing.active_children()) == before
 
 
-def test_wants_and_commands_that_are_none(make: Made) -> None:
+def test_invalid_requests_and_commands_are_refused(make: Made) -> None:
     car = make()
     for values, sentence in (
         ({"wings": (1.0, 1.0)}, "no input 'wings'; it has: steering, throttle, brake"),

@@ -1,4 +1,4 @@
-"""The rows of a car reach its recording, whatever the one who writes them does."""
+"""The rows of a car reach its recording, whatever the writing thread does."""
 
 import json
 import math
@@ -74,9 +74,9 @@ def test_a_drive_with_all_jumps_is_repeated_bit_for_bit(fmu: Callable[[str], Pat
         steps(car, 100)
         assert car.latest().epoch == 7
     drive = read_recording(folder)
-    made = replay(drive)
-    assert made.different == 0, made.notes
-    assert made.rows == 700 + 300 + 300 + 100 + 50 + 50 + 100 + 8
+    replayed = replay(drive)
+    assert replayed.different == 0, replayed.notes
+    assert replayed.rows == 700 + 300 + 300 + 100 + 50 + 50 + 100 + 8
     assert drive.meta["world"] == "a plane"
 
 
@@ -128,8 +128,8 @@ def test_an_hour_of_the_prototype_has_200_megabytes_at_most_and_the_rest_is_foun
     size = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
     assert size / (0.002 * 3150) * 3600.0 < 200e6
     drive = read_recording(folder)
-    made = replay(drive)
-    assert (made.rows, made.different) == (3151, 0)
+    replayed = replay(drive)
+    assert (replayed.rows, replayed.different) == (3151, 0)
     with Repeater(drive) as repeater:
         get = repeater.fmu.getter(outputs)
         for count in repeater.along(last_drive(drive), 3150):
@@ -150,7 +150,7 @@ def test_unpaced_the_car_waits_for_a_slow_recorder(
     assert not [e for e in car.events() if e.kind == "overflow"]
 
 
-def test_paced_it_does_not_wait_and_counts_what_is_lost(
+def test_in_real_time_it_does_not_wait_and_counts_lost_rows(
     fmu: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(car_module, "_LEAST_ROWS", 16)

@@ -77,7 +77,7 @@ def test_time_that_others_ran_is_distinguished_from_sleep(other: bool) -> None:
     assert after[0] - between[0] < 0.5 * (end - middle)
 
 
-def test_priority_says_what_was_got(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_obtained_priority_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     tried = []
     for name, message in (("_fifo", ""), ("_nice", ""), ("_keep_memory", "")):
         monkeypatch.setattr(room, name, lambda name=name, message=message: tried.append(name) or message)

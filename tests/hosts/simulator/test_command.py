@@ -1,4 +1,4 @@
-"""The command without a page, with a real car in its process: report, manoeuvres, aliases, and what is refused."""
+"""The command without a page, with a car in its process: report, manoeuvres, aliases, and refusals."""
 
 import importlib.util
 import json
@@ -108,9 +108,9 @@ def test_a_terminal_that_is_closed_leaves_a_whole_recording(fmus, tmp_path):
         [sys.executable, "-c", take, *command], stdin=theirs, stdout=theirs, stderr=theirs, start_new_session=True
     )
     os.close(theirs)
-    reported = b""
-    while b"Ready" not in reported:
-        reported += os.read(ours, 1000)
+    output = b""
+    while b"Ready" not in output:
+        output += os.read(ours, 1000)
     time.sleep(0.5)
     os.close(ours)
     assert program.wait(timeout=60) == 0
@@ -178,11 +178,11 @@ def test_a_manoeuvre_moves_the_inputs_by_the_clock_of_the_car(fmus, tmp_path):
 
 
 def test_a_driver_without_sense_moves_them_too(fmus):
-    wanted = RandomDriver(5, ("steering", "throttle", "brake")).act(0.0, {})
-    assert any(wanted.values())
+    expected = RandomDriver(5, ("steering", "throttle", "brake")).act(0.0, {})
+    assert any(expected.values())
     with started(fmus["sledge"]) as car:
         assert run_headless(car, headless_driver(car, None, 5), 0.1, lambda *_: None)
-        assert {name: value(car, name) for name in wanted} == wanted
+        assert {name: value(car, name) for name in expected} == expected
 
 
 def test_a_manoeuvre_that_needs_more_than_the_car_has(fmus, tmp_path):
@@ -193,7 +193,7 @@ def test_a_manoeuvre_that_needs_more_than_the_car_has(fmus, tmp_path):
         headless_driver(car, load_manoeuvre("double_lane_change"), None)
 
 
-def test_a_refused_step_ends_the_run_with_the_words_of_the_fmu(fmus, told, tmp_path):
+def test_a_refused_step_ends_the_run_with_the_message_of_the_fmu(fmus, told, tmp_path):
     (tmp_path / "pull.csv").write_text('"time","pull"\n0.1,0\n1.1,10\n')
     arguments = ("--headless", "-m", tmp_path / "pull.csv", "--stop-time", 5, "--step", 0.01)
     code, out, _ = told(fmus["reach"], *arguments, "--json", tmp_path / "r")
@@ -218,8 +218,8 @@ brake = "Brk"
 @pytest.fixture
 def renamed(fmus, tmp_path):
     """The sledge as another program would name its variables."""
-    made = tmp_path / "foreign.fmu"
-    with zipfile.ZipFile(fmus["sledge"]) as old, zipfile.ZipFile(made, "w") as new:
+    copy = tmp_path / "foreign.fmu"
+    with zipfile.ZipFile(fmus["sledge"]) as old, zipfile.ZipFile(copy, "w") as new:
         for item in old.infolist():
             content = old.read(item)
             if item.filename == "modelDescription.xml":
@@ -229,11 +229,11 @@ def renamed(fmus, tmp_path):
                 content = re.sub(rb'(name="X"[^>]*>\s*<Real)[^>]*', rb"\1 /", content)
             if item.filename != "resources/geometry.json":
                 new.writestr(item, content)
-    return made
+    return copy
 
 
 @pytest.mark.slow
-def test_an_fmu_with_other_names_says_what_it_lacks_and_runs_all_the_same(renamed, told):
+def test_an_fmu_with_other_names_runs_and_missing_variables_are_reported(renamed, told):
     code, out, _ = told(renamed, "--headless", "--stop-time", 0.1)
     assert code == 0
     message = (

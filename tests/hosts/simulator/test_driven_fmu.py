@@ -1,4 +1,4 @@
-"""An FMU that goes back, starts again and is set upright is bit for bit the one that never did."""
+"""An FMU that is rewound, restarted and set upright has the bits of one that never was."""
 
 import math
 import zipfile
@@ -75,7 +75,7 @@ def test_back_and_on_is_as_without(fmu: Callable[[str], Path], sledge: DrivenFmu
     assert all(np.array_equal(a, b) for a, b in zip(first, second, strict=True))
 
 
-def test_more_than_is_kept_goes_as_far_as_it_can_and_says_so(sledge: DrivenFmu) -> None:
+def test_a_rewind_beyond_the_kept_states_is_shortened_and_reported(sledge: DrivenFmu) -> None:
     first = sledge.values.copy()
     Hands(sledge).drive(0, 99)
     observation = sledge.rewind(12.0)
@@ -112,7 +112,7 @@ def test_a_start_after_a_reset_is_the_first_drive_again(sledge: DrivenFmu) -> No
     assert all(np.array_equal(a, b) for a, b in zip(rows, Hands(sledge).drive(0, 300), strict=True))
 
 
-def test_upright_stays_where_it_is_and_time_goes_on(sledge: DrivenFmu) -> None:
+def test_setting_upright_keeps_position_and_time(sledge: DrivenFmu) -> None:
     sledge.restart({"initial.yaw": 1.0, "initial.y": -3.0}, request=0.0)
     Hands(sledge).drive(0, 700)
     places = [sledge.names.index(n) for n in ("chassis.x", "chassis.y", "chassis.yaw")]

@@ -1,4 +1,4 @@
-"""Several sources at one input: who moved last has the word, and what nobody holds goes back."""
+"""Several sources at one input: the last one that moved drives it; a released input returns to rest."""
 
 import math
 import re
@@ -33,7 +33,7 @@ def arbiter(inputs):
     return InputArbiter(inputs.want, ("steering", "throttle", "brake", "hand_brake", "selector"))
 
 
-def test_the_source_that_moved_last_has_the_word(arbiter, inputs):
+def test_the_source_that_moved_last_drives_the_input(arbiter, inputs):
     arbiter.want("keys", {"steering": (0.5, 1.6)})
     arbiter.want("wheel", {"steering": (0.01, math.inf)})  # at rest
     assert inputs["steering"] == (0.5, 1.6)

@@ -1,4 +1,4 @@
-"""Inputs move by at most so much per simulated second, and a new start forgets what was wanted before it."""
+"""Inputs move at a limited rate in simulated time; a new start discards earlier requests."""
 
 import numpy as np
 import pytest

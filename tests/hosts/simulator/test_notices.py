@@ -1,4 +1,4 @@
-"""Steps cut short and words of the FMU are said, once in a while and with their numbers."""
+"""Capped steps and messages of the FMU are reported at a limited rate with their numbers."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -32,18 +32,18 @@ def times() -> TimesRecord:
 def test_capped_steps_are_summed_over_a_second(clock: Any, times: TimesRecord) -> None:
     notices, car = Notices(NAMES, clock, times), Steps()
     assert notices.of_step(car) == []
-    reported = []
+    lines = []
     for k in range(10, 1001):
         clock.work(0.002)
         car.values[1:] = k // 10, 1e-4 + 1e-6 * k if k % 10 == 0 else 0.0
-        reported += notices.of_step(car)
-    assert [told.kind for told in reported] == ["capped", "capped"]  # at the first, and a second later
-    assert "stopped 1 inner step at the limit of iterations; it left up to 0.11 mm" in reported[0].text
-    assert "stopped 50 inner steps at the limit of iterations; it left up to 0.61 mm" in reported[1].text
+        lines += notices.of_step(car)
+    assert [notice.kind for notice in lines] == ["capped", "capped"]  # at the first, and a second later
+    assert "stopped 1 inner step at the limit of iterations; it left up to 0.11 mm" in lines[0].text
+    assert "stopped 50 inner steps at the limit of iterations; it left up to 0.61 mm" in lines[1].text
     assert (times["capped"], times["capped_largest"]) == (100.0, pytest.approx(1.1e-3))
 
 
-def test_small_residuals_are_counted_and_not_said(clock: Any, times: TimesRecord) -> None:
+def test_small_residuals_are_counted_and_not_reported(clock: Any, times: TimesRecord) -> None:
     notices, car = Notices(NAMES, clock, times), Steps()
     for k in range(1, 2001):
         clock.work(0.002)
@@ -57,7 +57,7 @@ def test_small_residuals_are_counted_and_not_said(clock: Any, times: TimesRecord
     assert "4001 inner steps" in notices.of_step(car)[0].text
 
 
-def test_a_count_that_starts_anew_is_not_a_step(clock: Any, times: TimesRecord) -> None:
+def test_a_restarted_count_is_not_a_step(clock: Any, times: TimesRecord) -> None:
     notices, car = Notices(NAMES, clock, times), Steps()
     car.values[1:] = 900.0, 1e-3  # after a rewind over a reset
     notices.jumped(car)
@@ -73,11 +73,11 @@ def test_a_count_that_starts_anew_is_not_a_step(clock: Any, times: TimesRecord) 
 
 @pytest.mark.parametrize("names", [("speed",), NAMES])
 def test_messages_of_an_fmu_that_talks_all_the_time(clock: Any, times: TimesRecord, names: tuple[str, ...]) -> None:
-    notices, car, reported = Notices(names, clock, times), Steps(np.zeros(len(names))), []
+    notices, car, lines = Notices(names, clock, times), Steps(np.zeros(len(names))), []
     for k in range(2000):
         clock.work(0.002)
         car.logged = [f"word {k}", f"again {k}"]
-        reported += [told.text for told in notices.of_step(car)]
-    assert reported[0] == "again 0 (and 1 message before it)"
-    assert 4 <= len(reported) <= 5
-    assert "(and 1001 messages before it)" in reported[1] or "(and 999 messages before it)" in reported[1]
+        lines += [notice.text for notice in notices.of_step(car)]
+    assert lines[0] == "again 0 (and 1 message before it)"
+    assert 4 <= len(lines) <= 5
+    assert "(and 1001 messages before it)" in lines[1] or "(and 999 messages before it)" in lines[1]

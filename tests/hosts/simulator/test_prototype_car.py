@@ -1,4 +1,4 @@
-"""The prototype car rolls over, is set on its wheels where it lies, and goes back to before."""
+"""The prototype car rolls over, is set upright where it lies, and is rewound."""
 
 import math
 from collections.abc import Callable
@@ -60,15 +60,15 @@ def test_upright_after_a_roll_over(fmu: Callable[[str], Path]) -> None:
 def test_full_lock_is_where_the_ratio_that_is_set_has_it(fmu: Callable[[str], Path]) -> None:
     """The constant by which a wheel of a device steers, against the angle of the car's steering wheel at full lock."""
     start = {"steering.rack_per_turn": 0.03}
-    with Car(CarSettings(fmu("prototype_car"), start, paced=False, priority=False)) as made:
-        reported = made.constants["vehicle.steering_wheel_angle_max"]
+    with Car(CarSettings(fmu("prototype_car"), start, paced=False, priority=False)) as driven_car:
+        angle_max = driven_car.constants["vehicle.steering_wheel_angle_max"]
     car = DrivenFmu(fmu("prototype_car"), start, H)
     wants = np.zeros((len(car.inputs.values), 3))
     wants[car.names.index("steering")] = 1.0, math.inf, 1.0
     car.inputs.want(wants.ravel())
     angle = drive(car, 500)[-1, car.names.index("steering_wheel_angle")]
     car.close()
-    assert angle == pytest.approx(reported, rel=1e-3)
+    assert angle == pytest.approx(angle_max, rel=1e-3)
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""Deadlines are absolute; what is late is caught up, moved and said."""
+"""Absolute deadlines; late steps are caught up, moved and reported."""
 
 import re
 from typing import Any
@@ -74,7 +74,7 @@ def test_a_computer_that_is_too_slow_is_reported_with_the_factor_that_is_reached
     assert factors == pytest.approx([2.0 / 3.0] * 4, abs=0.02)
 
 
-def test_the_factor_said_is_that_since_the_last_time(drive: Drive) -> None:
+def test_the_reported_factor_is_that_since_the_last_report(drive: Drive) -> None:
     for cost, count in ((3e-3, 1000), (4e-3, 3000)):
         drive.step(cost, count)
     factors = [float(match[1]) for text in drive.said if (match := re.search(r"reaches (\S+) of", text))]
@@ -127,7 +127,7 @@ def test_long_waits_come_back_so_that_commands_are_heard(clock: Any) -> None:
     assert clock.time == pytest.approx(begin + 1.0)
 
 
-def test_a_restart_forgives_what_was_not_driven(drive: Drive) -> None:
+def test_a_restart_discards_missed_steps(drive: Drive) -> None:
     drive.step(SHORT, 5)
     drive.clock.work(60.0)
     drive.pace.restart()
@@ -149,7 +149,7 @@ def causes(drive: Drive) -> list[float]:
     return [drive.times[name] for name in CAUSES]
 
 
-def test_a_late_step_is_put_to_what_took_the_longest(drive: Drive) -> None:
+def test_a_late_step_is_attributed_to_the_longest_cause(drive: Drive) -> None:
     drive.step(SHORT, 10)
     drive.step(3e-3)  # one deadline
     drive.step(SHORT, 10)

@@ -103,8 +103,8 @@ def test_outputs_are_recorded_seldom_and_states_between(fmus: dict[str, Path], t
     folder = whole_drive(fmus["sledge"], tmp_path / "drive", table, every)
     drive = read_recording(folder)
     assert drive.names == whole.names
-    assert (made := replay(drive)).different == 0
-    assert made.rows == 183
+    assert (replayed := replay(drive)).different == 0
+    assert replayed.rows == 183
     everything, some = joined(list(whole.blocks()), 0), joined(list(drive.blocks()), 0)
     begins = np.diff(everything.epoch, prepend=-1) != 0
     for k, name in enumerate(drive.names):
@@ -142,12 +142,12 @@ def test_what_of_a_car_is_recorded(fmus: dict[str, Path], monkeypatch: pytest.Mo
     """Inputs at every step, what the scene draws often, amplitudes too; or all of them by an interval."""
     scene = {"frames": {"a": {"position": ["x", "y", "z"]}}, "flexible": [{"amplitudes": ["q1"]}]}
     monkeypatch.setattr("hosts.recordings.recorded_columns.scene_of", lambda fmu: scene)
-    given = fmus["sledge"], ["u"], ["x", "y", "speed", "q1"], 0.002
-    assert recorded_columns(*given) == {"u": 1, "x": 12, "y": 12, "speed": 48, "q1": 12}
-    assert recorded_columns(*given, 0.01) == {"u": 1, "x": 5, "y": 5, "speed": 5, "q1": 5}
-    assert recorded_columns(*given[:3], 0.2) == {"u": 1, "x": 1, "y": 1, "speed": 1, "q1": 1}
+    arguments = fmus["sledge"], ["u"], ["x", "y", "speed", "q1"], 0.002
+    assert recorded_columns(*arguments) == {"u": 1, "x": 12, "y": 12, "speed": 48, "q1": 12}
+    assert recorded_columns(*arguments, 0.01) == {"u": 1, "x": 5, "y": 5, "speed": 5, "q1": 5}
+    assert recorded_columns(*arguments[:3], 0.2) == {"u": 1, "x": 1, "y": 1, "speed": 1, "q1": 1}
     with pytest.raises(HostError, match=r"The interval is 0.003 s, which is not a multiple of the step of 0.002 s"):
-        recorded_columns(*given, 0.003)
+        recorded_columns(*arguments, 0.003)
 
 
 def assert_driven_again(fmu: Path, manoeuvre: Path, folder: Path, steps: int) -> None:
@@ -173,10 +173,10 @@ def test_the_last_drive_becomes_a_manoeuvre(fmus: dict[str, Path], tmp_path: Pat
     drive, out = read_recording(folder), tmp_path / "last.csv"
     assert to_manoeuvre(drive, out) == [out]
     for source in (out, folder):
-        made = load_manoeuvre(str(source))
-        assert made.stop_time == pytest.approx(0.55)
-        assert made.step == STEP
-        assert made.start == {"initial.speed": 6.0, "initial.x": 12.5, "initial.yaw": 0.1}
+        manoeuvre = load_manoeuvre(str(source))
+        assert manoeuvre.stop_time == pytest.approx(0.55)
+        assert manoeuvre.step == STEP
+        assert manoeuvre.start == {"initial.speed": 6.0, "initial.x": 12.5, "initial.yaw": 0.1}
     rows = drive.rows()
     begin = int(np.flatnonzero(rows.epoch == 7)[0])
     kept = np.r_[begin : begin + 41, len(rows) - 15 : len(rows)]

@@ -1,4 +1,4 @@
-"""Recordings as files: readable after a kill, refused in words, shown by the commands and moving."""
+"""Recordings as files: readable after a kill, refused with a message, shown by the commands and replayed."""
 
 import json
 import os
@@ -144,7 +144,7 @@ def test_without_pyarrow_the_table_is_text_and_that_is_reported(
 
 
 @pytest.mark.slow
-def test_bad_recordings_are_refused_in_words(fmus: dict[str, Path], tmp_path: Path) -> None:
+def test_invalid_recordings_are_refused_with_a_message(fmus: dict[str, Path], tmp_path: Path) -> None:
     folder = whole_drive(fmus["sledge"], tmp_path / "drive")
     meta = json.loads((folder / "recording.json").read_text())
 
@@ -221,11 +221,11 @@ def _with_a_gap(fmu: Path, folder: Path) -> RecordedDrive:
     return read_recording(folder)
 
 
-def test_a_view_tells_of_rows_that_are_missing(fmus: dict[str, Path], tmp_path: Path) -> None:
+def test_a_view_reports_missing_rows(fmus: dict[str, Path], tmp_path: Path) -> None:
     step = _with_a_gap(fmus["sledge"], tmp_path / "drive").step
-    _, reported = recorded_view(tmp_path / "drive", "drive")
+    _, sentences = recorded_view(tmp_path / "drive", "drive")
     gap = f"first from {10 * step:g} s to {14 * step:g} s"
-    assert [gap in sentence for sentence in reported].count(True) == 1
+    assert [gap in sentence for sentence in sentences].count(True) == 1
     whole_drive(fmus["sledge"], tmp_path / "whole")
     assert not any("are missing" in sentence for sentence in recorded_view(tmp_path / "whole", "whole")[1])
 

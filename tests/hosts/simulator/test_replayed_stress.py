@@ -1,4 +1,4 @@
-"""A replay in a browser has the colours of the stress that was driven with."""
+"""A replay in a browser has the stress colours of the drive."""
 
 import time
 from collections.abc import Callable
@@ -51,8 +51,8 @@ def test_a_replay_is_coloured_by_the_stress_of_the_outputs(
     drive = read_recording(tmp_path / "drive")
     often = dict(zip(drive.names, drive.every, strict=True))
     assert {often[f"body.bar.mode_{k}"] for k in range(1, 7)} == {12}
-    recording, reported = recorded_view(tmp_path / "drive", "drive")
-    assert (reported, recording.missing) == ([], [])
+    recording, sentences = recorded_view(tmp_path / "drive", "drive")
+    assert (sentences, recording.missing) == ([], [])
     write_page(tmp_path / "drive.html", [recording], options={"camera": "side", "stress": True})
     with headless_chromium() as chromium:
         page = Opened(chromium, tmp_path / "drive.html")

@@ -1,4 +1,4 @@
-"""Any step of the last 30 s can be gone back to, in memory that does not grow."""
+"""Rewinding to any step of the last 30 s, in constant memory."""
 
 from typing import Any
 
@@ -50,9 +50,9 @@ def driven(fmu: Summed, steps: int) -> tuple[SavedStates, list[float]]:
 @pytest.mark.parametrize("back", [1, 2, 49, 50, 51, 100, 777, 2999, 3000])
 def test_every_step_of_the_past_is_reached(fmu: Summed, back: int) -> None:
     states, values = driven(fmu, 4000)
-    mark, held, rows = states.back(back)
+    mark, inputs, rows = states.back(back)
     assert (mark.count, mark.steps + len(rows)) == (4000 - back, 4000 - back)
-    assert held == pytest.approx([0.1 * (4000 - back)])
+    assert inputs == pytest.approx([0.1 * (4000 - back)])
     assert len(rows) < EVERY / H
     for row in rows:
         fmu.step(float(row[0]))
@@ -85,9 +85,9 @@ def test_going_back_does_not_cross_a_new_start(fmu: Summed) -> None:
     states.begin(np.array([7.0]), Mark(120, 1, 1.2, 0))
     fmu.step(1.0)
     states.add(np.array([1.0]), Mark(121, 1, 1.2, 1))
-    mark, held, rows = states.back(1)
-    assert (mark.epoch, mark.begin, held.tolist(), len(rows), fmu.value) == (1, 1.2, [7.0], 0, 5.0)
-    mark, held, rows = states.back(1)
+    mark, inputs, rows = states.back(1)
+    assert (mark.epoch, mark.begin, inputs.tolist(), len(rows), fmu.value) == (1, 1.2, [7.0], 0, 5.0)
+    mark, inputs, rows = states.back(1)
     assert (mark.epoch, mark.count, mark.begin) == (0, 120, 0.0)
     for row in rows:
         fmu.step(float(row[0]))

@@ -48,15 +48,15 @@ def running(fmu: Path, world: str, *more: str) -> Iterator[str]:
     ]
     host = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     assert host.stdout is not None
-    reported = []
+    lines = []
     try:
         until = time.monotonic() + _STARTS
         for line in host.stdout:
-            reported.append(line)
+            lines.append(line)
             match = re.search(r"http://\S+", line)
             if match or time.monotonic() > until:
                 break
-        assert match, "".join(reported)
+        assert match, "".join(lines)
         yield match[0]
     finally:
         host.send_signal(2)
@@ -69,8 +69,8 @@ def running(fmu: Path, world: str, *more: str) -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    with headless_chromium() as made:
-        yield made
+    with headless_chromium() as chromium:
+        yield chromium
 
 
 class Driver:

@@ -1,4 +1,4 @@
-"""What the server says to pages and takes from them, by two independent clients."""
+"""Messages between server and pages, by two independent clients."""
 
 import errno
 import gzip
@@ -21,7 +21,7 @@ from tests.hosts.simulator.raw_client import RawClient, request
 from tests.hosts.simulator.served import PLACES, WORLD, serving
 
 
-def test_a_page_gets_words_first_and_then_frames_with_every_number(served, car):
+def test_a_page_gets_its_description_first_and_then_frames_of_all_numbers(served, car):
     with connect(served.url) as page:
         hello = json.loads(page.recv(timeout=10))
         assert hello["type"] == "hello"
@@ -138,7 +138,7 @@ def test_every_page_is_informed_of_a_new_device(car, served):
         assert [device["id"] for device in shown] == ["wheel", "pedals"]
 
 
-def test_a_page_that_closes_lets_its_inputs_go(car, served):
+def test_a_closed_page_releases_its_inputs(car, served):
     with connect(served.url) as page:
         page.send(
             json.dumps({"type": "want", "source": "keys", "values": {"throttle": [1.0, 2.5], "steering": [0.4, 1.6]}})
@@ -167,7 +167,7 @@ def test_the_car_stands_when_its_last_page_goes_and_drives_on_when_one_comes_bac
         assert len(car.orders) == 2, "who has paused it finds it paused"
 
 
-def test_a_page_that_stalls_lets_its_inputs_go_and_has_the_word_again_when_it_wakes(car, served, monkeypatch):
+def test_a_stalled_page_releases_its_inputs_and_drives_again_afterwards(car, served, monkeypatch):
     monkeypatch.setattr(connected_page, "STALLED", 0.2)
     want = json.dumps({"type": "want", "source": "keys", "values": {"throttle": [1.0, 2.5]}})
     with connect(served.url) as page:
@@ -275,7 +275,7 @@ def test_a_port_that_the_user_may_not_have(monkeypatch):
         web.listening_socket("127.0.0.1", 80)
 
 
-def test_every_address_serves_what_is_printed():
+def test_every_printed_address_is_served():
     """The name of this machine may be one of IPv4 alone."""
     with web.listening_socket("::", 0) as listening:
         port = listening.getsockname()[1]

@@ -1,4 +1,4 @@
-"""Whom the server of the simulator refuses, and how much it takes from anybody."""
+"""Requests that the server of the simulator refuses, and its limits."""
 
 import json
 import os
@@ -53,7 +53,7 @@ def test_its_own_page_is_taken(served, name):
     assert request(served.port, f"/drive{served.key}", headers, upgrade=True)[0] == 101
 
 
-def test_what_is_not_there_and_what_is_no_websocket(served):
+def test_missing_files_and_other_requests_than_websocket_are_refused(served):
     assert request(served.port, f"/etc/passwd{served.key}", {})[0] == 404
     assert request(served.port, f"/../world{served.key}", {})[0] == 404
     assert request(served.port, f"/drive{served.key}", {})[0] == 426
@@ -150,7 +150,7 @@ def test_one_page_too_many_is_refused_with_a_sentence(served):
 
 
 @pytest.mark.parametrize("message", [b"", b"GET / HTTP/1.1\r\n"])
-def test_connections_that_say_nothing_are_bounded_and_keep_nobody_away(served, message):
+def test_silent_connections_are_limited_and_block_no_other(served, message):
     """The oldest are ended; who has the token is served at once, and stays."""
     most = web.MOST_STRANGERS
     with RawClient(served.port, f"/drive{served.key}") as page, ExitStack() as opened:
@@ -214,14 +214,14 @@ def test_what_is_no_request_for_a_page(served):
             assert first_line(served.port, text) == "HTTP/1.1 405 Method Not Allowed"
     with RawClient.silent(served.port) as line:
         line.sendall(f"HEAD /world{served.key} HTTP/1.1\r\n{host}\r\n".encode())
-        reported = b"".join(iter(lambda: line.recv(4096), b""))
-        head, _, body = reported.partition(b"\r\n\r\n")
+        response = b"".join(iter(lambda: line.recv(4096), b""))
+        head, _, body = response.partition(b"\r\n\r\n")
         assert head.startswith(b"HTTP/1.1 200 OK")
         assert f"Content-Length: {len(json.dumps(WORLD))}".encode() in head
         assert body == b""
 
 
-def test_answers_that_nobody_reads_are_few_and_end(car, monkeypatch):
+def test_unread_responses_are_limited_and_end(car, monkeypatch):
     """Those that wait hold a piece of the body each; a page that reads is served as soon as they are gone."""
     monkeypatch.setattr(web, "READ_WITHIN", 1.0)
     monkeypatch.setattr("tests.hosts.simulator.served.WORLD", {"name": os.urandom(3_000_000).hex()})

@@ -10,7 +10,8 @@ from hosts.simulator.shared_values import ByteRing, Ring, SharedValues, Sizes, T
 
 SIZES = Sizes(inputs=2, columns=300, rows=8)
 STEPS = 20000
-_DONE, _SEEN = 7, 6
+_DONE = 7
+_SEEN = 6
 
 
 def hammer(name: str) -> None:
@@ -28,7 +29,7 @@ def hammer(name: str) -> None:
 
 
 @pytest.mark.slow
-def test_no_torn_record_and_none_older_than_one_before() -> None:
+def test_no_record_is_torn_or_older_than_the_one_before() -> None:
     shared = SharedValues(SIZES)
     process = multiprocessing.get_context("spawn").Process(target=hammer, args=(shared.name,))
     process.start()
@@ -56,7 +57,7 @@ def test_a_writer_that_dies_in_a_record_leaves_the_one_before() -> None:
     assert slots.read().tolist() == [1.0] * 4
 
 
-def test_a_reader_that_is_overtaken_keeps_what_it_had_after_a_few_tries() -> None:
+def test_an_overtaken_reader_keeps_its_record_after_a_few_tries() -> None:
     counters, values = np.zeros(2, np.int64), np.zeros((2, 4))
     reader, writer = TwoSlots(counters, values), TwoSlots(counters, values)
     writer.begin()[:] = 1.0

@@ -48,7 +48,7 @@ def test_report_is_json_without_infinities() -> None:
     assert sum(count for _, count in report["lateness"]["bins"]) == 2
 
 
-def test_text_tells_both_times_and_what_was_lost() -> None:
+def test_the_text_has_both_times_and_lost_steps() -> None:
     values = record(np.full(100, 3e-3), np.full(100, 1e-3))
     times = TimesRecord(values)
     for name, amount in {"simulated": 0.2, "scheduled": 0.4, "wall": 0.5, "paused": 7.0}.items():

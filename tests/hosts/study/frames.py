@@ -1,4 +1,4 @@
-"""Frames of runs as `hosts.study.store.read_study` gives them, made of a function in place of an FMU."""
+"""Frames of runs in the form of `hosts.study.store.read_study`, computed by a function instead of an FMU."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any

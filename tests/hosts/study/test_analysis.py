@@ -40,16 +40,16 @@ def test_ishigami() -> None:
 @pytest.mark.parametrize("blocks", [64, 128, 512])
 def test_intervals_hold_the_truth_for_most_seeds(blocks: int) -> None:
     """Of 95 %; the points of a sequence are not independent, so single indices are held less or more often."""
-    held = []
+    covered = []
     for seed in range(100):
         y = ishigami(saltelli(blocks, seed))
         indices = saltelli_indices(NAMES, np.arange(len(y)), y)
         assert isinstance(indices, Indices)
-        held.append(
+        covered.append(
             [np.abs(indices.first - FIRST) < indices.first_conf, np.abs(indices.total - TOTAL) < indices.total_conf]
         )
-    assert np.mean(held) > 0.93
-    assert np.mean(held, axis=0).min() > 0.75
+    assert np.mean(covered) > 0.93
+    assert np.mean(covered, axis=0).min() > 0.75
 
 
 def test_rows_in_any_order_and_blocks_with_a_missing_run() -> None:

@@ -1,4 +1,4 @@
-"""What cannot be run is said in one sentence before the first run."""
+"""Invalid studies are reported in one sentence before the first run."""
 
 import tomllib
 from collections.abc import Callable

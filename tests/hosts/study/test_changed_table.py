@@ -1,4 +1,4 @@
-"""A table that changes between two halves of a study."""
+"""A table that changes between two parts of a study."""
 
 import pytest
 

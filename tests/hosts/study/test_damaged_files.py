@@ -1,4 +1,4 @@
-"""One bit of a file of rows or signals is turned: a report tells it, and the study makes those runs again."""
+"""One flipped bit in a file of rows or signals: a report names the file, and the study repeats those runs."""
 
 import random
 from collections.abc import Callable
@@ -47,16 +47,16 @@ def test_no_bit_of_a_part_is_read_as_other_rows(made: Callable[..., Path], tmp_p
     file, seed = part_files(folder)[0], random.SystemRandom().randrange(2**32)
     print("seed", seed)
     data, whole = file.read_bytes(), read_part(file, record)
-    odd, reported = tmp_path / "odd.parquet", 0
+    odd, refusals = tmp_path / "odd.parquet", 0
     for bit in random.Random(seed).sample(range(8 * len(data)), 2000):
         odd.write_bytes(turned(data, bit))
         try:
             same = read_part(odd, record).equals(whole)
         except HostError:
-            reported += 1
+            refusals += 1
             continue
         assert same, bit
-    assert 1000 < reported < 2000  # names of columns, statistics and the like stand in the rest of a file
+    assert 1000 < refusals < 2000  # names of columns, statistics and the like stand in the rest of a file
 
 
 @pytest.mark.slow
@@ -104,7 +104,7 @@ def test_the_runs_of_signals_that_have_gone_are_made_again(
     assert not (folder / "done").exists()
 
 
-def test_a_study_that_goes_on_reads_each_part_once(
+def test_a_resumed_study_reads_each_part_once(
     study_file: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file, folder = study_file(more=SIGNALS), tmp_path / "out"

@@ -1,4 +1,4 @@
-"""A study opens no port; whether the traffic of a scheduler that is named is encrypted is checked and told."""
+"""A study opens no port; whether the traffic of a named scheduler is encrypted is checked and reported."""
 
 import threading
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""The example of a study: its car is built, all is checked, and its plan is what its words promise."""
+"""The example of a study: its car is built, its files are checked, and its plan is as described."""
 
 from pathlib import Path
 

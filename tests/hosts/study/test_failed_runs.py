@@ -1,4 +1,4 @@
-"""A run that fails is a row with its reason, whatever it does to its process."""
+"""A failed run is a row with its reason, even if its process ends."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""Folders of results that somebody else made or altered: rows are read, no program is run, no link is followed."""
+"""Folders of results by others: rows are read, no program is run, no link is followed."""
 
 import copy
 import json

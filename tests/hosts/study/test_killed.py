@@ -1,4 +1,4 @@
-"""The command, the scheduler and workers are killed in the middle: no row is lost, none is made twice."""
+"""Command, scheduler and workers are killed during a study: no row is lost and none is made twice."""
 
 import os
 import signal

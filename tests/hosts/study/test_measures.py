@@ -1,4 +1,4 @@
-"""Measures of a study against closed forms on signals that are known."""
+"""Measures of a study against closed forms of known signals."""
 
 import math
 import pickle
@@ -13,7 +13,8 @@ from hosts.common.errors import HostError
 from hosts.driving.result import Result
 from hosts.study.measures.study_measure import parse_measure
 
-END, N = 2.0, 2001
+END = 2.0  # s
+N = 2001
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""The report of a study on frames whose truth is known."""
+"""The report of a study on frames with known statistics."""
 
 import re
 from pathlib import Path
@@ -84,7 +84,7 @@ def test_nothing_is_written_through_a_link(frame: pd.DataFrame, tmp_path: Path) 
     assert [file.name for file in folder.iterdir()] == ["report.html"]
 
 
-def test_half_a_study_says_so(frame: pd.DataFrame, tmp_path: Path) -> None:
+def test_the_report_of_an_incomplete_study_says_so(frame: pd.DataFrame, tmp_path: Path) -> None:
     half = frame.iloc[:60]
     half.attrs = frame.attrs
     text = report_of(half, tmp_path, commands)[0].read_text(encoding="utf-8")
@@ -222,11 +222,11 @@ def test_extremes_reasons_and_statistics(frame: pd.DataFrame) -> None:
 
 @pytest.mark.slow
 def test_messages_of_the_fmu(frame: pd.DataFrame, tmp_path: Path) -> None:
-    reported = frame.iloc[:70].copy()
-    reported["messages"] = [f"The step {1 + k} ms is coarse." if k % 7 == 0 else "" for k in range(70)]
-    reported.attrs = frame.attrs
-    assert said(study_data(reported)) == [("The step 1 to 64 ms is coarse.", list(range(0, 70, 7)))]
-    text = report_of(reported, tmp_path, commands)[0].read_text(encoding="utf-8")
+    rows = frame.iloc[:70].copy()
+    rows["messages"] = [f"The step {1 + k} ms is coarse." if k % 7 == 0 else "" for k in range(70)]
+    rows.attrs = frame.attrs
+    assert said(study_data(rows)) == [("The step 1 to 64 ms is coarse.", list(range(0, 70, 7)))]
+    text = report_of(rows, tmp_path, commands)[0].read_text(encoding="utf-8")
     assert "Messages of the FMU" in text
     assert "The step 1 to 64 ms is coarse." in text
 

@@ -1,4 +1,4 @@
-"""A study that is started again: what is done stays, and only the same study goes on."""
+"""A resumed study keeps finished runs; a changed study is refused."""
 
 import shlex
 import shutil
@@ -90,7 +90,7 @@ def test_a_changed_study_is_refused(half: Path, old: str, new: str, message: str
 
 
 @pytest.mark.slow
-def test_only_what_is_missing_is_made(
+def test_only_missing_runs_are_made(
     finished: Path, half: Path, scheduler: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = read_study(finished / "out")
@@ -126,7 +126,7 @@ def test_no_scheduler_is_one_sentence(half: Path, monkeypatch: pytest.MonkeyPatc
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such limit")
 @pytest.mark.slow
-def test_a_full_disk_keeps_what_is_written(finished: Path, half: Path, scheduler: str) -> None:
+def test_a_full_disk_keeps_the_written_rows(finished: Path, half: Path, scheduler: str) -> None:
     shutil.copy(finished / "out" / "runs" / "part-000001.parquet", half / "part")
     (half / "study.toml").write_text((half / "study.toml").read_text().replace("runs = 16", "runs = 32"))
     start = """

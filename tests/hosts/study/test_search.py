@@ -1,4 +1,4 @@
-"""The search for a value of a measure, on functions whose solutions are known."""
+"""The search for a target value, on functions with known solutions."""
 
 import math
 from collections.abc import Callable
@@ -8,8 +8,8 @@ import pytest
 from hosts.study.target_search import SearchResult, seek
 
 
-def sought(function: Callable[[float], float], wanted: float, low: float, high: float, **more: float) -> SearchResult:
-    result = seek(lambda x: (function(x), "" if math.isfinite(function(x)) else "failed"), wanted, low, high, **more)
+def sought(function: Callable[[float], float], target: float, low: float, high: float, **more: float) -> SearchResult:
+    result = seek(lambda x: (function(x), "" if math.isfinite(function(x)) else "failed"), target, low, high, **more)
     assert len({run.x for run in result.runs}) == len(result.runs)  # no run twice
     return result
 
@@ -43,7 +43,7 @@ def test_the_slope_is_that_of_a_run_beside_it(top: float, law: Callable[[float],
     assert abs(actual.between[1] - actual.between[0]) == pytest.approx(0.01 * actual.between[0])
 
 
-def test_what_is_far_off_is_not_what_a_change_is_measured_by() -> None:
+def test_a_far_target_does_not_hide_the_slope_of_a_measure() -> None:
     """A thousandth of what is wanted is more than all that the measure changes by."""
     far = sought(lambda x: 9.0 + x, 1e4, 0.0, 1.0)
     assert (far.met, far.rises, far.falls) == (False, True, False)

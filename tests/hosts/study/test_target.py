@@ -52,8 +52,8 @@ def test_the_stiffness_for_a_lowest_place(
         "spring.stiffness": record["value"],
         "spring.damping": 0.0,
     }
-    given = ["--stop-time", "2", "--step", "0.01", "--parameters", str(file), "--out", str(tmp_path / "again")]
-    assert run([str(spring), *given]) == 0
+    options = ["--stop-time", "2", "--step", "0.01", "--parameters", str(file), "--out", str(tmp_path / "again")]
+    assert run([str(spring), *options]) == 0
     table = (tmp_path / "again" / f"{spring.stem.lower()}.csv").read_text(encoding="utf-8").splitlines()
     place = next(k for k, name in enumerate(table[0].split(",")) if name.strip('"').startswith("bob.y"))
     assert min(float(row.split(",")[place]) for row in table[1:]) == pytest.approx(record["reached"], abs=1e-9)
@@ -158,12 +158,12 @@ def test_what_is_no_real_number_is_not_sought(
         return replace(variable, kind=kind) if name == "spring.stiffness" else variable
 
     monkeypatch.setattr(Variables, "settable", of_kind)
-    wanted = ["--target", "lowest=-1.2", "--by", "spring.stiffness", "--out", str(tmp_path / "out")]
-    assert main([str(study_file()), *wanted]) == 2
+    options = ["--target", "lowest=-1.2", "--by", "spring.stiffness", "--out", str(tmp_path / "out")]
+    assert main([str(study_file()), *options]) == 2
     assert f"--by spring.stiffness: {message}" in capsys.readouterr().err
 
 
-def test_a_range_that_is_open_above_is_none(
+def test_a_range_without_an_upper_end_is_refused(
     seek: Callable[..., int], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = Variables.settable

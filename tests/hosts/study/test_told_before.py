@@ -1,4 +1,4 @@
-"""What a study tells before it: its plan, and a measure that the trial could not compute."""
+"""Messages before a study: its plan, and a measure that the trial runs could not compute."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -28,7 +28,7 @@ def test_a_function_that_raises_is_reported_before_the_study(
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("workers", "message"), [(1, "in all on one worker"), (2, "in all with 2 workers")])
-def test_the_plan_tells_its_workers(
+def test_the_plan_names_its_workers(
     study_file: Callable[..., Path], tmp_path: Path, capsys: pytest.CaptureFixture[str], workers: int, message: str
 ) -> None:
     run_study(study_file(), tmp_path / "out", None, workers, dry=True)

@@ -13,6 +13,6 @@ def partners(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """Two halves of an oscillator, a step function, parameters of all types; the step function without states too."""
     folder = tmp_path_factory.mktemp("partners")
     names = ("half_mass", "half_spring", "jump", "settings")
-    made = {n: Path(FmuBuilder.build_FMU(FMUS / f"{n}.py", dest=folder, canGetAndSetFMUstate=True)) for n in names}
+    fmus = {n: Path(FmuBuilder.build_FMU(FMUS / f"{n}.py", dest=folder, canGetAndSetFMUstate=True)) for n in names}
     (folder / "without").mkdir()
-    return made | {"stateless": Path(FmuBuilder.build_FMU(FMUS / "jump.py", dest=folder / "without"))}
+    return fmus | {"stateless": Path(FmuBuilder.build_FMU(FMUS / "jump.py", dest=folder / "without"))}

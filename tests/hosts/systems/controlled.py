@@ -1,4 +1,4 @@
-"""Cars with controllers in second FMUs, and what the communication step changes."""
+"""Cars with controllers in second FMUs, and the effect of the communication step."""
 
 from dataclasses import dataclass, field
 from functools import cache
@@ -15,7 +15,9 @@ from tests.hosts.systems.weak_coupling import car_fmu
 from tests.vehicle.cars_with_ports import WHEELS
 
 CONTROLLERS = Path(__file__).parents[3] / "examples" / "controllers"
-FRONT, REAR, INNER = ("FL", "FR"), ("RL", "RR"), 0.001  # s
+FRONT = ("FL", "FR")
+REAR = ("RL", "RR")
+INNER = 0.001  # s
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Systems of FMUs: cars wired to copies of their own parts converge to the closed car; what is wrong is said."""
+"""Coupled FMUs: cars with copies of their parts converge to the car alone; invalid systems are refused."""
 
 import math
 import os
@@ -18,7 +18,7 @@ from hosts.systems import CoupledFmus, write_ssp
 from tests.hosts.systems import controlled, trailer, weak_coupling
 from tests.hosts.systems.controlled import SYSTEMS, run
 from tests.hosts.systems.masters import MASTERS
-from tests.hosts.systems.on_off import SHORT, WAY, error, shifted, way
+from tests.hosts.systems.on_off import BRAKING_DISTANCE, SHORT, braking_distance, distance_with_shifts, error
 from tests.hosts.systems.twins import twin
 from tests.hosts.systems.weak_coupling import CASES, car_fmu, coupled, parts_of, start_of
 from tests.quick import quick
@@ -45,9 +45,9 @@ def test_an_oscillator_of_two_fmus_is_the_scheme_that_its_order_makes(partners: 
         rows, messages = oscillate(partners, h, order)
         x, v, force = 1.0, 0.0, -1.0
         for k in range(20):
-            given = force
+            last_force = force
             force = -x if order == "at once" else force
-            v += h * given
+            v += h * last_force
             x += h * v
             force = -x if order == "in turn" else force
             assert rows[k + 1, 0] == pytest.approx(x, rel=1e-12), (order, k)
@@ -104,7 +104,7 @@ def test_after_a_refused_step_all_parts_are_where_they_were(partners: dict[str, 
         assert system.read(("mass.position",)) == undisturbed[-1]
 
 
-def test_a_system_that_cannot_go_back_says_so_and_starts_again(partners: dict[str, Path]) -> None:
+def test_a_system_that_cannot_repeat_a_step_reports_it_and_restarts(partners: dict[str, Path]) -> None:
     parts = {"mass": partners["half_mass"], "source": partners["stateless"]}
     with CoupledFmus(parts, CHAIN, step=0.1) as system:
         with pytest.raises(HostError, match="must be initialised before a step"):
@@ -248,17 +248,19 @@ def test_a_switching_law_is_late_by_a_step_for_all_kinds_of_inputs() -> None:
 
 @pytest.mark.proof
 def test_the_stored_distance_is_that_of_steps_of_a_tenth_of_a_millisecond() -> None:
-    assert way(SHORT) == pytest.approx(WAY, rel=1e-6)
-    assert 20.0 < WAY < 23.0, "it would coast 30 m"
+    assert braking_distance(SHORT) == pytest.approx(BRAKING_DISTANCE, rel=1e-6)
+    assert 20.0 < BRAKING_DISTANCE < 23.0, "it would coast 30 m"
 
 
 @pytest.mark.slow
-def test_gears_that_another_program_asks_for_are_held_whatever_other_inputs_do() -> None:
-    """A whole number has no derivative; against steps of 1 ms the way is the nearer the shorter the step."""
-    late = [abs(shifted(h) / shifted(0.001) - 1.0) for h in (0.002, 0.01)]
+def test_gears_requested_by_another_program_are_held_for_all_kinds_of_inputs() -> None:
+    """A whole number has no derivative; against steps of 1 ms the distance is the nearer the shorter the step."""
+    late = [abs(distance_with_shifts(h) / distance_with_shifts(0.001) - 1.0) for h in (0.002, 0.01)]
     assert 1e-6 < late[0] < 1e-4
     assert late[0] < late[1] < 2e-3
-    assert shifted(0.01, "followed") == shifted(0.01, "repeated") == shifted(0.01)
+    assert (
+        distance_with_shifts(0.01, "followed") == distance_with_shifts(0.01, "repeated") == distance_with_shifts(0.01)
+    )
 
 
 @pytest.mark.slow
@@ -358,16 +360,16 @@ def test_on_split_friction_the_car_is_steered_while_it_brakes() -> None:
 def test_yaw_control_passes_the_sine_with_dwell_in_which_the_car_spins() -> None:
     """Limits of FMVSS 126: yaw rate over its peak 35 % and 20 % 1 and 1.75 s after the steering; 1.83 m aside."""
     end = 0.5 + 1.0 / 0.7 + 0.5
-    remaining = []
+    yaw_rates = []
     for on in (True, False):
         columns = run("yaw control", 0.004, on=on)
         times = 0.004 * np.arange(len(columns["car.chassis.wz"]))
         peak = columns["car.chassis.wz"][(times > 1.0) & (times < end)].min()
-        remaining.append([np.interp(end + late, times, columns["car.chassis.wz"]) / peak for late in (1.0, 1.75)])
+        yaw_rates.append([np.interp(end + late, times, columns["car.chassis.wz"]) / peak for late in (1.0, 1.75)])
         assert np.interp(0.5 + 1.07, times, columns["car.chassis.y"]) > 1.83
-    assert abs(remaining[0][0]) < 0.35
-    assert abs(remaining[0][1]) < 0.20
-    assert min(remaining[1]) > 0.5, "without control it does not stop turning"
+    assert abs(yaw_rates[0][0]) < 0.35
+    assert abs(yaw_rates[0][1]) < 0.20
+    assert min(yaw_rates[1]) > 0.5, "without control it does not stop turning"
 
 
 @pytest.mark.slow
@@ -382,12 +384,12 @@ def test_the_car_behind_keeps_its_distance_when_the_one_ahead_brakes() -> None:
     columns = run("two cars", 0.01)
     assert columns["ahead.speed"][-1] < 8.0
     assert columns["controller.gap"].min() > 8.0
-    wanted = 5.0 + 1.2 * columns["car.speed"][-1]
-    assert columns["controller.gap"][-1] == pytest.approx(wanted, abs=2.0)
+    expected = 5.0 + 1.2 * columns["car.speed"][-1]
+    assert columns["controller.gap"][-1] == pytest.approx(expected, abs=2.0)
 
 
 @pytest.mark.slow
-def test_the_code_of_the_page_stops_where_it_says(tmp_path: Path) -> None:
+def test_the_code_of_the_page_stops_at_its_stated_position(tmp_path: Path) -> None:
     root = Path(__file__).parents[3]
     page = (root / "docs" / "systems.md").read_text(encoding="utf-8")
     code = page.split("```python\n")[1].split("```")[0]

@@ -1,4 +1,4 @@
-"""A process that drove an FMU leaves nothing behind, and reads no memory that was freed."""
+"""A process that ran an FMU leaves no files or processes, and reads no freed memory."""
 
 import os
 import shutil

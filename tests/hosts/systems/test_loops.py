@@ -62,9 +62,9 @@ def test_a_step_of_it_calls_each_part_once(order: str) -> None:
             fmu, calls[part] = system.fmu(part), 0
             make = fmu.step
 
-            def counted(*given: float, part: str = part, make=make) -> None:
+            def counted(*arguments: float, part: str = part, make=make) -> None:
                 calls[part] += 1
-                make(*given)
+                make(*arguments)
 
             fmu.step = counted
         for _ in range(50):

@@ -1,4 +1,4 @@
-"""SSP archives of systems: what FMPy reads in them, that they fit the schema, and what is refused."""
+"""SSP archives of systems: as read by FMPy, valid by the schema, and refusals."""
 
 import sys
 import zipfile
@@ -28,13 +28,13 @@ def halves(partners: dict[str, Path]) -> dict[str, Path]:
     return {"mass": partners["half_mass"], "spring": partners["half_spring"]}
 
 
-def test_fmpy_reads_what_was_wired(partners: dict[str, Path], tmp_path: Path) -> None:
+def test_fmpy_reads_the_connections(partners: dict[str, Path], tmp_path: Path) -> None:
     file = write_ssp(tmp_path / "oscillator.ssp", halves(partners), WIRES, {"mass.start": 0.5})
     system = fmpy.ssp.ssd.read_ssd(str(file)).system
     assert [c.name for c in system.elements] == ["mass", "spring"]
     actual = {(c.endElement, c.endConnector): (c.startElement, c.startConnector) for c in system.connections}
-    wanted = {tuple(end.split(".")): tuple(start.split(".")) for end, start in WIRES.items()}
-    assert actual == wanted
+    expected = {tuple(end.split(".")): tuple(start.split(".")) for end, start in WIRES.items()}
+    assert actual == expected
 
 
 def description(file: Path) -> Any:
@@ -127,10 +127,8 @@ def test_a_file_and_a_name_that_cannot_be_are_one_sentence(partners: dict[str, P
         write_ssp(1, halves(partners), WIRES, {})  # type: ignore[arg-type]
     with pytest.raises(HostError, match=r"The version of SSP is '3\.0'; it must be 1\.0 or 2\.0"):
         write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {}, version="3.0")
-    for name, reported in ((1, "1"), ("a\x00b", r"'a\\x00b'"), ("\ud800", r"'\\ud800'")):
-        with pytest.raises(
-            HostError, match=f"The name of the system is {reported}; it must be a text that can be printed"
-        ):
+    for name, text in ((1, "1"), ("a\x00b", r"'a\\x00b'"), ("\ud800", r"'\\ud800'")):
+        with pytest.raises(HostError, match=f"The name of the system is {text}; it must be a text that can be printed"):
             write_ssp(tmp_path / "a.ssp", halves(partners), WIRES, {}, name=name)
     assert list(tmp_path.iterdir()) == []
     assert write_ssp(str(tmp_path / "a.ssp"), halves(partners), WIRES, {}, name="<&>").is_file()  # type: ignore[arg-type]

@@ -20,10 +20,14 @@ from tests.vehicle.cars_with_ports import hatchback, with_ports
 
 HITCH = (-3.35, 0.0, 0.40)
 """As drawn with the car, m."""
-STIFFNESS, DAMPING = 2e5, 4e3
-"""Of the ball in its cup, alike along all axes, N/m and N s/m."""
-MASS, WHEEL, RADII, LENGTH, TRACK = 440.0, 15.0, (0.45, 1.1, 1.1), 2.6, 1.4
-"""kg without wheels and of each; radii of gyration, m; from hitch to axle and between the wheels, m. Assumed."""
+STIFFNESS = 2e5  # N/m, of the ball in its cup, alike along all axes
+DAMPING = 4e3  # N s/m, of the same
+# assumed
+MASS = 440.0  # kg, without wheels
+WHEEL = 15.0  # kg, each
+RADII = (0.45, 1.1, 1.1)  # m, radii of gyration
+LENGTH = 2.6  # m, from hitch to axle
+TRACK = 1.4  # m
 TYRES = replace(TYRE, stiffness=150e3, damping=800.0)
 GRAVITY = 9.81
 

@@ -15,7 +15,8 @@ from tests.hosts.systems.weak_coupling import percent
 from tests.modules import module_of
 from tests.vehicle.cars_with_ports import rigid, with_ports
 
-ROUNDS, NEAR = 30, 1e-9  # of a step at most; share of an output's size, at which a round is the last
+ROUNDS = 30  # of a step at most
+NEAR = 1e-9  # share of an output's size, at which a round is the last
 Values = dict[str, float]
 
 
@@ -23,8 +24,8 @@ class _Car:
     """A car of a system, whose steps can be made again."""
 
     def __init__(self, ports: str, start: dict[str, Any]) -> None:
-        made = with_ports(rigid(), **chosen_ports(ports)) if ports else rigid()
-        system = mbs.compile(made.model())
+        data = with_ports(rigid(), **chosen_ports(ports)) if ports else rigid()
+        system = mbs.compile(data.model())
         self.names = [entry["name"] for entry in system.meta["inputs"]]
         pose = {n.removeprefix("initial."): x for n, x in start.items() if n.startswith("initial.")}
         inputs = {n: x for n, x in start.items() if n in self.names}
@@ -91,8 +92,8 @@ def twin(name: str, h: float = INNER) -> np.ndarray:
     ends = [(source.partition("."), target.partition(".")) for target, source in case.wires.items()]
 
     def outputs(of: str) -> Values:
-        reported = parts[of].read()
-        return {f"{part}.{name}": reported[name] for (part, _, name), _ in ends if part == of}
+        values = parts[of].read()
+        return {f"{part}.{name}": values[name] for (part, _, name), _ in ends if part == of}
 
     def inputs(of: str, now: Values) -> Values:
         return {name: now["".join(source)] for source, (part, _, name) in ends if part == of}

@@ -26,7 +26,10 @@ from tests.vehicle.cars_with_ports import WHEELS, throttle_at
 from tests.vehicle.rigid_car import rigid_car
 from tests.vehicle.second_tyres import HUB
 
-FMUS, INNER, TIME, SPEED = Path(__file__).parent / "fmus", 0.002, 1.0, 10.0
+FMUS = Path(__file__).parent / "fmus"
+INNER = 0.002  # s, step of the car
+TIME = 1.0  # s
+SPEED = 10.0  # m/s
 Wires = dict[str, str]
 
 
@@ -132,8 +135,8 @@ def closed(name: str) -> tuple[np.ndarray, np.ndarray]:
     case = CASES[name]
     system = closed_system(name)
     names = [entry["name"] for entry in system.meta["inputs"]]
-    given = {n: x for n, x in case.inputs.items() if n in names}
-    s = mbs.Simulation(system, pose=mbs.Pose(speed=SPEED), inputs=given)
+    inputs = {n: x for n, x in case.inputs.items() if n in names}
+    s = mbs.Simulation(system, pose=mbs.Pose(speed=SPEED), inputs=inputs)
     own = CAR_LOADS if name == "tyre" else case.loads
     read, path = ([n.partition(".")[2] for n in names] for names in (own, case.path))
     loads, ways, row = [], [], np.array([s.instance.get_input(i) for i in range(len(names))])

@@ -1,4 +1,4 @@
-"""The points of the proving ground are near enough: finer ones give the same loads of the tyres."""
+"""The grid of the proving ground is fine enough: a finer one gives the same tyre loads."""
 
 import numpy as np
 import pytest

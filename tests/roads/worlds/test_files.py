@@ -43,7 +43,7 @@ def test_the_files_are_small(proving_ground):
 
 
 @pytest.mark.parametrize("part", quick(("all", "kerbs"), PARTS))
-def test_wheels_feel_what_is_drawn_within_5_mm_and_what_is_described_within_3_mm(proving_ground, part):
+def test_the_road_agrees_with_its_drawing_to_5_mm_and_its_description_to_3_mm(proving_ground, part):
     x, y = places(part, 4000)
     with opened(proving_ground.road) as at:
         z, _ = at(x, y)

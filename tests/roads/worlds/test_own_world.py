@@ -274,11 +274,9 @@ def test_a_course_that_climbs_like_no_road_is_reported_before_it_is_made_and_whe
         assert main(["--world", str(tmp_path / "w.toml"), "--out", str(tmp_path / "out")]) == 0
         captured = capsys.readouterr()
         assert message in captured.out
-        reported = re.search(
-            r"warning: The course 'lap' climbs by (\d+) % at station .*; it lies between -", captured.err
-        )
-        assert reported
-        assert 45 <= int(reported[1]) <= 50
+        match = re.search(r"warning: The course 'lap' climbs by (\d+) % at station .*; it lies between -", captured.err)
+        assert match
+        assert 45 <= int(match[1]) <= 50
     first = captured.err.splitlines()
     assert len(first) == 1
     (tmp_path / "course.csv").write_text(course(0.5), encoding="utf-8")
@@ -339,7 +337,7 @@ def test_a_cache_that_cannot_be_written_is_reported(tmp_path, monkeypatch, capsy
 
 
 @pytest.mark.slow
-def test_a_thin_world_is_off_by_what_it_says(folder, own_cache, tmp_path, capsys):
+def test_a_thinned_world_deviates_by_its_stated_error(folder, own_cache, tmp_path, capsys):
     results = {}
     for kind, more in (("whole", []), ("thin", ["--thin"])):
         assert main(["--world", str(folder / "mine.toml"), "--out", str(tmp_path / kind), *more]) == 0

@@ -1,4 +1,4 @@
-"""Tables of runs in a world, opened later: its ground and what stands on it, or a word about what is not drawn."""
+"""Tables of runs in a world, opened later: its ground and scenery, or a note on what is not drawn."""
 
 import shutil
 from pathlib import Path
@@ -38,16 +38,16 @@ def test_a_run_on_the_proving_ground_is_viewed_on_it(
         (result,) = shown(Path(table.stem + ".html"))
         return result["scene"], capsys.readouterr().out
 
-    scene, reported = seen()
+    scene, output = seen()
     roads = [{k: v for k, v in road.items() if k not in ("friction_factor", "variables")} for road in scene["roads"]]
     assert roads == proving_ground.record["roads"]
     own = len(proving_ground.record["scenery"])
     assert scene["scenery"][:own] == proving_ground.record["scenery"]
     cones = cone_places(course_of("iso_3888_1", load("prototype").vehicle.width).gates)
     assert [tuple(cone["at"][:2]) for cone in scene["scenery"][own:]] == cones
-    assert "not drawn" not in reported
+    assert "not drawn" not in output
     (tmp_path / "proving_ground.json").unlink()
     (tmp_path / "proving_ground.road").unlink()
-    scene, reported = seen()
+    scene, output = seen()
     assert scene["roads"] == []
-    assert "proving_ground.road is not drawn: its file is not there; that of a world is made again by: " in reported
+    assert "proving_ground.road is not drawn: its file is not there; that of a world is made again by: " in output

@@ -8,7 +8,8 @@ from scipy.optimize import brentq
 
 from mbs.vehicle import load
 
-CENTRE, TRACK_HALF = 0.2489, 0.67
+CENTRE = 0.2489  # m
+TRACK_HALF = 0.67  # m
 
 
 @dataclass(frozen=True)

@@ -61,9 +61,9 @@ class Upright:
         else:
             foot = p["strut_lower" if self.kind == "macpherson" else "lower_ball_joint"]
             axis = p["strut_top"] - foot
-            way = np.linalg.svd(axis[None])[2][1:]  # two directions of the upright square to the strut
+            directions = np.linalg.svd(axis[None])[2][1:]  # two directions of the upright square to the strut
             gap = p["strut_top"] - moved(pose, foot)
-            off += list(Rotation.from_rotvec(pose[3:]).apply(way) @ gap)
+            off += list(Rotation.from_rotvec(pose[3:]).apply(directions) @ gap)
         return np.array(off)
 
 

@@ -81,10 +81,10 @@ def test_the_engine_finds_the_same_in_static_equilibrium():
     origin, axes, _ = b.chassis.contact_frame
     still = m.guide_time("still", ([0.0, 1.0], [0.0, 0.0]), unit="m")
     drawn = np.array([c.reference for c in m.coordinates])
-    held = {"x": origin[0], "y": origin[1], "z": origin[2], "1": axes[0][1], "2": axes[0][2], "3": axes[1][2]}
+    coordinates = {"x": origin[0], "y": origin[1], "z": origin[2], "1": axes[0][1], "2": axes[0][2], "3": axes[1][2]}
     for name, (carrier, centre) in carriers.items():
-        held[name] = carrier.point(centre)[2]
-    for name, value in held.items():
+        coordinates[name] = carrier.point(centre)[2]
+    for name, value in coordinates.items():
         m.drive(f"held {name}", value + Affine({}, -value.value(drawn)), still)
     for name in ("FL", "FR"):
         carrier, centre = carriers[name]

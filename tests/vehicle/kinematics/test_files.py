@@ -74,11 +74,11 @@ def test_page_table_and_json(made, found):
 
 
 @pytest.mark.slow
-def test_the_page_of_the_documentation_prints_what_it_says(capsys):
+def test_the_code_of_the_page_prints_its_output(capsys):
     text = (Path(__file__).parents[3] / "docs" / "kinematics.md").read_text(encoding="utf-8")
-    code, reported = (re.search(rf"```{kind}\n(.*?)```", text, re.DOTALL)[1] for kind in ("python", "text"))
+    code, output = (re.search(rf"```{kind}\n(.*?)```", text, re.DOTALL)[1] for kind in ("python", "text"))
     exec(compile(code, "docs/kinematics.md", "exec"), {})
-    assert capsys.readouterr().out == reported
+    assert capsys.readouterr().out == output
 
 
 @pytest.mark.parametrize(
@@ -141,7 +141,7 @@ def test_a_range_into_the_stops_is_reported(found):
         ("front_parallel", "toe_angle_left [rad]\nx\n", "line 2, column 'toe_angle_left': 'x' is not a number"),
     ],
 )
-def test_a_file_that_is_none_of_ours_is_refused(name, content, sentence, tmp_path):
+def test_a_foreign_file_is_refused(name, content, sentence, tmp_path):
     file = tmp_path / f"{name}.csv"
     file.write_text(content)
     with pytest.raises(ValueError, match=sentence):

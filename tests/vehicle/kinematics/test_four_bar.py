@@ -76,10 +76,10 @@ def test_motion_ratio_of_an_inclined_spring():
     curve = parallel(LEVEL).drawn()
     lower, upper = np.array([0.0, 0.50, 0.175]), np.array([0.0, 0.38, 0.785])
     lever = lower[1:] - LEVEL.lower_pivot
-    way = np.array([-lever[1], lever[0]]) / 0.30  # of the spring's end per wheel travel
+    direction = np.array([-lever[1], lever[0]]) / 0.30  # of the spring's end per wheel travel
     line = (upper - lower)[1:] / np.linalg.norm(upper - lower)
-    assert curve["spring_ratio_left"] == pytest.approx(way @ line, rel=1e-12)
-    assert curve["damper_ratio_left"] == pytest.approx(way @ line, rel=1e-12)
+    assert curve["spring_ratio_left"] == pytest.approx(direction @ line, rel=1e-12)
+    assert curve["damper_ratio_left"] == pytest.approx(direction @ line, rel=1e-12)
 
 
 def test_wheel_rate_by_the_lever_law_over_large_travel():

@@ -39,16 +39,18 @@ def hold_axis(curve, k, side, upright, centre):
     """The steering axis through both ball joints, and where it meets the ground."""
     sign = {"left": 1.0, "right": -1.0}[side]
     lower, upper = upright.axis()
-    way = upper - lower
-    assert curve[f"caster_angle_{side}"][k] == pytest.approx(np.arctan2(-way[0], way[2]), abs=1e-9)
-    assert curve[f"kingpin_inclination_angle_{side}"][k] == pytest.approx(np.arctan2(-sign * way[1], way[2]), abs=1e-9)
+    axis = upper - lower
+    assert curve[f"caster_angle_{side}"][k] == pytest.approx(np.arctan2(-axis[0], axis[2]), abs=1e-9)
+    assert curve[f"kingpin_inclination_angle_{side}"][k] == pytest.approx(
+        np.arctan2(-sign * axis[1], axis[2]), abs=1e-9
+    )
     contact = np.array([curve[f"contact_centre_{c}_{side}"][k] for c in "xyz"])
     steer = curve[f"steer_angle_{side}"][k]
     for point, ahead, inside in (
         (contact, "caster_trail", "kingpin_offset_at_ground"),
         (centre, "caster_offset_at_wheel_centre", "kingpin_offset_at_wheel_centre"),
     ):
-        gap = lower + way * (point[2] - lower[2]) / way[2] - point
+        gap = lower + axis * (point[2] - lower[2]) / axis[2] - point
         assert curve[f"{ahead}_{side}"][k] == pytest.approx(gap[0] * np.cos(steer) + gap[1] * np.sin(steer), abs=1e-9)
         across = gap[1] * np.cos(steer) - gap[0] * np.sin(steer)
         assert curve[f"{inside}_{side}"][k] == pytest.approx(-sign * across, abs=1e-9)
@@ -150,8 +152,8 @@ def test_roll_of_the_twist_beam():
     drawn = travel_curve(link, "opposite", np.array([-0.01, 0.0, 0.01])).drawn()
     assert drawn["roll_steer"] == pytest.approx(roll[5], rel=1e-9)
     assert drawn["roll_camber"] == pytest.approx(1.0 + roll[3], rel=1e-9)
-    way = instant.velocity(roll, instant.contact(link.data.wheel.centre))
-    assert drawn["roll_centre_height"] == pytest.approx(0.5 * link.data.track * way[1] / way[2], rel=1e-9)
+    velocity = instant.velocity(roll, instant.contact(link.data.wheel.centre))
+    assert drawn["roll_centre_height"] == pytest.approx(0.5 * link.data.track * velocity[1] / velocity[2], rel=1e-9)
     lever = instant.lever_rate(link.data.anti_roll_bar, twist)
     assert drawn["anti_roll_bar_ratio"] == pytest.approx(lever, rel=1e-9)  # both levers turn, per both travels
     bar, beam = link.data.anti_roll_bar.stiffness * lever**2, link.data.suspension.torsional_stiffness * twist[4] ** 2
@@ -174,13 +176,13 @@ def test_no_bar_no_part_of_the_bar():
 def test_tangent_and_bending_of_the_way(car, axle):
     """Against differences of positions, along a direction of both wheels and the rack."""
     link, step = linkage(car, axle), 1e-4
-    way = np.array([1.0, 0.5, 0.7 if link.has_rod else 0.0])
+    direction = np.array([1.0, 0.5, 0.7 if link.has_rod else 0.0])
     at = link.solve(link.drawn.q, np.array([0.03, -0.02]), 0.01 if link.has_rod else 0.0)
     ahead, behind = (
-        link.solve(at.q, at.travel + s * way[:2], at.rack + s * way[2]).q for s in (step, -step)
+        link.solve(at.q, at.travel + s * direction[:2], at.rack + s * direction[2]).q for s in (step, -step)
     )  # fmt: skip
-    np.testing.assert_allclose(at.tangent @ way, (ahead - behind) / (2.0 * step), atol=1e-5)
-    bend = link.bends(at, way[:, None])[:, 0]
+    np.testing.assert_allclose(at.tangent @ direction, (ahead - behind) / (2.0 * step), atol=1e-5)
+    bend = link.bends(at, direction[:, None])[:, 0]
     np.testing.assert_allclose(bend, (ahead - 2.0 * at.q + behind) / step**2, atol=2e-3)
     assert np.abs(bend).max() > 1.0
 

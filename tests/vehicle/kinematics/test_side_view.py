@@ -64,10 +64,10 @@ def test_anti_dive_and_anti_lift_of_a_macpherson_strut():
     centre = car.front.wheel.centre
     twist = instant.per_travel(instant.macpherson(car.front.suspension.points), centre)
     found = measures(car, "front")
-    way = instant.velocity(twist, instant.contact(centre))
+    velocity = instant.velocity(twist, instant.contact(centre))
     torque = car.brakes.balance / centre[2]
     share = torque / (torque + (1.0 - car.brakes.balance) / car.rear.wheel.centre[2])
-    assert found["anti_dive"] == pytest.approx(100.0 * share * way[0] / way[2] * lever(car), rel=1e-9)
+    assert found["anti_dive"] == pytest.approx(100.0 * share * velocity[0] / velocity[2] * lever(car), rel=1e-9)
     middle = instant.velocity(twist, np.array(centre))
     assert found["anti_lift_in_drive"] == pytest.approx(100.0 * middle[0] / middle[2] * lever(car), rel=1e-9)
 

@@ -1,4 +1,4 @@
-// Bytes that a page carries as text.
+// Decodes bytes that a page carries as base64 text, compressed or not.
 
 /** @param {string} text base64 @returns {Uint8Array<ArrayBuffer>} */
 export function bytesOf(text) {
@@ -16,18 +16,18 @@ export async function gunzipped(bytes) {
 
 /**
  * Bytes of base64, unpacked where they are gzip.
- * @param {string | ArrayBuffer | Uint8Array<ArrayBuffer>} given - Bytes stay as they are.
+ * @param {string | ArrayBuffer | Uint8Array<ArrayBuffer>} data - Bytes stay as they are.
  * @returns {Promise<Uint8Array<ArrayBuffer>>}
  */
-export async function unpack(given) {
-  if (typeof given !== "string") return given instanceof Uint8Array ? given : new Uint8Array(given);
-  const bytes = bytesOf(given);
+export async function unpack(data) {
+  if (typeof data !== "string") return data instanceof Uint8Array ? data : new Uint8Array(data);
+  const bytes = bytesOf(data);
   return bytes[0] === 0x1f && bytes[1] === 0x8b ? gunzipped(bytes) : bytes;
 }
 
-/** JSON of base64, packed. @param {string} given @returns {Promise<Data>} */
-export async function unpackedJson(given) {
-  return JSON.parse(new TextDecoder().decode(await unpack(given)));
+/** JSON of base64, packed. @param {string} data @returns {Promise<Data>} */
+export async function unpackedJson(data) {
+  return JSON.parse(new TextDecoder().decode(await unpack(data)));
 }
 
 /** What this browser lacks, as one sentence; empty if nothing. @param {Data} [scope] @param {boolean} [runs] whether the page runs FMUs */

@@ -51,8 +51,8 @@ test("a thinned ball has few triangles, its points on the ball and its volume", 
 
 test("surfaces together keep to a number of triangles, and stay as they are where they do", () => {
   const balls = [ball(1, 40), ball(0.1, 40)];
-  const made = within(balls, 1500, 0.01);
-  const count = made.reduce((sum, { index }) => sum + index.length / 3, 0);
+  const mesh = within(balls, 1500, 0.01);
+  const count = mesh.reduce((sum, { index }) => sum + index.length / 3, 0);
   assert.ok(count <= 1500 && count > 400);
   assert.equal(within(balls, 1e6, 0.01), balls);
 });

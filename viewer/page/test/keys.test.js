@@ -1,4 +1,4 @@
-// Which keys belong to the page, and which to the element that has the focus.
+// Keys of the page, and keys of the focused element.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { actOf, ROWS } from "../src/common/key_table.js";

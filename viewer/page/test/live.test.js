@@ -256,8 +256,8 @@ test("a road is as slick as the parameters have it", () => {
 
 test("an FMU that has broken is loaded again when it begins again", async () => {
   const loads = [];
-  const told = [];
-  const runner = new Runner((message) => told.push(message));
+  const messages = [];
+  const runner = new Runner((message) => messages.push(message));
   runner._load = async (step) => {
     const fmu = mass();
     loads.push(fmu);
@@ -270,26 +270,26 @@ test("an FMU that has broken is loaded again when it begins again", async () => 
   await runner.take({ do: "restart", start: { u: 1 } });
   assert.equal(loads.length, 2);
   await runner.take({ do: "step", count: 3 });
-  assert.deepEqual(told.map((message) => message.is), ["started", "started", "started", "paused"]);
-  assert.equal(told.at(-1).count, 3);
+  assert.deepEqual(messages.map((message) => message.is), ["started", "started", "started", "paused"]);
+  assert.equal(messages.at(-1).count, 3);
   await runner.take({ do: "back", k: 1 });
-  assert.deepEqual([told.at(-1).is, told.at(-1).k], ["back", 1]);
+  assert.deepEqual([messages.at(-1).is, messages.at(-1).k], ["back", 1]);
 });
 
 test("an FMU that could not begin says why again when it is to run, in a sentence, and can be begun again", async () => {
-  const told = [];
-  const runner = new Runner((message) => told.push(message));
+  const messages = [];
+  const runner = new Runner((message) => messages.push(message));
   const description = { modelName: "Odd", guid: "", variables: [] };
   await runner.take({ do: "open", fmus: [{ wasm: new Uint8Array(4), description }], step: 0.01, start: {} });
   await runner.take({ do: "want", wants: [["u", 1]] });
   await runner.take({ do: "run", speed: 1 });
-  assert.equal(told.length, 2);
-  assert.match(told[0].text, /^The binary of the FMU Odd for wasm32 cannot be loaded: /);
-  assert.deepEqual(told[1], told[0]);
+  assert.equal(messages.length, 2);
+  assert.match(messages[0].text, /^The binary of the FMU Odd for wasm32 cannot be loaded: /);
+  assert.deepEqual(messages[1], messages[0]);
   runner._load = async (step) => {
     runner.engine = new Engine([mass()], step);
   };
   await runner.take({ do: "restart", start: {}, step: 0.01 });
   await runner.take({ do: "step", count: 2 });
-  assert.deepEqual(told.slice(2).map((message) => message.is), ["started", "paused"]);
+  assert.deepEqual(messages.slice(2).map((message) => message.is), ["started", "paused"]);
 });

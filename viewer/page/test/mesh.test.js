@@ -1,4 +1,4 @@
-// Which way a mesh looks.
+// The orientation of a mesh.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { insideOut } from "../src/shapes/mesh.js";

@@ -44,7 +44,7 @@ test("a ribbon ends where an epoch does, and begins anew with the direction of t
 test("instants at which a point is not known are left out of its path", () => {
   const rows = [[0, 0, 0.3], null, [2, 1, 0.5]]; // prettier-ignore
   let now = null;
-  const [way, other] = waysOf((i) => (now = rows[i]), [0, 1, 2], [() => now, () => [7, 7, 7]]);
-  assert.deepEqual(way, { points: [rows[0], rows[2]], at: [0, 2] });
+  const [path, other] = waysOf((i) => (now = rows[i]), [0, 1, 2], [() => now, () => [7, 7, 7]]);
+  assert.deepEqual(path, { points: [rows[0], rows[2]], at: [0, 2] });
   assert.deepEqual(other.at, [0, 1, 2]);
 });

@@ -1,4 +1,4 @@
-// What three.js makes of a glTF file: for each time the world matrices of its nodes, and positions of morphed meshes.
+// Reads a glTF file by three.js: for each time the world matrices of its nodes, and positions of morphed meshes.
 import fs from "node:fs";
 import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";

@@ -51,7 +51,7 @@ test("a kerb is its face and a stone along its upper edge", () => {
 
 test("the ground below a point is that of the highest road there", () => {
   const up = [0, 0, 1];
-  const near = (roads, point, wanted, way = up) => assert.ok(Math.abs(roadHeight(roads, way, point) - wanted) < 1e-6);
+  const near = (roads, point, expected, axis = up) => assert.ok(Math.abs(roadHeight(roads, axis, point) - expected) < 1e-6);
   near([{ kind: "flat", height: 0.3 }], [5, 6, 7], 0.3);
   near([{ kind: "plane", point: [0, 0, 1], normal: [-0.6, 0, 0.8] }], [4, 9, 2], 1 + 4 * 0.75);
   near([{ kind: "profile", direction: [0, 2, 0], origin: [0, 10, 0.5], ...KERB }], [3, 10.25, 0], 0.5 + 0.075);

@@ -211,7 +211,7 @@ test("what a tyre can hold: friction of the road, of its axle's curves on a road
   assert.ok(Number.isNaN(frictionOf(flat, (name) => new Map(variables).get(name), [0, 0], "wheel_FR"))); // not known
 });
 
-test("a camera on a rope: it follows a turn in its time, stays level, and jumps where the car does", () => {
+test("a trailing direction follows a turn with its lag, stays level, and jumps with the car", () => {
   let now = 0;
   const trailing = new TrailingDirection(0.2, () => now);
   const up = [0, 0, 1];
@@ -220,7 +220,7 @@ test("a camera on a rope: it follows a turn in its time, stays level, and jumps 
   now += 0.02;
   assert.ok(angle(trailing.along([Math.cos(0.3), Math.sin(0.3), 0], up)) < 0.05);
   for (let k = 0; k < 10; k++, now += 0.02) trailing.along([Math.cos(0.3), Math.sin(0.3), 0], up);
-  const [x, y, z] = trailing.way;
+  const [x, y, z] = trailing.direction;
   assert.ok(Math.abs(angle([x, y]) - 0.3 * (1 - Math.exp(-1.0))) < 0.02, String(angle([x, y])));
   assert.ok(z === 0 && Math.abs(Math.hypot(x, y) - 1) < 1e-12);
   trailing.snap();

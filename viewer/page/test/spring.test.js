@@ -1,4 +1,4 @@
-// Where the coil of a spring stands between its ends.
+// The position of the coil of a spring between its ends.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { spring } from "../src/shapes/spring.js";
@@ -9,9 +9,9 @@ const frames = { pose: () => ({ rotation: EYE }) };
 
 /** Lowest and highest place of the wire's middle for a spring along z. */
 function reach(shape, height) {
-  const made = spring({ radius: 0.05, wire: 0.01, coils: 4, ends: [["a"], ["b"]], ...shape }, { materials, frames });
-  made.update(([name]) => (name === "a" ? [0, 0, 0] : [0, 0, height]));
-  const wire = /** @type {import("three").Mesh} */ (made.object.children[0]);
+  const drawn = spring({ radius: 0.05, wire: 0.01, coils: 4, ends: [["a"], ["b"]], ...shape }, { materials, frames });
+  drawn.update(([name]) => (name === "a" ? [0, 0, 0] : [0, 0, height]));
+  const wire = /** @type {import("three").Mesh} */ (drawn.object.children[0]);
   wire.updateMatrix();
   const positions = wire.geometry.clone().applyMatrix4(wire.matrix).getAttribute("position").array;
   const heights = Array.from(positions).filter((_, i) => i % 3 === 2);

@@ -1,4 +1,4 @@
-// What the validator of Khronos finds in glTF files; one line of JSON a file: its report.
+// Validates glTF files by the validator of Khronos; one line of JSON a file: its report.
 import fs from "node:fs";
 import validator from "gltf-validator";
 

@@ -89,9 +89,9 @@ test("many small patches become few pieces, none lost", () => {
   const list = [];
   for (let a = 0; a < 20; a++) for (let b = 0; b < 20; b++) list.push(patch([8 * a, 8 * b], [1, 1], [9, 9], plane));
   const field = new HeightField({ patches: list });
-  const made = bundles(parts(field.patches, 128), 50, 60000);
-  assert.ok(made.length <= 50);
-  assert.equal(made.flat().length, 400);
+  const meshes = bundles(parts(field.patches, 128), 50, 60000);
+  assert.ok(meshes.length <= 50);
+  assert.equal(meshes.flat().length, 400);
 });
 
 test("beyond the border its heights go on, around the focus and far away", () => {

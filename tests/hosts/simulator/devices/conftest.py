@@ -48,8 +48,8 @@ class Run:
         from tests.hosts.simulator.devices.virtual import ANGLE_MAX, INPUTS, RecordedArbiter
 
         self.arbiter, self.told = RecordedArbiter(), list[str]()
-        given = {"inputs": INPUTS, "constants": {"vehicle.steering_wheel_angle_max": ANGLE_MAX}} | changed
-        self.devices = Devices(self.arbiter, tell=self.told.append, folder=folder, torque=torque, **given)
+        options = {"inputs": INPUTS, "constants": {"vehicle.steering_wheel_angle_max": ANGLE_MAX}} | changed
+        self.devices = Devices(self.arbiter, tell=self.told.append, folder=folder, torque=torque, **options)
         self.devices.__enter__()
 
     def only(self) -> dict[str, Any]:

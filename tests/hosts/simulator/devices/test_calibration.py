@@ -55,17 +55,17 @@ class Person:
     st.floats(0.5, 1.0),
     st.booleans(),
 )
-def test_everything_is_found_whatever_way_the_device_counts(left, right, rest, mirrored, up, down, pressed_is_low):
-    way, press = (-1.0 if mirrored else 1.0), (-1.0 if pressed_is_low else 1.0)
-    person = Person(WHEEL_AND_PEDALS, way * rest, press * up, -1.0)
-    person.move(0, way * left, way * right, way * rest)
+def test_axes_are_found_for_both_directions_of_counting(left, right, rest, mirrored, up, down, pressed_is_low):
+    sign, press = (-1.0 if mirrored else 1.0), (-1.0 if pressed_is_low else 1.0)
+    person = Person(WHEEL_AND_PEDALS, sign * rest, press * up, -1.0)
+    person.move(0, sign * left, sign * right, sign * rest)
     person.move(1, press * down, press * up)
     mapping, actual, still = person.calibration.result()
     assert (actual, still) == (["steering", "throttle"], ["brake"])
     assert mapping.inputs["brake"] == WHEEL_AND_PEDALS.inputs["brake"]
     steering, throttle = mapping.inputs["steering"], mapping.inputs["throttle"]
     for place, value in ((left, 1.0), (rest, 0.0), (right, -1.0)):
-        assert steering.value("steering", at(way * place)) == pytest.approx(value, abs=1e-12)
+        assert steering.value("steering", at(sign * place)) == pytest.approx(value, abs=1e-12)
     assert throttle.value("throttle", at(0, press * up)) == 0.0
     assert throttle.value("throttle", at(0, press * down)) == 1.0
     assert throttle.value("throttle", at(0, press * (up + 0.985 * (down - up)))) == 1.0, "surely reached"
@@ -98,7 +98,7 @@ def test_it_waits_until_everything_is_let_go():
     assert "fully to the left" in calibration.words
 
 
-def test_an_axis_that_told_nothing_until_it_was_touched_rests_where_it_begins():
+def test_an_axis_without_an_initial_state_rests_at_its_first_value():
     calibration, known = Calibration(mapped(throttle=InputMapping("axis 0"))), (False,)
     for k in range(300):
         calibration.feed(0.004 * k, at(0.0, known=known))

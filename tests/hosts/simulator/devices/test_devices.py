@@ -61,9 +61,9 @@ def test_requests_are_sent_again_for_a_later_listener(attach, start):
     until(lambda: run.arbiter.value(WHEEL, "throttle"))
     run.arbiter.by_source.clear()
     assert until(lambda: run.arbiter.value(WHEEL, "throttle")) == 1.0
-    reported, begin = [], time.monotonic()
-    run.arbiter.listen = lambda source, values: reported.append(values)
-    until(lambda: len(reported) == 3)
+    requests, begin = [], time.monotonic()
+    run.arbiter.listen = lambda source, values: requests.append(values)
+    until(lambda: len(requests) == 3)
     assert time.monotonic() - begin >= 0.45, "what does not move is not said at every reading"
 
 
@@ -84,7 +84,7 @@ def test_a_car_that_is_steered_by_an_angle_follows_it(attach, start):
     assert angle == pytest.approx(math.radians(450.0), rel=1e-12)
 
 
-def test_a_device_pulled_out_lets_go_and_says_so_and_comes_back_as_it_was(attach, start):
+def test_an_unplugged_device_releases_its_inputs_and_returns_with_its_mapping(attach, start):
     run = start()
     assert run.said("No wheel, pedals or gamepad is plugged in")
     wheel = rested(attach())
@@ -221,7 +221,7 @@ def test_a_calibration_finds_ends_and_drives_nothing_meanwhile(attach, start):
     assert until(lambda: run.arbiter.value(WHEEL, "throttle")) == 1.0
 
 
-def test_a_pedal_that_is_held_while_it_is_assigned_anew_is_let_go(attach, start):
+def test_a_pedal_that_is_pressed_while_it_is_reassigned_is_released(attach, start):
     wheel = rested(attach())
     run = start()
     wheel.axis(2, -1.0)
@@ -343,7 +343,7 @@ def test_no_message_does_more_than_be_refused(attach, start):
     assert not run.said("no longer read")
 
 
-def test_without_sdl_a_sentence_is_reported_and_the_rest_goes_on(monkeypatch, tmp_path, start):
+def test_without_sdl_one_sentence_is_reported_and_the_program_continues(monkeypatch, tmp_path, start):
     monkeypatch.setitem(sys.modules, "sdl2", None)
     run = start()
     assert run.told == [
@@ -362,7 +362,7 @@ def test_where_sdl_cannot_start_a_sentence_is_reported(monkeypatch, start):
     assert run.said("SDL says")
 
 
-def test_an_error_in_the_thread_lets_go_and_is_reported(attach, start):
+def test_an_error_in_the_thread_releases_inputs_and_is_reported(attach, start):
     wheel = rested(attach())
     run = start()
 

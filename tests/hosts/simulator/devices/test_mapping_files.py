@@ -72,7 +72,7 @@ GOOD = 'format = "ALi3 device"\nversion = 1\n'
         ("#" * 1_000_001, "at most 1000000"),
     ],
 )
-def test_a_damaged_file_is_named_with_what_is_wrong(tmp_path, text, message):
+def test_a_damaged_file_is_named_with_its_fault(tmp_path, text, message):
     files = MappingFiles(tmp_path)
     files.file("0300").write_bytes(text.encode("utf-8", "surrogateescape"))
     with pytest.raises(HostError, match=rf"0300\.toml .*{message}"):

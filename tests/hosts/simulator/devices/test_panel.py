@@ -23,8 +23,8 @@ _MAKE = """() => {
 @pytest.fixture(scope="module")
 def chromium() -> Iterator[Any]:
     bundle_or_skip()
-    with headless_chromium() as made:
-        yield made
+    with headless_chromium() as browser:
+        yield browser
 
 
 class Panel:
@@ -71,19 +71,19 @@ class Panel:
 def panel(chromium: Any, start: Any) -> Iterator[Panel]:
     page = chromium.new_page(viewport={"width": 360, "height": 900})
     page.set_default_timeout(20_000)
-    made = Panel(page)
-    yield made
+    opened = Panel(page)
+    yield opened
     page.close()
-    assert made.errors == []
-    assert made.refused == []
+    assert opened.errors == []
+    assert opened.refused == []
 
 
 @pytest.fixture
 def wheel(attach: Any) -> Any:
-    made = attach()
+    attached = attach()
     for k in (1, 2, 3):
-        made.axis(k, 1.0)
-    return made
+        attached.axis(k, 1.0)
+    return attached
 
 
 def test_it_shows_devices_as_they_come_and_go(panel, start, attach):
@@ -160,7 +160,7 @@ def test_an_input_is_assigned_by_move_it_now(panel, start, wheel):
     assert panel.at("moving").count() == 0
 
 
-def test_a_calibration_is_led_by_words_and_kept(panel, start, wheel):
+def test_a_calibration_is_guided_by_texts_and_stored(panel, start, wheel):
     panel.run = start()
     panel.show()
     panel.at("calibrate").click()

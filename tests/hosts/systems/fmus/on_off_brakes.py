@@ -5,7 +5,9 @@ from typing import Any
 from tests.hosts.systems.partner import Partner
 from tests.vehicle.cars_with_ports import WHEELS
 
-RADIUS, RELEASE, APPLY = 0.2848, 0.15, 0.08  # m; slips
+RADIUS = 0.2848  # m
+RELEASE = 0.15  # slip
+APPLY = 0.08  # slip
 TORQUE = {"F": 600.0, "R": 350.0}  # N.m
 
 

@@ -23,5 +23,5 @@ class SecondRoad(Partner):
         for w in WHEELS:
             x, y = self.value[f"{w}.x"], self.value[f"{w}.y"]
             size = math.hypot(1.0, WAVES.slope(x))
-            reported = (x, y, WAVES.height(x), -WAVES.slope(x) / size, 0.0, 1.0 / size, FRICTION)
-            self.value.update({f"{w}.road_{n}": v for n, v in zip(ANSWER, reported, strict=True)})
+            answer = (x, y, WAVES.height(x), -WAVES.slope(x) / size, 0.0, 1.0 / size, FRICTION)
+            self.value.update({f"{w}.road_{n}": v for n, v in zip(ANSWER, answer, strict=True)})

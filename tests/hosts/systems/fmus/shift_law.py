@@ -4,7 +4,9 @@ from typing import Any
 
 from tests.hosts.systems.partner import Partner
 
-UP, DOWN, GEARS = 420.0, 200.0, 3  # rad/s
+UP = 420.0  # rad/s
+DOWN = 200.0  # rad/s
+GEARS = 3
 
 
 class ShiftLaw(Partner):

@@ -33,10 +33,10 @@ export function el(tag, set = {}, ...children) {
 export function button(data, text, work, title = "") {
   const onclick = () => {
     work();
-    if (!made.matches(":focus-visible")) made.blur();
+    if (!element.matches(":focus-visible")) element.blur();
   };
-  const made = el("button", { type: "button", title, data, onclick }, text);
-  return made;
+  const element = el("button", { type: "button", title, data, onclick }, text);
+  return element;
 }
 
 /**
@@ -48,13 +48,13 @@ export function button(data, text, work, title = "") {
  * @param {string | number} [value] - Chosen at first.
  */
 export function select(data, title, options, work, value) {
-  const made = el("select", { title, data }, ...options.map(([v, words]) => el("option", { value: v }, words)));
-  if (value !== undefined) made.value = String(value);
-  made.addEventListener("change", () => {
-    work(made.value);
-    if (!made.matches(":focus-visible")) made.blur();
+  const element = el("select", { title, data }, ...options.map(([v, words]) => el("option", { value: v }, words)));
+  if (value !== undefined) element.value = String(value);
+  element.addEventListener("change", () => {
+    work(element.value);
+    if (!element.matches(":focus-visible")) element.blur();
   });
-  return made;
+  return element;
 }
 
 /** Options of `select` whose words are their values. @param {string[]} names */

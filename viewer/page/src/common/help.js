@@ -1,4 +1,4 @@
-// The keys of a page, over it.
+// The list of the keys of a page, shown over it.
 import { el } from "./dom.js";
 import { ROWS } from "./key_table.js";
 import { styled } from "../styles.js";

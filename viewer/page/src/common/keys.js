@@ -1,4 +1,4 @@
-// Keys of a page: what the focused element needs itself stays its own, driving comes next, then acts by name.
+// Dispatches keys of a page: first to the focused element, then to driving, then to actions by name.
 import { actOf } from "./key_table.js";
 
 /** Whether the focus came by the keyboard: a box that was clicked leaves the keys to the page. */

@@ -1,4 +1,4 @@
-// Words beside dots of a picture; pure numbers.
+// Layout of labels beside points of a picture; pure numbers.
 
 /** Words stand higher by so many of their heights, tried in this order, and so many pixels beside their dot. */
 const [HIGHER, GAP] = [[0, 1, -1, 2, -2, 3, -3], 8];

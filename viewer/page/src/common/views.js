@@ -1,4 +1,4 @@
-// Which camera a key asks for: by its name, the wheels in turn, the next one.
+// Chooses the camera for a key: by its name, the wheels in turn, or the next one.
 
 /** Names by which the table of keys asks for cameras. */
 const ASKED = ["driver", "chase", "wheel", "orbit", "top"];

@@ -1,4 +1,4 @@
-// Particles that fly, slow down, grow and fade; pure numbers, bounded.
+// Particles that fly, slow down, grow and fade, in a buffer of fixed size; pure numbers.
 import { randomNumbers } from "../common/random.js";
 
 /** What flies up: seconds of life, size at the beginning and at the end in metres, colour, share that is seen, fall in m/s2. */

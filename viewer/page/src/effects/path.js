@@ -19,10 +19,10 @@ export function ribbonEdges(points, epochs, half, up) {
   points.forEach((point, k) => {
     side = sides[k] ?? side;
     const from = subtract(point, points[0]);
-    for (const way of [0, 1]) {
-      const aside = scale(side, (2 * way - 1) * half);
-      edges.set(from.map((value, axis) => value + aside[axis] + LIFT * up[axis]), 6 * k + 3 * way);
-      asides.set(aside, 6 * k + 3 * way);
+    for (const edge of [0, 1]) {
+      const aside = scale(side, (2 * edge - 1) * half);
+      edges.set(from.map((value, axis) => value + aside[axis] + LIFT * up[axis]), 6 * k + 3 * edge);
+      asides.set(aside, 6 * k + 3 * edge);
     }
   });
   return { edges, asides };
@@ -41,7 +41,7 @@ export function ribbonTriangles(epochs) {
 export class Path {
   /**
    * @param {import("../scene/scene_view.js").SceneView} view
-   * @param {{times: ArrayLike<number>, epochs: ArrayLike<number>, points: number[][]}} way not decreasing times, epochs between which
+   * @param {{times: ArrayLike<number>, epochs: ArrayLike<number>, points: number[][]}} run not decreasing times, epochs between which
    *   there is nothing, and earth positions
    * @param {{colour: string, width: number, opacity: number, least?: number, under?: number}} look width: m; least: pixels that it is
    *   wide, however far it is; without it, it becomes fainter there; under: how many paths are drawn over it

@@ -68,9 +68,9 @@ export class TyreMarks {
       this._drawn = "";
     }
     const every = this.view.look.quality === "draft" ? FEW : 1;
-    const wanted = `${this.tracks.changes} ${every}`;
-    if (this._drawn !== wanted) this._draw(every);
-    this._drawn = wanted;
+    const state = `${this.tracks.changes} ${every}`;
+    if (this._drawn !== state) this._draw(every);
+    this._drawn = state;
     this.mesh.position.fromArray(subtract(this._base, origin));
   }
 
@@ -90,10 +90,10 @@ export class TyreMarks {
         const inside = (ring.first + k) % every !== 0 && k > 0 && k + 1 < ring.count && this.tracks.row(ring, k)[6] > 0;
         if (inside && this.tracks.row(ring, k + 1)[6] > 0) continue;
         const [x, y, z, a, b, c, dark] = this.tracks.row(ring, k);
-        for (const way of [-1, 1]) {
-          const at = subtract([x + way * a, y + way * b, z + way * c], this._base);
+        for (const side of [-1, 1]) {
+          const at = subtract([x + side * a, y + side * b, z + side * c], this._base);
           position.array.set(at.map((value, axis) => value + LIFT * up[axis]), 3 * point);
-          mark.array.set([dark, way], 2 * point);
+          mark.array.set([dark, side], 2 * point);
           point++;
         }
         if (k === 0 || dark === 0) continue;

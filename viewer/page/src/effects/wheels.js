@@ -1,4 +1,4 @@
-// The tyres of a scene and their numbers: where they touch, how they slip, what they stand on; pure numbers.
+// The tyres of a scene and their numbers: contact points, slip, surface below; pure numbers.
 import { surfaceOf } from "../looks/heights.js";
 import { cross, finite, subtract, unit } from "../scene/math.js";
 import { tyresOf } from "../scene/tyres.js";

@@ -69,8 +69,8 @@ export class File {
   async write(path) {
     Object.assign(globalThis, { FileReader });
     const animations = this.tracks.length > 0 ? [new THREE.AnimationClip(this.scene.name, -1, this.tracks)] : [];
-    const made = await new GLTFExporter().register(once).parseAsync(this.scene, { binary: true, trs: true, animations });
-    fs.writeFileSync(path, Buffer.from(/** @type {ArrayBuffer} */ (made)));
+    const glb = await new GLTFExporter().register(once).parseAsync(this.scene, { binary: true, trs: true, animations });
+    fs.writeFileSync(path, Buffer.from(/** @type {ArrayBuffer} */ (glb)));
   }
 }
 
@@ -87,5 +87,5 @@ function once(writer) {
     if (!known.has(key)) known.set(key, written(attribute, geometry, start, count));
     return known.get(key);
   };
-  return { writeMesh: (mesh, made) => Object.assign(made, { name: mesh.name }) };
+  return { writeMesh: (mesh, node) => Object.assign(node, { name: mesh.name }) };
 }

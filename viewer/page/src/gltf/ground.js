@@ -41,9 +41,9 @@ export function plainRoad(road, run, up) {
   const ways = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => run.extentAlong(axis)); // prettier-ignore
   const reach = 0.5 * Math.hypot(...ways.map(([low, high]) => high - low)) + 2 * run.scene.extent;
   const asphalt = surface(slickName(gripOf(road)));
-  const made = makeRoads({ roads: [road] }, { up, asphalt, road: asphalt, grass: surface("grass"), reach });
-  made.follow([0, 0, 0], ways.map(([low, high]) => 0.5 * (low + high)));
-  return /** @type {THREE.Mesh} */ (made.group.children[0]);
+  const roads = makeRoads({ roads: [road] }, { up, asphalt, road: asphalt, grass: surface("grass"), reach });
+  roads.follow([0, 0, 0], ways.map(([low, high]) => 0.5 * (low + high)));
+  return /** @type {THREE.Mesh} */ (roads.group.children[0]);
 }
 
 /** @typedef {{patch: import("../looks/heights.js").Patch, i0: number, j0: number, n: number, m: number}} Part */
@@ -72,7 +72,7 @@ function sheet(patches, ways, nameAt, border = 0) {
   while (inside.reduce((sum, part) => sum + cells(part), 0) > MOST) spacing *= 2;
   const base = [...ways.map(([low, high]) => Math.round(0.5 * (low + high))), 0];
   /** @type {Object<string, {positions: number[], index: number[]}>} */
-  const made = {};
+  const sheets = {};
   for (const part of inside) {
     const { patch, i0, n } = part;
     const [rows, columns] = lines(part).map((list, k) => list.map((line) => [line, patch.origin[k] + patch.spacing[k] * line]));
@@ -83,37 +83,37 @@ function sheet(patches, ways, nameAt, border = 0) {
       const key = `${name} ${a} ${b}`;
       if (!numbers.has(key)) {
         const [[i, x], [j, y]] = [rows[a], columns[b]];
-        numbers.set(key, made[name].positions.push(x - base[0], y - base[1], patch.heights[i * patch.shape[1] + j]) / 3 - 1);
+        numbers.set(key, sheets[name].positions.push(x - base[0], y - base[1], patch.heights[i * patch.shape[1] + j]) / 3 - 1);
       }
       return numbers.get(key);
     };
     for (let a = 0; a + 1 < rows.length; a++) {
       for (let b = 0; b + 1 < columns.length; b++) {
         const name = nameAt(0.5 * (rows[a][1] + rows[a + 1][1]), 0.5 * (columns[b][1] + columns[b + 1][1]));
-        made[name] ??= { positions: [], index: [] };
+        sheets[name] ??= { positions: [], index: [] };
         const [p, q, r, s] = [[a, b], [a + 1, b], [a, b + 1], [a + 1, b + 1]].map(([c, d]) => number(name, c, d)); // prettier-ignore
-        made[name].index.push(p, q, r, q, s, r); // as the page cuts its cells
+        sheets[name].index.push(p, q, r, q, s, r); // as the page cuts its cells
       }
     }
   }
-  const parts = new Map(Object.entries(made).sort().map(([name, { positions, index }]) => {
+  const parts = new Map(Object.entries(sheets).sort().map(([name, { positions, index }]) => {
     const geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(Float32Array.from(positions), 3));
     return [surface(name), geometry.setIndex(index)];
   })); // prettier-ignore
   return { parts, base, error: inside.reduce((most, part) => Math.max(most, errorOf(part, stride(part))), 0) };
 }
 
-/** A terrain, or the grid of a road, near the way. @param {any} given @param {import("./run.js").Run} run @param {number[]} up */
-export function heights(given, run, up) {
-  const axes = [...(given.kind === "grid" ? groundAxes(given, up) : groundAxes({}, up)).slice(0, 2), up];
+/** A terrain, or the grid of a road, near the way. @param {any} road @param {import("./run.js").Run} run @param {number[]} up */
+export function heights(road, run, up) {
+  const axes = [...(road.kind === "grid" ? groundAxes(road, up) : groundAxes({}, up)).slice(0, 2), up];
   const ways = nearby(run, axes);
-  if (given.kind === "terrain") {
-    const raster = new SurfaceRaster(given.surface);
-    return { axes, ...sheet(new HeightField(given).patches, ways, (x, y) => raster.nameAt(x, y)) };
+  if (road.kind === "terrain") {
+    const raster = new SurfaceRaster(road.surface);
+    return { axes, ...sheet(new HeightField(road).patches, ways, (x, y) => raster.nameAt(x, y)) };
   }
-  const frictions = given.frictions && floats(given.frictions);
-  const nameAt = (x, y) => slickName(frictions ? frictions[nearest(given, x, y)] * (given.friction_factor ?? 1) : gripOf(given));
-  return { axes, ...sheet([{ ...given, heights: floats(given.heights) }], ways, nameAt, looks.border) };
+  const frictions = road.frictions && floats(road.frictions);
+  const nameAt = (x, y) => slickName(frictions ? frictions[nearest(road, x, y)] * (road.friction_factor ?? 1) : gripOf(road));
+  return { axes, ...sheet([{ ...road, heights: floats(road.heights) }], ways, nameAt, looks.border) };
 }
 
 /**
@@ -138,14 +138,14 @@ export function paths(run, up) {
       const last = kept[kept.length - 1];
       if (k === 0 || epoch[at[k]] !== epoch[at[last]] || length(subtract(point, points[last])) >= APART * scene.extent) kept.push(k);
     });
-    const [way, epochs, which] = [kept.map((k) => points[k]), kept.map((k) => epoch[at[k]]), Math.min(n, 1)];
-    if (way.length < 2) return [];
+    const [stretch, epochs, which] = [kept.map((k) => points[k]), kept.map((k) => epoch[at[k]]), Math.min(n, 1)];
+    if (stretch.length < 2) return [];
     const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(ribbonEdges(way, epochs, 0.5 * SHARES[which] * scene.extent, up).edges, 3));
+    geometry.setAttribute("position", new THREE.BufferAttribute(ribbonEdges(stretch, epochs, 0.5 * SHARES[which] * scene.extent, up).edges, 3));
     geometry.setIndex(ribbonTriangles(epochs));
     const look = { name: "path", color: [BODY, WHEEL][which], opacity: OPACITIES[which], transparent: true, side: THREE.DoubleSide };
     const mesh = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial(look));
-    mesh.position.fromArray(add(way[0], scale(up, ABOVE - LIFT)));
+    mesh.position.fromArray(add(stretch[0], scale(up, ABOVE - LIFT)));
     return [{ name: n === 0 ? "path" : `path ${frames[n - 1]}`, mesh }];
   });
 }

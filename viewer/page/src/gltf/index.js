@@ -22,8 +22,8 @@ const BENT = 1e-3;
 /** Of the size of the scene: what a reader would see. */
 const SEEN = 2e-3;
 
-const [given, written] = process.argv.slice(2);
-const input = fs.readFileSync(given);
+const [questionFile, written] = process.argv.slice(2);
+const input = fs.readFileSync(questionFile);
 const end = input.indexOf("\n");
 const { scene, names, count, name, rate, speed, begin, deformation, ground } = JSON.parse(input.toString("utf8", 0, end));
 const numbers = new Float64Array(new Uint8Array(input.subarray(end + 1)).buffer);
@@ -43,8 +43,8 @@ const origin = new THREE.Vector3().fromArray(far ? ends.map(([low, high]) => Mat
 /** What is drawn. @type {(import("./meshes.js").Piece & {title: string})[]} */
 const pieces = scene.shapes.flatMap((shape) => {
   run.move(0);
-  const made = makeShape(shape, { materials, frames: run.frames, scene, rigid: true });
-  const found = made.frame === undefined ? moving(made, run, materials) : fixed(made.object, made.frame, materials);
+  const part = makeShape(shape, { materials, frames: run.frames, scene, rigid: true });
+  const found = part.frame === undefined ? moving(part, run, materials) : fixed(part.object, part.frame, materials);
   const title = shape.name || shape.body || shape.kind;
   const bent = Math.max(0, ...found.map((piece) => piece.bent ?? 0));
   if (bent > BENT) notes.push(`The ${shape.kind} '${title}' changes its form; it keeps that of the start, and a corner is off by ${brief(1000 * bent, 2)} mm at most.`);

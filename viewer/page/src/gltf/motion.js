@@ -103,21 +103,21 @@ function largestTurn(quaternion, kept) {
  */
 export function largestErrors(motion, track, t) {
   const count = Math.min(t.length, LOOKED_AT);
-  const [made, recorded] = [motionless(), motionless()];
+  const [interpolated, recorded] = [motionless(), motionless()];
   let [far, turned] = [0, 0];
   for (let n = 0; n < count; n++) {
     const k = count > 1 ? Math.round((n * (t.length - 1)) / (count - 1)) : 0;
     const [i, share] = place(track.times, t[k]);
-    put(made, track, i);
+    put(interpolated, track, i);
     if (share > 0) {
       const next = put(motionless(), track, i + 1);
-      made.position.lerp(next.position, share);
-      made.quaternion.slerp(next.quaternion, share);
-      made.scale.lerp(next.scale, share);
+      interpolated.position.lerp(next.position, share);
+      interpolated.quaternion.slerp(next.quaternion, share);
+      interpolated.scale.lerp(next.scale, share);
     }
     put(recorded, motion, k);
-    for (const point of motion.reach ?? [new Vector3()]) far = Math.max(far, placed(point, made).distanceTo(placed(point, recorded)));
-    const { x, y, z, w } = made.quaternion.conjugate().multiply(recorded.quaternion);
+    for (const point of motion.reach ?? [new Vector3()]) far = Math.max(far, placed(point, interpolated).distanceTo(placed(point, recorded)));
+    const { x, y, z, w } = interpolated.quaternion.conjugate().multiply(recorded.quaternion);
     turned = Math.max(turned, 2 * Math.atan2(Math.hypot(x, y, z), Math.abs(w)));
   }
   return [far, turned];

@@ -21,7 +21,7 @@ export class Run {
     const firsts = new Map();
     for (let k = 0; k < this.count; k++) {
       this.frames.update(this.lookup(k));
-      for (const [name, way] of this.ways) this._take(k, this.frames.pose(name), way, () => firsts.has(name) || firsts.set(name, k));
+      for (const [name, poses] of this.ways) this._take(k, this.frames.pose(name), poses, () => firsts.has(name) || firsts.set(name, k));
     }
     for (const [name, { position, quaternion }] of this.ways) {
       for (let k = firsts.get(name) ?? 0, i = 0; i < k; i++) {
@@ -39,18 +39,18 @@ export class Run {
     return { position: new Float64Array(3 * this.count), quaternion, hidden: 0 };
   }
 
-  _take(k, { position, rotation, shown }, way, found) {
+  _take(k, { position, rotation, shown }, poses, found) {
     if (shown) {
       const [w, x, y, z] = toQuaternion(rotation);
-      way.position.set(position, 3 * k);
-      way.quaternion.set([x, y, z, w], 4 * k);
+      poses.position.set(position, 3 * k);
+      poses.quaternion.set([x, y, z, w], 4 * k);
       found();
       return;
     }
-    way.hidden++;
+    poses.hidden++;
     if (k === 0) return;
-    way.position.copyWithin(3 * k, 3 * k - 3, 3 * k);
-    way.quaternion.copyWithin(4 * k, 4 * k - 4, 4 * k);
+    poses.position.copyWithin(3 * k, 3 * k - 3, 3 * k);
+    poses.quaternion.copyWithin(4 * k, 4 * k - 4, 4 * k);
   }
 
   /** Numbers of a time by column. @param {number} k @returns {(name: string) => number | undefined} */
@@ -75,14 +75,14 @@ export class Run {
     const { parent, at = [0, 0, 0], axis, angle, direction, way } = this.scene.frames[name] ?? {};
     const { position, quaternion } = this.ways.get(name);
     if (parent === undefined) return { position: position.slice(), quaternion };
-    const made = this._still();
+    const poses = this._still();
     const values = filled(this.columns[way ?? angle]);
     const about = angle === undefined ? null : new Vector3(...unit(axis));
     for (let k = 0; k < this.count; k++) {
-      made.position.set(about === null ? add(at, scale(direction, values[k])) : at, 3 * k);
-      if (about !== null) new Quaternion().setFromAxisAngle(about, values[k]).toArray(made.quaternion, 4 * k);
+      poses.position.set(about === null ? add(at, scale(direction, values[k])) : at, 3 * k);
+      if (about !== null) new Quaternion().setFromAxisAngle(about, values[k]).toArray(poses.quaternion, 4 * k);
     }
-    return about === null ? made : { ...made, turn: { axis: about, angle: values } };
+    return about === null ? poses : { ...poses, turn: { axis: about, angle: values } };
   }
 
   /** How far the frames go along a direction, m. @param {number[]} direction @returns {[number, number]} */

@@ -10,44 +10,44 @@ import { addBarrier, addBuilding } from "../looks/scenery/walls.js";
 
 const MOST_TREES = 1500;
 
-/** A geometry that stands somewhere. @param {Triangles} made @param {THREE.BufferGeometry} geometry @param {number[]} at @param {number[]} size */
-function stand(made, geometry, at, size) {
+/** A geometry that stands somewhere. @param {Triangles} triangles @param {THREE.BufferGeometry} geometry @param {number[]} at @param {number[]} size */
+function stand(triangles, geometry, at, size) {
   const [points, normals, colours] = ["position", "normal", "color"].map((name) => geometry.getAttribute(name).array);
   const vector = (values, i) => [...values.subarray(3 * i, 3 * i + 3)];
-  const first = made.positions.length / 3;
+  const first = triangles.positions.length / 3;
   for (let i = 0; i < points.length / 3; i++) {
-    made.point(vector(points, i).map((value, k) => at[k] + size[k] * value), vector(normals, i), vector(colours, i));
+    triangles.point(vector(points, i).map((value, k) => at[k] + size[k] * value), vector(normals, i), vector(colours, i));
   }
-  made.index.push(...[...geometry.index.array].map((number) => first + number));
+  triangles.index.push(...[...geometry.index.array].map((number) => first + number));
 }
 
 /** A board without words, and what carries it. */
-function sign(made, thing) {
+function sign(triangles, thing) {
   const board = new Triangles();
-  addSign(board, made, thing, 0, 1);
+  addSign(board, triangles, thing, 0, 1);
   const [a, b, c, d] = [0, 3, 6, 9].map((k) => board.positions.slice(k, k + 3));
-  made.quad([a, b, c, d], looks.things.board);
+  triangles.quad([a, b, c, d], looks.things.board);
 }
 
 /** Trunk and crown; pages have twigs. */
-function tree(made, { at, height }) {
+function tree(triangles, { at, height }) {
   const rings = (colour, profile) => profile.map(([radius, z]) => ({ radius, z, colour }));
   const whole = new Triangles();
   turned(whole, rings(looks.things.bark, [[0.028, -0.01], [0.014, 0.5]]), 5); // prettier-ignore
   turned(whole, rings(looks.things.leaves, [[0.001, 0.22], [0.2, 0.34], [0.24, 0.55], [0.14, 0.83], [0.001, 1]]), 7); // prettier-ignore
-  stand(made, whole.geometry(), at, [height, height, height]);
+  stand(triangles, whole.geometry(), at, [height, height, height]);
 }
 
-/** @type {Object<string, (made: Triangles, thing: Data) => void>} */
+/** @type {Object<string, (triangles: Triangles, thing: Data) => void>} */
 const THINGS = {
-  line: (made, line) => addLine(made, line, null),
-  arrow: (made, arrow) => arrowStrips(/** @type {any} */ (arrow), null).forEach((strip) => addStrip(made, strip, PAINTS.white)),
-  barrier: (made, barrier) => addBarrier(made, /** @type {any} */ (barrier)),
+  line: (triangles, line) => addLine(triangles, line, null),
+  arrow: (triangles, arrow) => arrowStrips(/** @type {any} */ (arrow), null).forEach((strip) => addStrip(triangles, strip, PAINTS.white)),
+  barrier: (triangles, barrier) => addBarrier(triangles, /** @type {any} */ (barrier)),
   building: addBuilding,
   sign,
   tree,
-  cone: (made, { at: place, colour, height = 0.5 }) => stand(made, coneGeometry(colour), place, [height, height, height]),
-  post: (made, { at: place, height = 1 }) => stand(made, postGeometry(), place, [1, 1, height]),
+  cone: (triangles, { at: place, colour, height = 0.5 }) => stand(triangles, coneGeometry(colour), place, [height, height, height]),
+  post: (triangles, { at: place, height = 1 }) => stand(triangles, postGeometry(), place, [1, 1, height]),
 };
 
 /**
@@ -64,10 +64,10 @@ export function scenery(things, ways) {
   });
   const meshes = [...new Set(near.map(({ kind }) => kind))].map((kind) => {
     const same = near.filter((thing) => thing.kind === kind);
-    const made = new Triangles(same[0].at ?? same[0].points[0]);
-    for (const thing of same) THINGS[kind](made, thing);
+    const triangles = new Triangles(same[0].at ?? same[0].points[0]);
+    for (const thing of same) THINGS[kind](triangles, thing);
     const material = new THREE.MeshStandardMaterial({ name: kind, roughness: 0.85, side: THREE.DoubleSide });
-    return { kind, geometry: made.geometry(), base: made.base, material };
+    return { kind, geometry: triangles.geometry(), base: triangles.base, material };
   });
   return { meshes, left: things.length - near.length };
 }

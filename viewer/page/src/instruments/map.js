@@ -1,4 +1,4 @@
-// The world from above: its ground, scenery and places, the car and where it has been.
+// The map of the world: ground, scenery and places, the car and its path.
 import { el } from "../common/dom.js";
 import { besides } from "../common/labels.js";
 import { Surfaces } from "./surfaces.js";

@@ -9,9 +9,9 @@ const SLOW = 0.97;
  * @param {{running: boolean, speed: number, factor: number | null}} pace `factor`: simulated seconds per second of the clock
  */
 export function realTimeText({ running, speed, factor }) {
-  const wanted = speed === 1 ? "real time" : speed < 1 ? `slow motion × ${short(speed)}` : `fast × ${short(speed)}`;
+  const nominal = speed === 1 ? "real time" : speed < 1 ? `slow motion × ${short(speed)}` : `fast × ${short(speed)}`;
   if (!running) return { text: "paused", warn: "" };
   const late = factor !== null && factor < SLOW * speed;
   const warn = late ? `This machine does not keep up: ${factor.toFixed(2)} s of the run a second, ${short(speed)} asked for.` : "";
-  return { text: factor === null ? wanted : `${wanted} (× ${factor.toFixed(2)})`, warn };
+  return { text: factor === null ? nominal : `${nominal} (× ${factor.toFixed(2)})`, warn };
 }

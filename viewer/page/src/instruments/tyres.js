@@ -95,7 +95,7 @@ function arrowPath(x, y, dx, dy) {
   const [ux, uy] = [dx, dy].map((d) => d / Math.hypot(dx, dy));
   const [ex, ey] = [x + ux * size, y + uy * size];
   const head = 4;
-  const wing = (way) => `M${f(ex)} ${f(ey)}L${f(ex - head * (ux + way * 0.7 * uy))} ${f(ey - head * (uy - way * 0.7 * ux))}`;
+  const wing = (side) => `M${f(ex)} ${f(ey)}L${f(ex - head * (ux + side * 0.7 * uy))} ${f(ey - head * (uy - side * 0.7 * ux))}`;
   return `M${x} ${y}L${f(ex)} ${f(ey)}${wing(1)}${wing(-1)}`;
 }
 

@@ -30,14 +30,14 @@ function number(variable, change) {
   const unit = variable.unit && variable.unit !== "1" ? ` ${variable.unit}` : "";
   const slider = el("input", { type: "range", min: 0, max: POSITIONS, step: range.whole ? "any" : 1, data: "slider" });
   const field = el("input", { type: "number", step: range.whole ? 1 : "any", data: "number" });
-  let held = false; // while a hand is on it, the run does not move it
+  let dragged = false; // while a hand is on it, the run does not move it
   const show = (value) => {
-    if (held || document.activeElement === field) return;
+    if (dragged || document.activeElement === field) return;
     slider.value = String(POSITIONS * toSlider(range, value));
     field.value = String(Number(Number(value).toPrecision(6)));
   };
-  slider.addEventListener("pointerdown", () => (held = true));
-  for (const end of ["pointerup", "pointercancel", "change"]) slider.addEventListener(end, () => (held = false));
+  slider.addEventListener("pointerdown", () => (dragged = true));
+  for (const end of ["pointerup", "pointercancel", "change"]) slider.addEventListener(end, () => (dragged = false));
   slider.addEventListener("input", () => {
     const value = fromSlider(range, Number(slider.value) / POSITIONS);
     field.value = value;
@@ -58,8 +58,8 @@ function number(variable, change) {
 }
 
 function chooser(variable, change, choices) {
-  const made = select("choice", "", choices, change);
-  return { body: [made], show: (value) => (made.value = String(value)) };
+  const choice = select("choice", "", choices, change);
+  return { body: [choice], show: (value) => (choice.value = String(value)) };
 }
 
 function toggle(variable, change) {

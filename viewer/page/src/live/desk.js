@@ -1,4 +1,4 @@
-// The main thread's side of the worker, started from the script of the page, so that one file on a disk is enough.
+// The side of the worker in the main thread; the worker starts from the script of the page, so that one file is enough.
 import { Runner } from "./worker.js";
 
 // While the script of the page runs; later it is no longer known.

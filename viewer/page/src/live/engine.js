@@ -14,8 +14,8 @@ export function heldVariables(descriptions) {
   const found = new Map();
   for (const { variables } of descriptions) {
     for (const v of variables) {
-      const held = v.causality === "input" || (v.causality === "parameter" && v.variability === "tunable");
-      if (held && NUMBERS.includes(v.type) && !found.has(v.name)) found.set(v.name, v);
+      const settable = v.causality === "input" || (v.causality === "parameter" && v.variability === "tunable");
+      if (settable && NUMBERS.includes(v.type) && !found.has(v.name)) found.set(v.name, v);
     }
   }
   const all = [...found.values()];
@@ -132,12 +132,12 @@ export class Engine {
     this._follow();
     // The first step has the values of the start: so a run that sets the same table from the start is the same.
     const hand = this.k === 0 ? this.hand.values : this.hand.move(this.step);
-    const held = hand.map((value, i) => (this._whole[i] ? Math.round(value) : value));
-    this.held = held;
-    const refused = this._stepWith(held);
+    const values = hand.map((value, i) => (this._whole[i] ? Math.round(value) : value));
+    this.held = values;
+    const refused = this._stepWith(values);
     if (!this.alive) return refused; // a step that all refuse is none
     const before = this._past.get(this.k - 1);
-    this._past.set(this.k, before && held.every((value, i) => Object.is(value, before[i])) ? before : held);
+    this._past.set(this.k, before && values.every((value, i) => Object.is(value, before[i])) ? before : values);
     this.k += 1;
     this._read();
     if (this.k % Math.max(1, Math.round(SAVE_EVERY / this.step)) === 0) this._save();
@@ -174,11 +174,11 @@ export class Engine {
     });
     this.k = from;
     while (this.k < target) {
-      const held = this._past.get(this.k);
+      const values = this._past.get(this.k);
       const asleep = this.runs.filter((run) => run.failed !== null && run.failed <= this.k);
-      this._stepWith(held, asleep);
+      this._stepWith(values, asleep);
       this.k += 1;
-      this.hand.hold(held);
+      this.hand.hold(values);
     }
     for (const step of [...this._past.keys()]) if (step >= target) this._past.delete(step);
     if (target === from && this._past.has(from - 1)) this.hand.hold(this._past.get(from - 1));
@@ -201,16 +201,16 @@ export class Engine {
     });
   }
 
-  _stepWith(held, asleep = this.runs.filter((run) => run.failed !== null)) {
+  _stepWith(values, asleep = this.runs.filter((run) => run.failed !== null)) {
     const refused = [];
     this.runs.forEach((run, which) => {
       if (asleep.includes(run)) return;
       try {
         // Only what has changed is set: setting one may be costly.
         run.indices.forEach((i, n) => {
-          if (Object.is(run.last[n], held[i])) return;
-          run.writers[n](held[i]);
-          run.last[n] = held[i];
+          if (Object.is(run.last[n], values[i])) return;
+          run.writers[n](values[i]);
+          run.last[n] = values[i];
         });
         run.slave.step(this.step);
       } catch (error) {

@@ -56,9 +56,9 @@ export class Keyboard {
     const acts = new Set([...this._down].map((code) => DRIVING[code]));
     const limit = this.steeringLimit(speed);
     const steering = limit * ((acts.has("left") ? 1 : 0) - (acts.has("right") ? 1 : 0));
-    const wanted = { steering };
-    for (const pedal of ["throttle", "brake", "hand_brake"]) wanted[pedal] = acts.has(pedal) ? 1 : 0;
-    return Object.entries(wanted).map(([name, value]) => {
+    const inputs = { steering };
+    for (const pedal of ["throttle", "brake", "hand_brake"]) inputs[pedal] = acts.has(pedal) ? 1 : 0;
+    return Object.entries(inputs).map(([name, value]) => {
       const [to, back] = RATES[name];
       return [name, value, value === 0 ? back : to];
     });

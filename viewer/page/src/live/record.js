@@ -5,16 +5,16 @@ const ROWS = 1024; // in a block
 /** Rows of numbers at the times k * step; row k has the inputs of the step that begins there. */
 export class Record {
   /**
-   * @param {string[]} held - Names of what is set: inputs and tunable parameters.
+   * @param {string[]} inputs - Names of what is set: inputs and tunable parameters.
    * @param {string[]} outputs - Names of what comes out, one for each instance's output.
    * @param {number} step - s.
    * @param {number} [most] - Bytes; the oldest rows are forgotten beyond them.
    */
-  constructor(held, outputs, step, most = 4e8) {
-    this.held = held;
+  constructor(inputs, outputs, step, most = 4e8) {
+    this.held = inputs;
     this.outputs = outputs;
     this.step = step;
-    this.width = held.length + outputs.length;
+    this.width = inputs.length + outputs.length;
     this._blocksMost = Math.max(2, Math.floor(most / (8 * ROWS * this.width)));
     this.clear();
   }
@@ -33,15 +33,15 @@ export class Record {
 
   /**
    * A row after the last one.
-   * @param {ArrayLike<number>} held - Values of the step that ends there: they belong to the row before.
+   * @param {ArrayLike<number>} inputs - Values of the step that ends there: they belong to the row before.
    * @param {ArrayLike<number>} outputs - At its end.
    */
-  add(held, outputs) {
-    if (this.end > this.first) this._row(this.end - 1).set(held, 0);
+  add(inputs, outputs) {
+    if (this.end > this.first) this._row(this.end - 1).set(inputs, 0);
     if (this.end % ROWS === 0 || !this._blocks.length) this._grow();
     this.end += 1;
     const row = this._row(this.end - 1);
-    row.set(held, 0); // until the next step says what it has
+    row.set(inputs, 0); // until the next step says what it has
     row.set(outputs, this.held.length);
   }
 
@@ -59,8 +59,8 @@ export class Record {
 
   /** Where a column is: its index in a row, -1 if there is none. */
   column(name) {
-    const held = this.held.indexOf(name);
-    if (held >= 0) return held;
+    const column = this.held.indexOf(name);
+    if (column >= 0) return column;
     const output = this.outputs.indexOf(name);
     return output < 0 ? -1 : this.held.length + output;
   }

@@ -10,21 +10,21 @@ export function movedRoads(roads, lookup) {
   const key = [];
   const moved = roads.map((road) => {
     const { kerb_x: along, kerb_height: high, ...grip } = road.variables ?? {};
-    const made = { ...road };
+    const changed = { ...road };
     for (const name of ["friction", "friction_factor"]) {
       const value = grip[name] && lookup(grip[name]);
-      if (Number.isFinite(value)) key.push((made[name] = value));
+      if (Number.isFinite(value)) key.push((changed[name] = value));
     }
-    if (road.kind !== "profile" || road.heights.length !== 2 || !(along || high)) return made;
+    if (road.kind !== "profile" || road.heights.length !== 2 || !(along || high)) return changed;
     const [x, height] = [along && lookup(along), high && lookup(high)];
-    if (Number.isFinite(x)) made.origin = [x, ...(road.origin ?? [0, 0, 0]).slice(1)];
+    if (Number.isFinite(x)) changed.origin = [x, ...(road.origin ?? [0, 0, 0]).slice(1)];
     if (Number.isFinite(height)) {
       const [first, last] = road.heights;
       const top = Math.max(first, last);
-      made.heights = first < last ? [top - height, top] : [top, top - height];
+      changed.heights = first < last ? [top - height, top] : [top, top - height];
     }
     key.push(x, height);
-    return made;
+    return changed;
   });
   return { roads: moved, key: key.join(" ") };
 }

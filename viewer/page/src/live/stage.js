@@ -1,4 +1,4 @@
-// The pictures: one beside the other, each of an FMU that runs or of a recording played beside it.
+// The pictures side by side, each of an FMU that runs or of a recording played beside it.
 import { SceneView } from "../scene/scene_view.js";
 import { Effects } from "../effects/car_effects.js";
 import { el } from "../common/dom.js";

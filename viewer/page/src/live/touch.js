@@ -23,17 +23,17 @@ function lever({ name, label, across, want }) {
     show(value);
     want(name, value);
   };
-  let held = false;
+  let pressed = false;
   element.addEventListener("pointerdown", (event) => {
-    held = true;
+    pressed = true;
     element.setPointerCapture?.(event.pointerId);
     event.preventDefault();
     move(event);
   });
-  element.addEventListener("pointermove", (event) => held && move(event));
+  element.addEventListener("pointermove", (event) => pressed && move(event));
   for (const end of ["pointerup", "pointercancel"]) {
     element.addEventListener(end, () => {
-      held = false;
+      pressed = false;
       show(0);
       want(name, 0);
     });

@@ -1,4 +1,4 @@
-// The FMUs run here, in a thread of their own, so that drawing does not hold them up. `Desk` is the other side.
+// Runs the FMUs in a thread of their own, so that drawing does not delay them. `Desk` is the other side.
 import { loadFmu } from "../wasm/fmu.js";
 import { Engine } from "./engine.js";
 import { RealTimeClock } from "./real_time_clock.js";
@@ -38,10 +38,10 @@ export class Runner {
       await this[`_${message.do}`](message);
       if (begins) this._refused = null;
     } catch (error) {
-      const told = { is: "error", at: message.do, text: String(error.message ?? error) };
-      if (begins) this._refused = told;
+      const failure = { is: "error", at: message.do, text: String(error.message ?? error) };
+      if (begins) this._refused = failure;
       this._halt();
-      this._post(told);
+      this._post(failure);
     }
   }
 
@@ -140,8 +140,8 @@ export class Runner {
   }
 
   _tellMessages(quiet = false) {
-    const told = this.engine.messages();
-    if (!quiet) for (const { which, text, status } of told) this._post({ is: "message", which, text, status });
+    const messages = this.engine.messages();
+    if (!quiet) for (const { which, text, status } of messages) this._post({ is: "message", which, text, status });
   }
 
   _send(is) {

@@ -57,8 +57,8 @@ export function contactShadows(view) {
       const forward = level(rotate(rotation, [1, 0, 0]));
       const left = cross(up, forward);
       const least = Math.min(...centres.map((centre, k) => dot(centre, up) - wheels[k].radius));
-      const spread = [forward, left].map((way) => {
-        const along = centres.map((centre) => dot(centre, way));
+      const spread = [forward, left].map((direction) => {
+        const along = centres.map((centre) => dot(centre, direction));
         return [0.5 * (Math.min(...along) + Math.max(...along)), 0.5 * (Math.max(...along) - Math.min(...along))];
       });
       const middle = add(add(scale(forward, spread[0][0]), scale(left, spread[1][0])), scale(up, least));

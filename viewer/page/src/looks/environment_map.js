@@ -8,9 +8,9 @@ const SUMMED = 8;
 
 /** A generator of coarse maps, by members that three.js keeps private. @param {THREE.WebGLRenderer} renderer */
 function coarseGenerator(renderer) {
-  const made = new THREE.PMREMGenerator(renderer);
-  const inside = /** @type {Data} */ (made);
-  const render = inside._renderCube.bind(made);
+  const generator = new THREE.PMREMGenerator(renderer);
+  const inside = /** @type {Data} */ (generator);
+  const render = inside._renderCube.bind(generator);
   inside._setSize = () => (inside._cubeSize = COARSE);
   inside._renderCube = (/** @type {Data} */ target, /** @type {number} */ lod, /** @type {THREE.ShaderMaterial} */ material) => {
     const { roughness, sourceSize, sourceLod } = material.uniforms;
@@ -19,7 +19,7 @@ function coarseGenerator(renderer) {
     if (lod === 1) rays.uniforms.roughness.value = roughness.value;
     render(target, lod, lod === 1 ? rays : material);
   };
-  return made;
+  return generator;
 }
 
 /**

@@ -51,11 +51,11 @@ export function lift(shader, share) {
  * @param {(shader: Data) => void} change of its program
  */
 export function laid(key, share, look, change) {
-  const made = new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true, ...look });
-  made.onBeforeCompile = (shader) => {
+  const material = new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false, side: THREE.DoubleSide, forceSinglePass: true, ...look });
+  material.onBeforeCompile = (shader) => {
     change(shader);
     lift(shader, share);
   };
-  made.customProgramCacheKey = () => `ali3-${key}`;
-  return made;
+  material.customProgramCacheKey = () => `ali3-${key}`;
+  return material;
 }

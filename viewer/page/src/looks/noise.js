@@ -89,10 +89,10 @@ function sampled(texture, anisotropy) {
 
 /** The same picture, looked up in one of its mipmaps where others blend two. @param {THREE.Texture} texture */
 export function oneLevel(texture) {
-  const made = texture.clone();
-  made.minFilter = THREE.LinearMipmapNearestFilter;
-  made.needsUpdate = true;
-  return made;
+  const copy = texture.clone();
+  copy.minFilter = THREE.LinearMipmapNearestFilter;
+  copy.needsUpdate = true;
+  return copy;
 }
 
 /** @param {THREE.DataTexture} texture */

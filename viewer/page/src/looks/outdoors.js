@@ -22,17 +22,17 @@ export function outdoors(view, fine) {
   renderer.toneMapping = THREE.ACESFilmicToneMapping;
   renderer.toneMappingExposure = 1.15;
   world.fog = new THREE.Fog(HAZE, 60 + 15 * extent, 700 + 60 * extent);
-  const held = {};
+  const environment = {};
   const pixels = new THREE.Vector2();
   const noise = noiseTexture(fine ? 8 : 1);
   /** Draws the sky once, as it is seen, and gives it to what reflects it. */
   const around = () => {
-    held.cube?.dispose();
+    environment.cube?.dispose();
     const ball = new THREE.Scene().add(skyBall(up, new THREE.Vector3(...direction), noise));
-    held.cube = new THREE.WebGLCubeRenderTarget(fine ? 1024 : 512, { type: THREE.HalfFloatType });
-    new THREE.CubeCamera(0.1, 100, held.cube).update(renderer, ball);
-    sky.material.uniforms.cube.value = held.cube.texture;
-    land?.mirror(held.cube.texture);
+    environment.cube = new THREE.WebGLCubeRenderTarget(fine ? 1024 : 512, { type: THREE.HalfFloatType });
+    new THREE.CubeCamera(0.1, 100, environment.cube).update(renderer, ball);
+    sky.material.uniforms.cube.value = environment.cube.texture;
+    land?.mirror(environment.cube.texture);
     return ball;
   };
   const sky = seenSky();
@@ -83,7 +83,7 @@ export function outdoors(view, fine) {
       noise.dispose();
       discard(sky);
       sun.dispose();
-      held.cube.dispose();
+      environment.cube.dispose();
       light.dispose();
     },
   };

@@ -55,8 +55,8 @@ export class PictureQuality {
     return this.driven ? "draft" : "medium";
   }
 
-  _measure(wanted) {
-    this.skipped = wanted ? SKIPPED : Infinity;
+  _measure(level) {
+    this.skipped = level ? SKIPPED : Infinity;
     this.every = 1;
     this.times = [];
     this.gaps = [];

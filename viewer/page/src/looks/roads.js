@@ -206,9 +206,9 @@ export function kept(n, same) {
 export function divided(lines, spacing) {
   const longest = Math.max(LONGEST, ((lines[lines.length - 1] - lines[0]) * spacing) / MOST_ADDED);
   return lines.flatMap((k, at) => {
-    const way = (lines[at + 1] ?? k) - k;
-    const parts = Math.max(1, Math.ceil((way * spacing) / longest));
-    return Array.from({ length: parts }, (_, part) => k + (way * part) / parts);
+    const gap = (lines[at + 1] ?? k) - k;
+    const parts = Math.max(1, Math.ceil((gap * spacing) / longest));
+    return Array.from({ length: parts }, (_, part) => k + (gap * part) / parts);
   });
 }
 

@@ -1,4 +1,4 @@
-// Light from all of the sky, for materials that mirror nothing.
+// Diffuse light of the sky, for materials without reflections.
 import { atEachPixel } from "./vertex_code.js";
 
 /** Follows the lights of a Lambert material of three.js. */

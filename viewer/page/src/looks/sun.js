@@ -1,4 +1,4 @@
-// The light that throws shadows; it goes along with the focus.
+// The light that casts shadows; it moves with the focus.
 import * as THREE from "three";
 
 /**

@@ -1,4 +1,4 @@
-// The shader of surfaces, in pieces that stand behind those of three.js.
+// The shader code of surfaces, inserted into the shaders of three.js.
 import looks from "../../../looks.json" with { type: "json" };
 
 /** Mean linear colour of a surface, as the shader writes it. @param {keyof typeof looks.surfaces} name */

@@ -1,4 +1,4 @@
-// A world's ground: every part of it as coarse as its distance allows, put together again as the eye moves on.
+// The terrain of a world at several levels of detail, chosen by the distance from the camera.
 import * as THREE from "three";
 import { dot, fromColumns } from "../scene/math.js";
 import { turn } from "../shapes/place.js";

@@ -1,4 +1,4 @@
-// The ground around a terrain: the heights of its border go on without end, as they do under the wheels.
+// The ground around a terrain: the heights of its border continue without end, as under the wheels.
 import * as THREE from "three";
 
 /** So far around the focus it is drawn, in metres. */

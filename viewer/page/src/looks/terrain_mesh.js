@@ -50,8 +50,8 @@ export function bundles(list, most, points) {
       if (!cells.has(key)) cells.set(key, []);
       cells.get(key).push(part);
     });
-    const made = [...cells.values()].flatMap((cell) => divided(cell, points));
-    if (made.length <= most || cells.size === 1) return made;
+    const lines = [...cells.values()].flatMap((cell) => divided(cell, points));
+    if (lines.length <= most || cells.size === 1) return lines;
     side *= 2;
   }
 }
@@ -90,13 +90,13 @@ export function pieceParts(piece, field) {
     starts.push(at);
     at = addPoints(part, field, base, positions, normals, at);
   }
-  const made = piece.map((part, k) => {
+  const meshes = piece.map((part, k) => {
     const { patch, n, m } = part;
     const strides = STRIDES.filter((stride) => stride === 1 || stride < Math.min(n, m));
     const levels = strides.map((stride) => ({ error: errorOf(part, stride), triangles: trianglesOf(part, stride, starts[k]) }));
     return { middle: middleOf(part), radius: 0.5 * Math.hypot((n - 1) * patch.spacing[0], (m - 1) * patch.spacing[1]), levels };
   });
-  return { base, positions, normals, parts: made };
+  return { base, positions, normals, parts: meshes };
 }
 
 function addPoints({ patch, i0, j0, n, m }, field, base, positions, normals, start) {

@@ -1,4 +1,4 @@
-// Code of a material that runs for each point, and for each pixel.
+// Inserts shader code into a material, per vertex or per pixel.
 
 /** @param {Data} shader of three.js @param {string} declared before all @param {string} code once the place of the point is known, `position` */
 export function atEachPoint(shader, declared, code) {

@@ -1,4 +1,4 @@
-// A world: its terrain and scenery with what they are made of, put together.
+// A world: terrain and scenery with their materials, at two levels of detail.
 import * as THREE from "three";
 import { coverage } from "./coverage.js";
 import { HeightField, SURFACES, SurfaceRaster } from "./heights.js";
@@ -22,8 +22,8 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
   const tell = [];
   if (roads.length > 1) tell.push(`${roads.length} terrains are in the scene; the first is drawn.`);
   const [field, raster] = roads.length > 0 ? [new HeightField(roads[0]), new SurfaceRaster(roads[0].surface)] : [null, null];
-  const strange = (raster?.names ?? []).filter((name) => !SURFACES.includes(name));
-  for (const name of strange) tell.push(`The surface '${name}' is not known to this page and is drawn as asphalt.`);
+  const unknown = (raster?.names ?? []).filter((name) => !SURFACES.includes(name));
+  for (const name of unknown) tell.push(`The surface '${name}' is not known to this page and is drawn as asphalt.`);
   const cover = raster === null ? nothing() : coverage(raster, fine ? 8 : 1);
   const materials = surfaceMaterials({ noise, axes, sun, cover, corner: raster?.origin ?? [0, 0], fine });
   const group = new THREE.Group();
@@ -31,12 +31,12 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
     const land = field === null ? null : terrain(materials.ground, axes, field, rough ? ROUGH : FINE);
     return versionOf(land, makeScenery(things, { axes, paint: materials.paint, ground: field, drafted: rough }));
   };
-  const made = {};
+  const versions = {};
   let [shown, drafted] = [null, null];
   /** Show the world at a level, fine or rough, each made when it is first seen. @param {string} level @param {Data} light of a draft */
   const show = (level, light) => {
     const rough = level === "low" || level === "draft";
-    shown = made[rough ? "rough" : "fine"] ??= make(rough);
+    shown = versions[rough ? "rough" : "fine"] ??= make(rough);
     if (level === "draft") drafted ??= materials.drafted(light);
     if (rough && drafted !== null) dress(shown.group, level === "draft" ? [materials, drafted] : [drafted, materials]);
     group.clear().add(shown.group);
@@ -57,18 +57,18 @@ export function makeWorld(scene, { up, noise, sun, fine }) {
       shown.follow(origin, eye);
     },
     dispose() {
-      for (const version of Object.values(made)) version.dispose();
+      for (const version of Object.values(versions)) version.dispose();
       for (const pair of [materials, drafted]) for (const what of ["ground", "paint"]) pair?.[what].dispose();
       cover.texture.dispose();
     },
   };
 }
 
-/** Other materials of ground and paint. @param {THREE.Group} group @param {Data[]} pair those that it has, and those that it gets */
-function dress(group, [now, then]) {
+/** Replaces the materials of ground and paint. @param {THREE.Group} group @param {Data[]} pair old and new materials */
+function dress(group, [old, fresh]) {
   group.traverse((/** @type {THREE.Mesh} */ part) => {
-    if (part.material === now.ground) part.material = then.ground;
-    else if (part.material === now.paint) part.material = then.paint;
+    if (part.material === old.ground) part.material = fresh.ground;
+    else if (part.material === old.paint) part.material = fresh.paint;
   });
 }
 
@@ -87,7 +87,7 @@ function versionOf(land, scenery) {
   };
 }
 
-/** All is asphalt. */
+/** A coverage of asphalt only. */
 function nothing() {
   const texture = new THREE.DataTexture(Uint8Array.of(255, 128, 128, 128), 1, 1);
   texture.needsUpdate = true;

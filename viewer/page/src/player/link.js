@@ -2,21 +2,21 @@
 
 /** @param {string} hash @returns {{time?: number, camera?: string, plots?: string[], speed?: number}} */
 export function fromHash(hash) {
-  const given = new URLSearchParams(hash.replace(/^#/, ""));
-  const made = {};
-  const number = (name) => (given.has(name) && given.get(name) !== "" ? Number(given.get(name)) : NaN);
-  if (Number.isFinite(number("t"))) made.time = number("t");
-  if (given.get("camera")) made.camera = given.get("camera");
-  if (given.has("plots")) made.plots = given.getAll("plots").filter(Boolean);
-  if (number("speed") >= 0.05 && number("speed") <= 10) made.speed = number("speed");
-  return made;
+  const parameters = new URLSearchParams(hash.replace(/^#/, ""));
+  const options = {};
+  const number = (name) => (parameters.has(name) && parameters.get(name) !== "" ? Number(parameters.get(name)) : NaN);
+  if (Number.isFinite(number("t"))) options.time = number("t");
+  if (parameters.get("camera")) options.camera = parameters.get("camera");
+  if (parameters.has("plots")) options.plots = parameters.getAll("plots").filter(Boolean);
+  if (number("speed") >= 0.05 && number("speed") <= 10) options.speed = number("speed");
+  return options;
 }
 
 /** @param {{time: number, camera?: string, plots: string[], speed: number}} state @returns {string} */
 export function toHash({ time, camera, plots, speed }) {
-  const given = new URLSearchParams({ t: String(Number(time.toPrecision(9))) });
-  if (camera) given.set("camera", camera);
-  if (speed !== 1) given.set("speed", String(speed));
-  for (const name of plots) given.append("plots", name);
-  return `#${given}`;
+  const parameters = new URLSearchParams({ t: String(Number(time.toPrecision(9))) });
+  if (camera) parameters.set("camera", camera);
+  if (speed !== 1) parameters.set("speed", String(speed));
+  for (const name of plots) parameters.append("plots", name);
+  return `#${parameters}`;
 }

@@ -1,4 +1,4 @@
-// Plays recordings: the picture of one, others as ghosts, what they leave on the ground.
+// Plays recordings: the picture of one, others as ghosts, and their traces on the ground.
 import looks from "../../../looks.json" with { type: "json" };
 import { el } from "../common/dom.js";
 import { instead } from "../common/notices.js";

@@ -57,20 +57,20 @@ export class Cameras {
 
   /**
    * Cameras that stand still: one that sees the whole way, and several beside it.
-   * @param {number[][]} way earth positions of what is followed
+   * @param {number[][]} path earth positions of what is followed
    */
-  stand(way) {
+  stand(path) {
     const { up } = this.view;
     const extent = Math.min(this.view.extent, 2 * this.view.radius);
-    const [low, high] = [Math.min, Math.max].map((most) => [0, 1, 2].map((k) => way.reduce((a, point) => most(a, point[k]), way[0][k])));
+    const [low, high] = [Math.min, Math.max].map((most) => [0, 1, 2].map((k) => path.reduce((a, point) => most(a, point[k]), path[0][k])));
     const rightOf = (from, to) => unit(cross(subtract(to, from), up)) ?? across(up);
-    const right = rightOf(way[0], way[way.length - 1]);
+    const right = rightOf(path[0], path[path.length - 1]);
     const centre = scale(add(low, high), 0.5);
     const reach = Math.hypot(...subtract(high, low)) / 2 + extent;
-    this.fixed = { centre, reach, way, extent, from: unit(add(scale(right, 0.94), scale(up, 0.34))) };
+    this.fixed = { centre, reach, path, extent, from: unit(add(scale(right, 0.94), scale(up, 0.34))) };
     this.posts = [];
     let last = null;
-    for (const point of way) {
+    for (const point of path) {
       if (last !== null && Math.hypot(...subtract(point, last)) < POSTS * extent) continue;
       const aside = (this.posts.length % 2 === 0 ? 1 : -1) * ASIDE * extent;
       this.posts.push(add(point, add(scale(last === null ? right : rightOf(last, point), aside), scale(up, 0.5 * extent))));
@@ -95,10 +95,10 @@ export class Cameras {
 
   /** Where the camera that stands still is, and half its angle of view, for the form of the picture. */
   _place() {
-    const { centre, reach, from, way, extent } = this.fixed;
+    const { centre, reach, from, path, extent } = this.fixed;
     const widest = Math.tan((VIEW_ANGLES.fixed / 2) * (Math.PI / 180));
     const eye = add(centre, scale(from, Math.min(reach / (widest * this.aspect), 0.7 * this.rig.far)));
-    const farthest = way.reduce((most, point) => Math.max(most, Math.hypot(...subtract(point, eye))), 0);
+    const farthest = path.reduce((most, point) => Math.max(most, Math.hypot(...subtract(point, eye))), 0);
     const narrow = extent / (2 * LEAST_SHARE * farthest * this.aspect);
     Object.assign(this.fixed, { aspect: this.aspect, eye, half: Math.atan(Math.min(widest, narrow)), whole: narrow >= widest });
   }
@@ -179,8 +179,8 @@ export class Cameras {
   /** Behind what is followed, and above the ground there. */
   _chase(forward, extent) {
     const { up, origin, look } = this.view;
-    const way = this.trailing.along(forward, up);
-    const seen = (ahead, above) => add(scale(way, ahead * extent), scale(up, above * extent));
+    const direction = this.trailing.along(forward, up);
+    const seen = (ahead, above) => add(scale(direction, ahead * extent), scale(up, above * extent));
     const from = seen(-1.6, 0.42);
     if (look?.height && up[2] > 0.9) {
       const [x, y, z] = add(origin, from);

@@ -67,9 +67,9 @@ export class Frames {
   _slid(name, frame, lookup) {
     const parent = this.pose(frame.parent);
     if (!parent.shown) return parent;
-    const way = lookup === null ? (frame.start ?? 0) : lookup(frame.way);
-    if (!Number.isFinite(way)) return hidden(absent(name, [frame.way]));
-    const at = add(frame.at ?? [0, 0, 0], frame.direction.map((part) => way * part));
+    const travel = lookup === null ? (frame.start ?? 0) : lookup(frame.way);
+    if (!Number.isFinite(travel)) return hidden(absent(name, [frame.way]));
+    const at = add(frame.at ?? [0, 0, 0], frame.direction.map((part) => travel * part));
     return pose(add(parent.position, rotate(parent.rotation, at)), parent.rotation);
   }
 

@@ -87,32 +87,32 @@ export class Marks {
     clearTimeout(this._settled);
     if (gone) return;
     const { frames, flexible, bending } = parts;
-    const wanted = [];
+    const marks = [];
     if (bending.coloured && !parts.closed) {
       for (const body of flexible.filter(({ stressed }) => stressed)) {
-        for (const mark of stressMarks(body, lookup, bending.most)) wanted.push({ ...mark, at: frames.point(body.frame, mark.at) });
+        for (const mark of stressMarks(body, lookup, bending.most)) marks.push({ ...mark, at: frames.point(body.frame, mark.at) });
       }
     }
     if (this._picked) {
       const { frame, at, lines } = this._picked;
-      wanted.push({ kind: "picked", name: "", at: frames.point(frame, at), text: lines().join("\n") });
+      marks.push({ kind: "picked", name: "", at: frames.point(frame, at), text: lines().join("\n") });
     }
-    this._write(wanted);
-    if (again && wanted.length > 0) this._settled = setTimeout(() => this.place(false), LOOKED);
+    this._write(marks);
+    if (again && marks.length > 0) this._settled = setTimeout(() => this.place(false), LOOKED);
   }
 
-  _write(wanted) {
+  _write(marks) {
     const [width] = this.view.size;
-    const seen = wanted.map((mark) => ({ ...mark, at: mark.at && this.view.project(mark.at), key: `${mark.kind} ${mark.name}` })).filter(({ at }) => at);
+    const seen = marks.map((mark) => ({ ...mark, at: mark.at && this.view.project(mark.at), key: `${mark.kind} ${mark.name}` })).filter(({ at }) => at);
     const labels = seen.map(({ kind, key, text, at }) => {
-      const made = this._made.get(key) ?? this._make(key, kind);
-      write(made.words, text);
-      if (made.letters !== text.length || made.size[0] === 0) {
-        const { offsetWidth, offsetHeight } = made.words; // dear, and digits are of one width
-        Object.assign(made, { letters: text.length, size: [offsetWidth, offsetHeight] });
+      const label = this._made.get(key) ?? this._make(key, kind);
+      write(label.words, text);
+      if (label.letters !== text.length || label.size[0] === 0) {
+        const { offsetWidth, offsetHeight } = label.words; // dear, and digits are of one width
+        Object.assign(label, { letters: text.length, size: [offsetWidth, offsetHeight] });
       }
       const outward = Math.min(at[0], width - at[0]) > WIDE; // so that few lie over each other
-      return Object.assign(made, { at, above: ABOVE[kind], sides: 2 * at[0] < width === outward ? [-1, 1] : [1, -1] });
+      return Object.assign(label, { at, above: ABOVE[kind], sides: 2 * at[0] < width === outward ? [-1, 1] : [1, -1] });
     });
     const places = besides(labels, this.view.size, seen.length > 0 ? this._covered() : []);
     for (const [k, { box, words, at }] of labels.entries()) {
@@ -177,13 +177,13 @@ export class Marks {
     return () => {
       const { lookup } = this.view;
       const { position } = parts.frames.pose(frame);
-      const place = `at ${position.map((x) => x.toFixed(3)).join(", ")} m`;
-      if (lookup === null) return [frame, place];
+      const positionText = `at ${position.map((x) => x.toFixed(3)).join(", ")} m`;
+      if (lookup === null) return [frame, positionText];
       const forces = arrows.flatMap((arrow) => {
         const found = forcesOf(arrow, parts.frames, lookup);
         return typeof found === "string" || found.length === 0 ? [] : [`${arrow.name}: ${worded(length(found[0].vector), arrow.unit ?? "N")}`];
       });
-      return [frame, place, ...forces].slice(0, LINES);
+      return [frame, positionText, ...forces].slice(0, LINES);
     };
   }
 }

@@ -55,18 +55,18 @@ export class Parts {
   }
 
   _add(shape, context, { ghost = false }) {
-    const made = makeShape(shape, context);
-    if (made === null) {
+    const drawn = makeShape(shape, context);
+    if (drawn === null) {
       this.tell(`A shape of the kind '${shape.kind}' is not known to this page and is not drawn.`);
       return;
     }
-    if (!ghost) shaded(made.object);
-    this.owned.push(...(made.owned ?? []));
-    made.shape = shape;
-    made.object.name = shape.name ?? shape.body ?? "";
+    if (!ghost) shaded(drawn.object);
+    this.owned.push(...(drawn.owned ?? []));
+    drawn.shape = shape;
+    drawn.object.name = shape.name ?? shape.body ?? "";
     const among = shape.name === WITHIN ? this.inner : this.carriers;
-    (made.frame !== undefined ? this._carrier(made.frame, among) : this.group).add(made.object);
-    this.shapes.push(made);
+    (drawn.frame !== undefined ? this._carrier(drawn.frame, among) : this.group).add(drawn.object);
+    this.shapes.push(drawn);
   }
 
   /** Wheels whose tyre is known and whose shape can be flattened. */
@@ -150,10 +150,10 @@ export class Parts {
       carrier.position.set(...subtract(position, origin));
       turn(carrier, rotation);
     }
-    for (const made of this.shapes) {
-      if (made.update === undefined) continue;
-      made.object.visible = made.frames.every((name) => this.frames.pose(name).shown) && !this._covers(made.frames);
-      if (made.object.visible) made.update(([frame, local]) => subtract(this.frames.point(frame, local), origin));
+    for (const drawn of this.shapes) {
+      if (drawn.update === undefined) continue;
+      drawn.object.visible = drawn.frames.every((name) => this.frames.pose(name).shown) && !this._covers(drawn.frames);
+      if (drawn.object.visible) drawn.update(([frame, local]) => subtract(this.frames.point(frame, local), origin));
     }
   }
 

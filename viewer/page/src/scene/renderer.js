@@ -1,4 +1,4 @@
-// The WebGL context: made, lost, given back; a sentence where there is none.
+// The WebGL context: creation, loss and release; a sentence if there is none.
 import * as THREE from "three";
 import { el } from "../common/dom.js";
 

@@ -131,9 +131,9 @@ export class SceneView {
     }
   }
 
-  /** Adds cameras that stand still beside a way. @param {number[][]} way earth positions of what is followed */
-  stand(way) {
-    this.cameras?.stand(way);
+  /** Adds cameras that stand still beside a way. @param {number[][]} path earth positions of what is followed */
+  stand(path) {
+    this.cameras?.stand(path);
   }
 
   /** What a scene has that `set` can change. @returns {{arrows: boolean, stress: boolean, deformation: boolean, closed: boolean}} */

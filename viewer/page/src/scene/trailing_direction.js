@@ -1,7 +1,7 @@
-// A direction that follows another one like a thing on a rope: a camera that does not turn with every jerk.
+// A direction that follows another one with a first-order lag, so that a camera does not turn with every jerk.
 import { add, dot, scale, subtract, unit } from "./math.js";
 
-/** After this long without a picture, s, the direction is taken as it is. */
+/** Time without a picture, s, after which the direction is that followed. */
 const PAUSE = 1;
 
 /** A level direction with a lag. */
@@ -10,8 +10,8 @@ export class TrailingDirection {
   constructor(lag, clock = () => performance.now() / 1000) {
     this.lag = lag;
     this.clock = clock;
-    this.way = null;
-    this.at = -Infinity;
+    this.direction = null;
+    this.last = -Infinity;
   }
 
   /**
@@ -23,17 +23,17 @@ export class TrailingDirection {
   along(forward, up) {
     if (!(this.lag > 0)) return forward;
     const now = this.clock();
-    const passed = now - this.at;
-    this.at = now;
-    if (this.way === null || passed > PAUSE) this.way = forward;
-    const share = 1 - Math.exp(-passed / this.lag);
-    const mixed = add(scale(this.way, 1 - share), scale(forward, share));
-    this.way = unit(subtract(mixed, scale(up, dot(mixed, up)))) ?? forward;
-    return this.way;
+    const elapsed = now - this.last;
+    this.last = now;
+    if (this.direction === null || elapsed > PAUSE) this.direction = forward;
+    const share = 1 - Math.exp(-elapsed / this.lag);
+    const mixed = add(scale(this.direction, 1 - share), scale(forward, share));
+    this.direction = unit(subtract(mixed, scale(up, dot(mixed, up)))) ?? forward;
+    return this.direction;
   }
 
-  /** What is followed was put elsewhere. */
+  /** Discard the lag: the car was moved to another position. */
   snap() {
-    this.way = null;
+    this.direction = null;
   }
 }

@@ -1,4 +1,4 @@
-// The tyres of a scene, with the wheels that wear them; pure numbers.
+// The tyres of a scene and their wheels; pure numbers.
 import { dot, finite, rotate, subtract, transpose, unit } from "./math.js";
 
 /**
@@ -31,8 +31,8 @@ export function tyresOf(scene) {
 export function roadUnder(tyre, lookup, { position, rotation, shown }) {
   const [at, normal] = [tyre.contact, tyre.normal].map((names) => names.map((name) => lookup(name)));
   if (!shown || !finite([...at, ...normal])) return null;
-  const way = unit(normal);
-  if (way === null) return null;
-  const local = rotate(transpose(rotation), way);
-  return [...local, dot(subtract(at, position), way)];
+  const direction = unit(normal);
+  if (direction === null) return null;
+  const local = rotate(transpose(rotation), direction);
+  return [...local, dot(subtract(at, position), direction)];
 }

@@ -1,4 +1,4 @@
-// Solids of which a shape is put together, about y, from the table that glTF files are made of too.
+// Solids that compose a shape, about y, from the table that glTF files use too.
 import * as THREE from "three";
 import { rounded } from "./box.js";
 import { between } from "./place.js";
@@ -68,8 +68,8 @@ function sphere({ radius, across }, lengths) {
 
 /** Whole, or an arc about +z. */
 function ring({ radius, thickness, across, sides, turns, arc = 2 * Math.PI }, lengths) {
-  const made = new THREE.TorusGeometry(radius * lengths[across], thickness * lengths[across], sides, turns, arc);
-  return made.rotateZ(Math.PI / 2 - arc / 2).rotateX(Math.PI / 2);
+  const geometry = new THREE.TorusGeometry(radius * lengths[across], thickness * lengths[across], sides, turns, arc);
+  return geometry.rotateZ(Math.PI / 2 - arc / 2).rotateX(Math.PI / 2);
 }
 
 function chords({ radius, thickness, across, turns, arc = 2 * Math.PI }, lengths) {

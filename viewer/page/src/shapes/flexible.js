@@ -55,11 +55,11 @@ export class Flexible {
     return `Deformation and stresses of '${name}' are not drawn where the column '${this.absent}' has no number.`;
   }
 
-  /** @param {boolean} wanted colours of stress @param {number} most stress at the end of the map */
-  paint(wanted, most) {
+  /** @param {boolean} coloursOfStress colours of stress @param {number} most stress at the end of the map */
+  paint(coloursOfStress, most) {
     if (this.moved) this.tubes.move(this.bending.displaced);
     this.moved = false;
-    const coloured = wanted && this.colours && this.stressed;
+    const coloured = coloursOfStress && this.colours && this.stressed;
     this.object.material = coloured ? this.coloured : this.plain;
     if (coloured) this.tubes.colour(this.bending.stress, most);
   }

@@ -101,9 +101,9 @@ export class FrameTubes {
 /** Points and triangles of a solid, each point once. @param {THREE.BufferGeometry} soup is freed */
 function merged(soup) {
   for (const name of ["normal", "uv"]) soup.deleteAttribute(name);
-  const made = mergeVertices(soup, 1e-6);
-  const found = { points: [...made.getAttribute("position").array], index: [...made.index.array] };
-  for (const geometry of [soup, made]) geometry.dispose();
+  const welded = mergeVertices(soup, 1e-6);
+  const found = { points: [...welded.getAttribute("position").array], index: [...welded.index.array] };
+  for (const geometry of [soup, welded]) geometry.dispose();
   return found;
 }
 

@@ -30,7 +30,7 @@ const MAKERS = { box, cylinder, damper, mesh, plate, sphere, spring, steering_wh
 export function makeShape(shape, context) {
   const maker = MAKERS[shape.kind];
   if (maker === undefined) return null;
-  const made = maker(shape, context);
-  made.frames = [...new Set(made.frame !== undefined ? [made.frame] : (shape.points ?? shape.ends).map(([frame]) => frame))];
-  return made;
+  const drawn = maker(shape, context);
+  drawn.frames = [...new Set(drawn.frame !== undefined ? [drawn.frame] : (shape.points ?? shape.ends).map(([frame]) => frame))];
+  return drawn;
 }

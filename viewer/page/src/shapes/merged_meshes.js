@@ -1,4 +1,4 @@
-// Fewer things to draw: what is fixed in one frame and of one material becomes one mesh.
+// Merges meshes of one material that are fixed in one frame, so that there are fewer draw calls.
 import * as THREE from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 

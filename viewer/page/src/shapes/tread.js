@@ -1,4 +1,4 @@
-// The pattern of a tyre, made by code: tread blocks and lines on the side, so that turning is seen.
+// The texture of a tyre: tread blocks and lines on the side wall, which show its rotation.
 import * as THREE from "three";
 import { smoothTexture } from "../looks/noise.js";
 

@@ -47,11 +47,11 @@ export class Bar {
 
   _button(act, words, work) {
     const title = WORDS[act] ?? hint(act);
-    const made = button(act, words ?? "", () => work({}), title);
-    made.setAttribute("aria-label", words ? `${words}: ${title}` : title);
-    if (!words) made.append(icon(ICONS[act]));
-    this.buttons[act] = made;
-    return made;
+    const element = button(act, words ?? "", () => work({}), title);
+    element.setAttribute("aria-label", words ? `${words}: ${title}` : title);
+    if (!words) element.append(icon(ICONS[act]));
+    this.buttons[act] = element;
+    return element;
   }
 
   _seconds(time) {

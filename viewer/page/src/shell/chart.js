@@ -54,7 +54,7 @@ export class Chart {
   /** What is drawn: {label, colour, dash, t, data}. */
   _curves() {
     const [first, ...others] = this.runs;
-    const made = [];
+    const curves = [];
     for (const name of this.names) {
       const colour = this.colours(name);
       if (this.difference) {
@@ -62,17 +62,17 @@ export class Chart {
           if (!(name in run.columns) || !(name in first.columns)) continue;
           const other = resampled(run.t, run.columns[name].data, first.t);
           const data = Array.from(first.columns[name].data, (v, i) => (other[i] === null || !Number.isFinite(v) ? null : other[i] - v));
-          made.push({ label: `${name}: ${run.name} - ${first.name}`, colour, dash: DASHES[k % 4], t: first.t, data });
+          curves.push({ label: `${name}: ${run.name} - ${first.name}`, colour, dash: DASHES[k % 4], t: first.t, data });
         }
         continue;
       }
       for (const [k, run] of this.runs.entries()) {
         if (!(name in run.columns)) continue;
         const label = this.runs.length > 1 ? `${name}, ${run.name}` : name;
-        made.push({ label, colour, dash: DASHES[k % 4], t: run.t, data: values(run.columns[name].data) });
+        curves.push({ label, colour, dash: DASHES[k % 4], t: run.t, data: values(run.columns[name].data) });
       }
     }
-    return made;
+    return curves;
   }
 
   _data() {
@@ -191,9 +191,9 @@ export class Chart {
 
 /** Gives each name a colour of its own as long as there are some. */
 export function palette() {
-  const given = new Map();
+  const groups = new Map();
   return (name) => {
-    if (!given.has(name)) given.set(name, COLOURS[given.size % COLOURS.length]);
-    return given.get(name);
+    if (!groups.has(name)) groups.set(name, COLOURS[groups.size % COLOURS.length]);
+    return groups.get(name);
   };
 }

@@ -203,15 +203,15 @@ class DevicePart {
     inverted.addEventListener("change", () => {
       this._say("device settings", { settings: { force_inverted: inverted.checked } });
     });
-    const told = el("p.a3-hint", { data: "force" });
-    told.textContent = device.force ? "Its motor works." : `No force${device.force_problem ? `: ${device.force_problem}` : ""}.`;
+    const forceText = el("p.a3-hint", { data: "force" });
+    forceText.textContent = device.force ? "Its motor works." : `No force${device.force_problem ? `: ${device.force_problem}` : ""}.`;
     const words = el("p.a3-hint", { data: "force test", hidden: true }, TEST_WORDS);
     const test = button("test force", "Test the force", () => {
       words.hidden = false;
       this._say("test force");
     });
     test.disabled = !device.force;
-    return [el("div.a3-device-settings", {}, ...lines.flat()), el("label.a3-control", {}, inverted, "force inverted"), told, test, words];
+    return [el("div.a3-device-settings", {}, ...lines.flat()), el("label.a3-control", {}, inverted, "force inverted"), forceText, test, words];
   }
 }
 

@@ -1,4 +1,4 @@
-// Everything that one car's page shows and takes: picture, instruments, hands, what the program says.
+// The page of one car: picture, instruments, input devices, messages of the program.
 import { el, short } from "../common/dom.js";
 import { Effects } from "../effects/car_effects.js";
 import { InputArbiter } from "../live/input_arbiter.js";

@@ -1,4 +1,4 @@
-// What the panel of devices says and asks for, without elements of the page.
+// Texts of the panel of devices, without elements of the page.
 
 const HAT = ["up", "right", "down", "left"];
 const CENTRED = ["steering"];
@@ -33,7 +33,7 @@ export function isPedal(input) {
 export function sourcesFor(device, input) {
   const axes = device.axes.map((_, k) => `axis ${k}`);
   const buttons = device.buttons.map((_, k) => `button ${k}`);
-  const hats = (device.hats ?? []).flatMap((_, k) => HAT.map((way) => `hat ${k} ${way}`));
+  const hats = (device.hats ?? []).flatMap((_, k) => HAT.map((direction) => `hat ${k} ${direction}`));
   if (CENTRED.includes(input)) return ["none", ...axes];
   if (input.startsWith(SELECTOR)) return ["none", ...buttons, ...hats];
   return ["none", ...axes, ...buttons, ...hats];
@@ -76,7 +76,7 @@ export function drivenBy(device, axis) {
 /** Buttons and hats that are pressed, as words. */
 export function pressedWords(device) {
   const buttons = device.buttons.flatMap((down, k) => (down ? [`button ${k}`] : []));
-  const hats = (device.hats ?? []).flatMap((bits, k) => HAT.flatMap((way, b) => (bits & (1 << b) ? [`hat ${k} ${way}`] : [])));
+  const hats = (device.hats ?? []).flatMap((bits, k) => HAT.flatMap((direction, b) => (bits & (1 << b) ? [`hat ${k} ${direction}`] : [])));
   return [...buttons, ...hats].join(", ") || "none";
 }
 

@@ -10,8 +10,8 @@ function grouped(bins) {
   const bars = new Map();
   const known = bins.filter(([edge, count]) => count > 0 && edge > 0);
   for (const [edge, count] of known) {
-    const place = Math.floor(Math.log10(edge * (1 - 1e-6)) * FINE) / FINE;
-    bars.set(place, (bars.get(place) ?? 0) + count);
+    const bar = Math.floor(Math.log10(edge * (1 - 1e-6)) * FINE) / FINE;
+    bars.set(bar, (bars.get(bar) ?? 0) + count);
   }
   return bars;
 }
@@ -35,10 +35,10 @@ function histogram(bins, deadline) {
     const y = level(10 ** power);
     drawing.append(line(LEFT, WIDTH, y, y, { "stroke-opacity": 0.25 }), label(LEFT - 3, y + 3, count(10 ** power), "end"));
   }
-  for (const [place, number] of bars) {
-    const fill = 10 ** place >= deadline ? "#e8412d" : "#4d9de0";
+  for (const [bar, number] of bars) {
+    const fill = 10 ** bar >= deadline ? "#e8412d" : "#4d9de0";
     const width = (0.9 * (WIDTH - LEFT)) / FINE / (high - low);
-    drawing.append(svg("rect", { x: at(10 ** place), y: level(number), width, height: ground - level(number), fill }));
+    drawing.append(svg("rect", { x: at(10 ** bar), y: level(number), width, height: ground - level(number), fill }));
   }
   for (let power = Math.ceil(low); power <= high; power++) {
     const x = at(10 ** power);
@@ -63,9 +63,9 @@ function line(x1, x2, y1, y2, more = {}) {
 }
 
 function label(x, y, text, anchor = "middle") {
-  const made = svg("text", { x, y, "font-size": 9, "text-anchor": anchor, fill: "currentColor" });
-  made.textContent = text;
-  return made;
+  const element = svg("text", { x, y, "font-size": 9, "text-anchor": anchor, fill: "currentColor" });
+  element.textContent = text;
+  return element;
 }
 
 /** The panel of the report. */

@@ -1,4 +1,4 @@
-// Numbers between two instants: straight, but angles the short way round and quaternions along the shorter arc.
+// Interpolates numbers between two instants: linearly, angles by the shorter turn and quaternions by the shorter arc.
 import { Quaternion } from "three";
 
 /** What turns: columns that are angles, and those of quaternions by four. @typedef {{angles: Set<string>, quaternions: string[][]}} Turns */

@@ -1,4 +1,4 @@
-// At which instants of a run something of it may be lowest.
+// Finds the instants of a run at which part of a body may be lowest.
 
 /**
  * Where positions of frames and amplitudes of flexible bodies are largest and smallest.

@@ -1,4 +1,4 @@
-// How fast a run goes.
+// The ratio of simulated to real time of a run.
 
 /** Span over which simulated time is compared with the clock, s. */
 const SPAN = 1.0;

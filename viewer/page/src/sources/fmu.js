@@ -55,9 +55,9 @@ export class Session {
     this._newRecord();
     this._desk = new Desk((message) => this._take(message), options);
     this.threaded = this._desk.threaded;
-    const given = fmus.map(({ description, wasm, resources }) => ({ description, wasm, resources }));
+    const parts = fmus.map(({ description, wasm, resources }) => ({ description, wasm, resources }));
     const { script } = options;
-    this.ready = this._ask("started", { do: "open", fmus: given, step: this.step, start: this.start, script });
+    this.ready = this._ask("started", { do: "open", fmus: parts, step: this.step, start: this.start, script });
   }
 
   /** Time of the last row, s. */
@@ -75,8 +75,8 @@ export class Session {
     if (this.scrubbed !== null) return this.scrubbed;
     if (!this.running) return this.end;
     const rate = this.pace.factor === null ? this.speed : Math.min(this.speed, this.pace.factor);
-    const wanted = this._k * this.step + rate * (clock() - this.pace.at - BEHIND);
-    this._last = Math.max(this._last, Math.min(this.end, wanted));
+    const target = this._k * this.step + rate * (clock() - this.pace.at - BEHIND);
+    this._last = Math.max(this._last, Math.min(this.end, target));
     return this._last;
   }
 
@@ -257,11 +257,11 @@ export class Session {
   }
 
   _on_rows({ k, oldest, count, rows, pace }) {
-    const [held, width] = [this.held.length, this.held.length + this.outputs.length];
+    const [inputCount, width] = [this.held.length, this.held.length + this.outputs.length];
     for (let n = 0; n < count; n++) {
       const row = rows.subarray(n * width, (n + 1) * width);
       this._noteMoved(row);
-      this.record.add(row.subarray(0, held), row.subarray(held));
+      this.record.add(row.subarray(0, inputCount), row.subarray(inputCount));
     }
     this._k = k;
     this.oldest = Math.max(oldest * this.step, this.record.first * this.step);

@@ -1,4 +1,4 @@
-// Frames of the car as they come over the wire, and which two of them a picture stands between. Knows no page.
+// Received frames of the car, and the two between which a picture lies. Has no access to the page.
 
 /** Frames are remembered for so long, s of the page's clock. */
 const KEPT = 1.0;
@@ -77,8 +77,8 @@ export class Frames {
     const line = this._line();
     if (line) this._adapt(line, now);
     this._looked = now;
-    const wanted = line ? line.best + line.pace * (now - this.delay) : last.time;
-    this._shown = Math.max(Math.min(this._shown, last.time), Math.min(wanted, last.time));
+    const target = line ? line.best + line.pace * (now - this.delay) : last.time;
+    this._shown = Math.max(Math.min(this._shown, last.time), Math.min(target, last.time));
     let k = this._list.length - 1;
     while (k > 0 && this._list[k - 1].frame.time >= this._shown) k -= 1;
     const after = this._list[k].frame;
@@ -110,13 +110,13 @@ export class Frames {
       short.push((best - leads[k - 1]) / Math.max(pace, 1e-3) + (listed[k].now - listed[k - 1].now));
     }
     short.sort((a, b) => a - b);
-    const wanted = Math.min(MOST_DELAY, short[Math.min(short.length - 1, Math.floor(IN_TIME * short.length))]);
+    const delay = Math.min(MOST_DELAY, short[Math.min(short.length - 1, Math.floor(IN_TIME * short.length))]);
     if (!Number.isFinite(this._looked) || this.delay === 0) {
-      this.delay = wanted;
+      this.delay = delay;
       return;
     }
     const passed = Math.min(0.1, Math.max(0, now - this._looked));
-    this.delay += Math.max(-FALL * passed, Math.min(RISE * passed, wanted - this.delay));
+    this.delay += Math.max(-FALL * passed, Math.min(RISE * passed, delay - this.delay));
   }
 }
 

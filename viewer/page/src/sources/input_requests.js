@@ -1,4 +1,4 @@
-// What hands want, as messages: all that a source has ever asked for, told as often as the wire needs it.
+// Input requests of a source as messages, resent at the rate of the socket.
 
 /** Inputs that stay as they were put: after a new start they are not asked for again. */
 const STAY = ["selector"];

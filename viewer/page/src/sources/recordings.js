@@ -116,9 +116,9 @@ export class Recordings {
     this.changed(false);
   }
 
-  _next(way) {
+  _next(change) {
     const k = SPEEDS.findIndex((speed) => speed >= this.speed - 1e-9);
     const at = k < 0 ? SPEEDS.length - 1 : k;
-    return SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, at + way))];
+    return SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, at + change))];
   }
 }

@@ -29,11 +29,11 @@ const TYPES = ["Real", "Integer", "Boolean", "String", "Enumeration"];
 
 /**
  * The description of an FMU.
- * @param {string|Description} given text of modelDescription.xml, where there is a DOMParser, or the object itself
+ * @param {string|Description} source text of modelDescription.xml, where there is a DOMParser, or the object itself
  * @returns {Description}
  */
-export function describe(given) {
-  const description = typeof given === "string" ? read(given) : given;
+export function describe(source) {
+  const description = typeof source === "string" ? read(source) : source;
   if (!description || typeof description.guid !== "string" || !Array.isArray(description.variables)) {
     throw new Error("The description of the FMU has no guid and variables; give modelDescription.xml or what it says.");
   }

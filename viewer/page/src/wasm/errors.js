@@ -1,4 +1,4 @@
-// How calls of an FMU end.
+// Errors of calls of an FMU.
 
 /** Statuses of FMI by their numbers. */
 export const STATUSES = ["ok", "warning", "discard", "error", "fatal", "pending"];

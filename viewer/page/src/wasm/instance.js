@@ -1,4 +1,4 @@
-// An instance of an FMU: its life, values, steps and states.
+// An instance of an FMU: life cycle, values, steps and states.
 import { FmuError, STATUSES } from "./errors.js";
 import { Transfer } from "./transfer.js";
 
@@ -46,7 +46,7 @@ export class FmuInstance {
    */
   set(name, value) {
     if (typeof name !== "string") {
-      for (const [each, given] of Object.entries(name)) this.set(each, given);
+      for (const [each, entry] of Object.entries(name)) this.set(each, entry);
       return;
     }
     this[`set${this._variable(name).type}`](name, value);

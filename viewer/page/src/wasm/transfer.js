@@ -1,4 +1,4 @@
-// Many values at once between an instance and an array, with everything prepared in the module's memory.
+// Transfers many values at once between an instance and an array, through memory of the module reserved before.
 import { FmuError } from "./errors.js";
 
 /** Values of fixed variables of the types Real and Integer; one call of the FMU for each type. */

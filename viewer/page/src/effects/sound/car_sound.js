@@ -1,4 +1,4 @@
-// The sound of a driven car, made by code.
+// The synthesised sound of a driven car.
 import { CarMix } from "./mix.js";
 import { Mixer } from "./mixer.js";
 

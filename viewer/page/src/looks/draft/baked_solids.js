@@ -27,15 +27,15 @@ function surfaceOf(mesh, toGroup) {
 }
 
 function together(surfaces) {
-  const made = { positions: [], normals: [], colours: [], index: [] };
+  const mesh = { positions: [], normals: [], colours: [], index: [] };
   for (const { positions, normals, colours, index } of surfaces) {
-    const from = made.positions.length / 3;
-    for (const value of index) made.index.push(from + value);
-    for (const value of positions) made.positions.push(value);
-    for (const value of normals) made.normals.push(value);
-    for (const value of colours) made.colours.push(value);
+    const from = mesh.positions.length / 3;
+    for (const value of index) mesh.index.push(from + value);
+    for (const value of positions) mesh.positions.push(value);
+    for (const value of normals) mesh.normals.push(value);
+    for (const value of colours) mesh.colours.push(value);
   }
-  return made;
+  return mesh;
 }
 
 function geometryOf({ positions, normals, colours, index }, tubes) {
@@ -77,8 +77,8 @@ export function baked(parts, light, extent) {
   const tubes = solid.map(({ object, meshes }) => {
     const inverse = object.matrixWorld.clone().invert();
     const places = (mesh) => mesh.userData.tubes.map((tube) => inverse.clone().multiply(mesh.matrixWorld).multiply(tube));
-    const made = meshes.filter(({ userData }) => userData.tubes).map((mesh) => prisms(places(mesh), colourOf(mesh)));
-    return { ...together(made), thicks: made.flatMap(({ thicks }) => thicks) };
+    const prismatic = meshes.filter(({ userData }) => userData.tubes).map((mesh) => prisms(places(mesh), colourOf(mesh)));
+    return { ...together(prismatic), thicks: prismatic.flatMap(({ thicks }) => thicks) };
   });
   const others = [...thinner].reduce((sum, { userData }) => sum + (userData.coarse.count ?? userData.coarse.length) / 3, 0) + sumOf(tubes, "index") / 3;
   const surfaces = within(solid.map(({ object, meshes }) => {

@@ -10,7 +10,7 @@ import { leastOf } from "./tubes.js";
 export function makeDraft(view, sun) {
   const { world, parts, extent, up } = view;
   const light = lightOf(sun, up);
-  let made = null;
+  let draft = null;
   const make = () => {
     const car = baked(parts, light, extent);
     world.add(car.mesh);
@@ -25,17 +25,17 @@ export function makeDraft(view, sun) {
       const on = level === "draft";
       if (on === this.on) return;
       this.on = on;
-      if (on) made ??= make();
-      made.show(on);
+      if (on) draft ??= make();
+      draft.show(on);
     },
     /** After the parts have their places. */
     follow() {
       if (!this.on) return;
       light.aLeast.value = leastOf(view.renderer.domElement.height);
-      made.follow();
+      draft.follow();
     },
     dispose() {
-      made?.dispose();
+      draft?.dispose();
     },
   };
 }

@@ -31,9 +31,9 @@ export function growing(shader, least) {
  * @returns {import("./vertex_clustering.js").Surface & {thicks: number[]}}
  */
 export function prisms(places, colour) {
-  const made = { positions: [], normals: [], colours: [], thicks: [], index: [] };
+  const mesh = { positions: [], normals: [], colours: [], thicks: [], index: [] };
   for (const place of places) {
-    const from = made.thicks.length;
+    const from = mesh.thicks.length;
     for (let k = 0; k < SIDES; k++) {
       const angle = (2 * Math.PI * k) / SIDES;
       const [x, z] = [Math.cos(angle), Math.sin(angle)];
@@ -41,14 +41,14 @@ export function prisms(places, colour) {
       const outward = ends[0].clone().sub(new THREE.Vector3(0, -0.5, 0).applyMatrix4(place));
       const thick = outward.length();
       for (const end of ends) {
-        made.positions.push(...end.toArray());
-        made.normals.push(...outward.toArray().map((value) => value / thick));
-        made.colours.push(...colour);
-        made.thicks.push(thick);
+        mesh.positions.push(...end.toArray());
+        mesh.normals.push(...outward.toArray().map((value) => value / thick));
+        mesh.colours.push(...colour);
+        mesh.thicks.push(thick);
       }
       const [a, b] = [from + 2 * k, from + 2 * ((k + 1) % SIDES)];
-      made.index.push(a, a + 1, b, b, a + 1, b + 1);
+      mesh.index.push(a, a + 1, b, b, a + 1, b + 1);
     }
   }
-  return made;
+  return mesh;
 }

@@ -84,15 +84,15 @@ function joined({ positions, normals, colours }, { cellOf, pointOf, index }) {
     mean[3] += 1;
     look[6] += 1;
   });
-  const made = { positions: [], normals: [], colours: [], index };
+  const mesh = { positions: [], normals: [], colours: [], index };
   for (const [x, y, z, red, green, blue, many, at] of looks) {
     const size = Math.hypot(x, y, z) || 1;
     const mean = means[at];
-    made.positions.push(mean[0] / mean[3], mean[1] / mean[3], mean[2] / mean[3]);
-    made.normals.push(x / size, y / size, z / size);
-    made.colours.push(red / many, green / many, blue / many);
+    mesh.positions.push(mean[0] / mean[3], mean[1] / mean[3], mean[2] / mean[3]);
+    mesh.normals.push(x / size, y / size, z / size);
+    mesh.colours.push(red / many, green / many, blue / many);
   }
-  return made;
+  return mesh;
 }
 
 /** @param {Surface} surface @param {number} cell side of a cell, m */
@@ -108,16 +108,16 @@ export function within(surfaces, most, finest) {
   const kinds = surfaces.map(kindsOf);
   const lattice = (/** @type {number} */ k) => surfaces.map((surface, i) => latticed(surface, kinds[i], finest * COARSER ** k));
   let [low, high] = [-1, 0]; // too fine, and to be tried
-  let made = lattice(high);
-  while (count(made) > most) {
+  let clustered = lattice(high);
+  while (count(clustered) > most) {
     [low, high] = [high, 2 * high + 1];
-    made = lattice(high);
+    clustered = lattice(high);
   }
   while (high - low > 1) {
     const middle = (low + high) >> 1;
     const tried = lattice(middle);
     if (count(tried) > most) low = middle;
-    else [high, made] = [middle, tried];
+    else [high, clustered] = [middle, tried];
   }
-  return surfaces.map((surface, i) => joined(surface, made[i]));
+  return surfaces.map((surface, i) => joined(surface, clustered[i]));
 }

@@ -1,4 +1,4 @@
-// Scenery: what stands and is painted along a road, gathered by places so that what is not in the picture costs nothing.
+// Scenery: objects and paint along a road, grouped by squares so that those outside the picture cost nothing.
 import * as THREE from "three";
 import { dot, fromColumns } from "../../scene/math.js";
 import { turn } from "../../shapes/place.js";
@@ -39,8 +39,8 @@ export function squares(things) {
 /** What of a scenery can be drawn, and the sentences on what cannot. @param {Data[]} things */
 function drawable(things) {
   const known = things.filter(({ kind }) => KINDS.includes(kind));
-  const strange = [...new Set(things.filter((thing) => !known.includes(thing)).map(({ kind }) => kind))];
-  const tell = strange.map((kind) => `Scenery of the kind '${kind}' is not known to this page and is not drawn.`);
+  const unknown = [...new Set(things.filter((thing) => !known.includes(thing)).map(({ kind }) => kind))];
+  const tell = unknown.map((kind) => `Scenery of the kind '${kind}' is not known to this page and is not drawn.`);
   const texts = [...new Set(known.filter(({ kind }) => kind === "sign").map(({ text }) => text))];
   if (texts.length > MOST_TEXTS) {
     tell.push(`${texts.length - MOST_TEXTS} of ${texts.length} different texts of signs are not drawn; there may be ${MOST_TEXTS}.`);
@@ -61,13 +61,13 @@ export function makeScenery(things, { axes, paint, ground, drafted = false }) {
   const group = new THREE.Group();
   turn(group, fromColumns(...axes));
   const { known, texts } = drawable(things);
-  const held = makeHeld(known, texts, drafted);
+  const shared = makeShared(known, texts, drafted);
   const pieces = [];
   const fewer = () => known.filter(({ kind, seed }, k) => kind !== "tree" || (seed ?? k) % FEW === 0);
   for (const square of drafted ? [fewer()] : squares(known)) {
     if (square.length === 0) continue;
     const base = placeOf(square[0]).slice();
-    for (const mesh of squareMeshes(square, base, { held, texts, paint, ground, off: drafted ? ROUGHLY : undefined })) {
+    for (const mesh of squareMeshes(square, base, { shared, texts, paint, ground, off: drafted ? ROUGHLY : undefined })) {
       group.add(mesh);
       pieces.push({ mesh, base });
     }
@@ -88,35 +88,35 @@ export function makeScenery(things, { axes, paint, ground, drafted = false }) {
       mesh.geometry.dispose();
       mesh.dispose?.();
     }
-    for (const thing of held.owned) thing.dispose();
+    for (const thing of shared.owned) thing.dispose();
   };
   return { group, follow, dispose };
 }
 
 /** Materials and geometries that all squares share; only what the things need. @param {Data[]} things @param {string[]} texts @param {boolean} coarse */
-function makeHeld(things, texts, coarse) {
+function makeShared(things, texts, coarse) {
   const has = (kind) => things.some((thing) => thing.kind === kind);
   const plain = skylit(new THREE.MeshLambertMaterial({ vertexColors: true }));
-  const held = { plain, owned: [plain], cones: new Map() };
-  const own = (thing) => (held.owned.push(thing), thing);
-  if (has("tree")) held.forest = own(new Forest());
-  if (has("post")) held.post = own(postGeometry(coarse));
+  const shared = { plain, owned: [plain], cones: new Map() };
+  const own = (thing) => (shared.owned.push(thing), thing);
+  if (has("tree")) shared.forest = own(new Forest());
+  if (has("post")) shared.post = own(postGeometry(coarse));
   if (has("building")) {
-    held.walls = own(skylit(new THREE.MeshLambertMaterial({ vertexColors: true }), windows));
-    held.walls.defines = { USE_UV: 1 };
+    shared.walls = own(skylit(new THREE.MeshLambertMaterial({ vertexColors: true }), windows));
+    shared.walls.defines = { USE_UV: 1 };
   }
   if (texts.length > 0) {
     const map = own(signTexture(texts));
-    held.boards = own(skylit(new THREE.MeshLambertMaterial({ map })));
+    shared.boards = own(skylit(new THREE.MeshLambertMaterial({ map })));
   }
-  held.cone = (colour) => {
-    if (!held.cones.has(colour)) held.cones.set(colour, own(coneGeometry(colour, coarse)));
-    return held.cones.get(colour);
+  shared.cone = (colour) => {
+    if (!shared.cones.has(colour)) shared.cones.set(colour, own(coneGeometry(colour, coarse)));
+    return shared.cones.get(colour);
   };
-  return held;
+  return shared;
 }
 
-function squareMeshes(square, base, { held, texts, paint, ground, off }) {
+function squareMeshes(square, base, { shared, texts, paint, ground, off }) {
   const of = (kind) => square.filter((thing) => thing.kind === kind);
   const meshes = [];
   const [painted, plain, boards, walls] = Array.from({ length: 4 }, () => new Triangles(base));
@@ -128,40 +128,40 @@ function squareMeshes(square, base, { held, texts, paint, ground, off }) {
     const index = texts.indexOf(sign.text);
     if (index >= 0) addSign(boards, plain, sign, index, texts.length);
   }
-  const add = (made, material, placed) => {
-    if (!made.empty) meshes.push(new THREE.Mesh(made.geometry(placed), material));
+  const add = (triangles, material, placed) => {
+    if (!triangles.empty) meshes.push(new THREE.Mesh(triangles.geometry(placed), material));
   };
   add(painted, paint, false);
-  add(plain, held.plain, false);
-  add(boards, held.boards, true);
-  add(walls, held.walls, true);
+  add(plain, shared.plain, false);
+  add(boards, shared.boards, true);
+  add(walls, shared.walls, true);
   const colours = [...new Set(of("cone").map(({ colour }) => colour ?? "orange"))];
   for (const colour of colours) {
     const cones = of("cone").filter((cone) => (cone.colour ?? "orange") === colour);
-    meshes.push(many(held.cone(colour), held.plain, cones, base, ({ height = 0.5 }) => [height, height, height]));
+    meshes.push(many(shared.cone(colour), shared.plain, cones, base, ({ height = 0.5 }) => [height, height, height]));
   }
   const posts = of("post");
-  if (posts.length > 0) meshes.push(many(held.post, held.plain, posts, base, ({ height = 1 }) => [1, 1, height]));
+  if (posts.length > 0) meshes.push(many(shared.post, shared.plain, posts, base, ({ height = 1 }) => [1, 1, height]));
   for (let kind = 0; kind < 3; kind++) {
     const trees = of("tree").filter(({ seed }) => kindOf(seed ?? 0) === kind);
-    if (trees.length > 0) meshes.push(wood(held.forest, kind, trees, base));
+    if (trees.length > 0) meshes.push(wood(shared.forest, kind, trees, base));
   }
   for (const mesh of meshes) mesh.receiveShadow = mesh.material === paint;
   return meshes;
 }
 
-/** Paint along a line. @param {Triangles} made @param {Data} line @param {any} ground @param {number} [off] */
-export function addLine(made, { points, width, colour = "white", dash }, ground, off) {
-  for (const stretch of dashes(points, dash)) addStrip(made, edges(stretch, width, ground, off), PAINTS[colour] ?? PAINTS.white);
+/** Paint along a line. @param {Triangles} triangles @param {Data} line @param {any} ground @param {number} [off] */
+export function addLine(triangles, { points, width, colour = "white", dash }, ground, off) {
+  for (const stretch of dashes(points, dash)) addStrip(triangles, edges(stretch, width, ground, off), PAINTS[colour] ?? PAINTS.white);
 }
 
-/** Quads between pairs of points: right, left. @param {Triangles} made @param {number[][][]} pairs @param {number[]} colour */
-export function addStrip(made, pairs, colour) {
+/** Quads between pairs of points: right, left. @param {Triangles} triangles @param {number[][][]} pairs @param {number[]} colour */
+export function addStrip(triangles, pairs, colour) {
   let last = null;
   for (const pair of pairs) {
     const aside = pair[1].map((value, k) => 0.5 * (value - pair[0][k]));
-    const numbers = pair.map((point, end) => made.point(point, [0, 0, 1], colour, [0, 0], end === 0 ? aside.map((value) => -value) : aside));
-    if (last !== null) made.index.push(last[0], numbers[0], last[1], last[1], numbers[0], numbers[1]);
+    const numbers = pair.map((point, end) => triangles.point(point, [0, 0, 1], colour, [0, 0], end === 0 ? aside.map((value) => -value) : aside));
+    if (last !== null) triangles.index.push(last[0], numbers[0], last[1], last[1], numbers[0], numbers[1]);
     last = numbers;
   }
 }
@@ -169,12 +169,12 @@ export function addStrip(made, pairs, colour) {
 /** One geometry at many places. */
 function many(geometry, material, things, base, sizeOf) {
   const mesh = new THREE.InstancedMesh(geometry, material, things.length);
-  const [matrix, place, size, way] = [new THREE.Matrix4(), new THREE.Vector3(), new THREE.Vector3(), new THREE.Quaternion()];
+  const [matrix, position, size, rotation] = [new THREE.Matrix4(), new THREE.Vector3(), new THREE.Vector3(), new THREE.Quaternion()];
   things.forEach((thing, k) => {
-    place.fromArray(thing.at.map((value, axis) => value - base[axis]));
+    position.fromArray(thing.at.map((value, axis) => value - base[axis]));
     size.fromArray(sizeOf(thing));
-    way.setFromAxisAngle(new THREE.Vector3(0, 0, 1), thing.yaw ?? 0);
-    mesh.setMatrixAt(k, matrix.compose(place, way, size));
+    rotation.setFromAxisAngle(new THREE.Vector3(0, 0, 1), thing.yaw ?? 0);
+    mesh.setMatrixAt(k, matrix.compose(position, rotation, size));
   });
   mesh.computeBoundingSphere();
   return mesh;

@@ -1,4 +1,4 @@
-// A picture of a twig, made by code: leaves with holes between.
+// Draws the texture of a twig: leaves with gaps between.
 import * as THREE from "three";
 import { smoothTexture } from "../noise.js";
 import { randomNumbers } from "../../common/random.js";
@@ -13,8 +13,8 @@ export function leafTexture() {
   // Behind the leaves stands their colour, so that their edges have no other.
   for (let k = 0; k < pixels.length; k += 4) pixels.set([110, 128, 60, 0], k);
   for (let leaf = 0; leaf < 150; leaf++) {
-    const [angle, way] = [2 * Math.PI * next(), Math.sqrt(next())];
-    const middle = [0.5 * SIDE + 0.4 * SIDE * way * Math.cos(angle), 0.5 * SIDE + 0.4 * SIDE * way * Math.sin(angle)];
+    const [angle, distance] = [2 * Math.PI * next(), Math.sqrt(next())];
+    const middle = [0.5 * SIDE + 0.4 * SIDE * distance * Math.cos(angle), 0.5 * SIDE + 0.4 * SIDE * distance * Math.sin(angle)];
     drawLeaf(pixels, middle, 4 + 5 * next(), 2 * Math.PI * next(), 0.62 + 0.38 * next(), next());
   }
   return Object.assign(smoothTexture(pixels, SIDE, SIDE, 1), { colorSpace: THREE.SRGBColorSpace });

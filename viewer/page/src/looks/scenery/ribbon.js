@@ -22,24 +22,24 @@ export function dashes(points, dash) {
   if (dash === undefined) return [points];
   const period = dash[0] + dash[1];
   const found = [];
-  let [way, open] = [0, [points[0]]];
+  let [distance, open] = [0, [points[0]]];
   for (let i = 0; i + 1 < points.length; i++) {
     const [a, b] = [points[i], points[i + 1]];
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
     let done = 0;
     while (done < length) {
-      const phase = (way + 1e-9) % period;
+      const phase = (distance + 1e-9) % period;
       const painted = phase < dash[0];
       const step = Math.min((painted ? dash[0] : period) - phase, length - done);
       done += Math.max(step, 1e-6);
-      way += Math.max(step, 1e-6);
+      distance += Math.max(step, 1e-6);
       const at = between(a, b, Math.min(done, length) / length);
       if (painted) open.push(at);
-      if (painted && (way + 1e-6) % period >= dash[0] - 1e-9) {
+      if (painted && (distance + 1e-6) % period >= dash[0] - 1e-9) {
         found.push(open);
         open = [];
       }
-      if (!painted && (way + 1e-6) % period < 2e-6) open = [at];
+      if (!painted && (distance + 1e-6) % period < 2e-6) open = [at];
     }
   }
   if (open.length > 1) found.push(open);
@@ -83,13 +83,13 @@ function dense(points, ground) {
 
 /** Across a polyline at one of its points, so that its width stays the same at bends. */
 function across(stations, i) {
-  const way = (a, b) => {
+  const normal = (a, b) => {
     const [x, y] = [b[0] - a[0], b[1] - a[1]];
     const size = Math.hypot(x, y) || 1;
     return [-y / size, x / size];
   };
-  const before = i > 0 ? way(stations[i - 1], stations[i]) : null;
-  const after = i + 1 < stations.length ? way(stations[i], stations[i + 1]) : null;
+  const before = i > 0 ? normal(stations[i - 1], stations[i]) : null;
+  const after = i + 1 < stations.length ? normal(stations[i], stations[i + 1]) : null;
   if (before === null || after === null) return before ?? after ?? [0, 1];
   const sum = [before[0] + after[0], before[1] + after[1]];
   const half = (sum[0] * sum[0] + sum[1] * sum[1]) / 2; // 1 + cosine of the bend

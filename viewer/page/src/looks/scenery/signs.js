@@ -1,4 +1,4 @@
-// Signs with words: all words of a world in one picture.
+// Signs with texts: all texts of a world in one texture.
 import * as THREE from "three";
 import { el } from "../../common/dom.js";
 

@@ -59,14 +59,14 @@ if (vMapUv.x > 1.5) diffuseColor = vec4(vColor.rgb, 1.0);
 }
 
 function treeGeometry(kind, count, seed) {
-  const made = new Triangles();
+  const triangles = new Triangles();
   const next = randomNumbers(seed);
-  trunk(made, kind, count);
-  for (let k = 0; k < count; k++) (kind.tiers ? tier : twig)(made, kind, k, count, next);
-  return made.geometry(true);
+  trunk(triangles, kind, count);
+  for (let k = 0; k < count; k++) (kind.tiers ? tier : twig)(triangles, kind, k, count, next);
+  return triangles.geometry(true);
 }
 
-function trunk(made, { crown }, count) {
+function trunk(triangles, { crown }, count) {
   const sides = count > 20 ? 6 : 4;
   const ring = (k, radius, z) => {
     const a = (2 * Math.PI * k) / sides;
@@ -74,24 +74,24 @@ function trunk(made, { crown }, count) {
   };
   for (let k = 0; k < sides; k++) {
     const corners = [ring(k, 0.028, -0.01), ring(k + 1, 0.028, -0.01), ring(k + 1, 0.014, crown), ring(k, 0.014, crown)];
-    made.quad(corners, BARK, [[2, 0], [2, 0], [2, 1], [2, 1]]); // prettier-ignore
+    triangles.quad(corners, BARK, [[2, 0], [2, 0], [2, 1], [2, 1]]); // prettier-ignore
   }
 }
 
 /** A card somewhere in the crown, lit as the crown there. */
-function twig(made, { crown, wide, high, tint }, k, count, next) {
+function twig(triangles, { crown, wide, high, tint }, k, count, next) {
   const z = 1 - (2 * (k + 0.5)) / count;
   const angle = 2.399963 * k + 0.6 * next();
   const flat = Math.sqrt(1 - z * z);
-  const way = [flat * Math.cos(angle), flat * Math.sin(angle), z];
+  const light = [flat * Math.cos(angle), flat * Math.sin(angle), z];
   const depth = 0.45 + 0.4 * next();
-  const middle = [wide * depth * way[0], wide * depth * way[1], crown + high * depth * way[2]];
+  const middle = [wide * depth * light[0], wide * depth * light[1], crown + high * depth * light[2]];
   const size = (count > 20 ? 0.62 : 0.95) * Math.min(wide * 1.15, high) * (0.85 + 0.3 * next());
-  card(made, middle, [next() - 0.5, next() - 0.5, 0.7 * (next() - 0.5)], size, size, way, shade(tint, depth, z));
+  card(triangles, middle, [next() - 0.5, next() - 0.5, 0.7 * (next() - 0.5)], size, size, light, shade(tint, depth, z));
 }
 
 /** A branch of a fir, sloping down and outwards. */
-function tier(made, { crown, wide, high, tint }, k, count, next) {
+function tier(triangles, { crown, wide, high, tint }, k, count, next) {
   const up = Math.sqrt((k + 0.5) / count); // fewer near the top
   const z = crown + high * (2 * up - 1);
   const reach = wide * (1.12 - up) * (0.85 + 0.3 * next());
@@ -99,13 +99,13 @@ function tier(made, { crown, wide, high, tint }, k, count, next) {
   const out = [Math.cos(angle), Math.sin(angle)];
   const middle = [0.5 * reach * out[0], 0.5 * reach * out[1], z - 0.22 * reach];
   const lean = [0.5 * out[0], 0.5 * out[1], 1];
-  card(made, middle, lean, 0.62 * reach + 0.03, 0.62 * reach + 0.03, [0.8 * out[0], 0.8 * out[1], 0.6], shade(tint, 0.7, 2 * up - 1));
+  card(triangles, middle, lean, 0.62 * reach + 0.03, 0.62 * reach + 0.03, [0.8 * out[0], 0.8 * out[1], 0.6], shade(tint, 0.7, 2 * up - 1));
 }
 
 const shade = (tint, depth, z) => tint.map((value) => value * (0.45 + 0.45 * depth) * (0.85 + 0.2 * z));
 
 /** A square card across a direction, all of it lit by one normal. */
-function card(made, middle, across, wide, high, light, colour) {
+function card(triangles, middle, across, wide, high, light, colour) {
   const normal = new THREE.Vector3(...across).normalize();
   const x = new THREE.Vector3(0, 0, 1).cross(normal);
   if (x.lengthSq() < 1e-6) x.set(1, 0, 0);
@@ -113,7 +113,7 @@ function card(made, middle, across, wide, high, light, colour) {
   const y = normal.clone().cross(x);
   const numbers = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => {
     const corner = middle.map((value, k) => value + a * wide * x.getComponent(k) + b * high * y.getComponent(k));
-    return made.point(corner, new THREE.Vector3(...light).normalize().toArray(), colour, [0.5 + 0.5 * a, 0.5 + 0.5 * b]);
+    return triangles.point(corner, new THREE.Vector3(...light).normalize().toArray(), colour, [0.5 + 0.5 * a, 0.5 + 0.5 * b]);
   }); // prettier-ignore
-  made.index.push(numbers[0], numbers[1], numbers[2], numbers[0], numbers[2], numbers[3]);
+  triangles.index.push(numbers[0], numbers[1], numbers[2], numbers[0], numbers[2], numbers[3]);
 }

@@ -1,4 +1,4 @@
-// Triangles with colours that are put together by hand.
+// Collects triangles with colours and builds a geometry from them.
 import * as THREE from "three";
 
 /** Collects triangles; places are relative to `base`. */
@@ -31,8 +31,8 @@ export class Triangles {
     const v = d.map((value, k) => value - a[k]);
     const normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     const size = Math.hypot(...normal) || 1;
-    const way = normal.map((value) => value / size);
-    const first = corners.map((corner, k) => this.point(corner, way, colour, uvs[k]))[0];
+    const unitNormal = normal.map((value) => value / size);
+    const first = corners.map((corner, k) => this.point(corner, unitNormal, colour, uvs[k]))[0];
     this.index.push(first, first + 1, first + 2, first, first + 2, first + 3);
   }
 
@@ -56,15 +56,15 @@ export class Triangles {
 
   /** @param {boolean} [placed] with the places in pictures */
   geometry(placed = false) {
-    const made = new THREE.BufferGeometry();
-    const put = (name, values, size) => made.setAttribute(name, new THREE.BufferAttribute(Float32Array.from(values), size));
+    const geometry = new THREE.BufferGeometry();
+    const put = (name, values, size) => geometry.setAttribute(name, new THREE.BufferAttribute(Float32Array.from(values), size));
     put("position", this.positions, 3);
     put("normal", this.normals, 3);
     put("color", this.colours, 3);
     if (placed) put("uv", this.places, 2);
     if (this.asides.length > 0) put("aside", this.asides, 3);
-    made.setIndex(this.index);
-    made.computeBoundingSphere();
-    return made;
+    geometry.setIndex(this.index);
+    geometry.computeBoundingSphere();
+    return geometry;
   }
 }

@@ -10,13 +10,13 @@ const BEAM = [[0.0, 0.6], [0.08, 0.66], [0.08, 0.72], [0.0, 0.8], [0.08, 0.88], 
 const POSTS = 4;
 
 /**
- * @param {import("./triangles.js").Triangles} made @param {{points: number[][], height?: number}} barrier
+ * @param {import("./triangles.js").Triangles} triangles @param {{points: number[][], height?: number}} barrier
  * @param {boolean} [coarse] with a third of the points along and across
  */
-export function addBarrier(made, { points: all, height = 0.8 }, coarse = false) {
+export function addBarrier(triangles, { points: all, height = 0.8 }, coarse = false) {
   const beam = BEAM.filter((_, k) => !coarse || k % 3 === 0);
   const points = all.filter((_, k) => !coarse || k % 3 === 0 || k === all.length - 1);
-  let way = POSTS / 2;
+  let distance = POSTS / 2;
   for (let i = 0; i + 1 < points.length; i++) {
     const [a, b] = [points[i], points[i + 1]];
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
@@ -27,36 +27,36 @@ export function addBarrier(made, { points: all, height = 0.8 }, coarse = false) 
       for (let k = 0; k + 1 < beam.length; k++) {
         const [low, high] = [beam[k], beam[k + 1]].map(([out, up]) => [side * (out + 0.01), up]);
         const corners = side > 0 ? [at(b, low), at(a, low), at(a, high), at(b, high)] : [at(a, low), at(b, low), at(b, high), at(a, high)];
-        made.quad(corners, ZINC);
+        triangles.quad(corners, ZINC);
       }
     }
-    for (; way < length; way += POSTS) {
-      const foot = a.map((value, k) => value + (way / length) * (b[k] - value));
-      made.box([foot[0], foot[1], foot[2] - 0.1], [0.1, 0.12, 0.94 * height + 0.1], Math.atan2(along[1], along[0]), ZINC);
+    for (; distance < length; distance += POSTS) {
+      const foot = a.map((value, k) => value + (distance / length) * (b[k] - value));
+      triangles.box([foot[0], foot[1], foot[2] - 0.1], [0.1, 0.12, 0.94 * height + 0.1], Math.atan2(along[1], along[0]), ZINC);
     }
-    way -= length;
+    distance -= length;
   }
 }
 
 const WALLS = [[0.55, 0.52, 0.46], [0.5, 0.45, 0.36], [0.46, 0.47, 0.48], [0.5, 0.36, 0.27]]; // prettier-ignore
 
-/** A box with windows and a gable roof. @param {import("./triangles.js").Triangles} made places: metres of the wall, below zero where no windows are */
-export function addBuilding(made, { at, yaw, size }) {
+/** A box with windows and a gable roof. @param {import("./triangles.js").Triangles} triangles places: metres of the wall, below zero where no windows are */
+export function addBuilding(triangles, { at, yaw, size }) {
   const [length, width, height] = size;
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
   const next = randomNumbers(Math.round(17 * at[0] + 31 * at[1]));
   const wall = WALLS[Math.floor(WALLS.length * next())];
   const eaves = height / (1 + (0.22 * Math.min(width, 12)) / height);
   const foot = [at[0], at[1], at[2] - 0.5];
-  made.box(foot, [length, width, eaves + 0.5], yaw, wall);
+  triangles.box(foot, [length, width, eaves + 0.5], yaw, wall);
   const corner = (x, y, z) => [at[0] + c * x - s * y, at[1] + s * x + c * y, at[2] + z];
   const none = Array(4).fill([-9, -9]);
   const [l, w] = [0.5 * length + 0.3, 0.5 * width + 0.4];
   for (const side of [1, -1]) {
-    made.quad([corner(-side * l, -side * w, eaves - 0.1), corner(side * l, -side * w, eaves - 0.1), corner(side * l, 0, height), corner(-side * l, 0, height)], ROOF, none);
+    triangles.quad([corner(-side * l, -side * w, eaves - 0.1), corner(side * l, -side * w, eaves - 0.1), corner(side * l, 0, height), corner(-side * l, 0, height)], ROOF, none);
     const gable = [[side * 0.5 * length, -side * 0.5 * width, eaves], [side * 0.5 * length, side * 0.5 * width, eaves], [side * 0.5 * length, 0, height - 0.05]]; // prettier-ignore
     const corners = gable.map((point) => corner(...point));
-    made.quad([...corners, corners[2]], wall, none);
+    triangles.quad([...corners, corners[2]], wall, none);
   }
 }
 
