@@ -182,7 +182,7 @@ def _symmetries(evaluator: Evaluator, frames: Frames, candidates: list[_Candidat
 def _defect(
     evaluator: Evaluator, c: _Candidate, q: Array, qd: Array, scales: _Scales, rows: tuple[Array, Array, Array]
 ) -> Array:
-    """What a candidate changes at a state, in shares of the length, speed and acceleration of the motion."""
+    """Defects of a candidate at a state, in shares of the length, speed and acceleration of the motion."""
     dq, dqd = c.G @ q + c.b, c.G @ qd
     dt, stencil = (1.0, FORWARD) if c.kind == "time" else (0.0, CENTRAL)
     places = [(q + s * dq, qd + s * dqd, evaluator.time + s * dt) for s in STEP * stencil[0]]

@@ -24,7 +24,7 @@ more are those of another body, which took the place of the port's.
 
 @dataclass(frozen=True)
 class MovingPart:
-    """What of z moves in a block, the rows that tie it, and whether a body of it bends, is driven or sprung."""
+    """Moving coordinates of a block, their rows, and whether a body of the block bends, is driven or sprung."""
 
     coordinates: list[int]
     rows: list[RowTerms]
@@ -81,7 +81,7 @@ def _sprung(model: Model, moving: set[int], full: Sequence[Affine]) -> bool:
 
 
 def _coordinates(bodies: Iterable[Body], full: Sequence[Affine], deformation: bool = False) -> set[int]:
-    """What of z the bodies' places depend on, or their deformation."""
+    """Coordinates of z on which the positions of bodies depend, or with `deformation` their deformations."""
     parts = [range(b.start + RIGID, b.start + b.size) if deformation else _place(b) for b in bodies]
     return {j for part in parts for i in part for j in full[i].terms}
 
@@ -91,7 +91,7 @@ def _place(body: Body) -> range:
 
 
 def _with_carried(own: set[int], other: set[int], carrying: Sequence[tuple[set[int], int]]) -> set[int]:
-    """With the coordinates of nodes and ports that the rows in `carrying` tie to them."""
+    """`own` and the coordinates of nodes and ports that the rows in `carrying` tie to it, none of `other`."""
     found, grew = set(own), True
     while grew:
         grew = False

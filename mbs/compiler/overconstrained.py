@@ -54,7 +54,7 @@ APART = 5.0
 
 @dataclass(frozen=True)
 class Correction:
-    """How far compile moved the ends of a joint: distance of its points (m) and turn of its axes (rad), the larger of
+    """Correction of a joint by compile: displacement of its points (m) and rotation of its axes (rad), the larger of
     both bodies.
     """
 
@@ -271,7 +271,7 @@ def _close_all(loops: Loops, positions: list[Closed], g: Array, share: float) ->
 
 
 def _explaining(parts: Array, size: float, s: Array) -> int:
-    """How many directions, the most sensitive first, explain the misfit but for a remainder: others would fit noise."""
+    """Number of most sensitive directions that explain the misfit up to `REMAINDER`; more would fit noise."""
     rest = np.sqrt(np.maximum(0.0, size**2 - np.cumsum(parts**2)))
     enough = int(np.argmax(rest <= max(REMAINDER * size, 3e-16 * np.sqrt(len(parts))))) + 1
     return max(1, min(enough, int(np.sum(s > 1e-11 * s[0]))))
@@ -356,7 +356,7 @@ def _refuse(loops: Loops, larger: list[Corrected] | None, nearly: list[Closed], 
 
 
 def _round_up(x: float) -> float:
-    """One digit, not smaller."""
+    """The number rounded up to one digit."""
     power = 10.0 ** math.floor(math.log10(x))
     return min(MOST_TOLERANCE, math.ceil(1.01 * x / power) * power)
 

@@ -53,7 +53,7 @@ class Group:
     """Whether its numbers stand behind those of all fields, by their own names without that of the field."""
 
     def name(self, field: str, number: str) -> str:
-        """Of a number of it."""
+        """Name of one number of the group in a field."""
         return number if self.apart else f"{field}_{number}"
 
 

@@ -148,7 +148,7 @@ class Tyre(Element):
         return record
 
     def faults_over_loads(self) -> Iterator[tuple[str, str, str]]:
-        """Where a force or slip is not positive or not in order at no load or at the largest.
+        """Faults of the curves at no load and at the largest: forces or slips that are not positive or not in order.
 
         Yields
         ------

@@ -224,7 +224,7 @@ class BodyVocabulary(Register):
         return body.vector(unit)
 
     def _end(self, end: FixedEnd, what: str) -> AffineVector:
-        """Where a force acts on a body that does not slide there."""
+        """Point of a body at which a force acts."""
         body, point = body_and_point(end, what)
         return self.owned(body, f"The {what}").point(point)
 

@@ -30,7 +30,7 @@ def same_place(p: Vector, place: Vector, size: float) -> bool:
 
 
 def size_about(body: Body, place: Vector) -> float:
-    """How large a body is, m: its radius of gyration, or how far from its centre a place of it lies; else 1 m."""
+    """Size of a body, m: its radius of gyration or the distance of `place` from its centre of mass; 1 if both are 0."""
     return max(body.gyration, float(np.linalg.norm(place - body.com))) or 1.0
 
 

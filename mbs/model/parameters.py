@@ -54,7 +54,7 @@ class _Target:
     check: Callable[[object, str], float]
 
     def written(self, value: float) -> float:
-        """What the parameter writes."""
+        """Number that the parameter writes at its value."""
         *_, scale, offset, inverse = self.where
         return (scale / value if inverse else value * scale) + offset
 
@@ -128,7 +128,7 @@ def _target(model: Register, what: str, given: Target) -> _Target:
 
 
 def _owners(model: Register) -> Iterator[tuple[int, str, Sequence[Named], Callable[[int], Reals]]]:
-    """Of what a parameter writes to by name beside elements: kind, things, and the reals of the thing at a place."""
+    """Kinds of targets other than elements: kind, its word, the targets, and the numbers of the target at an index."""
     yield ParameterTarget.GUIDE, "guide", model.guides, lambda k: GUIDE_REALS.get(model.guides[k].type, {})
     yield ParameterTarget.PAYLOAD, "payload", model.payloads, lambda _: {"mass": not_negative}
     yield ParameterTarget.ARMATURE, "armature", model.armatures, lambda _: {"ratio": positive}

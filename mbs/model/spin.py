@@ -21,7 +21,7 @@ STEEPEST = 1.4
 
 
 def _own(vector: AffineVector) -> AffineVector:
-    """The same, told apart from equal vectors of the carrier that do not turn with the axis."""
+    """A copy with components of its own: vectors of the carrier that are equal now do not turn with the axis."""
     return AffineVector(tuple(Affine(c.terms, c.constant) for c in vector.components))
 
 

@@ -36,7 +36,7 @@ class SmoothTable:
 
 
 def _weights(axis: Array, x: float) -> Array:
-    """Of the control points, beyond the ends along the tangent."""
+    """Weights of the control points of a cubic B-spline at `x`; beyond the ends it goes on along the tangent."""
     step = float(axis[1] - axis[0])
     place = (x - axis[0]) / step
     held = min(max(place, 0.0), len(axis) - 1.0)

@@ -138,7 +138,7 @@ class Comparison:
         return ends
 
     def sizes(self, guided: bool = True) -> dict[str, float]:
-        """What differences of those that count are held against: the largest range in the unit, of forces the largest
+        """Reference for the differences of each value that counts: the largest range in its unit, of forces the largest
         value. `guided`: places that are the same in both motions do not move by themselves.
         """
         size = np.zeros(len(self._what))
@@ -196,10 +196,10 @@ def compared_in(
     guided: bool = False,
     energy: float = 0.0,
 ) -> dict[str, Compared]:
-    """What of a run is compared, by name: what the kernel says to count, unless the coordinates say that all `stands`:
-    rates and forces of motors do not count then. `length`, `before`, `energy`: as of `Comparison`.
+    """Values of a run that are compared, by name, as the kernel selects them.
 
-    Where something is `guided` two motions say whether a place moves by itself, see `differences`.
+    `stands`: nothing moves by the coordinates, so that rates and forces of motors do not count; `guided`: two motions
+    decide whether a place moves by itself, see `differences`; `length`, `before`, `energy`: as of `Comparison`.
     """
     found = Comparison({n: what for n, what in compared.items() if what.always or not stands}, length, before, energy)
     found.add(values, values)

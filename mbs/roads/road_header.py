@@ -127,7 +127,7 @@ def _problem(kind: int, nx: int, ny: int, tile: int, maps: int, real: Sequence[f
 
 
 def check_grid(heights: NDArray[np.float64], frictions: NDArray[np.float64] | None, name: object) -> None:
-    """One sentence for values that no road has, with the first place."""
+    """Check the values of a grid; the error is one sentence with the place of the first wrong value."""
     for what, values, low, high, unit in (
         ("height", heights, -ROAD_HIGHEST, ROAD_HIGHEST, " m"),
         ("friction", frictions, 0.0, ROAD_FRICTION, ""),

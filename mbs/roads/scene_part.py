@@ -37,7 +37,7 @@ def scene_part(road: PlaneRoad | KerbRoad | GridRoad) -> dict[str, Any]:
 
 
 def _grip(friction: float | None, factor: float) -> dict[str, Any]:
-    """What is said of the friction of a road. `friction`: if it is the same everywhere."""
+    """Entries of a road's friction in the scene. `friction`: None if it differs from place to place."""
     friction_entry = {} if friction is None else {"friction": friction}
     return friction_entry if factor == 1.0 else friction_entry | {"friction_factor": factor}
 

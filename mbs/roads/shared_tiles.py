@@ -131,7 +131,7 @@ def polynomial_values(c: Float) -> Float:
 
 
 def simplest(blocks: Float, places: Float, tolerance: float) -> list[Float | None]:
-    """Of each tile the fewest coefficients that give its heights within the tolerance; None where none do.
+    """Fewest polynomial coefficients for the heights of each tile within the tolerance; None where none suffice.
 
     `blocks`: heights, m, shape (tiles, n, n); `places`: where in a tile they are, -1 to 1, shape (n,); `tolerance`: in
     m; 0: only level tiles are polynomials.

@@ -29,7 +29,7 @@ def input_breaks(tables: Iterable[Table], t0: float, t_end: float, h: float) -> 
 def function_breaks(
     function: Callable[[float], float], t0: float, t_end: float, h: float
 ) -> tuple[Array, list[tuple[float, float]]]:
-    """The same of a function, and the last time before and the first one behind each of its jumps, s.
+    """Break times of a function, and the last time before and the first one after each of its jumps, s.
 
     A step in which the function is smooth is not parted. What is sampled is kept for `BLOCK` steps at a time; of a
     longer run the range is taken from one sample a step.
@@ -104,7 +104,7 @@ def _ask(function: Callable[[float], float], times: Array) -> Array:
 
 
 def _breaks(t: Array, x: Array, size: float, t0: float, t_end: float, h: float, rough: bool = False) -> Array:
-    """Of one table, whose signal has the range `size`; `rough`: only steps in which it is not smooth are parted."""
+    """Break times of one table whose signal has the range `size`; `rough`: only in steps in which it is not smooth."""
     found = [np.zeros(0)]
     phase = (t - t0) / h
     step = np.floor(phase)
@@ -123,8 +123,10 @@ def _breaks(t: Array, x: Array, size: float, t0: float, t_end: float, h: float, 
 
 
 def _rough(t: Array, x: Array, size: float, begins: Array, h: float) -> NDArray[np.bool_]:
-    """In which steps a signal has a jump, a kink or a narrow peak: a cubic misses it by as much as the best one misses
-    a kink in the middle of a step that departs by `LEAST` from a straight line, which is an eighth of that.
+    """Whether a signal has a jump, a kink or a narrow peak in each step.
+
+    It has one if the error of its best cubic is that of a kink in the middle of a step that departs by `LEAST` from a
+    straight line; that error is an eighth of the departure.
     """
     at = np.linspace(AT_END, 1.0 - AT_END, ASKED + 1)
     cubic, _ = np.linalg.qr(np.vander(2.0 * at - 1.0, 4))
@@ -144,7 +146,7 @@ def _apart(t: float, h: float) -> float:
 
 
 def _range(x: Array) -> float:
-    """Of a signal; infinite where it is constant but for round-off, from which nothing departs."""
+    """Range of a signal; infinite if it is constant up to round-off, so that nothing departs from it."""
     size = float(np.ptp(x))
     return size if size > ROUND_OFF * float(np.abs(x).max()) else math.inf
 

@@ -70,7 +70,7 @@ class InputSignals:
 
     @property
     def has_functions(self) -> bool:
-        """Whether one is a function of time."""
+        """Whether any input is a function of time."""
         return any(callable(signal) for signal in self._signals.values())
 
     def check(self, index: int, t: float, value: float) -> None:
@@ -122,7 +122,7 @@ class InputSignals:
         instance.set_input_function(function)
 
     def attach_to_steps(self, instance: Instance, t0: float, t_end: float, h: float) -> None:
-        """The same for steps of `h`, s, which are parted where a signal jumps or peaks within them."""
+        """Attach the signals for steps of `h`, s, which end early where a signal jumps or peaks."""
         breaks = self.breaks(t0, t_end, h)
         self.attach(instance, t0, t_end, AT_END * h)
         instance.set_input_breaks(breaks)

@@ -119,7 +119,7 @@ def _fill(shape: Scene, defaults: Defaults) -> None:
 def _flexible(
     model: Model, names: FrameNames, places: Places, q: NDArray[np.float64]
 ) -> tuple[Callable[[], list[Scene]], ...]:
-    """What makes beams, modes and rows of stress of what bends."""
+    """Functions that make beams, modes and rows of stress of flexible bodies."""
     found = []
     bodies = [body for body in model.bodies if isinstance(body, FlexibleBody)]
     hidden = {shape.owner for shape in model.shapes if shape.kind == "none"}

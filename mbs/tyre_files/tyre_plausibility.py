@@ -163,7 +163,7 @@ def _vertical_names(tyre: AnyTyre, prefix: str) -> dict[str, str]:
 
 
 def _vertical_mistakes(tyre: AnyTyre, prefix: str, values: Callable[[Any], list[Value]]) -> list[Mistake]:
-    """Of radii, loads and stiffness. `values`: of a tyre."""
+    """Mistakes in radii, loads and stiffness. `values`: of a tyre."""
     names = _vertical_names(tyre, prefix)
     found = [
         (f"{unit} in place of newtons in {names[field]}", {field: factor})

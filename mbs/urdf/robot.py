@@ -231,7 +231,7 @@ def _free_root(urdf: Any, joints: dict[str, Any], below: dict[str, Any], floatin
 
 
 def _groups(below: Mapping[str, Any]) -> dict[str, str]:
-    """Of each link the first of those that are fixed to each other."""
+    """First link of the group of each link; links of a group are fixed to each other."""
     groups: dict[str, str] = {}
     for name, joint in below.items():
         groups[name] = groups[joint.parent] if joint is not None and joint.type == "fixed" else name

@@ -241,7 +241,7 @@ class BuiltCar(Summarised, CarContent):
         yield steered, self.rear.build(b, "rear", self._fixed_end(b), self.brakes.build)
 
     def tabled(self, b: CarBuilder) -> Iterator[tuple[Steered, dict[str, Spin]]]:
-        """The same by tables."""
+        """Add the steering, and both axles with suspensions by tables."""
         steered = self.steering.build(b, self.rack_direction)
         if steered.travel is None:
             raise ModelError(

@@ -81,7 +81,7 @@ class CarContent(Section):
 
     @property
     def axles(self) -> dict[str, Axle]:
-        """Both axles."""
+        """Front and rear axle by name."""
         return {"front": self.front, "rear": self.rear}
 
     @property

@@ -55,7 +55,7 @@ def _place(table: list[Any], key: str, tables: list[str], what: str) -> int:
 
 
 def _plain(value: Any) -> Any:
-    """As a file would have it: numbers of Python, lists and tables."""
+    """A value with NumPy numbers and arrays as numbers and lists of Python."""
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, np.generic):

@@ -74,7 +74,7 @@ def _plain(schema: Any) -> Any:
 
 
 def _field(schema: Any) -> Any:
-    """Its unit stands in the description, which editors show."""
+    """Schema of a field with its unit in the description, which editors show."""
     items = schema.get("items", {})
     unit = schema.get("unit") or (items.get("unit") if isinstance(items, dict) else None)
     text = " ".join(schema.get("description", "").split())

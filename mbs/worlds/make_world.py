@@ -106,7 +106,7 @@ def checksum_of(road: Path) -> int:
 
 
 def part_of_world(road: Path) -> dict[str, Any] | None:
-    """What is drawn of a road file by the record beside it, where there is one and it is of this road."""
+    """Drawing of a road from the record beside its file; None if there is no record of this road."""
     record = record_of_road(road)
     return None if record is None or not record.get("roads") else record["roads"][0]
 

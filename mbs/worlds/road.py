@@ -76,7 +76,7 @@ def _write_table(file: Path | None, plausibility: Plausibility) -> None:
 
 
 def _starts(options: argparse.Namespace) -> dict[str, tuple[float, float]]:
-    """Where a drive may begin: as asked, the places of the world that a road file is of, else the origin."""
+    """Starts of a drive by name, x and y in m: that of the options, else those of the road's world, else (0, 0)."""
     if options.start is not None:
         return {"start": tuple(options.start)}
     record = record_of_road(options.input) or {}
@@ -104,7 +104,7 @@ def _given(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def _lines(road: PlaneRoad | KerbRoad | GridRoad) -> list[str]:
-    """What the road is, beside its quantities."""
+    """Lines that describe the kind and extent of a road."""
     if not isinstance(road, GridRoad):
         kind = "plane" if isinstance(road, PlaneRoad) else "kerb"
         words = (f"{name} {value:g}" for name, value in zip(road.real_names[:-1], road.real, strict=False))

@@ -155,7 +155,7 @@ class Terrain:
     def _laid(
         self, x: Float, y: Float, i: NDArray[np.int64], j: NDArray[np.int64], carved: Float
     ) -> tuple[Float, NDArray[np.uint8], Float]:
-        """As `on_grid`, near layers, at places to which lattice points (i, j) are nearest."""
+        """Heights, surfaces and distances as of `on_grid`, near layers, at places next to the lattice points (i, j)."""
         z = self.ground.at(x, y)
         surfaces = np.zeros(len(x), np.uint8)
         nearest, same = np.full(len(x), FAR), np.full(len(x), FAR)
@@ -173,7 +173,7 @@ class Terrain:
 
 
 def _block(base: Footprint, x: Float, y: Float) -> tuple[slice, slice] | None:
-    """What a footprint reaches of a grid."""
+    """Rows and columns of a grid within the box of a footprint; None if there are none."""
     x0, y0, x1, y1 = base.box()
     rows = slice(int(np.searchsorted(x, x0)), int(np.searchsorted(x, x1, "right")))
     columns = slice(int(np.searchsorted(y, y0)), int(np.searchsorted(y, y1, "right")))

@@ -102,7 +102,7 @@ def _line(course: Course) -> Places:
 
 
 def _stands(world: WorldDescription) -> Iterator[Value]:
-    """What stands as nothing does: beside all roads, in one, twice, larger than the world, finer than its points."""
+    """Implausible objects: beside all roads, on one, twice, larger than the world, finer than its points."""
     lines = [np.array(_line(course), float) for course in world.courses]
     if all(map(len, lines)) and (lines or world.areas):
         for name, quantity in ON_ROADS.items():

@@ -43,7 +43,7 @@ class Element:
 
 
 class Pattern:
-    """What is derived of the arrays of a System, as the kernel does when it loads it.
+    """Sparsity patterns of a System, derived from its arrays as the kernel does on loading.
 
     `turned`: of the System with room for all directions of axes that parameters write; its functions have other names.
     """
@@ -95,7 +95,7 @@ class Pattern:
         return True
 
     def _triples(self, signals: Integers) -> list[bool]:
-        """Of signals in the order in which they are gone through, which are the first of a point."""
+        """Whether each signal, in this order, is the first of the three components of a point."""
         found = [False] * len(signals)
         a = 0
         while a < len(signals):

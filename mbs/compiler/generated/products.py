@@ -18,7 +18,10 @@ FORCES = (
 
 
 def put(array: str, first: int, length: int, value: str, end: int) -> list[str]:
-    """Up to four numbers of a vector go to an array, whose later ones are written afterwards."""
+    """C that stores `length` numbers of a vector from `first` on in an array with `end` entries.
+
+    Entries behind them may be overwritten: they are written afterwards.
+    """
     if length == 1:
         return [f"  {array}[{first}] = {value};"]
     if length == 2:

@@ -19,7 +19,7 @@ def rows(pattern: Pattern) -> list[str]:
 
 
 def gamma(pattern: Pattern) -> list[str]:
-    """The same of entries without linear parts, with rates."""
+    """`gamma[k] = 0.5 sum e q` with entries e of Phi_q without their linear parts, and rates in place of q."""
     return function(GAMMA, _by_fours(pattern, True))
 
 
@@ -108,7 +108,7 @@ def _sum_of_terms(pattern: Pattern, run: Sequence[int], begin: str) -> str:
 
 
 def _literal(array: str, places: Sequence[int | None]) -> str:
-    """As `vector`, but three equal places are no single number: both factors may be so."""
+    """C vector of entries of an array: as `vector`, but equal places are not read as one number."""
     if len(places) > 1 and not follow(places):
         words = ["0.0" if p is None else f"{array}[{p}]" for p in places]
         return "(four){" + ", ".join(words + ["0.0"] * (4 - len(words))) + "}"

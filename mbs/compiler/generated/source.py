@@ -60,7 +60,7 @@ def source(arrays: Mapping[str, Any], structure: int, *, avx2: bool) -> str:
 
 
 def _of_signals(pattern: Pattern) -> dict[str, _Function]:
-    """What hangs on modes or on tables has no tangent of its own."""
+    """Functions of signals, and of the tangent if no body is flexible or moves by a table."""
     return (_SIGNALS if pattern.elements else {}) | (_TANGENT if pattern.is_rigid else {})
 
 

@@ -180,7 +180,7 @@ class _OfFront:
         return [*lines, "  }"]
 
     def _above(self, block: _Block) -> list[str]:
-        """What factors work on above the diagonal, for whole fours: nobody reads it, but it must not grow."""
+        """Zeros above the diagonal in whole blocks of four of the factorisation; never read, but they must not grow."""
         front, lines = self.front, []
         for j in block.columns:
             begin = pieces(j, front.size)[0].first

@@ -43,7 +43,7 @@ class JointPlaces:
 
 @dataclass(frozen=True)
 class Drawing:
-    """What a joint between two rigid bodies asks of a point and an axis on each, so that both can be moved a little."""
+    """Conditions of a joint on a point and an axis of each of two rigid bodies; compile may move these a little."""
 
     bodies: tuple[Body, Body]
     points: tuple[ArrayLike, ArrayLike]
@@ -63,7 +63,7 @@ class Drawing:
 
 @dataclass(frozen=True)
 class Turn:
-    """What a relative angle measures: body 2 against body 1 about an axis (as drawn, earth axes; None in the plane)."""
+    """Bodies and axis of a relative angle: of body 2 against body 1 (axis as drawn, earth axes; None in the plane)."""
 
     bodies: tuple[Body, Body]
     axis: ArrayLike | None
@@ -72,7 +72,7 @@ class Turn:
 
 @dataclass(frozen=True)
 class JointEnds:
-    """What closed loops need of a joint: its bodies (the ground, a body or a node), its point on each, its axis."""
+    """Ends of a joint for closing loops: its bodies (the ground, a body or a node), its point on each, its axis."""
 
     bodies: tuple[Body, Body]
     points: tuple[AffineVector, AffineVector]

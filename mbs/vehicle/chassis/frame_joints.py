@@ -54,7 +54,7 @@ class JointFinder:
         self._places = np.array(list(structure.joints.values()))
 
     def joints(self, chassis: Chassis, driven: int) -> FrameJoints:
-        """All joints that the car needs.
+        """Joints of the frame that the car needs.
 
         `chassis`: with the place of the floating frame and accelerometers; `driven`: 0: the front axle is driven, 1:
         the rear one. Raises `ModelError`: a hard point is not a joint, a joint that the file names does not exist, or

@@ -130,7 +130,7 @@ def _fitting(rest: Rest, car: CarContent, axles: Sequence[str]) -> dict[str, flo
 
 
 def _mean(sensors: Mapping[str, float], name: str, axle: str) -> float:
-    """Of both wheels of an axle. `name`: of a sensor, with {} in the place of the wheel's."""
+    """Mean value of a sensor of both wheels of an axle. `name`: of the sensor, with {} for the wheel."""
     return 0.5 * sum(sensors[name.format(f"{axle[0].upper()}{side}")] for side in "LR")
 
 

@@ -1,4 +1,4 @@
-"""Between which values of its parameters a car works, where the range of the type of the number is wider."""
+"""Ranges of parameters within which a car works, where they are narrower than those of their types."""
 
 import math
 from collections.abc import Mapping
@@ -66,7 +66,7 @@ def working_ranges(car: CarContent) -> Ranges:
 
 
 def _of_mass_centre(found: Ranges, car: CarContent) -> None:
-    """Of the centre of mass of the chassis, so that that of the car is where a file may have it."""
+    """Add the range of the chassis' centre of mass that keeps the car's within `centre_ranges`."""
     lever = car.chassis.mass / sum(mass for mass, _ in weighed_points(car, payloads=False))
     centre, spans = centre_of(car, payloads=False), centre_ranges(car)
     for (path, value), now, span in zip(car.chassis.numbers("com").items(), centre, spans, strict=True):
@@ -75,9 +75,9 @@ def _of_mass_centre(found: Ranges, car: CarContent) -> None:
 
 
 def _of_grip(found: Ranges, car: CarContent) -> None:
-    """Of each axle's grip, and of the road's friction and its factor, with the others as they are.
+    """Add the ranges of each axle's grip, the road's friction and its factor, each with the others as they are.
 
-    A file that has less itself is not within.
+    The value of the file may lie below its range.
     """
     road = car.road
     for axle in (car.front, car.rear):

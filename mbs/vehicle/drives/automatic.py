@@ -92,7 +92,7 @@ class Automatic(Section, of=AutomaticDrive):
         b.m.equilibrium_parameters = {self.key("creep_torque"): 0.0}
 
     def turning_parts(self, b: CarBuilder, spins: Mapping[str, Spin]) -> None:
-        """Nothing: the inertia of this drive is neglected."""
+        """No parts: the inertia of this drive is neglected."""
 
     def outputs(self, b: CarBuilder) -> None:
         """Add the outputs of the drive."""

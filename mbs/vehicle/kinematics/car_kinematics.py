@@ -113,7 +113,7 @@ def kinematics(
 
 
 def wheel_by_rack(car: Car) -> WheelByRack:
-    """What gives the angle of the steering wheel, rad, and its change per motion of the steering, at a motion."""
+    """Function of the steering's motion: angle of the steering wheel, rad, and its derivative by that motion."""
     way = car.steering.signed(car.rack_direction)
 
     def at(travel: float) -> tuple[float, float]:

@@ -36,7 +36,7 @@ class LevelChoice:
 
     @property
     def left_out(self) -> str:
-        """What a car of this fidelity does without."""
+        """Effects that this fidelity neglects."""
         return LEFT_OUT[self.fidelity]
 
 

@@ -67,7 +67,7 @@ def _of_the_steering(car: CarContent) -> Iterator[str]:
 
 
 def _ends(linkage: Linkage, direction: Array, start: Position | None = None) -> tuple[float, float] | None:
-    """Where the links end to both sides of a start, m; None where they follow as far as is looked at."""
+    """Travel to both sides of a start up to which the links follow, m; None if it is `FARTHEST` on both sides."""
     low, high = (reached(linkage, direction, np.array([far]), start)[1] for far in (-FARTHEST, FARTHEST))
     if low is None and high is None:
         return None

@@ -99,7 +99,7 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
 
 
 def _places(axle: Axle, name: str) -> Iterator[Value]:
-    """Of points and parts the farthest."""
+    """Distances of the farthest points and parts of an axle."""
     points, centre, parts = drawn_points(axle), axle.wheel.centre, centres_of(axle)
     if not axle.suspension.linked:
         points = parts

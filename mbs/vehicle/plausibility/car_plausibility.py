@@ -80,7 +80,7 @@ def _centre_key(car: CarContent) -> dict[str, Any]:
 
 
 def _mass(car: CarContent) -> float:
-    """Of all parts, kg; what the wheels carry is less where the body lies on the ground."""
+    """Mass of all parts, kg; the wheels carry less if the body lies on the ground."""
     return sum(mass for mass, _ in weighed_points(car, payloads=True))
 
 
@@ -103,8 +103,7 @@ def _of_dimensions(car: CarContent) -> Iterator[Value]:
 
 
 def _of_points(car: CarContent) -> Iterator[Value]:
-    """Of points of the body the farthest outside of its outline and the nearest to the front axle, and of all points
-    the coordinate nearest to 0."""
+    """Extreme points: farthest outside the body's outline, nearest to the front axle, smallest coordinate but 0."""
     points, body = points_of_the_body(car), car.vehicle
     middle, sides = body.reference_point[0], (0.5 * body.length, 0.5 * body.width)
     beyond = {

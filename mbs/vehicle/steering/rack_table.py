@@ -54,7 +54,7 @@ class RackTable:
 
 
 def table_faults(key: str, rows: Rows, travel_key: str, travel: float) -> Iterator[str]:
-    """What a table must be. `travel_key`, `travel`: of the travel at full lock, m, that it must reach."""
+    """Faults of a table in words. `travel_key`, `travel`: of the travel at full lock, m, that it must reach."""
     if len(rows) < 2:
         yield f"{key} has {len(rows)} rows; it must have two or more."
         return

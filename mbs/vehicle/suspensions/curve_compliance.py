@@ -78,7 +78,7 @@ class Compliance(Section):
             )
 
     def base(self, b: CarBuilder, side: Side, centre: Point, part: Part) -> tuple[Body, float]:
-        """What the table of a wheel stands on, and the share of its carrier's mass that the table keeps.
+        """Base body of the table of a wheel, and the share of its carrier's mass that stays with the table.
 
         `centre`: of the left wheel, m.
         """

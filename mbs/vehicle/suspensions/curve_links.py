@@ -34,7 +34,7 @@ class LinkPoints(Section):
     """On the carrier."""
 
     def foot(self) -> Array:
-        """Where the link turns: its inner end, or the point of the axis next to its outer end, m."""
+        """Point about which the link turns, m: its inner end, or the point of its axis nearest to its outer end."""
         inner = np.array(self.inner)
         along = np.subtract(self.second_inner or self.inner, inner)
         return np.asarray(inner + along * (along @ (np.array(self.outer) - inner)) / max(along @ along, SHORTEST**2))

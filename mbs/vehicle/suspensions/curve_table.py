@@ -138,7 +138,7 @@ def _travel(what: str, given: Iterable[str], columns: dict[str, Array]) -> Array
 
 
 def _check_sides(what: str, given: Iterable[str], columns: Mapping[str, Array]) -> None:
-    """All that is needed is there, and once the right wheel has a column of its own, for both wheels."""
+    """Check that the needed columns are there, for both wheels if the right wheel has a column of its own."""
     both = any(n.endswith("_right") for n in columns)
     for names in NEEDED:
         for side in ("left", "right") if both else ("left",):

@@ -95,7 +95,7 @@ class Curves(SuspensionSection):
 
     @property
     def unlinked(self) -> str:
-        """It has none."""
+        """Sentence that the axle has no links."""
         return (
             f"{self.key('kind')} is 'curves': the axle has no links whose curves or compliance could be found; "
             f"{self.file} has its curves."
@@ -114,12 +114,12 @@ class Curves(SuspensionSection):
         return self._hub
 
     def oddities(self) -> Iterator[str]:
-        """What of the file is not used."""
+        """Sentence on the columns of the file that are not used."""
         if self.table.left_out:
             yield f"{self.key('file')} ({self.file}): not used are the columns {', '.join(self.table.left_out)}."
 
     def steers_left(self, centre: Point) -> bool:
-        """By the table."""
+        """Whether rack travel to the left steers to the left by the table."""
         return self._steer_per_rack(self.of(Side("front", "left", 1.0))) > 0.0
 
     def steered_angle(self, rack: float) -> float:
@@ -239,7 +239,7 @@ class Curves(SuspensionSection):
     def _over(
         self, b: CarBuilder, side: Side, curves: WheelCurves, travels: Mapping[str, Coordinate]
     ) -> tuple[list[Coordinate], WheelCurves]:
-        """What the tables of a wheel are functions of, and its curves over it."""
+        """Coordinates over which a wheel is tabled, and its curves over them."""
         own = travels[side.name]
         if self.table.second_name == RACK:
             assert b.rack is not None, "the front axle steers"
@@ -255,7 +255,7 @@ class Curves(SuspensionSection):
         return [own], curves
 
     def _steer_per_rack(self, curves: WheelCurves) -> float:
-        """Of a wheel at the drawing, rad/m."""
+        """Steer angle of a wheel per travel of the rack at the drawing, rad/m."""
         return float(CubicSpline(*self._steer(curves))(0.0, 1))
 
     def _steer(self, curves: WheelCurves) -> tuple[Array, Array]:

@@ -1,3 +1,4 @@
+/* Value, derivatives and means of a curve of cubic pieces, and checks of its table. */
 #include "cubic_table.h"
 
 #include <math.h>

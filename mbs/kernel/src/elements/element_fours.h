@@ -4,7 +4,7 @@
 #define ALI3_ELEMENT_FOURS_H
 #include "forces.h"
 
-/* How many; the most numbers that one of them may have. */
+/* Elements side by side, and the most numbers of each kind of one of them. */
 enum { ALI3_FOUR = 4, ALI3_FOUR_REALS = 64, ALI3_FOUR_STATES = 8, ALI3_FOUR_OUTPUTS = 24, ALI3_FOUR_INTEGERS = 4 };
 
 /* At load, from el_kind and el_size: which elements go together, and which are evaluated alone. */

@@ -1,4 +1,4 @@
-/* Contacts of several discs, one after the other: of roads that laws do not compute in vectors. */
+/* Contacts of several discs, one after the other, with roads that the laws do not evaluate in vectors. */
 #include "lane_road.h"
 
 #include <stddef.h>

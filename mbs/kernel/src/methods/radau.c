@@ -325,7 +325,8 @@ static ali3_status inputs(ali3_instance *in) {
   return status;
 }
 
-/* Of driven rows, the force of each stage along its own velocity, which need not be on the rows. Ends with the last one. */
+/* Work of driven rows: the force of each stage along its own velocity, which need not be on the rows. Leaves the last
+ * stage in place. */
 static double work_of_drives(ali3_instance *in, double t, double h) {
   const ali3_system *S = in->system;
   double work = 0.0;

@@ -1,4 +1,4 @@
-/* The beginning and the end of a step as it is asked for, whatever makes it in between. */
+/* Beginning and end of a requested step, common to all methods. */
 #include "whole_step.h"
 
 #include <math.h>
