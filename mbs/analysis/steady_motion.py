@@ -144,8 +144,8 @@ class _Scales:
 def _scales(evaluator: Evaluator, frames: Frames, q: Array, qd: Array) -> _Scales:
     each = np.abs(frames.T.toarray()).max(axis=0)
     full = frames.T @ q + frames.constant
-    places = np.array([full[i : i + frames.dimension] for i in frames.points])
-    spread = float(np.ptp(places, axis=0).max()) if len(places) else 0.0
+    positions = np.array([full[i : i + frames.dimension] for i in frames.points])
+    spread = float(np.ptp(positions, axis=0).max()) if len(positions) else 0.0
     length = max(spread, 1.0 if frames.vectors else 0.0) or 1.0
     speed = float(np.abs(each * qd).max())
     motion = evaluator.motion(q, qd)
@@ -185,13 +185,13 @@ def _defect(
     """Defects of a candidate at a state, in shares of the length, speed and acceleration of the motion."""
     dq, dqd = c.G @ q + c.b, c.G @ qd
     dt, stencil = (1.0, FORWARD) if c.kind == "time" else (0.0, CENTRAL)
-    places = [(q + s * dq, qd + s * dqd, evaluator.time + s * dt) for s in STEP * stencil[0]]
+    states = [(q + s * dq, qd + s * dqd, evaluator.time + s * dt) for s in STEP * stencil[0]]
     n = len(q)
     _, jacobian, rate = rows
     measure = evaluator.arrays["row_measure"]
     holding = np.delete(measure * (jacobian @ dq + dt * (rate - jacobian @ qd)), evaluator.arrays["velocity_row"])
-    rates = measure * (stencil[1] @ np.array([evaluator.constraints(*p)[2] for p in places])) / STEP
-    motion = stencil[1] @ np.array([evaluator.motion(*p) for p in places]) / STEP
+    rates = measure * (stencil[1] @ np.array([evaluator.constraints(*p)[2] for p in states])) / STEP
+    motion = stencil[1] @ np.array([evaluator.motion(*p) for p in states]) / STEP
     here = scales.motion
     accelerations = scales.each * (motion[:n] - c.G @ here[:n]) / (scales.acceleration + scales.round_off / SAME)
     slots = motion[n:] / np.maximum(np.abs(here[n:]), scales.speed)

@@ -115,8 +115,8 @@ def redrawn(joints: list[Corrected]) -> Iterator[dict[str, tuple[float, float]]]
     drawn = [(b, list(b.joint_points), list(b.joint_axes)) for b in bodies]
     old = [(j.joint, {name: getattr(j.joint, name) for name in REDRAWN}) for j in joints]
     try:
-        for given in joints:
-            _redraw(given)
+        for corrected in joints:
+            _redraw(corrected)
         yield {j.joint.name: (j.correction.distance, j.correction.angle) for j in joints}
     finally:
         for joint, attributes in old:
@@ -305,8 +305,8 @@ def _joint(
     if meets and {"axis", "orientation"} & set(c.conditions):
         u = [0.5 * (u[0] + u[1])] * 2
     d = 2 if loops.planar else 3
-    p = [_known(x, points, 1e-12 * loops.size)[:d] for x in p]
-    u = [_known(a / np.linalg.norm(a), axes, 1e-11)[:d] for a in u]
+    p = [_matched_vector(x, points, 1e-12 * loops.size)[:d] for x in p]
+    u = [_matched_vector(a / np.linalg.norm(a), axes, 1e-11)[:d] for a in u]
     length = c.length + (loops.size * float(g[c.constant]) if c.constant >= 0 else 0.0)
     if c.constant >= 0:
         shift = max(shift, abs(length - c.length))
@@ -314,14 +314,14 @@ def _joint(
     return Corrected(c.joint, (p[0], p[1]), pair, length, Correction(shift, turn if pair else 0.0))
 
 
-def _known(v: Array, known: list[Array], near: float) -> Array:
-    """The vector of `known` that equals this one or its negative, with the sign of this one; a new one is added."""
-    for w in known:
+def _matched_vector(v: Array, vectors: list[Array], near: float) -> Array:
+    """The vector of `vectors` that equals this one or its negative, with the sign of this one; a new one is added."""
+    for w in vectors:
         for sign in (1.0, -1.0):
             if np.max(np.abs(v - sign * w)) <= near:
                 return sign * w
-    known.append(np.where(np.abs(v) < 1e-14, 0.0, v))
-    return known[-1]
+    vectors.append(np.where(np.abs(v) < 1e-14, 0.0, v))
+    return vectors[-1]
 
 
 def _largest(loops: Loops, joints: list[Corrected]) -> float:
@@ -361,19 +361,19 @@ def _round_up(x: float) -> float:
     return min(MOST_TOLERANCE, math.ceil(1.01 * x / power) * power)
 
 
-def _redraw(given: Corrected) -> None:
+def _redraw(corrected: Corrected) -> None:
     """Give a joint its new ends, and the bodies their new joint points and axes in place of the old ones."""
-    joint, ends = given.joint, given.joint.drawing
+    joint, ends = corrected.joint, corrected.joint.drawing
     assert ends is not None
     bodies = ends.bodies
     lists = [(b, b.joint_points, b.joint_axes) for b in bodies]
 
-    made = []
-    for places in ((ends.points, ends.axes, ends.length), (given.points, given.axes, given.length)):
+    remade = []
+    for drawing in ((ends.points, ends.axes, ends.length), (corrected.points, corrected.axes, corrected.length)):
         for body in bodies:
             body.joint_points, body.joint_axes = [], []
-        made.append((ends.remake(*places), [(b.joint_points, b.joint_axes) for b in bodies]))
-    (_, before), (new, after) = made
+        remade.append((ends.remake(*drawing), [(b.joint_points, b.joint_axes) for b in bodies]))
+    (_, before), (new, after) = remade
     if joint.turning is not None:  # a moment of it is read
         new.hold_turning()
     for (body, points, axes), (old_points, old_axes), (new_points, new_axes) in zip(lists, before, after, strict=True):

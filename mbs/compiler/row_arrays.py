@@ -140,9 +140,9 @@ class RowArrays:
         phi: Array = a["row_const"] + np.bincount(self._row_of_entry, jac * q[col], minlength=self.nc)[: self.nc]
         phi_t = np.zeros(self.nc)
 
-        def entry(row: Index, place: Index) -> tuple[Index, Array]:
+        def entry(row: Index, position: Index) -> tuple[Index, Array]:
             """Index into the row pattern (-1: none) and the value there."""
-            at = np.where(place >= 0, start[row] + place, -1)
+            at = np.where(position >= 0, start[row] + position, -1)
             return at, padded[np.where(at >= 0, col[at], self.nq)] if len(col) else padded[np.full(len(at), self.nq)]
 
         def add(row: Index, place_a: Index, place_b: Index, h: Array) -> Array:

@@ -135,12 +135,12 @@ def _coordinates(
 ) -> dict[str, Any]:
     """The points (1) and vectors (0) whose components are coordinates of the System: body, local components, places."""
     owner = {id(body): group for group in groups for body in group.bodies}
-    place = {i: int(new[z]) for z, i in enumerate(remaining)}
+    index = {i: int(new[z]) for z, i in enumerate(remaining)}
     bodies, locals_, columns = [], [], []
     for body in model.bodies:
         group, d = owner[id(body)], body.dimension
         for n, (_, o, w) in enumerate(choose(body)):
-            mine = [place.get(body.start + d * n + k, -1) for k in range(d)]
+            mine = [index.get(body.start + d * n + k, -1) for k in range(d)]
             if max(mine) < 0:
                 continue
             if group.number == 0:
@@ -161,13 +161,13 @@ def _payloads(model: Model, groups: Sequence[Group]) -> dict[str, Any]:
             raise NoTreeError(f"payload '{payload.name}' sits on a body that is welded to the ground")
         if payload.shared:
             raise NoTreeError(f"payload '{payload.name}' is carried by several points")
-    places = [g.local(in_space(p.position)) for p, g in zip(model.payloads, on, strict=True)]
-    return {"payload_body": [g.number for g in on], "payload_place": _joined(places)}
+    positions = [g.local(in_space(p.position)) for p, g in zip(model.payloads, on, strict=True)]
+    return {"payload_body": [g.number for g in on], "payload_place": _joined(positions)}
 
 
 def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new: NDArray[np.int64]) -> dict[str, Any]:
     """Relative angles: place of the coordinate, joints that add up to it with their signs, inertia on it."""
-    place = {i: int(new[z]) for z, i in enumerate(remaining)}
+    index = {i: int(new[z]) for z, i in enumerate(remaining)}
     arrays: dict[str, list[Any]] = {"col": [], "ptr": [0], "joint": [], "sign": [], "inertia": []}
     for joint in model.joints:
         if joint.turn is None:
@@ -176,7 +176,7 @@ def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new
         inertia = model.inertias.get(joint.turn.coordinate, 0.0)
         if inertia > 0.0 and not _one_path(groups, [number for number, _ in parts]):
             raise NoTreeError(f"the armature of relative angle '{joint.name}' couples two branches of the tree")
-        arrays["col"].append(place[joint.turn.coordinate])
+        arrays["col"].append(index[joint.turn.coordinate])
         arrays["joint"] += [number for number, _ in parts]
         arrays["sign"] += [sign for _, sign in parts]
         arrays["ptr"].append(len(arrays["joint"]))

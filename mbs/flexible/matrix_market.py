@@ -80,17 +80,17 @@ def read_sparse_arrays(path: Path) -> sp.csc_array:
     data, names = arrays["data"], _PLACES.get(form)
     if names is None or data.dtype.kind not in "fiu":
         raise ValueError(f"a matrix '{form[:20]}' of {data.dtype} is not read")
-    places = [arrays[name] for name in names]
-    if any(place.ndim != 1 or place.dtype.kind not in "iu" for place in places):
+    indices = [arrays[name] for name in names]
+    if any(index.ndim != 1 or index.dtype.kind not in "iu" for index in indices):
         raise ValueError(f"its {' or '.join(names)} are not a list of whole numbers")
     check_memory(24 * _COPIES * data.size + 8 * sum(shape), ModelError, path.name)
     if form == "coo":
-        i, j = (place.astype(int) for place in places)
+        i, j = (index.astype(int) for index in indices)
         return sp.csc_array(sp.coo_array((data.astype(float), (i, j)), shape=(shape[0], shape[1])))
     kind = {"csc": sp.csc_array, "csr": sp.csr_array, "bsr": sp.bsr_array}[form]
-    made = kind((data.astype(float), *places), shape=shape)
-    made.check_format(full_check=True)
-    return sp.csc_array(made)
+    matrix = kind((data.astype(float), *indices), shape=shape)
+    matrix.check_format(full_check=True)
+    return sp.csc_array(matrix)
 
 
 _PLACES = {"coo": ("row", "col")} | dict.fromkeys(("csc", "csr", "bsr"), ("indices", "indptr"))

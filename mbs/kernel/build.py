@@ -111,12 +111,12 @@ def compile_library(target: str | None = None, out: str | Path | None = None) ->
     path = Path(out) if out is not None else HERE / "lib" / library_name(target)
     exports = (*functions(), *WASM_HELPERS)
     command = compiler_command([], target, Path(library_name(target)), exports=exports)
-    kept = cache_directory() / "kernels" / digest_of(command, HERE) / library_name(target)
-    if not kept.is_file():
-        compile_c(sources(), target, kept, what="the kernel", exports=exports)
+    library = cache_directory() / "kernels" / digest_of(command, HERE) / library_name(target)
+    if not library.is_file():
+        compile_c(sources(), target, library, what="the kernel", exports=exports)
     path.parent.mkdir(parents=True, exist_ok=True)
     with temporary_folder(path.parent) as folder:
-        shutil.copyfile(kept, Path(folder, path.name)).replace(path)  # as in `compile_c`
+        shutil.copyfile(library, Path(folder, path.name)).replace(path)  # as in `compile_c`
     return path
 
 

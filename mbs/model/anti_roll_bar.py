@@ -92,11 +92,11 @@ def _arm_angles(
     elif all(isinstance(arm, Body) for arm in arms):
         if carrier is None:
             raise ModelError(f"The {what} needs the carrier on which its arms turn.")
-        made = [
+        ends = [
             angle_and_joint(model, f"{name}.{side}", carrier, arm, axis, 0.0)  # type: ignore[arg-type]
             for side, arm in zip(("left", "right"), arms, strict=True)
         ]
-        angles, joints = [angle for angle, _ in made], [joint for _, joint in made]
+        angles, joints = [angle for angle, _ in ends], [joint for _, joint in ends]
     else:
         raise ModelError(
             f"The {what} needs two relative angles or two bodies as its arms, got {shown(arms[0])} and "

@@ -149,10 +149,10 @@ class Body:
         numbers = tuple(local.tolist())
         found = self._expressions.get((origin, *numbers))
         if found is None:
-            found = self._expressions[(origin, *numbers)] = self._made(numbers, origin)
+            found = self._expressions[(origin, *numbers)] = self._affine_point(numbers, origin)
         return found
 
-    def _made(self, local: tuple[float, ...], origin: float) -> AffineVector:
+    def _affine_point(self, local: tuple[float, ...], origin: float) -> AffineVector:
         s, (x, y, *z) = self.start, local
         if self.dimension == 2:
             return AffineVector(

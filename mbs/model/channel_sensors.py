@@ -159,8 +159,8 @@ class ChannelSensorVocabulary(SensorVocabulary):
         ModelError
             The text is empty.
         """
-        known = isinstance(sensor, Sensor) and any(s is sensor for s in self.sensors)
-        if not known or not isinstance(text, str) or not text.strip():
+        is_own = isinstance(sensor, Sensor) and any(s is sensor for s in self.sensors)
+        if not is_own or not isinstance(text, str) or not text.strip():
             raise ModelError(
                 f"A notice of model {self.name!r} needs a sensor and a sentence, got {shown(sensor)}, {shown(text)}."
             )
@@ -178,13 +178,13 @@ def _guide_force(
     unit: str,
     description: str,
 ) -> Sensor:
-    asked = model.joints if joints is None else sensed_joints(model, name, "joints", joints)
-    terms = [replace(t, weight=factor * t.weight) for joint in asked for t in guide_terms(joint, guide.index)]
+    sensed = model.joints if joints is None else sensed_joints(model, name, "joints", joints)
+    terms = [replace(t, weight=factor * t.weight) for joint in sensed for t in guide_terms(joint, guide.index)]
     by_table = [g.index for g in model.guides if g.type == GuideType.BY_TABLE and g.input == guide.index]
     terms += [
         replace(t, weight=factor * t.weight, slope=g)
         for g in by_table
-        for joint in asked
+        for joint in sensed
         for t in guide_terms(joint, g)
     ]
     if not terms:

@@ -105,18 +105,18 @@ class EnergySensorVocabulary(SensorVocabulary):
             elements = ()
         if not isinstance(elements, (ElementRecord, str, list, tuple)):
             raise ModelError(f"The sensor '{name}' needs force elements or their names, got {shown(elements)}.")
-        given = [elements] if isinstance(elements, (ElementRecord, str)) else list(elements)
-        known = {record.name: k for k, record in enumerate(self.elements)}
-        names = [e.name if isinstance(e, ElementRecord) else e for e in given]
+        chosen = [elements] if isinstance(elements, (ElementRecord, str)) else list(elements)
+        index_of = {record.name: k for k, record in enumerate(self.elements)}
+        names = [e.name if isinstance(e, ElementRecord) else e for e in chosen]
         for element in names:
-            if not isinstance(element, str) or element not in known:
+            if not isinstance(element, str) or element not in index_of:
                 raise ModelError(
                     f"The sensor '{name}' asks for element {shown(element)}, but the model has no such element; it "
-                    f"has: {', '.join(known) or 'none'}."
+                    f"has: {', '.join(index_of) or 'none'}."
                 )
         if not (names or guided) or len(set(names)) < len(names):
             raise ModelError(f"The sensor '{name}' needs at least one element and each once, got {names}.")
-        numbers = [known[element] for element in names]
+        numbers = [index_of[element] for element in names]
         if guided:
             return self._sense(name, unit, description, SensorType.GUIDED_WORK, integers=[len(numbers), *numbers])
         return self._sense(

@@ -109,8 +109,8 @@ class GuideVocabulary(BodyVocabulary):
         low, high = (number(k, f"A limit of {what}") for k in pair(limits, f"The limits of {what}"))
         if low > high:
             raise ModelError(f"The {what} has the limits {low:g} and {high:g}; the first must not be above the second.")
-        asked = k_1 * first.start + k_2 * second.start
-        start = min(max(asked, low), high)
+        unlimited = k_1 * first.start + k_2 * second.start
+        start = min(max(unlimited, low), high)
         reals = [w, k_1, start, k_2, low, high]
         return new_guide(self, name, GuideType.OF_TWO_INPUTS, first.index, reals, start, unit, second.index)
 

@@ -110,8 +110,8 @@ def _target(model: Register, what: str, given: Target) -> _Target:
         element = model.elements[index]
         names = list(element.real_names)
         if real not in names:
-            known = ", ".join(names) or "none"
-            raise ModelError(f"The {what} asks for {shown(real)} of element '{owner_name}', which has: {known}.")
+            available = ", ".join(names) or "none"
+            raise ModelError(f"The {what} asks for {shown(real)} of element '{owner_name}', which has: {available}.")
         k = names.index(str(real))
         check = element.real_checks[k] if element.real_checks else number
         return _Target((ParameterTarget.ELEMENT, index, k, *line), f"the {real} of element '{owner_name}'", check)

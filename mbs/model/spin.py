@@ -128,7 +128,7 @@ class SpinVocabulary(BodyVocabulary):
         """
         what = "wheel of Model.written_axis"
         wheel = instance_of(Spin, spin, f"The {what}", "what Model.spin returned")
-        if not any(wheel is known for known in self.spins):
+        if not any(wheel is other for other in self.spins):
             raise ModelError(f"The {what}, {shown(wheel.name)}, is not of this model.")
         grows = number(leaning, f"The leaning of the {what}")
         x, y, z = wheel.axis_reference

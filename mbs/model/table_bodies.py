@@ -64,8 +64,8 @@ class TabledBody(Body):
         """Dependent coordinates in the reference configuration, shape (12,)."""
         return np.concatenate([self.com - self.base.com, np.eye(3).ravel()])
 
-    def _made(self, local: tuple[float, ...], origin: float) -> AffineVector:
-        own = super()._made(local, origin)
+    def _affine_point(self, local: tuple[float, ...], origin: float) -> AffineVector:
+        own = super()._affine_point(local, origin)
         return self.base.point(self.base.com) + own if origin else own
 
     base: Body

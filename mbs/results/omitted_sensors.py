@@ -47,10 +47,10 @@ class OmittedSensors:
 
     def thinned(self, every: int) -> OmittedSensors:
         """Omitted sensors of one of every so many samples."""
-        made = OmittedSensors(self.names, self._compute, self.reason, self._every * every)
+        omitted = OmittedSensors(self.names, self._compute, self.reason, self._every * every)
         if self._compute is None and self._found is not None:
-            made._found = {name: values[::every] for name, values in self._found.items()}
-        return made
+            omitted._found = {name: values[::every] for name, values in self._found.items()}
+        return omitted
 
     def __getstate__(self) -> dict[str, Any]:
         lost = self._compute is not None and self._found is None

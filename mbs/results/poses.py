@@ -78,8 +78,8 @@ class Poses(Mapping[str, Array]):
 
     def __getitem__(self, name: str) -> Array:
         if not isinstance(name, str) or name not in self._columns:
-            known = ", ".join(self.bodies) or "none"
-            raise KeyError(f"There is no pose {shown(name)}; each body has .x to .qz, the bodies are: {known}.")
+            available = ", ".join(self.bodies) or "none"
+            raise KeyError(f"There is no pose {shown(name)}; each body has .x to .qz, the bodies are: {available}.")
         kind, number, part = self._columns[name]
         if kind == "body":
             return self._pose(number)[:, part]

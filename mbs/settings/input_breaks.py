@@ -136,8 +136,8 @@ def _rough(t: Array, x: Array, size: float, begins: Array, h: float) -> NDArray[
 
 
 def _jumps(t: Array, x: Array, size: float, h: float) -> list[tuple[float, float]]:
-    there = np.flatnonzero((np.diff(t) <= _apart(t[-1], h)) & (np.abs(np.diff(x)) > LEAST * size))
-    return [(float(t[k]), float(t[k + 1])) for k in there]
+    jumps = np.flatnonzero((np.diff(t) <= _apart(t[-1], h)) & (np.abs(np.diff(x)) > LEAST * size))
+    return [(float(t[k]), float(t[k + 1])) for k in jumps]
 
 
 def _apart(t: float, h: float) -> float:

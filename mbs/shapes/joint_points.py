@@ -108,7 +108,7 @@ def touched(model: Model, names: FrameNames) -> Touched:
     return found
 
 
-def _way(model: Model, guide: int) -> str:
+def _guide_sensor(model: Model, guide: int) -> str:
     """The sensor that reads a guide in m; empty where none does."""
     for sensor in model.sensors:
         if sensor.type == SensorType.GUIDE and list(sensor.integers) == [guide, 0] and list(sensor.reals) == [1.0]:
@@ -123,13 +123,13 @@ def _sliding_frames(model: Model, names: FrameNames, drawn: Vector, slide: Slidi
     name = f"end of {slide.name}" if slide.name in taken else slide.name
     found: dict[str, dict[str, Any]] = {}
     for k, (direction, guide) in enumerate(slide.ways):
-        sliding_direction = _way(model, guide)
-        if not sliding_direction:
+        sensor = _guide_sensor(model, guide)
+        if not sensor:
             return {}
         last = k == len(slide.ways) - 1
         own, start = name if last else f"{name} {k + 1}", float(model.guides[guide].start)
         along = numbers(place_drawn(drawn, direction))
-        found[own] = {"parent": parent, "at": at, "direction": along, "way": sliding_direction, "start": start}
+        found[own] = {"parent": parent, "at": at, "direction": along, "way": sensor, "start": start}
         parent, at = own, [0.0, 0.0, 0.0]
     return found
 

@@ -111,9 +111,9 @@ class Arrays(Mapping[str, NDArray[Any]]):
 
     def changed(self, arrays: Mapping[str, ArrayLike]) -> Arrays:
         """A copy with other values of some."""
-        made = copy.copy(self)
-        made._arrays = self._arrays | {name: _frozen(name, values) for name, values in arrays.items()}
-        return made
+        copied = copy.copy(self)
+        copied._arrays = self._arrays | {name: _frozen(name, values) for name, values in arrays.items()}
+        return copied
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._arrays)
@@ -123,6 +123,6 @@ class Arrays(Mapping[str, NDArray[Any]]):
 
 
 def _frozen(name: str, values: ArrayLike) -> NDArray[Any]:
-    found = np.array(values, dtype=np.float64 if name in FLOATS else np.int32)
-    found.setflags(write=False)
-    return found
+    array = np.array(values, dtype=np.float64 if name in FLOATS else np.int32)
+    array.setflags(write=False)
+    return array

@@ -66,9 +66,9 @@ def read_source(data: bytes, what: str) -> Element:
     def start(tag: str, attributes: dict[str, str]) -> None:
         if tag.startswith("xacro:"):
             raise ModelError(f"{what} has the macro '{tag}'; expand it first: xacro {what} > robot.urdf.")
-        made = Element(tag, parser.CurrentLineNumber, attributes)
-        path[-1].inside.append(made)
-        path.append(made)
+        element = Element(tag, parser.CurrentLineNumber, attributes)
+        path[-1].inside.append(element)
+        path.append(element)
 
     parser.StartElementHandler, parser.EndElementHandler = start, lambda tag: path.pop()
     try:  # the reader takes what it understands; prefixes of robots are often of no namespace

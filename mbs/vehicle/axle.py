@@ -127,8 +127,10 @@ class Axle(Section):
         if b.ports.tyre is not None:
             hub_port(b, w, spin, self.tyre, self.wheel.spin_inertia)
             return spin
-        made = self.tyre.tyre(corner.side.name)
-        tyre = b.m.add(made.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.wheel_roads.get(w, b.road)))
+        element = self.tyre.tyre(corner.side.name)
+        tyre = b.m.add(
+            element.record(f"tyre {w}", spin.centre, spin.axis, spin.coordinate, b.wheel_roads.get(w, b.road))
+        )
         b.tie_numbers(self.tyre, tyre)
         b.tie(self.tyre, "grip", tyre, "friction_factor")
         return spin

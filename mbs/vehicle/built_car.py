@@ -210,8 +210,8 @@ class BuiltCar(Summarised, CarContent):
     def _remade(self, data: dict[str, Any]) -> tuple[CarContent, Rest] | None:
         """The car of altered content at rest, or None where that is not a car."""
         try:
-            made = checked_car(type(self), data, self.folder, self.name, at_rest=False)
-            return made, made.rest
+            car = checked_car(type(self), data, self.folder, self.name, at_rest=False)
+            return car, car.rest
         except (ModelError, ValueError):
             return None
 
@@ -289,7 +289,7 @@ def checked_car(
     try:
         car = kind.model_validate(data)
     except ValidationError as error:
-        raise CarFileError(_told(what, Sentences(kind, data, FORMS, NAME_WORDS).of(error))) from None
+        raise CarFileError(_fault_text(what, Sentences(kind, data, FORMS, NAME_WORDS).of(error))) from None
     car.locate("")
     car._folder = folder
     car._data = dict(data)
@@ -297,10 +297,10 @@ def checked_car(
         for axle in (car.front, car.rear):
             axle.open(folder)
     except CarFileError as error:
-        raise CarFileError(_told(what, [str(error)])) from None
+        raise CarFileError(_fault_text(what, [str(error)])) from None
     faults = car_faults(car)
     if faults:
-        raise CarFileError(_told(what, faults))
+        raise CarFileError(_fault_text(what, faults))
     if at_rest and car.ports.tyre is not None:  # nothing carries it: it must come to rest on its own tyres
         checked_car(kind, _on_own_tyres(data), folder, what, warn=warn, stacklevel=stacklevel + 1)
         return car
@@ -312,14 +312,14 @@ def checked_car(
             if Fidelity.LOAD_PATHS in car.offered:
                 frame.recorded_loads()
         except ModelError as error:
-            raise CarFileError(_told(what, [str(error)])) from error
+            raise CarFileError(_fault_text(what, [str(error)])) from error
     try:
         model = car.empty()
         car.reported(model)
         model.look()
         rest = settled(model, car)
     except ValueError as error:
-        raise CarFileError(_told(what, [f"as drawn it is not a valid car. {error}"])) from error
+        raise CarFileError(_fault_text(what, [f"as drawn it is not a valid car. {error}"])) from error
     if warn:
         misfit = [f"fidelity 0 only, the frame does not fit the car. {car.misfit}"] if car.misfit else []
         lines = [
@@ -337,7 +337,7 @@ def _on_own_tyres(data: Mapping[str, Any]) -> dict[str, Any]:
     return {**data, "ports": {name: port for name, port in data["ports"].items() if name != "tyre"}}
 
 
-def _told(what: str, faults: Sequence[str]) -> str:
+def _fault_text(what: str, faults: Sequence[str]) -> str:
     lines = [f"{what}: {one_line(fault)}" for fault in faults[:MOST_FAULTS]]
     if len(faults) > MOST_FAULTS:
         lines.append(f"{what}: {len(faults) - MOST_FAULTS} more faults.")

@@ -48,10 +48,10 @@ def library_of(system: System) -> Path:
     digest = hashlib.sha256(build.digest_of(command).encode())
     for content in (text.encode(), (HEADERS / "generated.h").read_bytes()):
         digest.update(f"\n{len(content)}\n".encode() + content)
-    kept = build.cache_directory() / "generated" / digest.hexdigest() / name
-    if not kept.is_file():
+    library = build.cache_directory() / "generated" / digest.hexdigest() / name
+    if not library.is_file():
         with temporary_folder() as folder:
             file = Path(folder, "algebra.c")
             file.write_text(text, encoding="utf-8")
-            build.compile_c([file], target, kept, include=(HEADERS,), what="the generated code")
-    return kept
+            build.compile_c([file], target, library, include=(HEADERS,), what="the generated code")
+    return library

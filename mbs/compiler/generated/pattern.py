@@ -128,9 +128,9 @@ class Pattern:
             for i in range(self.row_ptr[k], self.row_ptr[k + 1]):
                 d = (i - self.row_ptr[k]) % 3
                 begin, apart = (starts[i - d] + d, 3) if points[k] else (starts[i], 1)
-                places = [begin + apart * m for m in range(len(of[i]))]
-                terms.append([(at, c) for at, (_, c, _) in zip(places, of[i], strict=True)])
-                first |= {t: at for at, (t, _, mine) in zip(places, of[i], strict=True) if mine}
+                indices = [begin + apart * m for m in range(len(of[i]))]
+                terms.append([(at, c) for at, (_, c, _) in zip(indices, of[i], strict=True)])
+                first |= {t: at for at, (t, _, mine) in zip(indices, of[i], strict=True) if mine}
         self.quad_place = first
         return terms
 

@@ -65,8 +65,8 @@ def _of_signals(pattern: Pattern) -> dict[str, _Function]:
 
 
 def _written(pattern: Pattern, functions: Mapping[str, _Function]) -> dict[str, list[str]]:
-    made = {name: make(pattern) for name, make in functions.items()}
-    return {name: lines for name, lines in made.items() if len(lines) <= LONGEST}
+    bodies = {name: make(pattern) for name, make in functions.items()}
+    return {name: lines for name, lines in bodies.items() if len(lines) <= LONGEST}
 
 
 def _members(functions: Mapping[str, Sequence[str]], suffix: str = "") -> list[str]:

@@ -141,17 +141,17 @@ class _OfFront:
     def _term(self, element: Element, s: int, terms: Sequence[tuple[int, int] | None]) -> str:
         """A tangent of signal s times values, at one coordinate or three."""
         e, n = element.number, len(element.signals)
-        there = [t for t in terms if t is not None]
+        present = [t for t in terms if t is not None]
         if len(terms) == 1:
-            return f"T{e}[{s * n + there[0][0]}] * val[{there[0][1]}]"
-        if len(there) == 3:
-            first, k = there[0]
+            return f"T{e}[{s * n + present[0][0]}] * val[{present[0][1]}]"
+        if len(present) == 3:
+            first, k = present[0]
             last = element.tangent + s * n + first + 4 > self._all_tangents()
-            offsets = {k - self.pattern.entries(element.signals[i])[0] for i, k in there}
-            if element.triple[first] and follow([i for i, _ in there]) and len(offsets) == 1 and not last:
+            offsets = {k - self.pattern.entries(element.signals[i])[0] for i, k in present}
+            if element.triple[first] and follow([i for i, _ in present]) and len(offsets) == 1 and not last:
                 return f"V(T{e} + {s * n + first}) * val[{k}]"
-            same = all(i == first for i, _ in there)
-            if same and follow([k for _, k in there]) and k + 4 <= len(self.pattern.sig_val):
+            same = all(i == first for i, _ in present)
+            if same and follow([k for _, k in present]) and k + 4 <= len(self.pattern.sig_val):
                 return f"T{e}[{s * n + first}] * V(val + {k})"
         words = ["0.0" if t is None else f"T{e}[{s * n + t[0]}] * val[{t[1]}]" for t in terms]
         return "(four){" + ", ".join([*words, "0.0"]) + "}"
@@ -220,9 +220,9 @@ class _OfFront:
         return lines + self._single(block, [p for p in places if p not in diagonal])
 
     def _bend(self, terms: Sequence[tuple[str, int, int] | None]) -> str:
-        there = [t for t in terms if t is not None]
-        if len(there) == 3 and len({(t[0], t[2]) for t in there}) == 1 and follow([t[1] for t in there]):
-            array, at, k = there[0]
+        present = [t for t in terms if t is not None]
+        if len(present) == 3 and len({(t[0], t[2]) for t in present}) == 1 and follow([t[1] for t in present]):
+            array, at, k = present[0]
             if array == "hess":
                 return f"factor[{k}] * V(hess + {at})"
         words = ["0.0" if t is None else self._number(t) for t in terms]

@@ -139,8 +139,8 @@ def settled(model: Model, car: CarContent) -> Rest:
 
     Raises `ModelError`: its parts refuse a number, or it has no equilibrium.
     """
-    made = compiled(model)
-    at_rest = StandingSystem(made).sensors
+    system = compiled(model)
+    at_rest = StandingSystem(system).sensors
 
     def means(name: str) -> dict[str, float]:
         return {axle: _mean(at_rest, name, axle) for axle in car.axles}
@@ -152,5 +152,5 @@ def settled(model: Model, car: CarContent) -> Rest:
         means("wheel_{}.deflection"),
         means("spring_{}.length"),
         at_rest["chassis.roll"],
-        made,
+        system,
     )

@@ -98,9 +98,9 @@ def under_load(spring: Spring, force: float) -> tuple[float, float]:
     A law is taken as lines from row to row, which go on beyond its ends. `force`: N, with the factor, which is above 0.
     """
     x, of_one = _rows(spring)
-    place = int(np.clip(np.searchsorted(of_one, force / spring.factor), 1, len(x) - 1))
-    slope = float((of_one[place] - of_one[place - 1]) / (x[place] - x[place - 1]))
-    return float(x[place] + (force / spring.factor - of_one[place]) / slope), slope
+    row = int(np.clip(np.searchsorted(of_one, force / spring.factor), 1, len(x) - 1))
+    slope = float((of_one[row] - of_one[row - 1]) / (x[row] - x[row - 1]))
+    return float(x[row] + (force / spring.factor - of_one[row]) / slope), slope
 
 
 def _least(found: Ranges, section: Section, name: str, reached: float) -> None:

@@ -101,11 +101,11 @@ def kinematics(
         for motion in MOTIONS:
             ends = (-both, both) if motion == "opposite" else (low, high)
             curves[axle, motion] = travel_curve(linkage, motion, _grid(*ends, points))
-            _tell(progress, len(curves))
+            _report(progress, len(curves))
         if axle == "front":
             full = car.steering.full
             curves[axle, "steer"] = steer_curve(linkage, _grid(-full, full, points), wheel_by_rack(car))
-            _tell(progress, len(curves))
+            _report(progress, len(curves))
         notes += stop_notes(linkage, curves[axle, "parallel"])
     ends_early = [note for curve in curves.values() for note in curve.notes]
     unlinked = [axle.suspension.unlinked for axle in car.axles.values()]
@@ -114,11 +114,11 @@ def kinematics(
 
 def wheel_by_rack(car: Car) -> WheelByRack:
     """Function of the steering's motion: angle of the steering wheel, rad, and its derivative by that motion."""
-    way = car.steering.signed(car.rack_direction)
+    sign = car.steering.signed(car.rack_direction)
 
     def at(travel: float) -> tuple[float, float]:
         angle, rate = car.steering.wheel_at(travel)
-        return way * angle, way * rate
+        return sign * angle, sign * rate
 
     return at
 
@@ -146,6 +146,6 @@ def _grid(low: float, high: float, points: int) -> Array:
     return np.sort(np.append(grid, 0.0))
 
 
-def _tell(progress: Callable[[float], None] | None, done: int) -> None:
+def _report(progress: Callable[[float], None] | None, done: int) -> None:
     if progress is not None:
         progress(done / (2 * len(MOTIONS) + 1))

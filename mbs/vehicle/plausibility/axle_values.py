@@ -75,7 +75,7 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
             away = math.hypot(point[0] - centre[0], point[2] - centre[2])
             yield Value(CAR["joint"], centre[1] - point[1], {key: list(point), **y}, of)
             yield Value(CAR["joint_radius"], away / axle.tyre.radius, {key: list(point), **y}, of)
-    yield from _places(axle, name)
+    yield from _distances(axle, name)
     yield from _alignment(axle, name)
     yield Value(
         CAR["wheel_radius"],
@@ -98,7 +98,7 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
         yield from _springs(axle, name, rest, rates)
 
 
-def _places(axle: Axle, name: str) -> Iterator[Value]:
+def _distances(axle: Axle, name: str) -> Iterator[Value]:
     """Distances of the farthest points and parts of an axle."""
     points, centre, parts = drawn_points(axle), axle.wheel.centre, centres_of(axle)
     if not axle.suspension.linked:

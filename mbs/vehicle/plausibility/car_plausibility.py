@@ -206,8 +206,8 @@ def _undone(undo: Undo, data: Data, remake: Remake) -> list[Value] | None:
         undo(altered)
     except (KeyError, TypeError):
         return None  # the file has not these keys
-    made = remake(altered)
-    return None if made is None else car_values(*made)
+    altered_car = remake(altered)
+    return None if altered_car is None else car_values(*altered_car)
 
 
 def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
@@ -218,11 +218,11 @@ def _mistakes(car: CarContent) -> Iterator[tuple[str, set[str], Undo]]:
         yield f"the track in place of half of it in {centre}", {centre}, _scale(f"{name}.wheel.centre.1", 0.5)
         for angle in ("toe", "camber"):
             keys = [alignment.key(f"{angle}_{side}") for side in ("left", "right")]
-            there = [key for key in keys if getattr(alignment, key.rsplit(".", 1)[1])]
-            yield f"degrees in place of radians in {' and '.join(there)}", set(keys), _scale(there, 1.0 / DEG)
-            for key in there if angle == "camber" else ():
+            present = [key for key in keys if getattr(alignment, key.rsplit(".", 1)[1])]
+            yield f"degrees in place of radians in {' and '.join(present)}", set(keys), _scale(present, 1.0 / DEG)
+            for key in present if angle == "camber" else ():
                 yield f"the sign of {key}", {key}, _scale(key, -1.0)
-            yield f"the signs of {' and '.join(there)}", set(keys), _scale(there, -1.0)
+            yield f"the signs of {' and '.join(present)}", set(keys), _scale(present, -1.0)
         damper, spring = axle.damper, axle.spring
         if damper.table is not None:
             key = damper.key("table")
