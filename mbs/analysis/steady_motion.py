@@ -5,7 +5,7 @@ rigid body about its centre of mass in its own axes (a symmetric rotor or top), 
 is an affine field X(q) = G q + b. Those under which rows, accelerations and element rates of neighbouring states stay
 the same are symmetries; they form a linear space, the null space of one matrix of defects. A motion is steady where a
 symmetry has its velocity and its acceleration: qd = X(q), qdd = G qd (J. E. Marsden, Lectures on Mechanics, 1992,
-chapter 4). A variation seen in the moving frame then obeys an equation with constant coefficients.
+chapter 4). In the moving frame a variation then obeys an equation with constant coefficients.
 """
 
 from dataclasses import dataclass

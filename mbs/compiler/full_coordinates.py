@@ -64,7 +64,7 @@ def reduce_coordinates(
 def _between(
     info: Sequence[CoordinateInfo], solution: Elimination, stay: set[int], dimension: int
 ) -> list[tuple[CoordinateInfo, Affine]]:
-    """New coordinates, each with its equation: vectors to the remaining points from that by which most are told.
+    """New coordinates, each with its equation: vectors to the remaining points from the one that most expressions use.
 
     A scene that goes far then has one position, and differences of positions lose no digits.
     """

@@ -109,8 +109,8 @@ def check_motion(
 ) -> None:
     """Refuse a model that cannot move at its reference position although it is asked to, or not as its drives ask.
 
-    A structure that stands, to which nothing gives a velocity, is a model too, since its joint forces may be what is
-    wanted: `print(system)` and every run tell that nothing moves. Switched rows may be switched off again and do not
+    A structure that stands, to which nothing gives a velocity, is a model too, since its joint forces may be
+    wanted: `print(system)` and every run report that nothing moves. Switched rows may be switched off again and do not
     count.
     """
     nq = Phiq.shape[1]

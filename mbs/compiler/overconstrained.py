@@ -290,7 +290,7 @@ def _joints(loops: Loops, found: MovableConstants, tolerance: float) -> list[Cor
 def _joint(
     loops: Loops, c: Condition, g: Array, places: Places, meets: bool, points: list[Array], axes: list[Array]
 ) -> Corrected:
-    """One joint; `points` and `axes`: those of other joints, whose digits are taken over where they are the same."""
+    """A corrected joint; `points`, `axes`: of other joints, whose digits it takes over where they are the same."""
     ends = c.joint.drawing
     assert ends is not None
     now = loops.ends_in_space(c, places, g)

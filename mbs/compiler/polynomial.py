@@ -16,10 +16,10 @@ RateTerms = dict[tuple[int, int], float]
 DROP = 1e-12
 """A coefficient smaller than this part of the largest of its row is a zero."""
 VANISHED = 1e-10
-"""A row of which nothing is larger than this part of what was added up, or of its largest ever, is none; far from the
-origin more is left."""
+"""A row whose coefficients are all smaller than this part of the summed terms, or of its largest one so far, vanishes;
+far from the origin the round-off is larger."""
 OF_ERROR = 50.0
-"""How many times the error of a drawing may be left of a row that follows from others."""
+"""Largest remainder of a row that follows from others, over the error of the drawing."""
 
 
 @dataclass

@@ -1,4 +1,4 @@
-"""Rows as the flat arrays of the System, and their values at a position."""
+"""Flat arrays of the constraint rows of a System, and values of the rows at a position."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -141,7 +141,7 @@ class RowArrays:
         phi_t = np.zeros(self.nc)
 
         def entry(row: Index, position: Index) -> tuple[Index, Array]:
-            """Index into the row pattern (-1: none) and the value there."""
+            """Indices of coordinates at positions within their rows (-1: the constant 1), and their values."""
             at = np.where(position >= 0, start[row] + position, -1)
             return at, padded[np.where(at >= 0, col[at], self.nq)] if len(col) else padded[np.full(len(at), self.nq)]
 

@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 EQUAL_MOMENTS = 1e-12
 """Largest relative difference of two principal moments of inertia that count as equal."""
 CARRIED = 5
-"""Numbers per coordinate that the kernel's state has for what a method carries."""
+"""Numbers per coordinate that the kernel's state keeps for the history of a method."""
 
 
 def tree_arrays(
@@ -73,7 +73,7 @@ def tree_arrays(
 
 
 def _refuse_written(model: Model) -> None:
-    """Trees take inertias as constant, and know no wheels."""
+    """Refuse inertias, armatures and axes that parameters change: those of a tree are constant."""
     for k in written_armatures(model):
         raise NoTreeError(f"a parameter writes the ratio of armature '{model.armatures[k].name}'")
     for body in model.written_inertias:
@@ -87,7 +87,7 @@ def _joined(parts: Sequence[Array]) -> Array:
 
 
 def _masses(moving: Sequence[Group]) -> dict[str, Any]:
-    """Mass, centre of mass and inertia about it in the frame."""
+    """Mass, centre of mass and inertia about it of each group of bodies, in its frame."""
     masses, centres, inertias = [], [], []
     for group in moving:
         mass, first, second = 0.0, np.zeros(3), np.zeros((3, 3))
@@ -117,7 +117,7 @@ def _principal(J: Array) -> Array:
 
 
 def _frame_signals(group: Group, signals: Signals) -> list[int]:
-    """Signals of the origin, then of the columns of the frame."""
+    """Numbers of the signals of the origin, then of the axes of a frame."""
     body = group.bodies[0]
     parts = [_components(body, group.origin, True), *(_components(body, axis, False) for axis in group.axes.T)]
     return [signals.number(component) for part in parts for component in part.components]
@@ -187,7 +187,7 @@ def _angles(model: Model, groups: Sequence[Group], remaining: Sequence[int], new
 
 
 def _one_path(groups: Sequence[Group], numbers: Sequence[int]) -> bool:
-    """Whether bodies are all on the way from one of them to the ground."""
+    """Whether the bodies are all on the path from one of them to the ground."""
     path, group = set(), groups[max(numbers, default=0)]
     while group.parent is not None:
         path.add(group.number)

@@ -67,7 +67,7 @@ class FiniteElementModel(Summarised):
         Parameters
         ----------
         origin : ndarray, shape (3,), optional
-            About which the model turns, m; by default that of its axes.
+            Centre of the rotations, m; by default the origin of the axes.
 
         Returns
         -------
@@ -103,7 +103,7 @@ class FiniteElementModel(Summarised):
         Parameters
         ----------
         rotations : bool
-            Whether the rotations are wanted.
+            Whether to return the rotations in place of the translations.
 
         Returns
         -------

@@ -47,7 +47,7 @@ def read_nastran(
     Returns
     -------
     FiniteElementModel
-        Nodes are named by the numbers of their grid points; checked, and told of, as by `external_model`.
+        Nodes are named by the numbers of their grid points; checked, with a `summary`, as by `external_model`.
 
     Raises
     ------

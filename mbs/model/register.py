@@ -70,7 +70,7 @@ class Register(ModelCoordinates):
         self.roads: list[Road] = []
         self.switches: list[Switch] = []
         self.grounded = False  # a joint ties something to the ground
-        # what is set and what is told
+        # inputs and outputs
         self.inputs: list[Input] = []
         self.guides: list[Guide] = []
         self.parameters: list[Parameter] = []
@@ -137,7 +137,7 @@ class Register(ModelCoordinates):
 
     @property
     def with_ports(self) -> Callable[[], Self] | None:
-        """Makes the same model with ports; None where there is none, or this one has grown since it was set."""
+        """Function that makes the same model with ports; None if it was not set or this model has grown since."""
         return self._with_ports if self._size() == self._size_with_ports else None
 
     @with_ports.setter

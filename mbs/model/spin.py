@@ -118,7 +118,7 @@ class SpinVocabulary(BodyVocabulary):
         spin : Spin
             What `Model.spin` returned.
         leaning : float
-            By how much its rolling radius grows with 1 over the cosine of the elevation, m: a hub that stays at its
+            Growth of its rolling radius with 1 over the cosine of the elevation, m: a hub that stays at its
             height is farther from where a leaning wheel stands.
 
         Raises

@@ -18,7 +18,7 @@ from mbs.roads.grid_files import read_grid
 from mbs.roads.kinds import CRG, MESHES, PICTURE
 from mbs.roads.road_header import RoadFileError
 from mbs.roads.rough_road import ISO_8608, rough_heights
-from mbs.roads.sampled_road import SampledRoad, tell
+from mbs.roads.sampled_road import SampledRoad, warn_of_deviation
 
 Length = Annotated[float, Field(gt=0.0, le=1e5)]
 Place = Annotated[float, Field(ge=-1e6, le=1e6)]
@@ -204,7 +204,7 @@ def grid_road(
     road = replace(grid, frictions=values)
     if isinstance(road, SampledRoad):
         road = road.moved_to(origin or road.origin)
-        tell(road)
+        warn_of_deviation(road)
         return road
     return replace(road, origin=origin or road.origin)
 

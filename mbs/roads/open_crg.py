@@ -119,7 +119,7 @@ def _surface_samples(crg: pyopencrg.CrgRoad, road: GridRoad, worst: list[Values]
 def _largest(
     crg: pyopencrg.CrgRoad, road: GridRoad, at: Values, largest: float, place: tuple[float, float]
 ) -> tuple[float, tuple[float, float]]:
-    """The largest difference of a grid near points u, v (k, 2) of a road, and its place; at least what is given."""
+    """The largest difference of a grid near points u, v (k, 2) of a road, and its place, if it exceeds `largest`."""
     reach = np.array([crg.u_inc, float(np.diff(crg.v).max())]) / 2.0
     around = np.stack(np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 9)]), -1).reshape(-1, 2)
     for _ in range(_ROUNDS):

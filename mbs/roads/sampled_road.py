@@ -100,7 +100,7 @@ def compared(road: GridRoad, samples: Iterable[tuple[Values, Values]], source: s
     return SampledRoad(road.origin, road.spacing, heights, road.frictions, 1.0, source, largest, rms, place)
 
 
-def tell(road: SampledRoad) -> None:
+def warn_of_deviation(road: SampledRoad) -> None:
     """Warn of a large deviation."""
     if road.largest > TOLD:
         step = " by ".join(f"{h:.4g}" for h in road.spacing)

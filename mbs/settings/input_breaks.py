@@ -11,7 +11,7 @@ from mbs.common.polyline import needed_points
 Array = NDArray[np.float64]
 Table = tuple[Array, Array]
 LEAST = 0.05  # of the range of the table: a smaller departure is noise of a record
-FINE = 0.01  # of the range: by how much parts of a step that departs by more may depart
+FINE = 0.01  # of the range: largest departure of the parts of a step that is divided
 AT_END = 1e-6  # steps: what is so near to the end of one, or to another break, is at it
 ROUND_OFF = 1e-6  # of the largest value: a smaller range is that of a constant; in single precision it is 2e-7
 HUGE = 1e300  # differences of smaller values are finite

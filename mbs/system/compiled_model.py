@@ -37,7 +37,7 @@ class SystemFileError(ValueError):
 class CompiledModel:
     """The arrays and names of a System, without what is drawn; immutable.
 
-    `arrays`, `meta` and `frames` are those that `mbs.System` tells of.
+    `arrays`, `meta` and `frames`: as of `mbs.System`.
     """
 
     def __init__(
@@ -69,7 +69,7 @@ class CompiledModel:
     def kernel_bytes(self, *, modes: bool = True) -> bytes:
         """The System file without what is drawn, which the kernel does not read.
 
-        `modes`: whether with the assembly modes, by which steps are watched.
+        `modes`: whether to include the assembly modes, by which steps are checked.
         """
         return self._file(modes, b"")
 
@@ -95,7 +95,7 @@ class CompiledModel:
 
 
 class Arrays(Mapping[str, NDArray[Any]]):
-    """Arrays by name, read-only; those that `modes` makes are made when they are first asked for."""
+    """Arrays by name, read-only; those of the assembly modes are computed by `modes` when they are first read."""
 
     def __init__(
         self, arrays: Mapping[str, ArrayLike], modes: Callable[[], Mapping[str, ArrayLike]] | None = None
@@ -105,12 +105,12 @@ class Arrays(Mapping[str, NDArray[Any]]):
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if self._modes is not None and name in MODES:
-            self._arrays |= {made: _frozen(made, values) for made, values in self._modes().items()}
+            self._arrays |= {mode: _frozen(mode, values) for mode, values in self._modes().items()}
             self._modes = None
         return self._arrays[name]
 
     def changed(self, arrays: Mapping[str, ArrayLike]) -> Arrays:
-        """A copy with other values of some."""
+        """A copy with the values of some arrays replaced."""
         copied = copy.copy(self)
         copied._arrays = self._arrays | {name: _frozen(name, values) for name, values in arrays.items()}
         return copied

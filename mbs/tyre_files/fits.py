@@ -21,7 +21,7 @@ from mbs.tyre_files.pure_curves import (
 
 Array = NDArray[np.float64]
 LOADS = (0.5, 1.0, 1.5, 2.0)
-"""Over the nominal load: where fits are made and their errors told."""
+"""Loads over the nominal one at which curves are fitted and compared."""
 KAPPA = np.concatenate([-np.geomspace(0.5, 1e-3, 60), np.geomspace(1e-3, 1.0, 60)])
 TANGENT = np.geomspace(1e-3, 0.6, 80)
 _LESS, _MORE = 0.7, 1.9  # of a slip at two nominal loads over that at one: on a line through both it stays positive

@@ -1,4 +1,4 @@
-"""Links of a left and a right side: their masses over each other, and their places as mirror images."""
+"""Symmetry of a robot: ratios of masses of left and right links, and their centres as mirror images."""
 
 import re
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ QUANTITIES = quantities_of("robot")
 def pair_values(
     parts: Mapping[str, LinkMass], poses: Mapping[str, NDArray[np.float64]], scale: float, factors: Factors
 ) -> list[Value]:
-    """Links of a left and a right side, one over the other, and how far their centres are from each other's image."""
+    """Ratios of masses and of moments of left and right links, and distances of their centres from mirror images."""
     pairs = [(a, b) for a in parts if (b := other_side(a)) != a and b in parts]
     found = []
     for a, b in pairs:

@@ -93,7 +93,7 @@ def read_urdf(
     ------
     ModelError
         The file cannot be read, the package is missing, a joint is planar or floating, follows one that is not there or
-        is moved by what is given besides, a moving link has no mass, a name is none of a joint.
+        has a motion of its own besides, a moving link has no mass, a name is not that of a joint.
 
     Warns
     -----
@@ -216,7 +216,7 @@ def _turning(below: Mapping[str, Any], floating: bool) -> frozenset[str]:
 
 
 def _free_root(urdf: Any, joints: dict[str, Any], below: dict[str, Any], floating: bool, what: str) -> None:
-    """Takes a floating joint above the only link on a root without mass out of what is read; that link is the root."""
+    """Remove a floating joint between a root without mass and the only link on it; that link becomes the root."""
     free = next((joint for joint in joints.values() if joint.type == "floating"), None)
     if free is None:
         return

@@ -57,8 +57,8 @@ class Element:
 def read_source(data: bytes, what: str) -> Element:
     """The root of the elements, checked. `what`: the file, for messages.
 
-    Raises `ModelError`: it is not XML, has macros, an element twice that there is once, a number that is none, or an
-    inertia without a part; with the line.
+    Raises `ModelError`: it is not XML, has macros, an element twice that may occur once, text in place of a number, or
+    an inertia without a part; with the line.
     """
     parser, top = expat.ParserCreate(), Element("", 0, {})
     path = [top]

@@ -19,7 +19,7 @@ ITERATIONS = 3
 LEAST_SLOPE, LONGEST = 0.3, 5.0
 """Of its derivative, which is 0 at the centre of curvature, and of one correction, m: guards where a place is far."""
 GAP = 0.05
-"""m: by how much the ends of a closed course may miss each other."""
+"""m: largest gap between the ends of a closed course."""
 
 
 @dataclass(frozen=True)

@@ -67,7 +67,7 @@ def _plausibilities(file: Path, road: Path) -> Sequence[Plausibility]:
 
 
 def _file(name_or_file: str) -> Path:
-    """The file that a name or path means."""
+    """File of a world of the package by its name, or of a path."""
     path = Path(name_or_file)
     if is_file(path):
         if path.suffix.lower() not in (kinds := (".toml", ".road", CRG, *MESHES)):
@@ -98,7 +98,7 @@ def _draw(record: Path, target: Path) -> None:
 
 
 class _Line:
-    """A line that says what is done, on a terminal over and over, else once a part."""
+    """Progress of the work on standard error: on a terminal one line that is overwritten, else a line per part."""
 
     def __init__(self, name: str) -> None:
         self.name, self.printed, self.part = name, 0.0, ""

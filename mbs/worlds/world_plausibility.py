@@ -227,7 +227,7 @@ def _places(world: WorldDescription) -> Iterator[tuple[str, Places]]:
     """Places of scenery by their keys, and the corners of what wheels feel."""
     for key, feature in _features(world):
         (x0, y0, x1, y1), (left, low, right, high) = _box(feature), world.bounds
-        if x0 < right and x1 > left and y0 < high and y1 > low:  # else no point of it is felt, which is told
+        if x0 < right and x1 > left and y0 < high and y1 > low:  # else no wheel feels it: value "points"
             yield f"{key}.size", [(x0, y0), (x1, y1)]
     for k, line in enumerate(world.lines):
         if line.centre is not None and line.radius is not None:

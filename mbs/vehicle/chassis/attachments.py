@@ -28,7 +28,7 @@ class Attachments:
 
 
 class _Noted(Body):
-    """The chassis, with what was asked of it."""
+    """The chassis, with a record of the points that the suspension asks for."""
 
     def __init__(self, owner: Body, reference: Point) -> None:
         super().__init__(owner.model, owner.name, owner.com, owner.start)

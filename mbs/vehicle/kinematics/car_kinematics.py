@@ -21,7 +21,7 @@ TRAVEL = (-0.08, 0.08)
 POINTS = 81
 MOTIONS = ("parallel", "opposite", "single")
 SAME_ANGLE = 1e-9
-"""By how much both wheels may differ and count as set alike, rad."""
+"""Largest difference of both wheels that counts as the same setting, rad."""
 FARTHEST, MOST_POINTS = 0.5, 10_001
 
 

@@ -11,7 +11,7 @@ enum { ALI3_FOUR = 4, ALI3_FOUR_REALS = 64, ALI3_FOUR_STATES = 8, ALI3_FOUR_OUTP
 void ali3_fours_derive(ali3_system *s);
 /* The forces of all that go together, as ali3_elements_forces has them of each. */
 void ali3_fours_forces(ali3_instance *in, const ali3_force_call *call);
-/* A road of the instance, with what ali3_road_numbers tells of it. */
+/* A road of the instance, with the numbers of ali3_road_numbers. */
 const struct ali3_road *ali3_fours_road(const ali3_instance *in, int32_t number, int32_t *type, double *numbers,
                                         double *friction_factor);
 #endif

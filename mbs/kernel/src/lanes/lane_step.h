@@ -1,6 +1,6 @@
 /* The step of methods/augmented_lagrangian.c with the control of its iterations by lane: each lane decides alone what
  * follows, and one that is finished keeps its D, multipliers, tangent and forces, from which the rest comes out the same
- * again. What fails is told by group->good and made again from its instance. */
+ * again. Lanes that fail are marked in group->good and repeated from their instances. */
 #ifndef ALI3_LANE_STEP_H
 #define ALI3_LANE_STEP_H
 #ifdef ALI3_WIDTH

@@ -206,7 +206,7 @@ static ali3_status controlled_step(ali3_instance *in, const ali3_measure *measur
   }
 }
 
-/* Takes the report back to what the state in in->now says of itself: it was not read while steps were made. */
+/* Sets the report to the state in in->now, which was not read while steps were made. */
 static void finish(ali3_instance *in) {
   const ali3_method *method = ali3_method_of(in);
   if (method->after_sampled != NULL && in->now.history[ALI3_HISTORY_OWNER] == (double)method->owner)
