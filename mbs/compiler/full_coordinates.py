@@ -50,7 +50,7 @@ def reduce_coordinates(
         )
 
     solution = solved(natural.info, equations)
-    if model.floating and (between := _between(natural.info, solution, stay, model.dimension)):
+    if model.floating and (between := _difference_coordinates(natural.info, solution, stay, model.dimension)):
         natural = NaturalCoordinates([*natural.info, *(info for info, _ in between)], natural.expressions)
         solution = solved(natural.info, equations + [(info.name, e) for info, e in between])
     full = [substitute(e, solution.expressions) for e in natural.expressions]
@@ -61,7 +61,7 @@ def reduce_coordinates(
     return natural, solution.remaining, full, solution.expressions, solution.redundant, remaining_rows
 
 
-def _between(
+def _difference_coordinates(
     info: Sequence[CoordinateInfo], solution: Elimination, stay: set[int], dimension: int
 ) -> list[tuple[CoordinateInfo, Affine]]:
     """New coordinates, each with its equation: vectors to the remaining points from the one that most expressions use.

@@ -259,7 +259,7 @@ def _close_all(loops: Loops, positions: list[Closed], g: Array, share: float) ->
         C = np.vstack([c.left.T @ loops.evaluate(c.places, g, True)[2] for c in positions])
         e = np.concatenate([c.misfit for c in positions])
         U, s, Vt = np.linalg.svd(C, full_matrices=False)
-        k = _explaining(U.T @ e, float(np.linalg.norm(e)), s)
+        k = _explaining_count(U.T @ e, float(np.linalg.norm(e)), s)
         g = g - Vt[:k].T @ ((U[:, :k].T @ e) / s[:k])
         if np.max(np.abs(g)) > 3.0 * NEAR:
             return None
@@ -270,7 +270,7 @@ def _close_all(loops: Loops, positions: list[Closed], g: Array, share: float) ->
     return None
 
 
-def _explaining(parts: Array, size: float, s: Array) -> int:
+def _explaining_count(parts: Array, size: float, s: Array) -> int:
     """Number of most sensitive directions that explain the misfit up to `REMAINDER`; more would fit noise."""
     rest = np.sqrt(np.maximum(0.0, size**2 - np.cumsum(parts**2)))
     enough = int(np.argmax(rest <= max(REMAINDER * size, 3e-16 * np.sqrt(len(parts))))) + 1

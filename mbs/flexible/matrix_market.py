@@ -39,7 +39,7 @@ def read_matrix_market(path: Path) -> sp.csc_array:
             raise ValueError(f"a {symmetry} matrix has {rows} rows and {columns} columns")
         i, j = np.zeros((2, 0), int)
         if form == "array":
-            i, j = _places(rows, columns, symmetry, path)
+            i, j = _dense_indices(rows, columns, symmetry, path)
         count = sizes[2] if form == "coordinate" else len(i)
         check_memory(24 * _COPIES * count + 8 * (rows + columns), ModelError, path.name)
         width = 1 if form == "array" else 2 if field == "pattern" else 3
@@ -56,7 +56,7 @@ def read_matrix_market(path: Path) -> sp.csc_array:
     return sp.csc_array((values, (i, j)), shape=(rows, columns))
 
 
-def _places(rows: int, columns: int, symmetry: str, path: Path) -> tuple[np.ndarray, np.ndarray]:
+def _dense_indices(rows: int, columns: int, symmetry: str, path: Path) -> tuple[np.ndarray, np.ndarray]:
     """Rows and columns of the numbers of a dense matrix, column by column; of a symmetric one the lower triangle."""
     check_memory(24 * _COPIES * rows * columns, ModelError, path.name)
     j, i = np.divmod(np.arange(rows * columns), max(rows, 1))

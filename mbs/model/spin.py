@@ -20,7 +20,7 @@ STEEPEST = 1.4
 """rad of elevation, as in `mbs/kernel/src/system/parametric_axes.c`."""
 
 
-def _own(vector: AffineVector) -> AffineVector:
+def _own_components(vector: AffineVector) -> AffineVector:
     """A copy with components of its own: vectors of the carrier that are equal now do not turn with the axis."""
     return AffineVector(tuple(Affine(c.terms, c.constant) for c in vector.components))
 
@@ -88,7 +88,7 @@ class SpinVocabulary(BodyVocabulary):
         carrier.add_mass(m, c, I_d * np.outer(e, e))
         index = self.new_coordinate(self.unique("spin", name), "spin", 0.0)
         self.inertias[index] = I_s
-        along, across, aside = (_own(carrier.vector(v)) for v in (e, x, y))
+        along, across, aside = (_own_components(carrier.vector(v)) for v in (e, x, y))
         new = Spin(
             name,
             index,

@@ -134,7 +134,7 @@ class Defaults:
         shapes = self._plate(frame, points, com) or self._tubes(frame, points, com)
         if len(points) > 2:
             return shapes
-        if _beyond(com, points[0], points[1]):
+        if _is_beyond(com, points[0], points[1]):
             shapes = [*self._tubes(frame, [*points, com], com), self._ball(frame)]
         return shapes + [self._block(frame, com, slide) for slide in self._sliding.get(frame, [])]
 
@@ -277,7 +277,7 @@ def _shortest_tree(points: Sequence[Vector]) -> list[tuple[int, int]]:
     return pairs
 
 
-def _beyond(com: Vector, a: Vector, b: Vector) -> bool:
+def _is_beyond(com: Vector, a: Vector, b: Vector) -> bool:
     """Whether a centre of mass lies beyond the ends of a tube from a to b."""
     share = float(np.dot(com - a, b - a) / np.dot(b - a, b - a))
     return not -BEYOND <= share <= 1.0 + BEYOND

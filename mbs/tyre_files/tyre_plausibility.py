@@ -195,17 +195,17 @@ def _magic_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) ->
     coefficients = {**c, "FNOMIN": nominal}
     keys = {name: {prefix + k: coefficients[k] for k in own if k in coefficients} for name, own in OWN.items()}
     curves = {part: (_lateral(tyre, part), _longitudinal(tyre, part)) for part in PART}
-    found = [*_of_curves(curves, keys), Value(QUANTITIES["trail"], c["QDZ1"] * c["LTR"], keys["trail"])]
+    found = [*_curve_values(curves, keys), Value(QUANTITIES["trail"], c["QDZ1"] * c["LTR"], keys["trail"])]
     slips = tyre.along[0], cornering(tyre, nominal)
     lengths = ("PTX1", "LONGITUDINAL_STIFFNESS"), ("PTY1", "LATERAL_STIFFNESS")
     for of, slip, across, own in zip(("longitudinal", "lateral"), slips, carcass(tyre, c), lengths, strict=True):
         if any(c[k] for k in own):
             nonzero = {prefix + k: c[k] for k in own if c[k]}
             found.append(Value(QUANTITIES["relaxation"], slip / across / tyre.radius, nonzero, of))
-    return [*found, *_vertical(tyre, prefix), *_of_numbers(tyre, prefix, numbers)]
+    return [*found, *_vertical(tyre, prefix), *_number_values(tyre, prefix, numbers)]
 
 
-def _of_numbers(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -> Iterator[Value]:
+def _number_values(tyre: MagicTyre, prefix: str, numbers: Mapping[str, float]) -> Iterator[Value]:
     """Values of single numbers of the file, and of those that belong together."""
     n = {**MAGIC_COEFFICIENTS, **numbers, **tyre.coefficients, "FNOMIN": tyre.nominal_load}
     n |= {"UNLOADED_RADIUS": tyre.radius}
@@ -275,10 +275,10 @@ def _tmeasy_values(tyre: Tyre, prefix: str) -> list[Value]:
                 k: v for k, v in own.items() if (used and used in k) or (q in ("k", "mu") and "nominal" in k)
             }
     keys["ratio"] = keys["muy"] | keys["mux"]
-    return [*_of_curves(curves, keys), *_vertical(tyre, prefix)]
+    return [*_curve_values(curves, keys), *_vertical(tyre, prefix)]
 
 
-def _of_curves(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str, Mapping[str, Any]]) -> list[Value]:
+def _curve_values(curves: Mapping[float, tuple[_Curve, _Curve]], keys: Mapping[str, Mapping[str, Any]]) -> list[Value]:
     found = []
     for part, pair in curves.items():
         peaks: list[float] = []

@@ -92,7 +92,7 @@ class BuiltCar(Summarised, CarContent):
         """
         car = self
         if self.ports.tyre is not None:
-            car = checked_car(type(self), _on_own_tyres(self._data), self.folder, self.name, at_rest=False)
+            car = checked_car(type(self), _without_tyre_port(self._data), self.folder, self.name, at_rest=False)
         return settled(car.build(car.empty(), rest_outputs).m, car)
 
     @property
@@ -302,7 +302,7 @@ def checked_car(
     if faults:
         raise CarFileError(_fault_text(what, faults))
     if at_rest and car.ports.tyre is not None:  # nothing carries it: it must come to rest on its own tyres
-        checked_car(kind, _on_own_tyres(data), folder, what, warn=warn, stacklevel=stacklevel + 1)
+        checked_car(kind, _without_tyre_port(data), folder, what, warn=warn, stacklevel=stacklevel + 1)
         return car
     if not at_rest:
         return car
@@ -332,7 +332,7 @@ def checked_car(
     return car
 
 
-def _on_own_tyres(data: Mapping[str, Any]) -> dict[str, Any]:
+def _without_tyre_port(data: Mapping[str, Any]) -> dict[str, Any]:
     """The content of a car file without the port of its tyres."""
     return {**data, "ports": {name: port for name, port in data["ports"].items() if name != "tyre"}}
 

@@ -23,7 +23,7 @@ def car_names() -> list[str]:
 def read_car(kind: type[C], car: str | Path) -> C:
     """`mbs.vehicle.load`, which describes the argument `car`, for a car of any class."""
     if isinstance(car, str) and car in car_names():
-        shipped: C = _of_package(kind, car)
+        shipped: C = _shipped_car(kind, car)
         return shipped
     if not isinstance(car, (str, Path)):
         raise CarFileError(f"A car is the name of one, a folder or a file, not {shown(car)}.")
@@ -55,7 +55,7 @@ def file_of(car: str | Path) -> Path:
 
 
 @cache
-def _of_package(kind: type[C], name: str) -> C:
+def _shipped_car(kind: type[C], name: str) -> C:
     path = CARS / name / FILE
     content = read_toml(path, CarFileError)
     # a test holds that they stand as drawn

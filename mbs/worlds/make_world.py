@@ -80,7 +80,7 @@ def make_world(
         write_world_road(terrain, road, lambda part: tell("road", part), thin)
         off = {"thin": off_by(terrain, road).sentence} if thin else {}
         return record | {"checksum": checksum_of(road)} | off
-    return _of_road(file, name, road)
+    return _road_record(file, name, road)
 
 
 def _check_size(world: WorldDescription, file: Path) -> None:
@@ -122,7 +122,7 @@ def record_of_road(road: Path) -> dict[str, Any] | None:
     return None
 
 
-def _of_road(file: Path, name: str, target: Path) -> dict[str, Any]:
+def _road_record(file: Path, name: str, target: Path) -> dict[str, Any]:
     """A world that is a road alone."""
     road = read_thinned(file) if file.suffix.lower() == ".road" else read_road(file)
     if file.suffix.lower() == ".road":

@@ -112,7 +112,7 @@ class Terrain:
         rows, columns = np.nonzero(self.nearest[np.ix_(i, j)] < EDGE + self.step)
         if len(rows):
             part = (rows, columns)
-            z[part], surfaces[part], same[part] = self._laid(x[rows], y[columns], i[rows], j[columns], z[part])
+            z[part], surfaces[part], same[part] = self._with_layers(x[rows], y[columns], i[rows], j[columns], z[part])
         for base, band in self.bands:
             if (block := _block(base, x, y)) is not None:
                 inside = base.inside(x[block[0], None], y[None, block[1]])
@@ -131,7 +131,7 @@ class Terrain:
         i, j = self._node(x, self.x), self._node(y, self.y)
         part = np.flatnonzero(self.nearest[i, j] < EDGE + self.step)
         if len(part):
-            z[part] = self._laid(x[part], y[part], i[part], j[part], z[part])[0]
+            z[part] = self._with_layers(x[part], y[part], i[part], j[part], z[part])[0]
         for base, obstacle in self.obstacles:
             inside = np.flatnonzero(base.inside(x, y))
             if len(inside):
@@ -152,7 +152,7 @@ class Terrain:
         """About how far places are from the nearest course or area and its shoulder, m; beyond its reach 1e6."""
         return self.nearest[self._node(x, self.x), self._node(y, self.y)].astype(float)
 
-    def _laid(
+    def _with_layers(
         self, x: Float, y: Float, i: NDArray[np.int64], j: NDArray[np.int64], carved: Float
     ) -> tuple[Float, NDArray[np.uint8], Float]:
         """Heights, surfaces and distances as of `on_grid`, near layers, at places next to the lattice points (i, j)."""

@@ -44,10 +44,10 @@ def world_plausibility(what: str, world: WorldDescription) -> Plausibility:
     values, mistakes = _values(world), []
     outside = {v.of for v in values if not v.inside()}
     for key, feature in _features(world):
-        for words, altered in _undone(feature) if key in outside else ():
+        for words, altered in _without_mistakes(feature) if key in outside else ():
             keys = frozenset({f"{key}.{name}" for name in ("at", "left", "right", "length")})
-            mistakes.append(Mistake(f"{words} in {key}", keys, partial(_with, world, key, altered)))
-    for key, places in _places(world):
+            mistakes.append(Mistake(f"{words} in {key}", keys, partial(_altered_values, world, key, altered)))
+    for key, places in _scenery_points(world):
         for words, moved in MOVED.items() if key in outside else ():
             elsewhere = _outside(world, key, [moved(x, y) for x, y in places])
             mistakes.append(Mistake(f"{words} in {key}", frozenset({key}), partial(_replaced, values, elsewhere)))
@@ -62,7 +62,7 @@ def _values(world: WorldDescription) -> list[Value]:
     values = [Value(QUANTITIES["size"], side, {"bounds": list(world.bounds)}, axis) for axis, side in sides.items()]
     values += [*_ground(world), *_objects(world)]
     values += [_points(world, key, feature) for key, feature in _features(world)]
-    return values + [_outside(world, key, places) for key, places in _places(world)]
+    return values + [_outside(world, key, places) for key, places in _scenery_points(world)]
 
 
 def _ground(world: WorldDescription) -> Iterator[Value]:
@@ -108,7 +108,9 @@ def _objects(world: WorldDescription) -> Iterator[Value]:
         for name, quantity in ON_ROADS.items():
             for k, feature in enumerate(getattr(world, name)):
                 at = np.array(feature.at[:2])
-                off = [_far(line, at) - 0.5 * course.width for line, course in zip(lines, world.courses, strict=True)]
+                off = [
+                    _distance(line, at) - 0.5 * course.width for line, course in zip(lines, world.courses, strict=True)
+                ]
                 off += [float(AreaLayer(area).near(*at)[0]) for area in world.areas]
                 yield Value(QUANTITIES[quantity], min(off), {f"{name}.{k}.at": list(feature.at)}, f"{name}.{k}")
     for k, course in enumerate(world.courses):
@@ -141,7 +143,7 @@ def _objects(world: WorldDescription) -> Iterator[Value]:
             yield Value(QUANTITIES["twice"], float(len(twice)), {f"{name}.{k}": "as before" for k in twice}, name)
 
 
-def _far(line: NDArray[np.float64], at: NDArray[np.float64]) -> float:
+def _distance(line: NDArray[np.float64], at: NDArray[np.float64]) -> float:
     """Distance of a place from a line through points, m."""
     first, step = line[:-1], np.diff(line, axis=0)
     along = np.clip(((at - first) * step).sum(axis=1) / np.maximum((step**2).sum(axis=1), FELT), 0.0, 1.0)
@@ -155,7 +157,7 @@ def _outside(world: WorldDescription, key: str, places: Sequence[tuple[float, fl
     return Value(QUANTITIES["outside"], off, {key: [x, y], "bounds": list(world.bounds)}, key)
 
 
-def _with(world: WorldDescription, key: str, feature: Feature) -> list[Value]:
+def _altered_values(world: WorldDescription, key: str, feature: Feature) -> list[Value]:
     """The values with another feature in place of one."""
     name, k = key.split(".")
     features = [feature if j == int(k) else other for j, other in enumerate(getattr(world, name))]
@@ -207,7 +209,7 @@ def changed_points(world: WorldDescription, feature: Feature) -> int:
     return int(inside.sum() if isinstance(feature, Band) else (inside & (np.abs(added(feature, x, y)) > FELT)).sum())
 
 
-def _undone(feature: Feature) -> Iterator[tuple[str, Feature]]:
+def _without_mistakes(feature: Feature) -> Iterator[tuple[str, Feature]]:
     """Common mistakes of a feature, and it without each."""
     if isinstance(feature, (Band, Kerb)):
         yield "left and right exchanged", feature.model_copy(update={"left": feature.right, "right": feature.left})
@@ -223,7 +225,7 @@ def _undone(feature: Feature) -> Iterator[tuple[str, Feature]]:
         yield "km in place of m", feature.model_copy(update=smaller)
 
 
-def _places(world: WorldDescription) -> Iterator[tuple[str, Places]]:
+def _scenery_points(world: WorldDescription) -> Iterator[tuple[str, Places]]:
     """Places of scenery by their keys, and the corners of what wheels feel."""
     for key, feature in _features(world):
         (x0, y0, x1, y1), (left, low, right, high) = _box(feature), world.bounds

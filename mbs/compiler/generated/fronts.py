@@ -102,7 +102,7 @@ class _Shape:
             for j in range(start, start + count):
                 lines += self._column(j, q)
             lines += self._triangle(start, count)
-            lines += self._below(q, start, count)
+            lines += self._columns_below(q, start, count)
         for j in range(self.pivots, self.size):
             lines += self._column(j, len(self.panels))
         return function(ELIMINATE.format(self.size, self.pivots), [*lines, "  return -1;"])
@@ -136,7 +136,7 @@ class _Shape:
         return value
 
     def _triangle(self, start: int, count: int) -> list[str]:
-        """Factorise the pivots of a panel among themselves: 1/D and L as C variables, which `_below` stores."""
+        """Factorise the pivots of a panel among themselves: 1/D and L as C variables, which `_columns_below` stores."""
         n, lines = self.size, []
         for p in range(count):
             for i in range(p, count):
@@ -152,7 +152,7 @@ class _Shape:
                       for i in range(p + 1, count)]  # fmt: skip
         return lines
 
-    def _below(self, q: int, start: int, count: int) -> list[str]:
+    def _columns_below(self, q: int, start: int, count: int) -> list[str]:
         """The columns of the panel below its pivots: u unscaled, L in their place."""
         n, lines = self.size, []
         for p in range(count):

@@ -120,7 +120,7 @@ class Pattern:
                 if one != other:
                     of[other].append((t, self.row_col[one], False))
         self.in_triples = [self._row_in_triples(k, of) for k in range(self.nc)]
-        points = [self.in_triples[k] and self._of_points(k, of) for k in range(self.nc)]
+        points = [self.in_triples[k] and self._has_point_factors(k, of) for k in range(self.nc)]
         starts = [0, *np.cumsum([len(x) for x in of]).tolist()]
         terms: list[list[tuple[int, int]]] = []
         first: dict[int, int] = {}
@@ -147,7 +147,7 @@ class Pattern:
             for i in range(begin, end, 3)
         )
 
-    def _of_points(self, k: int, of: list[list[tuple[int, int, bool]]]) -> bool:
+    def _has_point_factors(self, k: int, of: list[list[tuple[int, int, bool]]]) -> bool:
         """Whether the second factors of a row of triples are three neighbours each too."""
         return all(
             y == x + 1 and z == x + 2

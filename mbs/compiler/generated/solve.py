@@ -57,7 +57,7 @@ def _forward(front: Front) -> list[str]:
         lines += _scalars(front, parts, p, count)
         for piece in parts:
             if piece.first + (3 if piece.wide else 0) >= p + count:
-                lines.append(f"  x{piece.first} = {_taken(piece, p, count, n)};")
+                lines.append(f"  x{piece.first} = {_subtracted(piece, p, count, n)};")
         p += count
     for piece in parts:
         if piece.first + (3 if piece.wide else 0) >= pivots:
@@ -87,7 +87,7 @@ def _scalars(front: Front, parts: Sequence[Piece], p: int, count: int) -> list[s
             for line in (f"  const double {name} = {word};", f"  b[{first + k}] = {name};")]  # fmt: skip
 
 
-def _taken(piece: Piece, p: int, count: int, n: int) -> str:
+def _subtracted(piece: Piece, p: int, count: int, n: int) -> str:
     """C expression of a piece minus its products with `count` pivots from p on."""
     x = f"x{piece.first}"
     term = [f"{piece.load(f'(A + {(p + k) * n})')} * y{p + k}" for k in range(count)]

@@ -116,7 +116,7 @@ class _OfFront:
                 found[self.local[self.pattern.sig_col[k]]].append((s, k))
         return found
 
-    def _of_element(self, element: Element) -> list[Sequence[int]]:
+    def _element_groups(self, element: Element) -> list[Sequence[int]]:
         there = self._entries(element)
         return [g for g in self.groups if any(i in there for i in g)]
 
@@ -124,7 +124,7 @@ class _OfFront:
         """S B of an element: per signal and group of coordinates a vector."""
         e, n, there = element.number, len(element.signals), self._entries(element)
         lines = [f"  const double *T{e} = parts->idle[{e}] ? nothing : parts->S + {element.tangent};"]
-        for group in self._of_element(element):
+        for group in self._element_groups(element):
             lists = [there.get(i, []) for i in group]
             for s in range(n):
                 name = f"B{e}_{s}_{group[0]}"
@@ -170,8 +170,8 @@ class _OfFront:
             begin = vector("parts->front_mass", places, self._storage()) if any_mass else zero
             lines.append(f"  {kind} a{d} = {begin};")
         if block.rows == block.columns:
-            lines += self._above(block)
-        lines += self._squares(block) + self._second(block) + self._of_elements(block)
+            lines += self._zeros_above(block)
+        lines += self._squares(block) + self._second(block) + self._element_terms(block)
         for d, place in enumerate(at):
             if kind == "double":
                 lines.append(f"  F[{place}] = a{d};")
@@ -179,7 +179,7 @@ class _OfFront:
                 lines.append(f"  {'PUT' if place + 4 <= self._storage() else 'put3'}(F + {place}, a{d});")
         return [*lines, "  }"]
 
-    def _above(self, block: _Block) -> list[str]:
+    def _zeros_above(self, block: _Block) -> list[str]:
         """Zeros above the diagonal in whole blocks of four of the factorisation; never read, but they must not grow."""
         front, lines = self.front, []
         for j in block.columns:
@@ -239,7 +239,7 @@ class _OfFront:
             lines += [f"  {lane} += {self._number(t)};" for t in self.bends[i, j]]
         return lines
 
-    def _of_elements(self, block: _Block) -> list[str]:
+    def _element_terms(self, block: _Block) -> list[str]:
         lines = []
         for element in self.elements:
             there = self._entries(element)

@@ -63,14 +63,14 @@ class JointFinder:
         interfaces, arms = {}, []
         for point in dict.fromkeys((*self._axles[0], *self._axles[1])):
             for position in (point, _image(point)):
-                interfaces[self._at(position, point)] = position
+                interfaces[self._joint_at(position, point)] = position
         for a, b in self._held:
-            arms.append((self._at(a), self._at(b)))
+            arms.append((self._joint_at(a), self._joint_at(b)))
             if a[1] + b[1] > 0.0:
-                arms.append((self._at(_image(a), a), self._at(_image(b), b)))
+                arms.append((self._joint_at(_image(a), a), self._joint_at(_image(b), b)))
         drive = self._drive(driven)
         ground = self._named("ground_mounts") or (self._pair(self._axles[1 - driven][0]), *drive)
-        accelerometers = {self._at(point): point for point in chassis.accelerometers.values()}
+        accelerometers = {self._joint_at(point): point for point in chassis.accelerometers.values()}
         return FrameJoints(interfaces, tuple(arms), drive, ground, self._reference(chassis.reference), accelerometers)
 
     def _drive(self, driven: int) -> tuple[Pair, ...]:
@@ -115,9 +115,9 @@ class JointFinder:
         return tuple(found)
 
     def _pair(self, point: Point) -> Pair:
-        return tuple(dict.fromkeys((self._at(point), self._at(_image(point), point))))
+        return tuple(dict.fromkeys((self._joint_at(point), self._joint_at(_image(point), point))))
 
-    def _at(self, position: Point, point: Point | None = None) -> str:
+    def _joint_at(self, position: Point, point: Point | None = None) -> str:
         """Joint at a hard point, or at the image of one."""
         what = self._keys.get(point or position, "A point of the suspension on the chassis")
         return self._nearest(position, what if point in (None, position) else f"The image of {what}")

@@ -143,7 +143,7 @@ class TubularFrame:
             return masses
         for row in read_table(self.folder, self.section.masses, self.section.key("masses"), ("joint", "mass")):
             _check_name(row, row["joint"], joints, "joint", self.section.key("joints"))
-            for joint in _carrying(row, image):
+            for joint in _loaded_joints(row, image):
                 masses[joint] = masses.get(joint, 0.0) + row.number("mass", 0.0, MOST_MASS, "kg")
         return masses
 
@@ -153,7 +153,7 @@ def mirrored(name: str) -> str:
     return name[:-1] + IMAGE[name[-1]]
 
 
-def _carrying(row: Row, wanted: str) -> tuple[str, ...]:
+def _loaded_joints(row: Row, wanted: str) -> tuple[str, ...]:
     """Joints that have the mass of a line: the named one and its image, unless the column `image` says no."""
     joint, image = row["joint"], row.cells.get("image") or "yes"
     if image not in ("yes", "no"):

@@ -46,7 +46,7 @@ def working_ranges(car: CarContent) -> Ranges:
         room = PRESSED[1] * tyre.radius * tyre.stiffness - load
         carried = weight_on_spring(axle, load)
         if carried > 0.0:
-            room = min(room, _of_suspension(found, axle, carried))
+            room = min(room, _add_suspension(found, axle, carried))
         loads[name], radii = (2.0 * load, 2.0 * max(room, 0.0)), [*radii, tyre.radius]
     if len(radii) == 2:
         weight, more = (sum(part) for part in zip(*loads.values(), strict=True))
@@ -56,16 +56,16 @@ def working_ranges(car: CarContent) -> Ranges:
             for name in {"max_torque", "ratio", "ratio_factor"} & set(type(car.drive).model_fields):
                 value = getattr(car.drive, name)
                 _put(found, car.drive, name, *(value * part * torque / driven for part in DRIVEN))
-        _of_air(found, car.aerodynamics, loads)
+        _add_air(found, car.aerodynamics, loads)
         _put(found, car.chassis, "mass", 0.0, car.chassis.mass + more / GRAVITY)
         for payload in car.payload.values():
             _put(found, payload, "mass", 0.0, payload.mass + more / GRAVITY)
-    _of_mass_centre(found, car)
-    _of_grip(found, car)
+    _add_mass_centre(found, car)
+    _add_grip(found, car)
     return found
 
 
-def _of_mass_centre(found: Ranges, car: CarContent) -> None:
+def _add_mass_centre(found: Ranges, car: CarContent) -> None:
     """Add the range of the chassis' centre of mass that keeps the car's within `centre_ranges`."""
     lever = car.chassis.mass / sum(mass for mass, _ in weighed_points(car, payloads=False))
     centre, spans = centre_of(car, payloads=False), centre_ranges(car)
@@ -74,7 +74,7 @@ def _of_mass_centre(found: Ranges, car: CarContent) -> None:
         found[path] = min(low, value), max(high, value)
 
 
-def _of_grip(found: Ranges, car: CarContent) -> None:
+def _add_grip(found: Ranges, car: CarContent) -> None:
     """Add the ranges of each axle's grip, the road's friction and its factor, each with the others as they are.
 
     The value of the file may lie below its range.
@@ -112,7 +112,7 @@ def _least(found: Ranges, section: Section, name: str, reached: float) -> None:
         found[path] = min(max(least, found.get(path, (0.0,))[0]), high), high
 
 
-def _of_suspension(found: Ranges, axle: Axle, carried: float) -> float:
+def _add_suspension(found: Ranges, axle: Axle, carried: float) -> float:
     """Ranges of a spring that carries a weight, N, and of its damper.
 
     Result: how much more load, N, the spring carries until it has sunk by `SUNK`.
@@ -147,7 +147,7 @@ def _rows(spring: Spring) -> tuple[np.ndarray, np.ndarray]:
     return x, force
 
 
-def _of_air(found: Ranges, air: Aerodynamics, loads: Mapping[str, tuple[float, float]]) -> None:
+def _add_air(found: Ranges, air: Aerodynamics, loads: Mapping[str, tuple[float, float]]) -> None:
     """Ranges of the areas and of the density of the air.
 
     `loads`: load of each axle and how much more it can carry, N, by "front" and "rear".

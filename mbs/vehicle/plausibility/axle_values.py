@@ -88,7 +88,7 @@ def axle_values(car: CarContent, name: str, rest: Rest, rates: AxleRates | None)
     nominal = axle.tyre.nominal_load
     yield Value(CAR["loaded"], rest.load[name] / nominal, {axle.tyre.key("nominal_load"): nominal}, name)
     if isinstance(axle.suspension, Curves):
-        yield from _of_curves(axle.suspension, name, y)
+        yield from _curve_values(axle.suspension, name, y)
     if rates is not None:
         for quantity, angle in (("caster", "caster_angle"), ("kingpin", "kingpin_inclination_angle")):
             if angle in rates.steering_axis:
@@ -160,7 +160,7 @@ def damping_at(damper: Damper, speed: float) -> float:
     return float(np.interp(at, v, force)) / at * damper.factor if at else 0.0
 
 
-def _of_curves(curves: Curves, name: str, centre: dict[str, Any]) -> Iterator[Value]:
+def _curve_values(curves: Curves, name: str, centre: dict[str, Any]) -> Iterator[Value]:
     table, key = curves.table, {curves.key("file"): curves.file}
     i, k = (int(np.argmin(np.abs(axis))) for axis in (table.travel, table.second))
     (wheel,) = centre.values()

@@ -187,7 +187,9 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
             )
         _check_axis(what, TRAVEL, travel)
         even = _even(travel, COARSEST[TRAVEL])
-        return CurveTable(even, np.zeros(1), "", {n: _on(travel, even, v[:, None], 0) for n, v in columns.items()})
+        return CurveTable(
+            even, np.zeros(1), "", {n: _resampled(travel, even, v[:, None], 0) for n, v in columns.items()}
+        )
     along, across = _points(travel), _points(second)
     for name, points in ((TRAVEL, along), (second_name, across)):
         _check_axis(what, name, points)
@@ -209,11 +211,11 @@ def _grid(what: str, travel: Array, second: Array | None, second_name: str, colu
     evens, found = (_even(along, COARSEST[TRAVEL]), _even(across, COARSEST[second_name])), {}
     for name, values in columns.items():
         if cross:
-            changes = _on(across, evens[1], values[other][None] - values[one[i]], 1)
-            found[name] = _on(along, evens[0], values[one][:, None], 0) + changes
+            changes = _resampled(across, evens[1], values[other][None] - values[one[i]], 1)
+            found[name] = _resampled(along, evens[0], values[one][:, None], 0) + changes
         else:
             grid = values[order].reshape(len(along), len(across))
-            found[name] = _on(across, evens[1], _on(along, evens[0], grid, 0), 1)
+            found[name] = _resampled(across, evens[1], _resampled(along, evens[0], grid, 0), 1)
     return CurveTable(*evens, second_name, found)
 
 
@@ -280,7 +282,7 @@ def _even(points: Array, coarsest: float) -> Array:
     return np.asarray(step * np.arange(-low, high + 1), float)
 
 
-def _on(points: Array, even: Array, values: Array, axis: int) -> Array:
+def _resampled(points: Array, even: Array, values: Array, axis: int) -> Array:
     if len(points) == len(even) and np.max(np.abs(points - even)) < SAME:
         return values
     return np.asarray(CubicSpline(points, values, axis=axis)(even))

@@ -204,7 +204,7 @@ class Curves(SuspensionSection):
         for side in sides(axle):
             own, w = travels[side.name], side.wheel
             rigid = self.of(side)
-            over, curves = self._over(b, side, rigid, travels)
+            over, curves = self._table_variables(b, side, rigid, travels)
             part = self.bodies.carrier
             com = np.array(side.point(part.com))
             centre = np.array(side.point(self.hub.centre))
@@ -236,7 +236,7 @@ class Curves(SuspensionSection):
             law = ScalarSpringDamper(self.bar.stiffness, stiffness_factor=self.bar.factor)
             self.bar.tie(b, b.m.add(law.record(f"anti-roll bar {axle}", levers[0] - levers[1])))
 
-    def _over(
+    def _table_variables(
         self, b: CarBuilder, side: Side, curves: WheelCurves, travels: Mapping[str, Coordinate]
     ) -> tuple[list[Coordinate], WheelCurves]:
         """Coordinates over which a wheel is tabled, and its curves over them."""
