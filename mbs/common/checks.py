@@ -164,7 +164,7 @@ def named(value: object, what: str, error: Error = ModelError) -> str:
 
 
 def one_of(value: object, words: Collection[str], what: str, error: Error = ModelError) -> str:
-    """One of some words."""
+    """The value, which must be one of `words`."""
     if not isinstance(value, str) or value not in words:
         quoted = [repr(w) for w in words] if len(words) < 4 or all(len(w) == 1 for w in words) else list(words)
         choices = " or ".join([", ".join(quoted[:-1]), quoted[-1]] if len(quoted) > 1 else quoted)

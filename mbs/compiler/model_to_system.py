@@ -121,7 +121,7 @@ class _Reduced:
 
 
 def _reduced(model: Model, closed: Corrections) -> _Reduced:
-    """Linear equations are eliminated; what is left are rows, without those that follow from others."""
+    """Eliminate linear equations; the other ones become rows, without those that follow from others."""
     linear, others = _equations(model)
     natural = natural_coordinates(model)
     held = {*tabled_coordinates(model)}

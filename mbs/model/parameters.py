@@ -78,7 +78,7 @@ def _moving(what: str, found: Sequence[_Target]) -> None:
 
 
 def _written_once(model: Register, what: str, found: Sequence[_Target]) -> None:
-    """A real takes its value from one parameter."""
+    """Refuse a number that two parameters write."""
     writers = {where[:3]: f"parameter '{p.name}'" for p in model.parameters for where in p.targets}
     for target in found:
         place = target.where[:3]

@@ -58,5 +58,5 @@ class OmittedSensors:
 
 
 def refused(name: str, reason: str) -> str:
-    """Why a sensor cannot be read."""
+    """Sentence that says why a sensor cannot be read."""
     return f"The sensor {name!r} is not computed by this System: {reason}."

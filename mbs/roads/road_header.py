@@ -72,7 +72,7 @@ class Header:
         return HEADER.size + self.tiles[0] * self.tiles[1] * self.tile_bytes
 
     def to_bytes(self) -> bytes:
-        """The header as it stands in the file. Raises `RoadFileError` where no reader takes it."""
+        """The bytes of the header in a file. Raises `RoadFileError` if no reader accepts it."""
         fields = (self.file_bytes, int(self.kind), self.contents, self.nx, self.ny)
         tile = (ROAD_TILE, self.maps) if self.kind == RoadType.GRID else (0, 0)
         if problem := _problem(int(self.kind), self.nx, self.ny, *tile, self.real):

@@ -163,7 +163,7 @@ def _fit(places: tuple[float, ...], order: int) -> tuple[Float, Float]:
 
 
 def record_bytes(heights: Float, frictions: Float | None) -> bytes:
-    """A tile as it stands in the file. `heights`, `frictions`: as of `SharedWriter.tile`."""
+    """The bytes of a tile in a file. `heights`, `frictions`: as of `SharedWriter.tile`."""
     levels, behind = 0, b""
     if frictions is not None:
         levels, behind = _friction_bytes(frictions)

@@ -72,7 +72,7 @@ def drawing_of(model: Model, places: Places, names: FrameNames, q: NDArray[np.fl
 
 
 def _drawn(shape: Shape, names: FrameNames, meshes: dict[str, Any]) -> Scene | None:
-    """A shape of the user as the scene has it; None for one that is not drawn."""
+    """Entry of the scene for a shape of the user; None for one that is not drawn."""
     if shape.kind == "none":
         return None
     found: Scene = {"kind": shape.kind}

@@ -117,7 +117,7 @@ class Spring(Section, of=SpringDamper):
     """Factor on the force of the spring."""
 
     def faults(self) -> Iterator[str]:
-        """The force is given by a number or by a table, not by both."""
+        """Fault of a force that has neither or both of a number and a table."""
         yield from law_faults(self, "stiffness", self.stiffness, self.table, SPRING_TABLE)
 
     @property
@@ -145,7 +145,7 @@ class Damper(Section, of=SpringDamper):
     """Factor on the force of the damper."""
 
     def faults(self) -> Iterator[str]:
-        """The force is given by a number or by a table, not by both."""
+        """Fault of a force that has neither or both of a number and a table."""
         yield from law_faults(self, "damping", self.damping, self.table, DAMPER_TABLE)
 
     @property

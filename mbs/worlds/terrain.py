@@ -149,7 +149,7 @@ class Terrain:
         return found
 
     def nearest_layer(self, x: Float, y: Float) -> Float:
-        """About how far places are from the nearest course or area and its shoulder, m; beyond its reach 1e6."""
+        """Approximate distances of points from the nearest course or area and its shoulder, m; 1e6 beyond its reach."""
         return self.nearest[self._node(x, self.x), self._node(y, self.y)].astype(float)
 
     def _with_layers(

@@ -203,7 +203,7 @@ class _OfFront:
         return lines
 
     def _second(self, block: _Block) -> list[str]:
-        """On the diagonal of the block its places together, elsewhere one by one."""
+        """Statements for the second-order terms: entries on the diagonal of a block together, others one by one."""
         places = [(i, j) for j in block.columns for i in block.rows if (i, j) in self.bends]
         if not places:
             return []

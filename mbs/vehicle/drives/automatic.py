@@ -58,7 +58,7 @@ class Automatic(Section, of=AutomaticDrive):
     locking: Locking = AutomaticDrive.locking
 
     def faults(self) -> Iterator[str]:
-        """Gears and speeds are in order."""
+        """Faults in the order of gears and speeds."""
         for field, wrong in self.element(AutomaticDrive).faults():
             yield f"{self.key(field)} {wrong}."
 

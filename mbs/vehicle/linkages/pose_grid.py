@@ -49,7 +49,7 @@ class PoseGrid:
 
 
 def pose_grid(linkage: Linkage, rack_travel: float) -> PoseGrid:
-    """Positions of an axle over all it can be asked for.
+    """Positions of an axle over the whole range of its springs and rack.
 
     `rack_travel`: to each side, m; 0 where the axle is not steered. Raises `NotReachedError`: the links end before the
     stops.

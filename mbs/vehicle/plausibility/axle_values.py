@@ -40,7 +40,9 @@ class AxleRates:
 
 
 def axle_rates(car: CarContent, name: str, rest: Rest) -> AxleRates | None:
-    """By the links as drawn, or without links by virtual work at rest; None where a spring is not pressed.
+    """Rates of an axle by its links as drawn, or without links by virtual work at rest.
+
+    None if a spring is not compressed.
 
     `name`: "front" or "rear".
     """

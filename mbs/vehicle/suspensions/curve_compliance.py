@@ -68,7 +68,7 @@ class Compliance(Section):
                 )
 
     def faults(self) -> Iterator[str]:
-        """The axis about which a wheel leans is at a height near the car."""
+        """Fault of an axis about which a wheel leans at a height far from the car."""
         camber, lateral = self.camber_per_lateral_force, self.lateral_per_lateral_force
         if not LEAST_HEIGHT * abs(camber) <= lateral <= LARGEST_HEIGHT * abs(camber):
             yield (

@@ -142,7 +142,7 @@ class Curves(SuspensionSection):
         return wheel_curves(self.table, side, self.hub)
 
     def faults(self) -> Iterator[str]:
-        """The bar has levers; the table has what its name asks for."""
+        """Faults of an anti-roll bar without levers, and of columns that the table lacks."""
         found = self.of(Side("front", "left", 1.0)).lengths
         if self.bar is not None and (self.bar.lever is None) == ("anti_roll_bar_angle" not in found):
             both = "is there too" if self.bar.lever is not None else "is not there"
@@ -155,7 +155,7 @@ class Curves(SuspensionSection):
             yield from self.compliance.fits(self.table.second_name)
 
     def stop_faults(self, stops: Stops) -> Iterator[str]:
-        """The table reaches to the ends of the stops."""
+        """Fault of a table that does not reach to the ends of the stops."""
         least, largest = self.compressions
         for name, reached, gap, travel in (
             ("bump", largest, stops.bump_gap, stops.bump_travel),

@@ -36,7 +36,7 @@ class Curve(Section, of=TyreCurve):
     slide_slip: tuple[Slip, Slip]
 
     def faults(self) -> Iterator[str]:
-        """Force rises to its maximum and falls to sliding, at both loads."""
+        """Faults of curves whose force does not rise to its maximum and fall to sliding at both loads."""
         for k in range(2):
             if self.slide_slip[k] <= self.max_slip[k]:
                 yield (
