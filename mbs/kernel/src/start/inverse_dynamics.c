@@ -30,13 +30,13 @@ static void add_columns(int64_t n, const int32_t *ptr, const int32_t *row, const
 }
 
 /* to = T from + offset; offset is NULL for rates. */
-static void follow(const ali3_system *S, const double *from, const double *offset, double *to) {
+static void map_coordinates(const ali3_system *S, const double *from, const double *offset, double *to) {
   for (int32_t i = 0; i < S->size.nq; i++) to[i] = offset != NULL ? offset[i] : 0.0;
   add_columns(S->n_ported_ptr - 1, S->ported_ptr, S->ported_row, S->ported_val, from, to);
 }
 
 /* Multipliers of the rows from those of the model without ports; those of ports become 0. */
-static void follow_rows(const ali3_system *S, const double *from, double *to) {
+static void map_multipliers(const ali3_system *S, const double *from, double *to) {
   memset(to, 0, (size_t)S->size.nc * sizeof(double));
   add_columns(S->n_ported_lam_ptr - 1, S->ported_lam_ptr, S->ported_lam_row, S->ported_lam_val, from, to);
 }
@@ -50,10 +50,10 @@ static ali3_status take_state(ali3_instance *in, const ali3_instance *without) {
   if (z->np > 0 && memcmp(in->parameters.value, without->parameters.value, (size_t)z->np * sizeof(double)) != 0 &&
       !ali3_parameters_take(in, without->parameters.value))
     return ALI3_BAD_ARGUMENT;
-  follow(S, from->q, S->ported_const, v->q);
-  follow(S, from->qd, NULL, v->qd);
-  follow(S, from->qdd, NULL, v->qdd);
-  follow_rows(S, from->lam, v->lam);
+  map_coordinates(S, from->q, S->ported_const, v->q);
+  map_coordinates(S, from->qd, NULL, v->qd);
+  map_coordinates(S, from->qdd, NULL, v->qdd);
+  map_multipliers(S, from->lam, v->lam);
   copy(v->y, from->y, z->ny);
   copy(v->y_last, from->y_last, z->ny);
   copy(v->s, from->s, z->ng);
