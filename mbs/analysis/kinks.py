@@ -24,10 +24,10 @@ class LinearisationWarning(UserWarning):
 
 
 def smooth_side(evaluator: Evaluator, side: int | None) -> State:
-    """The state about which to take differences: beside its kinks in the velocities.
+    """State for differences, beside kinks of the forces in the velocities.
 
     `side`: 1 or -1: rising or falling velocities; None takes rising ones and warns. Warns `LinearisationWarning`: names
-    the coordinate, both slopes and what was taken.
+    the coordinate, both slopes and the chosen side.
     """
     state = evaluator.state
     names = evaluator.system.meta["coordinates"]

@@ -44,7 +44,7 @@ def compile(model: Model, *, tolerance: float = TOLERANCE, native: bool = False)
     Returns
     -------
     System
-        What `Simulation` and `simulate` step, and what an FMU carries.
+        The compiled model, for `Simulation`, `simulate` and an FMU.
 
     Raises
     ------

@@ -56,8 +56,8 @@ def close_position(
     fine: float,
 ) -> Array:
     """The assembled position next to `q` (Gauss-Newton in the metric of the mass and of the stiffness of flexible
-    bodies, kg), or a `ModelError` naming what stays open; `joint_gaps` reports it for the eliminated joints; `fine`:
-    factor of the tolerances, `fineness` of the model.
+    bodies, kg), or a `ModelError` naming the joints that stay open; `joint_gaps`: gaps of the eliminated joints;
+    `fine`: factor of the tolerances, `fineness` of the model.
     """
     if arrays.nc == 0:
         return q

@@ -84,11 +84,11 @@ def compiled(
     Parameters
     ----------
     closed : dict of str to tuple of float, optional
-        How far joints were moved to close the loops of the model, by name, m and rad.
+        Corrections of joints that close the loops of the model, by name, m and rad.
     watch : callable, optional
-        `mode_arrays`: makes what steps are watched by.
+        `mode_arrays`: makes the assembly modes by which steps are checked.
     trees : callable, optional
-        `tree_arrays`: makes what methods in relative coordinates step; without it the report has none.
+        `tree_arrays`: makes the tree for methods in relative coordinates; without it the report has none.
     """
     reduced = _reduced(checked(model), closed or {})
     ordered = _ordered(model, reduced)

@@ -101,11 +101,11 @@ def add_product(into: Polynomial, factor: float, a: Affine, b: Affine, largest: 
 def cleaned(
     p: Polynomial, size: float = 1.0, largest: Sequence[float] = (0.0, 0.0, 0.0), error: float = 0.0
 ) -> Polynomial:
-    """Without coefficients that are round-off of the largest, for coordinates of 1 m and for those of `size`, m.
+    """The polynomial without coefficients that are round-off of the largest, at coordinates of 1 m and of `size`, m.
 
     Next to the 1 of x^2 + y^2 - L^2, which is no length, the L^2 of a body of a micrometre is small, not round-off.
-    `largest`: what was added up, of each degree; all that is left of it, or beside `size`, may be round-off, or, in a
-    drawing that was corrected by `error`, parts of its size, what that has left.
+    `largest`: largest summed term of each degree; the remainder of the sum may be round-off of it, or, in a drawing
+    that was corrected by `error`, parts of its size, a remainder of the correction.
     """
     kept: set[Monomial] = set()
     vanished = max(VANISHED, OF_ERROR * error)

@@ -113,9 +113,9 @@ def following(systems: list[System]) -> tuple[list[System], list[int]]:
     Returns
     -------
     list of System
-        The same, those that follow another with their map.
+        The Systems; those that follow another one with their map.
     list of int
-        Per System the number of the one that follows it, and computes what it leaves out; -1: none.
+        For each System the number of the one that follows it and computes its omitted sensors; -1: none.
     """
     found, followers = list(systems), []
     left_out = [[k for k, s in enumerate(system.meta["sensors"]) if not s.get("computed", True)] for system in systems]

@@ -143,7 +143,7 @@ def _moments(t: TabledBody | TabledNumber) -> list[float]:
 
 
 def _dependents(t: TabledBody | TabledNumber) -> range:
-    """Natural coordinates that a table gives."""
+    """Range of the natural coordinates that a table determines."""
     return range(t.start, t.start + 12) if isinstance(t, TabledBody) else range(t.index, t.index + 1)
 
 

@@ -77,7 +77,7 @@ class Element:
     ) -> ElementRecord:
         """The record.
 
-        `integer`: those that are declared, None for what is missing. `values`, `states`, `outputs`: in place of those
+        `integer`: the declared ones, None for missing ones. `values`, `states`, `outputs`: in place of those
         of the fields and of the class. `behind`: numbers between its own and those that may be missing. `more`: whether
         it has these, where no optional integer says it.
         """

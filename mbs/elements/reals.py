@@ -107,7 +107,7 @@ def texts_of(kind: type) -> dict[str, str]:
 def reals_of(thing: object, what: str, values: Mapping[str, object] | None = None) -> Reals:
     """Checked numbers of an element or a road, in the order of the kernel.
 
-    `what`: the thing, for the message; `values`: what stands in place of fields.
+    `what`: the element, for messages; `values`: in place of fields, by name.
     """
     reals: Reals = {}
     for name, real in declared(type(thing)).items():

@@ -43,7 +43,7 @@ def anti_roll_bar(
     stiffness_factor : float
         Factor on the stiffness, for a parameter.
     carrier : Body, optional
-        With arms given as bodies: what they turn on.
+        With arms given as bodies: the body on which they turn.
     axis : array_like, shape (3,), optional
         With arms given as bodies, in space.
     free_twist : float, optional

@@ -93,13 +93,13 @@ class ChannelSensorVocabulary(SensorVocabulary):
         unit: str = "",
         description: str = "",
     ) -> Sensor:
-        """A guide or one of its rates, what its limits take away, or its force.
+        """A guide or one of its rates, its excess over the limits, or its force.
 
         Parameters
         ----------
         kind : {"motion", "excess", "force"}
-            The motion; of a guide from `guide_inputs` what the limits take away from the sum of its inputs, zero where
-            it follows them; or the force with which it moves what it guides, also by guides that follow it by a table,
+            The motion; of a guide from `guide_inputs` the excess of the sum of its inputs over the limits, zero within
+            them; or the force with which it moves its joints, also by guides that follow it by a table,
             in the direction of its motion: its power over its rate.
         order : {0, 1, 2}
             Of the motion: the value, its rate or its second rate.

@@ -34,7 +34,7 @@ class ContactVocabulary(BodyVocabulary):
         friction : float
             Coefficient of friction at the start.
         near : str, optional
-            Name of the sensor of the x of what meets the road there, whose y and z follow it: an FMU warns once when
+            Name of the sensor of the x of the part that meets the road, followed by its y and z: an FMU warns once when
             the point of the answer is more than 10 m away from it.
 
         Returns

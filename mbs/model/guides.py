@@ -91,7 +91,7 @@ class GuideVocabulary(BodyVocabulary):
         gains : tuple of float
             Of each input, in units of the guide per unit of the input.
         limits : tuple of float
-            Between which the sum is held, in units of the guide; the "excess" of `sense_guide` is what they take away.
+            Between which the sum is held, in units of the guide; `sense_guide` reads its "excess" over them.
         frequency : float
             Of the filter, Hz.
         unit : str
@@ -130,9 +130,9 @@ class GuideVocabulary(BodyVocabulary):
         body : Body
             Of a flexible one its floating frame is meant.
         point : array_like, shape (dimension,)
-            Where it is when the guide is 0, m, earth axes in the reference configuration.
+            Its position when the guide is 0, m, earth axes in the reference configuration.
         direction : array_like, shape (dimension,) or (n, dimension)
-            Along what it slides, of any length, in the same axes; several are at right angles to each other.
+            Direction in which it slides, of any length, in the same axes; several are at right angles to each other.
         guide : Guide or sequence of Guide
             m; one for each direction.
 

@@ -54,7 +54,7 @@ class Register(ModelCoordinates):
     ) -> None:
         super().__init__(name, dimension, gravity, length)
         self._names: set[tuple[str, str]] = set()  # of each kind, those that are taken
-        # what moves
+        # bodies and coordinates
         self.ground: Body = Ground(self, "ground", np.zeros(self.dimension), 0)
         self.bodies: list[Body] = []
         self.spins: list[Spin] = []
@@ -64,7 +64,7 @@ class Register(ModelCoordinates):
         self.inertias: dict[int, float] = {}  # by coordinate, with those of `armatures`, as drawn
         self.written_inertias: list[WrittenInertia] = []
         self.written_axes: list[WrittenAxis] = []
-        # what holds and what acts
+        # joints and forces
         self.joints: list[Joint] = []
         self.elements: list[ElementRecord] = []
         self.roads: list[Road] = []

@@ -80,7 +80,7 @@ class Comparison:
     Parameters
     ----------
     compared : mapping of str to Compared
-        What is compared, by name.
+        The compared values, by name.
     length : float
         Of the model, m: a smaller range than 1e-4 of it is rest, wherever the model lies.
     before : mapping of str to ComparedFields, optional

@@ -42,7 +42,7 @@ class SharedWriter:
     friction : float or None
         Of all points; None: each tile comes with its own.
     name : object
-        What errors call the file.
+        Name of the file in errors.
     tolerance : float
         m; 0: heights are stored as they are.
     """
@@ -183,7 +183,7 @@ def _friction_bytes(frictions: Float) -> tuple[int, bytes]:
 def read_shared(file: BinaryIO, head: Header, name: object) -> Iterable[tuple[int, Float]]:
     """Numbers and values of tiles.
 
-    `file`: open; `name`: what errors call it. Raises `RoadFileError`: a part is damaged.
+    `file`: open; `name`: in errors. Raises `RoadFileError`: a part is damaged.
 
     Yields
     ------

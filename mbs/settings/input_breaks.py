@@ -31,8 +31,8 @@ def function_breaks(
 ) -> tuple[Array, list[tuple[float, float]]]:
     """Break times of a function, and the last time before and the first one after each of its jumps, s.
 
-    A step in which the function is smooth is not parted. What is sampled is kept for `BLOCK` steps at a time; of a
-    longer run the range is taken from one sample a step.
+    A step in which the function is smooth is not divided. Samples are kept for `BLOCK` steps at a time; for a longer
+    run the range is taken from one sample per step.
     """
     edges = np.append(np.arange(t0, t_end - 0.5 * h, BLOCK * h), t_end)
     blocks = list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))

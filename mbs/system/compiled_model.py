@@ -63,7 +63,7 @@ class CompiledModel:
 
     @property
     def fineness(self) -> float:
-        """Factor of tolerances in m: of a very small or large drawing not 1."""
+        """Factor on tolerances in m; not 1 for a very small or large drawing."""
         return float(self.arrays["fineness"][0]) if len(self.arrays["fineness"]) else 1.0
 
     def kernel_bytes(self, *, modes: bool = True) -> bytes:

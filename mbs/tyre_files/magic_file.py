@@ -141,7 +141,7 @@ class TyreFile(Summarised):
 def read_tyre(file: str | Path) -> TyreFile:
     """A tyre from a property file of PAC2002 or MF-Tyre 5.2, 6.1 or 6.2. `file`: usually with the extension .tir.
 
-    Raises `TyreFileError`: it cannot be read, is of another format, lacks what is needed or holds what cannot be; one
+    Raises `TyreFileError`: it cannot be read, is of another format, lacks a needed number or has an impossible one; one
     sentence.
     """
     text = read_properties(file)

@@ -95,7 +95,7 @@ class Axle(Section):
     ) -> dict[str, Spin]:
         """Add the axle and return the spins of its wheels by the wheels' names.
 
-        `axle`: "front" or "rear"; `tie_rod`: gives what the inner ends of the tie rods hang on; `brake`: adds the brake
+        `axle`: "front" or "rear"; `tie_rod`: gives the owner of the inner ends of the tie rods; `brake`: adds the brake
         of a wheel, of which it is given the spin inertia, kg.m2.
         """
         spins = {}

@@ -110,7 +110,7 @@ class BuiltCar(Summarised, CarContent):
     ) -> CarBuilder:
         """Add the car to an empty model (`empty`); the arguments are those of `Car.model`.
 
-        `outputs`: adds what the car reports; `drive`: adds what drives the x coordinate of the chassis' reference
+        `outputs`: adds the outputs of the car; `drive`: adds a drive of the x coordinate of the chassis' reference
         point, m; the selector is then in neutral.
         """
         if not fidelity.rigid and not self.steering.on_flexible_chassis:

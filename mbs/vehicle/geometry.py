@@ -103,7 +103,7 @@ def steering_rod(points: Section, rod: str, axis: tuple[str, str], line: str) ->
     axis : (str, str)
         Lower and upper point of the steering axis.
     line : str
-        What the axis is, as in "the steering axis".
+        Name of the axis, as in "the steering axis".
     """
     inner, outer = (f"{rod.replace(' ', '_')}_{end}" for end in ("inner", "outer"))
     yield from steering_axis(points, *axis)

@@ -34,7 +34,7 @@ def torque_ports(
 ) -> None:
     """Torques on the wheels in place of a drive.
 
-    `spins`: of the wheels, by their names; `drive`: what they replace; with half shafts its parts that turn with the
+    `spins`: of the wheels, by their names; `drive`: the one they replace; with half shafts its parts that turn with the
     wheels stay; `kind`: "half_shafts" or "hub_motors": with half shafts the reaction is about the lateral axis of the
     chassis, as that of `drive` is; with hub motors about the axis of the wheel on its carrier.
     """

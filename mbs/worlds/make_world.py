@@ -62,9 +62,9 @@ def make_world(
 ) -> dict[str, Any]:
     """Write the road file of a world, and return its record.
 
-    `file`: ``.toml`` of a world or of a road, or ``.road``; `tell`: called with what is done and its part, 0 to 1;
-    `thin`: fewer and rounder numbers, for a page; the record says under ``thin`` how far they are off. Raises
-    `RoadFileError` with what is wrong.
+    `file`: ``.toml`` of a world or of a road, or ``.road``; `tell`: called with the name of a stage and its completed
+    share, 0 to 1; `thin`: fewer and rounder numbers, for a page; their deviation is under ``thin`` in the record.
+    Raises `RoadFileError` with the fault.
     """
     if (world := described(file)) is not None:
         if thin:

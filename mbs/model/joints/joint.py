@@ -114,7 +114,7 @@ class Joint:
         Its force equations are rows, never eliminated, so that their multipliers (the joint force) exist; a joint-force
         sensor sets it.
     switch : Switch or None
-        What turns its rows on and off; None: they are always on.
+        Switches its rows on and off; None: they are always on.
     rows_weight : float
         Force on the first body along equation k is ``-rows_weight * lam_k``; 0 if the joint has no such reading.
     normals : sequence of AffineVector
@@ -132,11 +132,11 @@ class Joint:
     rolls : RollingBody, RollingSpin or None
         Of a wheel that rolls.
     couples : (int, int, float) or None
-        Of a gear: the coordinates of its wheels, and how far the first turns for one turn of the second.
+        Of a gear: the coordinates of its wheels, and the turns of the first for one turn of the second.
     actuator : JointEnds or None
         Of a driven distance: its ends.
     slide : (int, SlidingPoint) or None
-        Of a distance: the number of the end that a guide slides, and what it is.
+        Of a distance: the number of the end that a guide slides, and that sliding point.
     """
 
     def __init__(
