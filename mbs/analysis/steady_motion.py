@@ -26,7 +26,7 @@ NEAR = 3e-3  # displacement of neighbouring states, share of the largest coordin
 SAME = 1e-6  # defect below which a candidate leaves the equations as they are, share of coordinate, speed, acceleration
 NEIGHBOURS = 2
 ROUND_OFF = 4e-16
-LESS = 1e-6  # weight of what else moves beside the turning of the scene
+LESS = 1e-6  # weight of other candidates than turns of the scene
 SKEW = np.array(
     [[[0, 0, 0], [0, 0, -1], [0, 1, 0]], [[0, 0, 1], [0, 0, 0], [-1, 0, 0]], [[0, -1, 0], [1, 0, 0], [0, 0, 0]]]
 )
@@ -138,7 +138,7 @@ class _Scales:
     length: float
     speed: float
     acceleration: float
-    round_off: Array  # (nq,) what a defect of the accelerations may owe to round-off of stiff forces, m/s2
+    round_off: Array  # (nq,) defect of the accelerations from round-off of stiff forces, m/s2
 
 
 def _scales(evaluator: Evaluator, frames: Frames, q: Array, qd: Array) -> _Scales:

@@ -21,7 +21,7 @@ IMPOSSIBLE = 1e-6
 
 
 def locked_gears(model: Model) -> str:
-    """A sentence about gears that form a ring round which the ratios contradict each other; empty where there is none.
+    """A sentence on gears that form a ring with contradicting ratios; empty if there are none.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def locked_parts(
     Phiq: sparse.csr_matrix,
     mass_diagonal: Array,
 ) -> str:
-    """A sentence about parts that joints hold fast beside others that can move; empty where there are none.
+    """A sentence on parts that joints hold while others can move; empty if there are none.
 
     Parts that rows tie to each other are judged together: at a dead centre one of them has no rate, but not all.
     Conditions that drive, that can be switched off or that bind rates alone lock nothing. `full`: coordinates before

@@ -45,7 +45,7 @@ ITERATIONS = 25
 REMAINDER = 0.02
 """Part of the misfit that one iteration may leave."""
 MOVES, NEARLY = 10, 2e-3
-"""A loop nearly moves if so many positions follow one another with at most this misfit, parts of its size."""
+"""Number of successive positions, and their largest misfit in parts of the size, of a loop that nearly moves."""
 REDRAWN = ("equations", "normals", "rows_weight", "places", "ends")
 """Attributes of a joint that follow from its drawing."""
 APART = 5.0

@@ -1,4 +1,4 @@
-"""A model with ports beside the same model without them: coordinates and multipliers of the one by the other's."""
+"""Maps from a model without ports to the same model with ports: coordinates and multipliers."""
 
 import numpy as np
 from numpy.typing import NDArray

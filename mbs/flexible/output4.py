@@ -157,7 +157,7 @@ class _Text:
         return np.array([block[k * self._width : (k + 1) * self._width] for k in range(count)], float)
 
     def end(self) -> None:
-        self._line()  # a number that is none of the matrix
+        self._line()  # a number that does not belong to the matrix
 
     def _line(self) -> str:
         line = next(self._lines, None)

@@ -43,11 +43,11 @@ WASM_FLAGS = [
 """In place of ``-shared -fPIC`` for WebAssembly."""
 
 WASM_HELPERS = ("malloc", "free", "ali3_file_add", "ali3_file_remove")
-"""What the host of a WebAssembly module calls beside the functions it is for: memory, and files in it."""
+"""Exports of a WebAssembly module for its host besides its own functions: memory, and files in it."""
 
 
 LANES = ("lanes", "run_many.c", "entries.c")
-"""Of `src/` what an FMU has none of: by which many instances advance together, and the functions that Python calls."""
+"""Parts of `src/` that an FMU lacks: stepping of many instances together, and the functions that Python calls."""
 
 
 def sources(lanes: bool = True, kernel: Path | None = None) -> list[Path]:

@@ -22,7 +22,7 @@ class ContactVocabulary(BodyVocabulary):
     """Answers on roads, and contact with them."""
 
     def road_answer(self, name: str, *, friction: float = 0.9, near: str = "") -> int:
-        """Seven inputs by which another program says what the road is like at a point: for a `PortRoad`.
+        """Seven inputs with which another program gives position and friction of the road at a point, for a `PortRoad`.
 
         They are the point that it was asked for, with which the answer holds whenever it comes, and height, unit
         normal and friction there: ``name_x``, ``name_y``, ``name_height``, ``name_normal_x``, ``name_normal_y``,

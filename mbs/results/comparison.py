@@ -212,7 +212,7 @@ def is_open(compared: Mapping[str, Compared]) -> bool:
 
 
 def has_loads(compared: Mapping[str, Compared]) -> bool:
-    """Whether forces are judged whatever else moves."""
+    """Whether some forces are always compared."""
     return any(what.load and what.always for what in compared.values())
 
 

@@ -1,4 +1,4 @@
-"""Sensors that a System leaves out: they are found when one of them is first read, never read as 0 in its place."""
+"""Sensors that a System leaves out: they are computed when one of them is first read, and never read as 0."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class OmittedSensors:
         return self._found[name]
 
     def thinned(self, every: int) -> OmittedSensors:
-        """Omitted sensors of one of every so many samples."""
+        """Omitted sensors of every `every`-th sample."""
         omitted = OmittedSensors(self.names, self._compute, self.reason, self._every * every)
         if self._compute is None and self._found is not None:
             omitted._found = {name: values[::every] for name, values in self._found.items()}

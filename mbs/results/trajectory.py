@@ -208,7 +208,7 @@ class Trajectory(Mapping[str, NDArray[np.float64]]):
             return f"<pre>{html.escape(repr(self))}</pre><p>{html.escape(str(error))}</p>"
 
     def thinned(self, every: int) -> Trajectory:
-        """Keep one of every so many samples, from the first on, with the same report, settings and accuracy.
+        """Keep every n-th sample, from the first on, with the same report, settings and accuracy.
 
         Parameters
         ----------

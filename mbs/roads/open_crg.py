@@ -66,13 +66,13 @@ def crg_road(path: str | os.PathLike[str], spacing: tuple[float, float] | None) 
 
 
 def _heights(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
-    """Heights at places, beside the road those of its border."""
+    """Heights at points x, y, m; outside the road those of its border."""
     u, v = crg.xy_to_uv(x, y)
     return np.asarray(crg.uv_to_z(np.clip(u, crg.u[0], crg.u[-1]), np.clip(v, crg.v[0], crg.v[-1])))
 
 
 def _heights_about(crg: pyopencrg.CrgRoad, x: Values, y: Values) -> Values:
-    """Heights of an OpenCRG road on a grid: at each point near the road, at every 16th beside it and linear in between.
+    """Heights of an OpenCRG road on a grid: at each point near the road, elsewhere at every 16th and linear in between.
 
     Finding where a place lies along the road takes a microsecond, and most of the box of a long road is beside it.
     """

@@ -20,8 +20,10 @@ BLOCK = 4096  # steps: of samples that are kept at a time
 
 
 def input_breaks(tables: Iterable[Table], t0: float, t_end: float, h: float) -> Array:
-    """Times, s, at which steps of `h` from `t0` are parted: in each part tables go straight, but for `FINE` in one
-    that departs from a straight line by more than `LEAST`.
+    """Times, s, at which steps of `h` from `t0` are divided.
+
+    A step in which a table departs from a straight line by more than `LEAST` is divided until its parts depart by no
+    more than `FINE`.
     """
     return distinct([_breaks(t, x, _range(x), t0, t_end, h) for t, x in tables], t_end, h)
 
@@ -56,7 +58,7 @@ def function_breaks(
 
 
 def distinct(found: Iterable[Array], t_end: float, h: float) -> Array:
-    """Times before `t_end` in ascending order, one of those that are the same but for `AT_END`."""
+    """Times before `t_end` in ascending order; of times within `AT_END` only one."""
     times = np.unique(np.concatenate([*found, [t_end]]))[:-1]
     return times[np.diff(times, prepend=-np.inf) > AT_END * h]
 

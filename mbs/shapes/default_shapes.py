@@ -42,7 +42,7 @@ class Defaults:
 
     @cached_property
     def tube(self) -> float:
-        """Radius of tubes, m: slender beside the scene, and beside its longest body where there are many in a row."""
+        """Radius of tubes, m: slender relative to the scene, and to its longest body if many are in a row."""
         bodies = [points for frame, points in self.geometry.points.items() if frame != "ground" and len(points) > 1]
         longest = max((float(np.linalg.norm(np.ptp(points, axis=0))) for points in bodies), default=0.0)
         return min(TUBE * self.extent, LONGEST_TUBE * longest) if longest > 0.0 else TUBE * self.extent

@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 AnyTyre: TypeAlias = "MagicTyre | Tyre"
 DEG = math.pi / 180.0
 FARTHEST = 0.6
-"""Slip, and slip angle, rad, up to which a peak is looked for."""
+"""Slip, and slip angle, rad, up to which a peak is sought."""
 BEYOND = 0.5
 """Slip at which a curve is compared with its peak."""
 NEAR = 0.95

@@ -141,7 +141,7 @@ def _densities(parts: Mapping[str, LinkMass], masses: Mapping[str, Any]) -> list
 
 
 def _reaches(root: Element, parts: Mapping[str, LinkMass], factors: Factors) -> list[Value]:
-    """Centres of mass and the places of joints, over what is beside them."""
+    """Centres of mass and positions of joints, relative to those of their neighbours."""
     ends: dict[str, list[float]] = {}
     offsets = {}
     for joint in root.all("joint"):

@@ -51,7 +51,7 @@ MOST_FAULTS = 8
 
 C = TypeVar("C", bound="BuiltCar")
 Outputs: TypeAlias = Callable[[CarBuilder, Steered, Mapping[str, Spin]], None]
-"""Adds what a car reports. Its arguments: the car but for its drawing, its steering, its wheels by name."""
+"""Adds the outputs of a car. Arguments: the car without its drawing, its steering, its wheels by name."""
 
 
 class BuiltCar(Summarised, CarContent):
@@ -192,7 +192,7 @@ class BuiltCar(Summarised, CarContent):
         m.put_off(partial(self._draw, b, spins, fidelity))
 
     def _draw(self, b: CarBuilder, spins: Mapping[str, Spin], fidelity: Fidelity) -> None:
-        """Add all shapes, when somebody asks for the drawing."""
+        """Add all shapes when the drawing is first used."""
         car_shapes(b, self, spins, links=fidelity is not Fidelity.TABLE)
 
     def plausibility(self, what: str = "") -> list[Plausibility]:

@@ -98,7 +98,7 @@ class Section(BaseModel):
 
 
 def _without_unit(text: str, annotation: Any) -> str:
-    """A sentence on a number without the unit, which a quantity has beside it."""
+    """A sentence on a number without its unit, which a quantity states separately."""
     units = {q.unit.replace(".", " ") for q in quantities_in(annotation)} - {"1"}
     assert all(f", {unit}" in text for unit in units), f"{text!r} must say its unit, {units}"
     for unit in units or {"a ratio"}:

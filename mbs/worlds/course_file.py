@@ -45,7 +45,7 @@ KNOWN = (
 STEEP = 0.3
 """A course that climbs more is warned about: the steepest streets have 0.35."""
 GAP = 25.0
-"""Two points that are so many times as far apart as the others, and 10 m, are a gap."""
+"""Two points this many times as far apart as the others, and 10 m or more, are a gap."""
 
 
 def course_layer(

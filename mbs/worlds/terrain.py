@@ -20,7 +20,7 @@ MOST_NODES = 1_500_000
 STEEPEST = 3.0
 """Slope of what is carved into the ground, times its weight, that only a step has."""
 EDGE = 1.0
-"""m: beside a layer and its shoulder, where its own heights go over into those of the lattice."""
+"""m: width of the transition from the heights of a layer with its shoulder to those of the lattice."""
 
 
 class Terrain:
@@ -94,7 +94,7 @@ class Terrain:
         return np.asarray(np.clip(np.rint((values - first[0]) / self.step), 0.0, len(first) - 1.0), np.int64)
 
     def on_grid(self, x: Float, y: Float) -> tuple[Float, NDArray[np.uint8], Float]:
-        """Heights, surfaces as places in `names`, and how far they go on, at all pairs of rising coordinates.
+        """Heights, surfaces as indices in `names`, and how far they extend, at all pairs of rising coordinates.
 
         `x`, `y`: m, shapes (n,) and (m,).
 

@@ -27,7 +27,7 @@ MADE = "made"
 
 
 def key_of(files: Iterable[Path]) -> str:
-    """A name for what is made of files: another content or another version of the code, another name."""
+    """Name of the world made from files, different for another content or another version of the code."""
     digest = hashlib.sha256()
     sources = [path for entry in CODE for path in _sources(ROOT / entry)]
     for path in (*sources, *files):
@@ -42,7 +42,7 @@ def _sources(entry: Path) -> list[Path]:
 
 
 def world_files(key: str, make: Callable[[Path], None], out: Path) -> tuple[list[Path], bool]:
-    """The files of a world in a folder, from those that are kept, or made.
+    """The files of a world in a folder, from the cache or newly made.
 
     `key`: from `key_of`; `make`: writes the files into an empty folder.
 
@@ -77,7 +77,7 @@ def _copied(folder: Path, out: Path) -> list[Path]:
 
 
 def _keep(folder: Path, home: Path, entry: Path) -> None:
-    """Copy what was made into the cache, whole or not at all; without one it is made again next time."""
+    """Copy the files of a world into the cache, all or none; otherwise they are made again next time."""
     try:
         with atomic_folder(entry) as target:
             for path in folder.iterdir():
@@ -89,7 +89,7 @@ def _keep(folder: Path, home: Path, entry: Path) -> None:
 
 
 def add_file(key: str, name: str, make: Callable[[Path], None], out: Path) -> None:
-    """One more file of a world that is kept, such as its map; `make` writes it where there is none."""
+    """Add a file to a cached world, such as its map; `make` writes it if it is missing."""
     entry = cache_folder("worlds") / key
     stored: Any = entry / name
     with atomic_file(out) as target:

@@ -21,7 +21,7 @@ LEAST_MM, MM = 0.5, 1e-3
 """m: coordinates that were in mm are farther from 0, or 0."""
 Places: TypeAlias = list[tuple[float, float]]
 ON_ROADS = {"obstacles": "beside", "bands": "beside", "arrows": "beside", "buildings": "clear"}
-"""What lies on roads or beside them, with the quantity that says so."""
+"""Objects on roads or next to them, with their quantity."""
 Feature: TypeAlias = Kerb | Ramp | Washboard | Band | Area
 
 QUANTITIES = quantities_of("world")

@@ -1,4 +1,4 @@
-"""The whole file: functions, and the tables by which the kernel finds them."""
+"""Generated C file: its functions, and the tables by which the kernel finds them."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any

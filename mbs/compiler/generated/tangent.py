@@ -25,7 +25,7 @@ class _Block:
 
 
 def tangent(pattern: Pattern) -> list[str]:
-    """A function a front, and the one that calls them."""
+    """A function for each front, and the function that calls them."""
     lines: list[str] = []
     for front in pattern.fronts:
         lines += _OfFront(pattern, front).function()

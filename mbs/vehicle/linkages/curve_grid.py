@@ -45,7 +45,7 @@ def write_curve_table(linkage: Linkage, rack_travel: float, file: str | PathLike
 
 
 def _travels(linkage: Linkage, coupled: bool) -> Array:
-    """Travels (n,) of a wheel, m, from beyond one stop to beyond the other, whatever the other wheel does."""
+    """Travels (n,) of a wheel, m, from beyond one stop to beyond the other at any position of the other wheel."""
     extended, compressed = compression_range(linkage)
     ends = []
     for direction, most in ((-1.0, extended), (1.0, compressed)):

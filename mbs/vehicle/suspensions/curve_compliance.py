@@ -50,9 +50,9 @@ class Compliance(Section):
     camber_per_lateral_force: SteerPerForce = 0.0
     """Camber angle, positive with the top outwards, per lateral force, positive to the left."""
     lateral_per_lateral_force: DisplacementPerForce = 0.0
-    """Way of the contact to the left per lateral force, beside that of the turn; with a camber only."""
+    """Displacement of the contact to the left per lateral force, besides that of the turn; with a camber only."""
     longitudinal_per_longitudinal_force: DisplacementPerForce = 0.0
-    """Way of the wheel forward per longitudinal force, beside that of the turn."""
+    """Displacement of the wheel forward per longitudinal force, besides that of the turn."""
     loss_time: LossTime = 0.001
     """Damping over stiffness."""
 

@@ -28,7 +28,7 @@ from mbs.vehicle.suspensions.curve_table import OTHER, RACK, Array, CurveTable, 
 from mbs.vehicle.suspensions.suspension_section import SuspensionSection
 
 LEAST_WHEELBASE = 0.5  # m: a wheel farther behind the front axle is a rear one
-CURVES_MISS = 0.1  # of the angle: a table says it, but for what both wheels differ
+CURVES_MISS = 0.1  # of the angle: largest deviation of the table, since both wheels steer by different angles
 
 
 class CurvesBodies(Section):
@@ -185,7 +185,7 @@ class Curves(SuspensionSection):
                 )
 
     def steering_oddities(self, steering: Steering, centre: Point) -> Iterator[str]:
-        """The angle in the table."""
+        """Sentence on an angle of the file that is not that of the table."""
         found, given = self.steered_angle(steering.full), steering.front_wheel_angle_max
         if abs(found - given) > CURVES_MISS * given:
             yield (

@@ -104,7 +104,7 @@ class TMeasy(TyreSection, of=Tyre):
 
     @property
     def largest_load(self) -> tuple[float, str]:
-        """Load up to which forces grow, N, and the key that says it."""
+        """Load up to which forces grow, N, and the key path that determines it."""
         return self.max_load_factor * self.nominal_load, self.key("max_load_factor")
 
     @property
