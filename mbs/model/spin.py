@@ -116,7 +116,7 @@ class SpinVocabulary(BodyVocabulary):
         Parameters
         ----------
         spin : Spin
-            From `Model.spin`.
+            The wheel, made by `Model.spin`.
         leaning : float
             Growth of its rolling radius with 1 over the cosine of the elevation, m: a hub that stays at its
             height is farther from where a leaning wheel stands.
